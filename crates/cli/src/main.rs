@@ -1,0 +1,3 @@
+//! The program `plumbline`.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Inverse and forward dynamics, the torque regressor, base and physically consistent parameters.

@@ -1,0 +1,1 @@
+//! The motion log: its files, checks, resampling, filters and derivatives.

@@ -1,0 +1,23 @@
+//! What a robot is: links, joints, inertias and actuators, in the form every
+//! other crate reads.
+//!
+//! ```text
+//! tau = M(q) qdd + C(q, qd) qd + g(q) + (what the actuators add)
+//! ```
+//!
+//! The terms of a rigid body come from [`Link`] and [`Joint`], what an actuator
+//! adds from [`Actuator`]. Data only: no dynamics is computed here.
+
+mod actuator;
+mod error;
+mod inertia;
+mod joint;
+mod link;
+mod model;
+
+pub use actuator::{Actuator, SensingSide, TorqueSource};
+pub use error::RobotError;
+pub use inertia::{Inertia, InertiaDefect};
+pub use joint::{Joint, JointKind, Limits};
+pub use link::Link;
+pub use model::Robot;

@@ -1,0 +1,122 @@
+use std::collections::BTreeSet;
+
+use nalgebra::Vector3;
+
+use crate::{Link, RobotError};
+
+/// A robot: a tree of moving links on a fixed base.
+///
+/// Every link has one joint; `links()[i]` and `joint i` share the index, and a
+/// parent always comes before its children.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    name: String,
+    gravity_in_base: Vector3<f64>,
+    links: Vec<Link>,
+}
+
+impl Robot {
+    /// A robot from its links, checked.
+    ///
+    /// `gravity_in_base` is the acceleration of free fall in the base frame (m/s²),
+    /// `(0, 0, -9.81)` for an upright arm.
+    ///
+    /// # Errors
+    ///
+    /// [`RobotError::NoJoints`], [`RobotError::ParentNotBefore`],
+    /// [`RobotError::DuplicateName`] and [`RobotError::NotFinite`].
+    pub fn new(
+        name: impl Into<String>,
+        gravity_in_base: Vector3<f64>,
+        links: Vec<Link>,
+    ) -> Result<Self, RobotError> {
+        let name = name.into();
+        if links.is_empty() {
+            return Err(RobotError::NoJoints { robot: name });
+        }
+        finite(&format!("robot {name}"), "gravity", gravity_in_base.iter())?;
+        let (mut link_names, mut joint_names) = (BTreeSet::new(), BTreeSet::new());
+        for (index, link) in links.iter().enumerate() {
+            if let Some(parent) = link.parent.filter(|&p| p >= index) {
+                return Err(RobotError::ParentNotBefore { link: link.name.clone(), parent, index });
+            }
+            if !link_names.insert(&link.name) {
+                return Err(RobotError::DuplicateName { what: "link", name: link.name.clone() });
+            }
+            if !joint_names.insert(&link.joint.name) {
+                let name = link.joint.name.clone();
+                return Err(RobotError::DuplicateName { what: "joint", name });
+            }
+            finite_link(link)?;
+        }
+        Ok(Self { name, gravity_in_base, links })
+    }
+
+    /// Name of the robot.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Number of joints, and of moving links.
+    pub fn joint_count(&self) -> usize {
+        self.links.len()
+    }
+
+    /// The moving links, parents first.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// The moving links, to be changed: inertias and actuators, not the tree.
+    pub fn link_mut(&mut self, index: usize) -> Option<&mut Link> {
+        self.links.get_mut(index)
+    }
+
+    /// Index of the joint with this name.
+    pub fn joint_index(&self, name: &str) -> Option<usize> {
+        self.links.iter().position(|l| l.joint.name == name)
+    }
+
+    /// Names of the joints, in order.
+    pub fn joint_names(&self) -> impl Iterator<Item = &str> {
+        self.links.iter().map(|l| l.joint.name.as_str())
+    }
+
+    /// Acceleration of free fall in the base frame (m/s²).
+    pub fn gravity_in_base(&self) -> Vector3<f64> {
+        self.gravity_in_base
+    }
+
+    /// The same robot in another direction of gravity (m/s², base frame).
+    pub fn with_gravity(mut self, gravity_in_base: Vector3<f64>) -> Self {
+        self.gravity_in_base = gravity_in_base;
+        self
+    }
+}
+
+fn finite<'a>(
+    thing: &str,
+    quantity: &'static str,
+    mut values: impl Iterator<Item = &'a f64>,
+) -> Result<(), RobotError> {
+    match values.find(|v| !v.is_finite()) {
+        Some(&value) => Err(RobotError::NotFinite { thing: thing.to_owned(), quantity, value }),
+        None => Ok(()),
+    }
+}
+
+fn finite_link(link: &Link) -> Result<(), RobotError> {
+    let body = format!("link {}", link.name);
+    finite(&body, "mass", [link.inertia.mass].iter())?;
+    finite(&body, "centre of mass", link.inertia.com_in_link.iter())?;
+    finite(&body, "inertia", link.inertia.about_com.iter())?;
+    let joint = format!("joint {}", link.joint.name);
+    finite(&joint, "origin", link.joint.parent_from_joint.to_homogeneous().iter())?;
+    finite(&joint, "axis", link.joint.axis_in_joint.iter())?;
+    let a = &link.actuator;
+    let drive = [
+        a.rotor_inertia, a.viscous, a.coulomb_forward, a.coulomb_backward, a.spring_stiffness,
+        a.spring_rest, a.torque_gain, a.torque_offset,
+    ];
+    finite(&joint, "actuator parameter", drive.iter())
+}

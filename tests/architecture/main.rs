@@ -1,0 +1,1 @@
+//! Floors, walls and file sizes.

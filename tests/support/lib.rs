@@ -1,0 +1,1 @@
+//! Support for the tests: golden files, synthetic logs, the built program.
