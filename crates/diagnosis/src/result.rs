@@ -1,0 +1,272 @@
+use catalogue::EffectKind;
+use serde::Serialize;
+
+/// The schema that `diagnosis.json` follows.
+pub const SCHEMA: &str = "plumbline.diagnosis/1";
+
+/// What a log says about the model, per joint and overall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The nominal model explains the log down to its noise floor.
+    Consistent,
+    /// Named effects bring the residual down to the noise floor.
+    Explained,
+    /// Named effects, and structure that none of them reproduces.
+    PartlyExplained,
+    /// Structure, but no named effect earns its place.
+    Unexplained,
+    /// This log cannot show it.
+    DataInadequate,
+}
+
+impl Verdict {
+    /// The verdict in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Consistent => "consistent",
+            Self::Explained => "explained",
+            Self::PartlyExplained => "partly explained",
+            Self::Unexplained => "unexplained",
+            Self::DataInadequate => "data inadequate",
+        }
+    }
+}
+
+/// The whole answer to one question: what does the model get wrong in these logs?
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Diagnosis {
+    /// Always [`SCHEMA`].
+    pub schema: &'static str,
+    /// Name of the robot.
+    pub robot: String,
+    /// The verdict over all joints.
+    pub verdict: Verdict,
+    /// One entry a joint, in the order of the robot.
+    pub joints: Vec<JointReport>,
+    /// Named causes, the largest share first.
+    pub findings: Vec<Finding>,
+    /// What no named cause reproduces.
+    pub unexplained: Vec<Unexplained>,
+    /// Effects that were tested and not found.
+    pub ruled_out: Vec<RuledOut>,
+    /// What the findings buy on data that was not used for them.
+    pub gain: Gain,
+    /// The logs and how they were prepared.
+    pub data: DataSummary,
+    /// Doubts about the input that did not stop the work.
+    pub warnings: Vec<String>,
+}
+
+/// One joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointReport {
+    /// Name of the joint.
+    pub name: String,
+    /// The verdict for this joint.
+    pub verdict: Verdict,
+    /// Why, in a sentence.
+    pub because: String,
+    /// RMS of the measured effort in the band of the diagnosis (N m or N).
+    pub torque_rms_nm: f64,
+    /// RMS of measured minus nominal effort.
+    pub residual_rms_nm: f64,
+    /// RMS of measured minus extended effort, on held-out data.
+    pub remaining_rms_nm: f64,
+    /// RMS of what no function of the state predicts.
+    pub noise_floor_rms_nm: f64,
+    /// Where the noise floor comes from.
+    pub noise_floor_from: NoiseFloorSource,
+    /// Integrated autocorrelation time of the remaining residual (s).
+    pub autocorrelation_time_s: f64,
+    /// Number of independent samples that the record is worth.
+    pub effective_samples: f64,
+    /// Range of motion in the logs (rad or m).
+    pub range: f64,
+}
+
+/// How the noise floor was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoiseFloorSource {
+    /// Difference between runs that repeat a motion.
+    Repeats,
+    /// Spectrum of the effort above the band of the motion.
+    HighFrequencyBand,
+    /// What a flexible predictor of the state leaves on held-out data.
+    FlexiblePredictor,
+}
+
+/// A number with its uncertainty.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Estimate {
+    /// Name of the parameter, as in the catalogue.
+    pub name: &'static str,
+    /// Best value.
+    pub value: f64,
+    /// 95 per cent interval.
+    pub ci95: [f64; 2],
+    /// Value in the nominal model.
+    pub nominal: f64,
+    /// Unit.
+    pub unit: &'static str,
+    /// Whether the logs narrow it down; if not, the value is the prior's.
+    pub determined: bool,
+}
+
+/// An effect and where it acts.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct EffectAt {
+    /// The effect.
+    pub effect: EffectKind,
+    /// The joint, for an effect of a joint.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// The link, for an effect of a link.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub link: Option<String>,
+}
+
+impl EffectAt {
+    /// The effect and its place in words, such as `viscous friction at elbow`.
+    pub fn words(&self) -> String {
+        match self.joint.as_ref().or(self.link.as_ref()) {
+            Some(place) => format!("{} at {place}", self.effect.words()),
+            None => self.effect.words().to_owned(),
+        }
+    }
+}
+
+/// A named cause.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// The effect and its place.
+    #[serde(flatten)]
+    pub at: EffectAt,
+    /// Its parameters.
+    pub parameters: Vec<Estimate>,
+    /// Share of the nominal residual's power that goes with it, over the joints it acts on.
+    pub share_explained: f64,
+    /// False-discovery rate at which it would just be reported.
+    pub q_value: f64,
+    /// Relative fall of the held-out residual's power when it is added to the other findings.
+    pub held_out_gain: f64,
+    /// Share of half-samples of the log in which it earns its place.
+    pub stability: f64,
+    /// Effects that explain the held-out data as well in its stead.
+    pub not_separable_from: Vec<EffectAt>,
+    /// The motion that would separate them, if there are rivals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub told_apart_by: Option<&'static str>,
+    /// What speaks for it, in sentences.
+    pub evidence: Vec<String>,
+    /// Combinations of its parameters that the logs leave open, in words.
+    pub undetermined: Vec<String>,
+}
+
+/// Structure left at a joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Unexplained {
+    /// Name of the joint.
+    pub joint: String,
+    /// Share of the nominal residual's power that is structure without a name.
+    pub share: f64,
+    /// What it depends on, the strongest first.
+    pub depends_on: Vec<Dependence>,
+}
+
+/// How much of a remaining residual follows one signal.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Dependence {
+    /// The signal, such as `position of elbow`.
+    pub signal: String,
+    /// Share of the remaining residual's power that it predicts on held-out data.
+    pub share: f64,
+}
+
+/// An effect that was looked for and not found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RuledOut {
+    /// The effect and its place.
+    #[serde(flatten)]
+    pub at: EffectAt,
+    /// The parameter that `smallest_detectable` speaks of.
+    pub parameter: &'static str,
+    /// The smallest size that would have been found; none when these logs could not show any.
+    pub smallest_detectable: Option<f64>,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Why it is not a finding.
+    pub because: String,
+}
+
+/// What the extended model buys.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Gain {
+    /// In predicting torque.
+    pub inverse: InverseGain,
+}
+
+/// Torque prediction on data that took no part in selection or fit, per joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InverseGain {
+    /// Mean squared error over the variance of the effort, nominal model.
+    pub nmse_before: Vec<f64>,
+    /// The same, extended model.
+    pub nmse_after: Vec<f64>,
+    /// RMS error, nominal model (N m or N).
+    pub rms_before_nm: Vec<f64>,
+    /// RMS error, extended model (N m or N).
+    pub rms_after_nm: Vec<f64>,
+    /// Which runs or blocks were held out.
+    pub held_out: String,
+    /// The same figures fold by fold.
+    pub folds: Vec<FoldGain>,
+}
+
+/// Torque prediction on one held-out part, per joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FoldGain {
+    /// The held-out run or block.
+    pub name: String,
+    /// RMS of the measured effort (N m or N).
+    pub torque_rms_nm: Vec<f64>,
+    /// RMS error, nominal model.
+    pub rms_before_nm: Vec<f64>,
+    /// RMS error, model selected and fitted on the other parts.
+    pub rms_after_nm: Vec<f64>,
+}
+
+/// The logs and how they were prepared.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DataSummary {
+    /// One entry a run.
+    pub runs: Vec<RunSummary>,
+    /// Cut-off of the low-pass filter (Hz).
+    pub cutoff_hz: f64,
+    /// Why this cut-off.
+    pub cutoff_reason: String,
+    /// Rate of the samples that the regressions use (Hz).
+    pub regression_rate_hz: f64,
+    /// Length of a block, the unit of replication (s).
+    pub block_s: f64,
+    /// Number of blocks.
+    pub blocks: usize,
+    /// Number of hypotheses tested.
+    pub hypotheses: usize,
+}
+
+/// One run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RunSummary {
+    /// Name of the run.
+    pub name: String,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Number of samples in the file.
+    pub samples: usize,
+    /// Duration (s).
+    pub duration_s: f64,
+    /// Sampling rate (Hz).
+    pub rate_hz: f64,
+}
