@@ -1,1 +1,23 @@
-//! Inverse and forward dynamics, the torque regressor, base and physically consistent parameters.
+//! The dynamics of a tree of rigid bodies, as the equation every other crate relies on:
+//!
+//! ```text
+//! tau = M(q) qdd + C(q, qd) qd + g(q) = Y(q, qd, qdd) pi
+//! ```
+//!
+//! [`Dynamics`] is made once from a [`robot::Robot`]; its methods come in two forms, one
+//! that checks its input and allocates the result, one ending in `_into` for loops.
+
+mod cholesky;
+mod crba;
+mod error;
+mod forward;
+mod model;
+mod regressor;
+mod rnea;
+mod rotor;
+mod spatial;
+
+pub use error::DynamicsError;
+pub use model::{Dynamics, Workspace};
+pub use regressor::PARAMETERS_PER_LINK;
+pub use rotor::Rotors;

@@ -1,0 +1,144 @@
+//! Spatial vectors, angular part first, as two plain vectors each.
+//!
+//! Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, chapter 2.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// A motion: angular part and the linear part at the origin of the frame it is written in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion {
+    pub angular: Vector3<f64>,
+    pub linear: Vector3<f64>,
+}
+
+/// A wrench: moment about the origin of the frame it is written in, and force.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Force {
+    pub angular: Vector3<f64>,
+    pub linear: Vector3<f64>,
+}
+
+/// Pose of a link in its parent's frame: `x_in_parent = rotation x_in_link + origin`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pose {
+    pub rotation: Matrix3<f64>,
+    pub origin: Vector3<f64>,
+}
+
+/// Inertia about the origin of a frame: mass, first moment `h = m c`, second moment.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RigidInertia {
+    pub mass: f64,
+    pub h: Vector3<f64>,
+    pub about_origin: Matrix3<f64>,
+}
+
+/// `r v`, written out: the hot loops live on it.
+#[inline(always)]
+pub(crate) fn multiply(r: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(
+        r.m11 * v.x + r.m12 * v.y + r.m13 * v.z,
+        r.m21 * v.x + r.m22 * v.y + r.m23 * v.z,
+        r.m31 * v.x + r.m32 * v.y + r.m33 * v.z,
+    )
+}
+
+/// `r' v`.
+#[inline(always)]
+pub(crate) fn multiply_transposed(r: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(
+        r.m11 * v.x + r.m21 * v.y + r.m31 * v.z,
+        r.m12 * v.x + r.m22 * v.y + r.m32 * v.z,
+        r.m13 * v.x + r.m23 * v.y + r.m33 * v.z,
+    )
+}
+
+impl Motion {
+    pub fn zero() -> Self {
+        Self { angular: Vector3::zeros(), linear: Vector3::zeros() }
+    }
+
+    /// Power of a unit of this motion against the wrench `f`, both in one frame.
+    #[inline(always)]
+    pub fn dot(&self, f: &Force) -> f64 {
+        self.angular.dot(&f.angular) + self.linear.dot(&f.linear)
+    }
+}
+
+impl Force {
+    pub fn zero() -> Self {
+        Self { angular: Vector3::zeros(), linear: Vector3::zeros() }
+    }
+
+    #[inline(always)]
+    pub fn add(&mut self, other: &Force) {
+        self.angular += other.angular;
+        self.linear += other.linear;
+    }
+}
+
+impl Pose {
+    pub fn identity() -> Self {
+        Self { rotation: Matrix3::identity(), origin: Vector3::zeros() }
+    }
+
+    /// A motion written in the parent's frame, written in the link's.
+    #[inline(always)]
+    pub fn motion_to_link(&self, m: &Motion) -> Motion {
+        Motion {
+            angular: multiply_transposed(&self.rotation, &m.angular),
+            linear: multiply_transposed(
+                &self.rotation,
+                &(m.linear + m.angular.cross(&self.origin)),
+            ),
+        }
+    }
+
+    /// A wrench written in the link's frame, written in the parent's.
+    #[inline(always)]
+    pub fn force_to_parent(&self, f: &Force) -> Force {
+        let linear = multiply(&self.rotation, &f.linear);
+        let angular = multiply(&self.rotation, &f.angular) + self.origin.cross(&linear);
+        Force { angular, linear }
+    }
+
+    /// An inertia about the link's origin, written about the parent's.
+    ///
+    /// ```text
+    /// I' = R I R' + 2 (p.Rh) 1 - (p (Rh)' + Rh p') + m (p.p 1 - p p'),   h' = R h + m p
+    /// ```
+    pub fn inertia_to_parent(&self, inertia: &RigidInertia) -> RigidInertia {
+        let (r, p, m) = (&self.rotation, &self.origin, inertia.mass);
+        let h = multiply(r, &inertia.h);
+        let moved = h + m * p;
+        let trace = p.dot(&h) + p.dot(&moved);
+        let about_origin = r * inertia.about_origin * r.transpose()
+            + Matrix3::from_diagonal_element(trace)
+            - p * moved.transpose()
+            - h * p.transpose();
+        RigidInertia { mass: m, h: moved, about_origin }
+    }
+}
+
+impl RigidInertia {
+    pub fn new(inertia: &robot::Inertia) -> Self {
+        let [mass, hx, hy, hz, ixx, ixy, iyy, ixz, iyz, izz] = inertia.parameters();
+        let about_origin = Matrix3::new(ixx, ixy, ixz, ixy, iyy, iyz, ixz, iyz, izz);
+        Self { mass, h: Vector3::new(hx, hy, hz), about_origin }
+    }
+
+    /// Wrench that gives the resting body the acceleration `a`.
+    #[inline(always)]
+    pub fn apply(&self, a: &Motion) -> Force {
+        Force {
+            angular: multiply(&self.about_origin, &a.angular) + self.h.cross(&a.linear),
+            linear: self.mass * a.linear + a.angular.cross(&self.h),
+        }
+    }
+
+    pub fn add(&mut self, other: &RigidInertia) {
+        self.mass += other.mass;
+        self.h += other.h;
+        self.about_origin += other.about_origin;
+    }
+}
