@@ -73,12 +73,14 @@ fn friction(kind: EffectKind) -> Entry {
         ViscousFriction => Entry {
             kind,
             equation: "viscous qd",
-            parameters: &[parameter(
-                "viscous",
-                "N m s/rad",
-                "N s/m",
-                "friction torque per unit of velocity",
-            )],
+            parameters: const {
+                &[parameter(
+                    "viscous",
+                    "N m s/rad",
+                    "N s/m",
+                    "friction torque per unit of velocity",
+                )]
+            },
             signature: "the residual grows in proportion to velocity and vanishes at rest",
             needs: "motion at more than one speed",
             confused_with: &[CoulombFriction],
@@ -88,7 +90,7 @@ fn friction(kind: EffectKind) -> Entry {
         CoulombFriction => Entry {
             kind,
             equation: "coulomb sign(qd)",
-            parameters: &[parameter("level", "N m", "N", "friction torque while moving")],
+            parameters: const { &[parameter("level", "N m", "N", "friction torque while moving")] },
             signature: "the residual jumps when the joint reverses, whatever the speed",
             needs: "reversals",
             confused_with: &[ViscousFriction, AsymmetricFriction],
@@ -98,10 +100,12 @@ fn friction(kind: EffectKind) -> Entry {
         _ => Entry {
             kind: AsymmetricFriction,
             equation: "forward for qd > 0, -backward for qd < 0",
-            parameters: &[
-                parameter("forward", "N m", "N", "friction torque against positive motion"),
-                parameter("backward", "N m", "N", "friction torque against negative motion"),
-            ],
+            parameters: const {
+                &[
+                    parameter("forward", "N m", "N", "friction torque against positive motion"),
+                    parameter("backward", "N m", "N", "friction torque against negative motion"),
+                ]
+            },
             signature: "the jump at a reversal is not centred on zero, and the shift is gone at standstill",
             needs: "reversals and standstill",
             confused_with: &[CoulombFriction, TorqueOffset, CableSpring, TorqueConstant],
@@ -120,7 +124,7 @@ fn reading(kind: EffectKind) -> Entry {
         TorqueOffset => Entry {
             kind,
             equation: "offset",
-            parameters: &[parameter("offset", "N m", "N", "effort reported at zero torque")],
+            parameters: const { &[parameter("offset", "N m", "N", "effort reported at zero torque")] },
             signature: "the residual has a mean that depends on nothing",
             needs: "poses with different gravity torque",
             confused_with: &[
@@ -136,7 +140,7 @@ fn reading(kind: EffectKind) -> Entry {
         _ => Entry {
             kind: TorqueConstant,
             equation: "torque_gain tau",
-            parameters: &[parameter("gain", "1", "1", "reported effort per unit of torque")],
+            parameters: const { &[parameter("gain", "1", "1", "reported effort per unit of torque")] },
             signature: "every term of the joint's torque is off by the same factor",
             needs: "a known load",
             confused_with: &[InertialParameters, Payload, AsymmetricFriction],
@@ -155,12 +159,14 @@ fn inertia(kind: EffectKind) -> Entry {
         RotorInertia => Entry {
             kind,
             equation: "rotor_inertia qdd",
-            parameters: &[parameter(
-                "inertia",
-                "kg m^2",
-                "kg",
-                "inertia of rotor and gear seen at the joint",
-            )],
+            parameters: const {
+                &[parameter(
+                    "inertia",
+                    "kg m^2",
+                    "kg",
+                    "inertia of rotor and gear seen at the joint",
+                )]
+            },
             signature: "the residual follows the joint's own acceleration, whatever the pose",
             needs: "acceleration in poses with different mass matrix",
             confused_with: &[InertialParameters],
@@ -207,10 +213,12 @@ fn surroundings(kind: EffectKind) -> Entry {
         CableSpring => Entry {
             kind,
             equation: "stiffness (q - rest)",
-            parameters: &[
-                parameter("stiffness", "N m/rad", "N/m", "torque per unit of displacement"),
-                parameter("rest", "rad", "m", "position at which the spring is slack"),
-            ],
+            parameters: const {
+                &[
+                    parameter("stiffness", "N m/rad", "N/m", "torque per unit of displacement"),
+                    parameter("rest", "rad", "m", "position at which the spring is slack"),
+                ]
+            },
             signature: "the residual follows the joint's own position and no other joint's",
             needs: "a wide range of the joint, in different poses of the others",
             confused_with: &[InertialParameters, TorqueOffset, AsymmetricFriction],
@@ -220,10 +228,12 @@ fn surroundings(kind: EffectKind) -> Entry {
         _ => Entry {
             kind: GravityDirection,
             equation: "G(q) (g - g_nominal)",
-            parameters: &[
-                parameter("tilt_1", "rad", "rad", "tilt about the first horizontal axis"),
-                parameter("tilt_2", "rad", "rad", "tilt about the second horizontal axis"),
-            ],
+            parameters: const {
+                &[
+                    parameter("tilt_1", "rad", "rad", "tilt about the first horizontal axis"),
+                    parameter("tilt_2", "rad", "rad", "tilt about the second horizontal axis"),
+                ]
+            },
             signature: "a joint with a vertical axis carries a gravity torque",
             needs: "a sweep of the first joint with the arm stretched",
             confused_with: &[InertialParameters, TorqueOffset, Payload],
