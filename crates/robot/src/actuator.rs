@@ -1,5 +1,8 @@
+use serde::{Deserialize, Serialize};
+
 /// Where the position of a joint is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum SensingSide {
     /// At the motor, before transmission and elasticity.
     Motor,
@@ -11,7 +14,8 @@ pub enum SensingSide {
 }
 
 /// What the `effort` of a log is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum TorqueSource {
     /// A torque sensor at the joint.
     Measured,

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a robot description cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,4 +54,193 @@ pub enum RobotError {
         /// Name of the robot.
         robot: String,
     },
+    /// Something is wrong inside a file.
+    #[error("{}: {problem}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: Box<RobotError>,
+    },
+    /// The file holds nothing but white space.
+    #[error("the file is empty, a URDF or a robot.toml was expected")]
+    Empty,
+    /// The file is larger than any robot description.
+    #[error("the file has more than {limit} bytes, a URDF or a robot.toml was expected")]
+    TooLarge {
+        /// Largest size accepted (bytes).
+        limit: u64,
+    },
+    /// The text is not XML, or not a URDF.
+    #[error("line {line}: {reason}")]
+    Malformed {
+        /// Line in the file, from 1.
+        line: usize,
+        /// What was found and what was expected.
+        reason: String,
+    },
+    /// A link or joint element cannot be read.
+    #[error("line {line}: {element}: {reason}")]
+    BadElement {
+        /// The element, such as `link forearm`.
+        element: String,
+        /// Line in the file, from 1.
+        line: usize,
+        /// What was found and what was expected.
+        reason: String,
+    },
+    /// The `robot.toml` is not TOML, or a key or value has no meaning there.
+    #[error("line {line}, column {column}: {reason}")]
+    BadToml {
+        /// Line in the file, from 1.
+        line: usize,
+        /// Column in the line, from 1.
+        column: usize,
+        /// What was found and what was expected.
+        reason: String,
+    },
+    /// A joint moves in a way that is not modelled.
+    #[error(
+        "joint {joint}: its type is {kind}, revolute, continuous, prismatic or fixed was expected"
+    )]
+    UnsupportedJoint {
+        /// Name of the joint.
+        joint: String,
+        /// The type found.
+        kind: &'static str,
+    },
+    /// A joint copies another one.
+    #[error("joint {joint}: it mimics joint {of}, an independent joint was expected")]
+    MimicJoint {
+        /// Name of the joint.
+        joint: String,
+        /// Name of the joint it copies.
+        of: String,
+    },
+    /// The axis of a moving joint has no direction.
+    #[error("joint {joint}: its axis is (0, 0, 0), a direction was expected")]
+    ZeroAxis {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// A number lies outside of its range.
+    #[error("{thing}: {quantity} is {value}, {expected} was expected")]
+    OutOfRange {
+        /// What the number belongs to, such as `joint elbow`.
+        thing: String,
+        /// The quantity, as the file calls it.
+        quantity: &'static str,
+        /// The value found.
+        value: f64,
+        /// The range, in words.
+        expected: &'static str,
+    },
+    /// The position limits of a joint are the wrong way round.
+    #[error("joint {joint}: its lower limit {lower} is above its upper limit {upper}")]
+    LimitsReversed {
+        /// Name of the joint.
+        joint: String,
+        /// Lower limit (rad or m).
+        lower: f64,
+        /// Upper limit (rad or m).
+        upper: f64,
+    },
+    /// A link hangs on two joints: the URDF describes a loop.
+    #[error("link {link}: it is the child of joints {first} and {second}, one was expected")]
+    TwoParents {
+        /// Name of the link.
+        link: String,
+        /// The joint that claims it first.
+        first: String,
+        /// The joint that claims it again.
+        second: String,
+    },
+    /// A link is its own ancestor.
+    #[error("link {link}: it is its own ancestor, a tree without loops was expected")]
+    Loop {
+        /// Name of a link in the loop.
+        link: String,
+    },
+    /// More than one link has no parent.
+    #[error("links {first} and {second} both have no parent, one root was expected")]
+    SeveralRoots {
+        /// The first root.
+        first: String,
+        /// The second root.
+        second: String,
+    },
+    /// A name is used that nothing carries.
+    #[error("{place}: there is no {what} {name}, {hint}")]
+    UnknownName {
+        /// Where the name is used.
+        place: String,
+        /// `joint` or `link`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The nearest name, or the names there are.
+        hint: String,
+    },
+    /// A list has the wrong number of entries.
+    #[error("{thing}: {quantity} has {found} entries, {expected} were expected, one per joint")]
+    WrongLength {
+        /// What the list belongs to.
+        thing: String,
+        /// The key.
+        quantity: &'static str,
+        /// Number of entries found.
+        found: usize,
+        /// Number of joints.
+        expected: usize,
+    },
+    /// Two keys say the same thing twice, or one is useless without the other.
+    #[error("{thing}: {found}, {expected} was expected")]
+    KeysDisagree {
+        /// What the keys belong to.
+        thing: String,
+        /// The keys found.
+        found: &'static str,
+        /// The keys expected.
+        expected: &'static str,
+    },
+    /// The robot differs from its URDF in something `robot.toml` has no key for.
+    #[error("{thing}: its {quantity} differs from the URDF, robot.toml has no key for it")]
+    NotDescribable {
+        /// The joint or link.
+        thing: String,
+        /// What differs.
+        quantity: &'static str,
+    },
+    /// The TOML writer refused a value.
+    #[error("robot.toml cannot be written: {reason}")]
+    Unwritable {
+        /// What the writer said.
+        reason: String,
+    },
+}
+
+impl RobotError {
+    /// The same error, with the file it was found in.
+    pub(crate) fn in_file(self, path: &Path) -> Self {
+        Self::InFile { path: path.to_owned(), problem: Box::new(self) }
+    }
+
+    /// A name that none of `known` is.
+    pub(crate) fn unknown_name(
+        place: impl Into<String>,
+        what: &'static str,
+        name: &str,
+        known: &[&str],
+    ) -> Self {
+        let nearest = known
+            .iter()
+            .map(|k| (strsim::damerau_levenshtein(name, k), *k))
+            .min()
+            .filter(|(distance, k)| 3 * distance <= k.chars().count().max(3));
+        let hint = match nearest {
+            Some((_, k)) => format!("did you mean {k}?"),
+            None => format!("one of {} was expected", known.join(", ")),
+        };
+        Self::UnknownName { place: place.into(), what, name: name.to_owned(), hint }
+    }
 }

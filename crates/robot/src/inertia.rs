@@ -1,4 +1,6 @@
-use nalgebra::{Matrix3, Matrix4, SymmetricEigen, Vector3};
+use std::fmt;
+
+use nalgebra::{Isometry3, Matrix3, Matrix4, SymmetricEigen, Vector3};
 
 /// Inertia of one moving body: the link and everything fixed to it.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +23,26 @@ pub enum InertiaDefect {
     /// Largest principal moment minus the sum of the other two is positive (kg m²):
     /// no distribution of mass has such an inertia.
     TriangleInequality(f64),
+}
+
+impl fmt::Display for InertiaDefect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::MassNotPositive(mass) => {
+                write!(f, "mass is {mass} kg, a positive number was expected")
+            }
+            Self::NotPositiveDefinite(smallest) => write!(
+                f,
+                "smallest principal moment of inertia is {smallest:.3e} kg m², \
+                 a positive number was expected"
+            ),
+            Self::TriangleInequality(excess) => write!(
+                f,
+                "largest principal moment of inertia exceeds the sum of the other two by \
+                 {excess:.3e} kg m², no body has such an inertia"
+            ),
+        }
+    }
 }
 
 impl Inertia {
@@ -51,6 +73,42 @@ impl Inertia {
         let at_origin = Matrix3::new(ixx, ixy, ixz, ixy, iyy, iyz, ixz, iyz, izz);
         let about_com = at_origin - mass * (Matrix3::identity() * c.dot(&c) - c * c.transpose());
         Self { mass, com_in_link: c, about_com }
+    }
+
+    /// The same body seen from another frame.
+    ///
+    /// ```text
+    /// c' = R c + p,  I' = R I R'     with (R, p) = new_from_old
+    /// ```
+    pub fn seen_from(&self, new_from_old: &Isometry3<f64>) -> Self {
+        let r = new_from_old.rotation.to_rotation_matrix().into_inner();
+        let turned = r * self.about_com * r.transpose();
+        Self {
+            mass: self.mass,
+            com_in_link: r * self.com_in_link + new_from_old.translation.vector,
+            about_com: 0.5 * (turned + turned.transpose()),
+        }
+    }
+
+    /// Both bodies as one rigid body, in the frame they share (parallel-axis theorem).
+    ///
+    /// ```text
+    /// m = m1 + m2,  c = (m1 c1 + m2 c2) / m,  d = c2 - c1
+    /// I = I1 + I2 + (m1 m2 / m) (d'd 1 - d d')
+    /// ```
+    pub fn merged_with(&self, other: &Self) -> Self {
+        let mass = self.mass + other.mass;
+        if mass.abs() <= 0.0 {
+            return Self { about_com: self.about_com + other.about_com, ..self.clone() };
+        }
+        let d = other.com_in_link - self.com_in_link;
+        let reduced = self.mass * other.mass / mass;
+        let parallel = reduced * (Matrix3::identity() * d.dot(&d) - d * d.transpose());
+        Self {
+            mass,
+            com_in_link: self.com_in_link + d * (other.mass / mass),
+            about_com: self.about_com + other.about_com + parallel,
+        }
     }
 
     /// The pseudo-inertia about the link origin, positive definite exactly when the

@@ -6,18 +6,28 @@
 //! ```
 //!
 //! The terms of a rigid body come from [`Link`] and [`Joint`], what an actuator
-//! adds from [`Actuator`]. Data only: no dynamics is computed here.
+//! adds from [`Actuator`]. [`Robot::load`] reads them from `robot.urdf` and
+//! `robot.toml`. Data only: no dynamics is computed here.
 
 mod actuator;
+mod control;
+mod description;
 mod error;
 mod inertia;
 mod joint;
 mod link;
+mod load;
 mod model;
+mod urdf;
+mod warning;
+mod write;
 
 pub use actuator::{Actuator, SensingSide, TorqueSource};
+pub use control::{ControlSettings, Gain};
 pub use error::RobotError;
 pub use inertia::{Inertia, InertiaDefect};
 pub use joint::{Joint, JointKind, Limits};
 pub use link::Link;
+pub use load::Loaded;
 pub use model::Robot;
+pub use warning::RobotWarning;

@@ -115,8 +115,14 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
     finite(&joint, "axis", link.joint.axis_in_joint.iter())?;
     let a = &link.actuator;
     let drive = [
-        a.rotor_inertia, a.viscous, a.coulomb_forward, a.coulomb_backward, a.spring_stiffness,
-        a.spring_rest, a.torque_gain, a.torque_offset,
+        a.rotor_inertia,
+        a.viscous,
+        a.coulomb_forward,
+        a.coulomb_backward,
+        a.spring_stiffness,
+        a.spring_rest,
+        a.torque_gain,
+        a.torque_offset,
     ];
     finite(&joint, "actuator parameter", drive.iter())
 }

@@ -1,0 +1,21 @@
+use std::collections::BTreeMap;
+
+/// Gains of the joint controller: `tau = kp error + kd error_rate`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gain {
+    /// Position gain (N·m/rad or N/m).
+    pub kp: f64,
+    /// Velocity gain (N·m·s/rad or N·s/m).
+    pub kd: f64,
+}
+
+/// How the real robot is controlled, as far as `robot.toml` says so.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ControlSettings {
+    /// Rate of the control loop (Hz).
+    pub rate_hz: Option<f64>,
+    /// The gains in use, one entry per joint.
+    pub gains: Vec<Option<Gain>>,
+    /// Named sets of gains, each with one entry per joint.
+    pub gain_sets: BTreeMap<String, Vec<Gain>>,
+}

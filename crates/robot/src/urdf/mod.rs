@@ -1,0 +1,156 @@
+//! A URDF read into a [`Robot`], without its shapes.
+
+mod convert;
+mod outline;
+mod tree;
+
+use nalgebra::{Isometry3, Vector3};
+use urdf_rs::JointType;
+
+use self::outline::{Element, Outline};
+use self::tree::Tree;
+use crate::{Actuator, Inertia, Link, Robot, RobotError, RobotWarning};
+
+/// Free fall in a base frame whose z axis points up (m/s²).
+const UPRIGHT_GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
+
+/// What a URDF says.
+pub(crate) struct UrdfModel {
+    pub robot: Robot,
+    pub base_link: String,
+    pub fixed_to_base: Vec<String>,
+    pub warnings: Vec<RobotWarning>,
+}
+
+/// Reads the text of a URDF.
+pub(crate) fn parse(text: &str) -> Result<UrdfModel, RobotError> {
+    let outline = outline::outline(text)?;
+    let (mut links, mut inertias, mut warnings) = (vec![], vec![], vec![]);
+    for element in &outline.links {
+        let link = read(&outline, element, |robot| robot.links)?;
+        let inertia = if element.has_inertial { Some(convert::inertia(&link)?) } else { None };
+        let defects = inertia.iter().flat_map(Inertia::defects);
+        let name = &link.name;
+        warnings.extend(defects.map(|d| RobotWarning::Inertia { link: name.clone(), defect: d }));
+        inertias.push(inertia);
+        links.push(link);
+    }
+    let mut joints = vec![];
+    for element in &outline.joints {
+        joints.push(read(&outline, element, |robot| robot.joints)?);
+    }
+    let tree = Tree::new(&links, &joints)?;
+    let walk = Walk { links: &links, joints: &joints, inertias: &inertias, tree: &tree };
+    let (moving, fixed_to_base) = walk.moving_links()?;
+    let massless = moving.iter().filter(|l| l.inertia.mass <= 0.0);
+    warnings.extend(massless.map(|l| RobotWarning::Massless { link: l.name.clone() }));
+    let robot = Robot::new(name(&outline)?, UPRIGHT_GRAVITY, moving)?;
+    Ok(UrdfModel { robot, base_link: links[tree.root].name.clone(), fixed_to_base, warnings })
+}
+
+/// One link or joint through `urdf-rs`, alone, so that an error has a name and a line.
+fn read<T>(
+    outline: &Outline,
+    element: &Element,
+    list: impl Fn(urdf_rs::Robot) -> Vec<T>,
+) -> Result<T, RobotError> {
+    let bad = |reason: &str| RobotError::BadElement {
+        element: element.label.clone(),
+        line: element.line,
+        reason: outline::one_line(reason),
+    };
+    let text = format!("{}{}</robot>", outline.robot_tag, element.xml);
+    let robot = urdf_rs::read_from_string(&text).map_err(|e| bad(&e.to_string()))?;
+    list(robot).pop().ok_or_else(|| bad("it cannot be read"))
+}
+
+/// The robot's name, empty when the URDF gives none.
+fn name(outline: &Outline) -> Result<String, RobotError> {
+    let text = format!("{}</robot>", outline.robot_tag);
+    let robot = urdf_rs::read_from_string(&text).map_err(|e| RobotError::BadElement {
+        element: "robot".to_owned(),
+        line: 1,
+        reason: outline::one_line(&e.to_string()),
+    })?;
+    Ok(robot.name)
+}
+
+/// Everything the walk from the base to the tips needs.
+struct Walk<'a> {
+    links: &'a [urdf_rs::Link],
+    joints: &'a [urdf_rs::Joint],
+    inertias: &'a [Option<Inertia>],
+    tree: &'a Tree,
+}
+
+/// A link of the URDF about to be visited.
+struct Visit {
+    link: usize,
+    /// The joint that carries it, `None` for the root.
+    joint: Option<usize>,
+    /// The moving link its parent belongs to, `None` for the base.
+    body: Option<usize>,
+    /// Pose of its parent in that moving link or in the base.
+    body_from_parent: Isometry3<f64>,
+}
+
+impl Walk<'_> {
+    /// The moving links, depth first in the order of the file, and the links fixed to the base.
+    fn moving_links(&self) -> Result<(Vec<Link>, Vec<String>), RobotError> {
+        let (mut moving, mut fixed_to_base) = (Vec::<Link>::new(), vec![]);
+        let base = Isometry3::identity();
+        let mut stack =
+            vec![Visit { link: self.tree.root, joint: None, body: None, body_from_parent: base }];
+        while let Some(visit) = stack.pop() {
+            let name = self.links[visit.link].name.clone();
+            let (body, body_from_link) = match visit.joint.map(|j| &self.joints[j]) {
+                None => (None, Isometry3::identity()),
+                Some(fixed) if fixed.joint_type == JointType::Fixed => {
+                    visit.body.map_or(&mut fixed_to_base, |b| &mut moving[b].merged).push(name);
+                    (visit.body, visit.body_from_parent * convert::origin(fixed)?)
+                }
+                Some(joint) => {
+                    moving.push(self.moving_link(joint, name, &visit)?);
+                    (Some(moving.len() - 1), Isometry3::identity())
+                }
+            };
+            if let (Some(b), Some(own)) = (body, &self.inertias[visit.link]) {
+                add(&mut moving[b].inertia, &own.seen_from(&body_from_link));
+            }
+            stack.extend(self.tree.joints_of[visit.link].iter().rev().map(|&j| Visit {
+                link: self.tree.child[j],
+                joint: Some(j),
+                body,
+                body_from_parent: body_from_link,
+            }));
+        }
+        Ok((moving, fixed_to_base))
+    }
+
+    fn moving_link(
+        &self,
+        joint: &urdf_rs::Joint,
+        name: String,
+        visit: &Visit,
+    ) -> Result<Link, RobotError> {
+        let dynamics = joint.dynamics.clone().unwrap_or_default();
+        Ok(Link {
+            name,
+            parent: visit.body,
+            joint: convert::joint(joint, &visit.body_from_parent)?,
+            inertia: Inertia::zero(),
+            actuator: Actuator {
+                viscous: dynamics.damping,
+                coulomb_forward: dynamics.friction,
+                coulomb_backward: dynamics.friction,
+                ..Actuator::default()
+            },
+            merged: vec![],
+        })
+    }
+}
+
+/// Merges a part into a body; the first part is taken as it is, without rounding.
+fn add(body: &mut Inertia, part: &Inertia) {
+    *body = if body.mass > 0.0 { body.merged_with(part) } else { part.clone() };
+}

@@ -1,0 +1,125 @@
+use nalgebra::Vector3;
+
+use crate::description::{Description, GainEntry, InertiaEntry, JointEntry, LinkEntry};
+use crate::{Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource};
+
+impl Loaded {
+    /// A `robot.toml` that describes `robot`, this one or a changed copy of it.
+    ///
+    /// Holds what differs from the URDF, and the control settings. Loading it gives
+    /// `robot` again, every number to the last bit. `urdf` is the path of the URDF
+    /// as seen from the folder the text is written to.
+    ///
+    /// # Errors
+    ///
+    /// [`RobotError::NotDescribable`] when `robot` differs from the URDF in something
+    /// `robot.toml` has no key for: joints, links, axes, origins, position and velocity
+    /// limits. Numbers that `robot.toml` refuses, such as a negative mass, are refused
+    /// here in the same words.
+    pub fn to_toml(&self, robot: &Robot, urdf: &str) -> Result<String, RobotError> {
+        same_tree(robot, &self.robot_in_urdf)?;
+        let description = self.describe(robot, urdf);
+        description.apply(&mut self.clone())?;
+        toml::to_string(&description).map_err(|e| RobotError::Unwritable { reason: e.to_string() })
+    }
+
+    fn describe(&self, robot: &Robot, urdf: &str) -> Description {
+        let (old, control) = (&self.robot_in_urdf, &self.control);
+        let mut description = Description {
+            urdf: urdf.to_owned(),
+            gravity_m_per_s2: gravity(robot, old),
+            control_rate_hz: control.rate_hz,
+            ..Description::default()
+        };
+        for (i, (new, old)) in robot.links().iter().zip(old.links()).enumerate() {
+            let entry = joint_entry(new, old, control.gains.get(i).copied().flatten());
+            if entry != JointEntry::default() {
+                description.joint.insert(new.joint.name.clone(), entry);
+            }
+            if new.inertia != old.inertia {
+                description.link.insert(new.name.clone(), link_entry(&new.inertia));
+            }
+        }
+        for (name, set) in &control.gain_sets {
+            let entry = GainEntry {
+                kp_nm_per_rad: set.iter().map(|g| g.kp).collect(),
+                kd_nm_s_per_rad: set.iter().map(|g| g.kd).collect(),
+            };
+            description.gains.insert(name.clone(), entry);
+        }
+        description
+    }
+}
+
+/// Refuses a change that no key can say.
+fn same_tree(new: &Robot, old: &Robot) -> Result<(), RobotError> {
+    let differs = |thing: String, quantity| Err(RobotError::NotDescribable { thing, quantity });
+    if new.name() != old.name() || new.joint_count() != old.joint_count() {
+        return differs(format!("robot {}", new.name()), "name or number of joints");
+    }
+    for (new, old) in new.links().iter().zip(old.links()) {
+        if (&new.name, &new.parent, &new.merged) != (&old.name, &old.parent, &old.merged) {
+            return differs(format!("link {}", new.name), "name, parent or merged links");
+        }
+        let mut joint = new.joint.clone();
+        joint.limits.effort = old.joint.limits.effort;
+        if joint != old.joint {
+            return differs(format!("joint {}", new.joint.name), "name, origin, axis or limit");
+        }
+    }
+    Ok(())
+}
+
+fn gravity(new: &Robot, old: &Robot) -> Option<[f64; 3]> {
+    let gravity: Vector3<f64> = new.gravity_in_base();
+    (gravity != old.gravity_in_base()).then_some(gravity.into())
+}
+
+fn joint_entry(new: &Link, old: &Link, gain: Option<Gain>) -> JointEntry {
+    let (a, b) = (&new.actuator, &old.actuator);
+    let (forward, backward) = (
+        changed(a.coulomb_forward, b.coulomb_forward),
+        changed(a.coulomb_backward, b.coulomb_backward),
+    );
+    let both = forward.filter(|f| backward.is_some_and(|b| changed(*f, b).is_none()));
+    JointEntry {
+        rotor_inertia_kg_m2: changed(a.rotor_inertia, b.rotor_inertia),
+        viscous_nm_s_per_rad: changed(a.viscous, b.viscous),
+        coulomb_nm: both,
+        coulomb_forward_nm: forward.filter(|_| both.is_none()),
+        coulomb_backward_nm: backward.filter(|_| both.is_none()),
+        spring_stiffness_nm_per_rad: changed(a.spring_stiffness, b.spring_stiffness),
+        spring_rest_rad: changed(a.spring_rest, b.spring_rest),
+        torque_gain: changed(a.torque_gain, b.torque_gain),
+        torque_offset_nm: changed(a.torque_offset, b.torque_offset),
+        torque_limit_nm: changed(
+            new.joint.limits.effort.unwrap_or(f64::INFINITY),
+            old.joint.limits.effort.unwrap_or(f64::INFINITY),
+        ),
+        sensing: Some(a.sensing).filter(|s| *s != SensingSide::Unknown),
+        torque_source: Some(a.torque_source).filter(|s| *s != TorqueSource::Unknown),
+        kp_nm_per_rad: gain.map(|g| g.kp),
+        kd_nm_s_per_rad: gain.map(|g| g.kd),
+    }
+}
+
+fn link_entry(inertia: &Inertia) -> LinkEntry {
+    let i = &inertia.about_com;
+    LinkEntry {
+        mass_kg: inertia.mass,
+        com_m: inertia.com_in_link.into(),
+        inertia_kg_m2: InertiaEntry {
+            xx: i.m11,
+            xy: i.m12,
+            xz: i.m13,
+            yy: i.m22,
+            yz: i.m23,
+            zz: i.m33,
+        },
+    }
+}
+
+/// The new number, where it is not the old one to the last bit.
+fn changed(new: f64, old: f64) -> Option<f64> {
+    new.total_cmp(&old).is_ne().then_some(new)
+}
