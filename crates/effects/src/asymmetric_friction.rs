@@ -1,0 +1,57 @@
+use catalogue::EffectKind;
+use robot::Robot;
+
+use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+
+/// `forward` for positive and `-backward` for negative velocity: two weights a joint,
+/// the change of the mean level and half the change of the difference.
+pub(crate) struct AsymmetricFriction;
+
+impl Explain for AsymmetricFriction {
+    fn kind(&self) -> EffectKind {
+        EffectKind::AsymmetricFriction
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let (gain, direction) = (motion.gain[j], &motion.direction[j]);
+        vec![
+            at_joint(j, direction.iter().map(|s| gain * s)),
+            at_joint(j, direction.iter().map(|s| gain * s.abs())),
+        ]
+    }
+
+    /// Levels as large as the effort itself.
+    fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![scale.effort[j]; 2]
+    }
+
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
+        let (Place::Joint(j), [level, skew]) = (place, weights) else { return false };
+        let a = &robot.links()[j].actuator;
+        a.coulomb_forward + level + skew >= 0.0 && a.coulomb_backward + level - skew >= 0.0
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let (Place::Joint(j), [level, skew]) = (place, weights) else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.coulomb_forward += level + skew;
+            link.actuator.coulomb_backward += level - skew;
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let robots = [nominal, extended];
+        vec![
+            actuator_quantity(self.kind(), 0, j, robots, |a| a.coulomb_forward),
+            actuator_quantity(self.kind(), 1, j, robots, |a| a.coulomb_backward),
+        ]
+    }
+}

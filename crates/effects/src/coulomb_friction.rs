@@ -1,0 +1,49 @@
+use catalogue::EffectKind;
+use robot::Robot;
+
+use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+
+/// `level sign(qd)`: one weight a joint, the change of both Coulomb levels.
+pub(crate) struct CoulombFriction;
+
+impl Explain for CoulombFriction {
+    fn kind(&self) -> EffectKind {
+        EffectKind::CoulombFriction
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![at_joint(j, motion.direction[j].iter().map(|s| motion.gain[j] * s))]
+    }
+
+    /// A level as large as the effort itself.
+    fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![scale.effort[j]]
+    }
+
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
+        let (Place::Joint(j), [change]) = (place, weights) else { return false };
+        let a = &robot.links()[j].actuator;
+        a.coulomb_forward.min(a.coulomb_backward) + change >= 0.0
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let (Place::Joint(j), [change]) = (place, weights) else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.coulomb_forward += change;
+            link.actuator.coulomb_backward += change;
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let level = |a: &robot::Actuator| 0.5 * (a.coulomb_forward + a.coulomb_backward);
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], level)]
+    }
+}

@@ -1,0 +1,106 @@
+use catalogue::EffectKind;
+use robot::Robot;
+
+use crate::{Frame, Motion, Place, Scale};
+
+/// What one unit of a weight adds to the effort of one joint, sample by sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Effort (N·m or N) per unit of the weight.
+    pub values: Vec<f64>,
+}
+
+/// What one unit of a weight adds to the effort of every joint it reaches.
+pub type Column = Vec<Part>;
+
+/// A parameter of an effect as the user knows it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// Name, as in the catalogue.
+    pub name: &'static str,
+    /// Value.
+    pub value: f64,
+    /// Value in the nominal robot.
+    pub nominal: f64,
+    /// Unit.
+    pub unit: &'static str,
+}
+
+/// The model side of one effect.
+///
+/// Weights are changes from the nominal robot: all zero means the robot as described.
+pub trait Explain: Sync {
+    /// The effect.
+    fn kind(&self) -> EffectKind;
+
+    /// Where it could act in this robot.
+    fn places(&self, robot: &Robot) -> Vec<Place>;
+
+    /// One column a weight, for the motion of one run.
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column>;
+
+    /// Standard deviation of each weight before any data is seen.
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64>;
+
+    /// Whether the robot changed by `weights` is physically possible.
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool;
+
+    /// The robot changed by `weights`, whose columns were made in `frame`.
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame);
+
+    /// The parameters that a user reads, from the robot before and after.
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
+}
+
+/// The model side of `kind`.
+pub fn model(kind: EffectKind) -> &'static dyn Explain {
+    match kind {
+        EffectKind::ViscousFriction => &crate::viscous_friction::ViscousFriction,
+        EffectKind::CoulombFriction => &crate::coulomb_friction::CoulombFriction,
+        EffectKind::AsymmetricFriction => &crate::asymmetric_friction::AsymmetricFriction,
+        EffectKind::TorqueOffset => &crate::torque_offset::TorqueOffset,
+        EffectKind::RotorInertia => &crate::rotor_inertia::RotorInertia,
+        EffectKind::InertialParameters => &crate::inertial_parameters::InertialParameters,
+        EffectKind::Payload => &crate::payload::Payload,
+        EffectKind::CableSpring => &crate::cable_spring::CableSpring,
+        EffectKind::GravityDirection => &crate::gravity_direction::GravityDirection,
+        EffectKind::TorqueConstant => &crate::torque_constant::TorqueConstant,
+    }
+}
+
+/// A column that reaches one joint.
+pub(crate) fn at_joint(joint: usize, values: impl Iterator<Item = f64>) -> Column {
+    vec![Part { joint, values: values.collect() }]
+}
+
+/// Every joint of the robot.
+pub(crate) fn every_joint(robot: &Robot) -> Vec<Place> {
+    (0..robot.joint_count()).map(Place::Joint).collect()
+}
+
+/// The units of parameter `index` of `kind` at joint `joint`, and its name.
+pub(crate) fn named(
+    kind: EffectKind,
+    index: usize,
+    robot: &Robot,
+    joint: usize,
+) -> (&'static str, &'static str) {
+    let parameter = kind.entry().parameters[index];
+    let rotation = robot.links().get(joint).is_none_or(|l| l.joint.kind.is_rotation());
+    (parameter.name, if rotation { parameter.unit } else { parameter.unit_prismatic })
+}
+
+/// A parameter read from the actuator of `joint` in both robots.
+pub(crate) fn actuator_quantity(
+    kind: EffectKind,
+    index: usize,
+    joint: usize,
+    [nominal, extended]: [&Robot; 2],
+    read: impl Fn(&robot::Actuator) -> f64,
+) -> Quantity {
+    let (name, unit) = named(kind, index, nominal, joint);
+    let value = |r: &Robot| r.links().get(joint).map_or(f64::NAN, |l| read(&l.actuator));
+    Quantity { name, value: value(extended), nominal: value(nominal), unit }
+}

@@ -1,0 +1,94 @@
+use catalogue::EffectKind;
+use dynamics::PARAMETERS_PER_LINK;
+use robot::{Inertia, Robot};
+
+use crate::{Column, Explain, Frame, Motion, Part, Place, Quantity, Scale};
+
+/// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
+/// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
+pub(crate) struct InertialParameters;
+
+impl Explain for InertialParameters {
+    fn kind(&self) -> EffectKind {
+        EffectKind::InertialParameters
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        (0..robot.joint_count()).map(Place::Link).collect()
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Link(link) = place else { return Vec::new() };
+        link_columns(link, motion)
+    }
+
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Link(link) = place else { return Vec::new() };
+        link_prior(robot.links()[link].inertia.mass, scale)
+    }
+
+    /// Any change may be tried; what is written into a robot is made physical first.
+    fn admissible(&self, _: Place, _: &Robot, _: &[f64]) -> bool {
+        true
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        extend_link(place, robot, weights);
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Link(link) = place else { return Vec::new() };
+        let read = |r: &Robot| mass_and_com(&r.links()[link].inertia);
+        quantities(self.kind(), read(nominal), read(extended))
+    }
+}
+
+/// The ten columns of a link, over every joint that carries it.
+pub(crate) fn link_columns(link: usize, motion: &Motion) -> Vec<Column> {
+    let column = |parameter: usize| {
+        let carriers = motion.regressor.iter().enumerate().filter(|(_, row)| !row[link].is_empty());
+        let part = |(joint, row): (usize, &Vec<Vec<Vec<f64>>>)| Part {
+            joint,
+            values: row[link][parameter].iter().map(|y| motion.gain[joint] * y).collect(),
+        };
+        carriers.map(part).collect()
+    };
+    (0..PARAMETERS_PER_LINK).map(column).collect()
+}
+
+/// What is believed of a link before any data, in round numbers: its mass is known to
+/// itself plus a third of a mean link, its centre of mass to the length of a link.
+pub(crate) fn link_prior(mass: f64, scale: &Scale) -> Vec<f64> {
+    let (m, l) = (mass.max(0.0) + 0.3 * scale.link_mass, scale.link_length);
+    let mut sd = vec![m];
+    sd.extend([m * l; 3]);
+    sd.extend([m * l * l; 6]);
+    sd
+}
+
+/// Adds ten changes to the inertia of a link.
+pub(crate) fn extend_link(place: Place, robot: &mut Robot, weights: &[f64]) {
+    let Place::Link(index) = place else { return };
+    if let Some(link) = robot.link_mut(index) {
+        let mut pi = link.inertia.parameters();
+        pi.iter_mut().zip(weights).for_each(|(p, w)| *p += w);
+        link.inertia = Inertia::from_parameters(&pi);
+    }
+}
+
+/// Mass (kg) and centre of mass in the link frame (m).
+pub(crate) fn mass_and_com(inertia: &Inertia) -> [f64; 4] {
+    let c = inertia.com_in_link;
+    [inertia.mass, c.x, c.y, c.z]
+}
+
+/// The parameters of `kind` with values before and after.
+pub(crate) fn quantities(kind: EffectKind, nominal: [f64; 4], extended: [f64; 4]) -> Vec<Quantity> {
+    let quantity = |(i, p): (usize, &catalogue::Parameter)| Quantity {
+        name: p.name,
+        value: extended[i],
+        nominal: nominal[i],
+        unit: p.unit,
+    };
+    kind.entry().parameters.iter().enumerate().map(quantity).collect()
+}

@@ -1,0 +1,46 @@
+use catalogue::EffectKind;
+use robot::Robot;
+
+use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+
+/// `rotor_inertia qdd`: one weight a joint, the change of the rotor inertia.
+pub(crate) struct RotorInertia;
+
+impl Explain for RotorInertia {
+    fn kind(&self) -> EffectKind {
+        EffectKind::RotorInertia
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![at_joint(j, motion.qdd[j].iter().map(|a| motion.gain[j] * a))]
+    }
+
+    /// A torque as large as the effort itself at the largest acceleration.
+    fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![scale.effort_per(j, &scale.acceleration)]
+    }
+
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
+        let (Place::Joint(j), [change]) = (place, weights) else { return false };
+        robot.links()[j].actuator.rotor_inertia + change >= 0.0
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let (Place::Joint(j), [change]) = (place, weights) else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.rotor_inertia += change;
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.rotor_inertia)]
+    }
+}
