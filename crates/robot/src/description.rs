@@ -251,7 +251,8 @@ impl LinkEntry {
         };
         let Some(link) = loaded.robot.link_mut(index) else { return Ok(()) };
         // What the URDF said about this body no longer counts.
-        loaded.warnings.retain(|w| w.link() != name && !link.merged.iter().any(|m| m == w.link()));
+        let of_body = |l: &str| l == name || link.merged.iter().any(|m| m == l);
+        loaded.warnings.retain(|w| !w.link().is_some_and(of_body));
         let defects = inertia.defects().into_iter();
         loaded
             .warnings

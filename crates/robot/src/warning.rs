@@ -18,13 +18,23 @@ pub enum RobotWarning {
         /// What is wrong with it.
         defect: InertiaDefect,
     },
+    /// A link or joint has the same child element twice; the first counts.
+    Repeated {
+        /// The link or joint, such as `joint elbow`.
+        element: String,
+        /// The child element, such as `origin`.
+        child: String,
+        /// Line of the one that is left out, from 1.
+        line: usize,
+    },
 }
 
 impl RobotWarning {
-    /// The link that the warning is about.
-    pub fn link(&self) -> &str {
+    /// The link whose inertia the warning is about.
+    pub fn link(&self) -> Option<&str> {
         match self {
-            Self::Massless { link } | Self::Inertia { link, .. } => link,
+            Self::Massless { link } | Self::Inertia { link, .. } => Some(link),
+            Self::Repeated { .. } => None,
         }
     }
 }
@@ -34,6 +44,9 @@ impl fmt::Display for RobotWarning {
         match self {
             Self::Massless { link } => {
                 write!(f, "link {link}: it moves but has no <inertial>, its mass is taken as zero")
+            }
+            Self::Repeated { element, child, line } => {
+                write!(f, "{element}: line {line} holds a second <{child}>, the first counts")
             }
             Self::Inertia { link, defect } => write!(f, "link {link}: {defect}"),
         }

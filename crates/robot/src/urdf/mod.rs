@@ -24,11 +24,12 @@ pub(crate) struct UrdfModel {
 
 /// Reads the text of a URDF.
 pub(crate) fn parse(text: &str) -> Result<UrdfModel, RobotError> {
-    let outline = outline::outline(text)?;
-    let (mut links, mut inertias, mut warnings) = (vec![], vec![], vec![]);
+    let mut outline = outline::outline(text)?;
+    let mut warnings = std::mem::take(&mut outline.warnings);
+    let (mut links, mut inertias) = (vec![], vec![]);
     for element in &outline.links {
         let link = read(&outline, element, |robot| robot.links)?;
-        let inertia = if element.has_inertial { Some(convert::inertia(&link)?) } else { None };
+        let inertia = if element.has_inertial() { Some(convert::inertia(&link)?) } else { None };
         let defects = inertia.iter().flat_map(Inertia::defects);
         let name = &link.name;
         warnings.extend(defects.map(|d| RobotWarning::Inertia { link: name.clone(), defect: d }));
@@ -57,7 +58,7 @@ fn read<T>(
     let bad = |reason: &str| RobotError::BadElement {
         element: element.label.clone(),
         line: element.line,
-        reason: outline::one_line(reason),
+        reason: outline::one_line(reason.trim_start_matches("custom: ")),
     };
     let text = format!("{}{}</robot>", outline.robot_tag, element.xml);
     let robot = urdf_rs::read_from_string(&text).map_err(|e| bad(&e.to_string()))?;

@@ -1,7 +1,7 @@
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::RobotError;
+use crate::{RobotError, RobotWarning};
 
 /// Deepest nesting of elements; a URDF needs six.
 const MAX_DEPTH: usize = 64;
@@ -38,6 +38,7 @@ pub(super) struct Outline {
     pub robot_tag: String,
     pub links: Vec<Element>,
     pub joints: Vec<Element>,
+    pub warnings: Vec<RobotWarning>,
 }
 
 /// A link or a joint, reduced to the children that matter.
@@ -48,7 +49,15 @@ pub(super) struct Element {
     /// Line of the start tag, from 1.
     pub line: usize,
     pub xml: String,
-    pub has_inertial: bool,
+    /// Names of the children that are kept.
+    children: Vec<String>,
+}
+
+impl Element {
+    /// Whether the link declares an inertia; `urdf-rs` reads a missing one as zero.
+    pub fn has_inertial(&self) -> bool {
+        self.children.iter().any(|c| c == "inertial")
+    }
 }
 
 /// Reads the outline of a URDF and refuses text that is not well-formed.
@@ -126,7 +135,7 @@ impl Scan {
                 return Ok(false);
             }
             let label = format!("{name} {}", attribute(tag, "name"));
-            self.current = Some(Element { label, line: self.line, xml, has_inertial: false });
+            self.current = Some(Element { label, line: self.line, xml, children: vec![] });
             return Ok(true);
         };
         let in_link = self.open.get(1).is_some_and(|n| n == "link");
@@ -134,7 +143,15 @@ impl Scan {
         if depth == 2 && !known.contains(&name) {
             return Ok(false);
         }
-        element.has_inertial |= depth == 2 && name == "inertial";
+        if depth == 2 {
+            // urdfdom takes the first of several, and some published files rely on it.
+            if element.children.iter().any(|c| c == name) {
+                let (element, child, line) = (element.label.clone(), name.to_owned(), self.line);
+                self.outline.warnings.push(RobotWarning::Repeated { element, child, line });
+                return Ok(false);
+            }
+            element.children.push(name.to_owned());
+        }
         element.xml.push_str(&xml);
         numbers_only(tag).map_err(|reason| RobotError::BadElement {
             element: element.label.clone(),

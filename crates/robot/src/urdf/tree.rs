@@ -88,11 +88,16 @@ fn root(parent: &[Option<usize>], names: &[&str]) -> Result<usize, RobotError> {
     }
 }
 
-/// The loop that `link`, or one of its ancestors, is part of.
+/// The loop that `link`, or one of its ancestors, is part of, by its first link in the file.
 fn looped(parent: &[Option<usize>], link: usize, names: &[&str]) -> RobotError {
+    let up = |at: usize| parent[at].unwrap_or(at);
     // As many steps up as there are links end inside the ring, not on a branch of it.
-    let inside = (0..parent.len()).fold(link, |at, _| parent[at].unwrap_or(at));
-    RobotError::Loop { link: names[inside].to_owned() }
+    let inside = (0..parent.len()).fold(link, |at, _| up(at));
+    let (mut first, mut at) = (inside, up(inside));
+    while at != inside {
+        (first, at) = (first.min(at), up(at));
+    }
+    RobotError::Loop { link: names[first].to_owned() }
 }
 
 fn unique<'a>(

@@ -1,0 +1,271 @@
+use proptest::prelude::*;
+use robot::{Robot, RobotWarning};
+
+use super::{arm_with, in_workspace, load, refused};
+
+#[test]
+fn numbers_that_are_text_are_refused() {
+    let urdf = arm_with("").replace("xyz=\"0.3 0 0\"", "xyz=\"0.3 0,0\"");
+    assert_eq!(
+        refused(&urdf),
+        "robot.urdf: line 6: joint elbow: <origin xyz=\"0.3 0,0\"> was found, a number was expected"
+    );
+    let urdf = arm_with("").replace("mass value=\"2\"", "mass value=\"two\"");
+    assert_eq!(
+        refused(&urdf),
+        "robot.urdf: line 3: link upper: <mass value=\"two\"> was found, a number was expected"
+    );
+    let urdf = arm_with("").replace("xyz=\"0.3 0 0\"", "xyz=\"0.3 0\"");
+    assert!(refused(&urdf).starts_with("robot.urdf: line 6: joint elbow: "), "{}", refused(&urdf));
+}
+
+#[test]
+fn missing_parts_are_named() {
+    let urdf = arm_with("").replace("<mass value=\"2\"/>", "");
+    assert!(
+        refused(&urdf).contains("line 3: link upper: ") && refused(&urdf).contains("mass"),
+        "{}",
+        refused(&urdf)
+    );
+    let urdf = arm_with("").replace("<child link=\"lower\"/>", "");
+    assert!(
+        refused(&urdf).contains("line 6: joint elbow: ") && refused(&urdf).contains("child"),
+        "{}",
+        refused(&urdf)
+    );
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused() {
+    for (old, new, message) in [
+        ("mass value=\"2\"", "mass value=\"inf\"", "link upper: mass is inf"),
+        ("ixx=\"1\"", "ixx=\"nan\"", "link upper: inertia is NaN"),
+        ("xyz=\"0.3 0 0\"", "xyz=\"1e999 0 0\"", "joint elbow: origin is inf"),
+        ("axis xyz=\"0 1 0\"", "axis xyz=\"0 nan 0\"", "joint shoulder: axis is NaN"),
+    ] {
+        let urdf = arm_with("").replacen(old, new, 1);
+        let expected = format!("robot.urdf: {message}, a finite number was expected");
+        assert_eq!(refused(&urdf), expected);
+    }
+}
+
+#[test]
+fn a_mass_that_is_not_positive_is_refused() {
+    for (value, shown) in [("0", "0"), ("-1.5", "-1.5"), ("nan", "NaN")] {
+        let urdf = arm_with("").replace("mass value=\"2\"", &format!("mass value=\"{value}\""));
+        assert_eq!(
+            refused(&urdf),
+            format!("robot.urdf: link upper: mass is {shown} kg, a positive number was expected")
+        );
+    }
+}
+
+#[test]
+fn joints_that_are_not_modelled_are_refused() {
+    for kind in ["floating", "planar", "spherical"] {
+        let urdf = arm_with("").replace("continuous", kind);
+        assert_eq!(
+            refused(&urdf),
+            format!(
+                "robot.urdf: joint elbow: its type is {kind}, revolute, continuous, prismatic or \
+                 fixed was expected"
+            )
+        );
+    }
+    let urdf = arm_with("").replace("type=\"continuous\">", "type=\"hinge\">");
+    assert!(refused(&urdf).contains("line 6: joint elbow: "), "{}", refused(&urdf));
+}
+
+#[test]
+fn a_mimic_joint_is_refused() {
+    let urdf =
+        arm_with("").replace("<origin", "<mimic joint=\"shoulder\" multiplier=\"2\"/><origin");
+    assert_eq!(
+        refused(&urdf),
+        "robot.urdf: joint elbow: it mimics joint shoulder, an independent joint was expected"
+    );
+}
+
+#[test]
+fn an_axis_without_a_direction_is_refused_and_others_are_normalised() {
+    let urdf = arm_with("").replacen("axis xyz=\"0 1 0\"", "axis xyz=\"0 0 0\"", 1);
+    assert_eq!(
+        refused(&urdf),
+        "robot.urdf: joint shoulder: its axis is (0, 0, 0), a direction was expected"
+    );
+    for length in ["2", "1e-200", "1e200"] {
+        let urdf = arm_with("").replacen("xyz=\"0 1 0\"", &format!("xyz=\"0 {length} 0\""), 1);
+        let robot = load(&[("robot.urdf", &urdf)]).unwrap().robot;
+        assert_eq!(robot.links()[0].joint.axis_in_joint.as_slice(), [0.0, 1.0, 0.0]);
+    }
+}
+
+#[test]
+fn limits_are_read_and_checked() {
+    let with = |limit: &str| {
+        arm_with("").replacen("<axis", &format!("<limit {limit} velocity=\"2\"/><axis"), 1)
+    };
+    let limits = |urdf: &str| load(&[("a.urdf", urdf)]).unwrap().robot.links()[0].joint.limits;
+    let known = limits(&with("lower=\"-1\" upper=\"2\" effort=\"30\""));
+    assert_eq!(
+        (known.position, known.velocity, known.effort),
+        (Some((-1.0, 2.0)), Some(2.0), Some(30.0))
+    );
+    let unknown = limits(&with("effort=\"0\""));
+    assert_eq!((unknown.position, unknown.effort), (None, None));
+    assert_eq!(
+        refused(&with("lower=\"2\" upper=\"1\"")),
+        "robot.urdf: joint shoulder: its lower limit 2 is above its upper limit 1"
+    );
+    assert_eq!(
+        refused(&with("effort=\"-3\"")),
+        "robot.urdf: joint shoulder: effort limit is -3, a number not below 0 was expected"
+    );
+}
+
+#[test]
+fn a_loop_is_refused_by_the_name_of_its_link() {
+    let closing =
+        r#"<joint name="rod" type="revolute"><parent link="base"/><child link="lower"/></joint>"#;
+    assert_eq!(
+        refused(&arm_with(closing)),
+        "robot.urdf: link lower: it is the child of joints elbow and rod, one was expected"
+    );
+    let ring = r#"<link name="a"/><link name="b"/><link name="c"/>
+  <joint name="ab" type="fixed"><parent link="a"/><child link="b"/></joint>
+  <joint name="ba" type="fixed"><parent link="b"/><child link="a"/></joint>
+  <joint name="bc" type="fixed"><parent link="b"/><child link="c"/></joint>"#;
+    let looped = "it is its own ancestor, a tree without loops was expected";
+    assert_eq!(refused(&arm_with(ring)), format!("robot.urdf: link a: {looped}"));
+    // No root at all, and the file starts with a link that only hangs on the ring.
+    let only = format!(
+        "<robot name=\"r\"><link name=\"d\"/>{ring}<joint name=\"cd\" type=\"fixed\"><parent link=\"c\"/><child link=\"d\"/></joint></robot>"
+    );
+    assert_eq!(refused(&only), format!("robot.urdf: link a: {looped}"));
+}
+
+#[test]
+fn the_first_of_several_origins_counts_with_a_warning() {
+    let twice = "<origin xyz=\"0.3 0 0\"/>\n<origin xyz=\"9 9 9\"/>";
+    let urdf = arm_with("").replace("<origin xyz=\"0.3 0 0\"/>", twice);
+    let loaded = load(&[("a.urdf", &urdf)]).unwrap();
+    assert_eq!(loaded.robot, Robot::from_urdf(&arm_with("")).unwrap());
+    let messages: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(messages, ["joint elbow: line 7 holds a second <origin>, the first counts"]);
+}
+
+#[test]
+fn links_that_do_not_make_one_tree_are_refused() {
+    assert_eq!(
+        refused(&arm_with("<link name=\"stray\"/>")),
+        "robot.urdf: links base and stray both have no parent, one root was expected"
+    );
+    assert_eq!(
+        refused(&arm_with("").replace("parent link=\"upper\"", "parent link=\"uper\"")),
+        "robot.urdf: joint elbow: there is no link uper, did you mean upper?"
+    );
+    assert_eq!(
+        refused(&arm_with("").replace("parent link=\"upper\"", "parent link=\"gripper_7\"")),
+        "robot.urdf: joint elbow: there is no link gripper_7, one of base, upper, lower was expected"
+    );
+    assert_eq!(
+        refused("<robot name=\"r\"/>"),
+        "robot.urdf: line 1: no <link> was found, at least one was expected"
+    );
+    assert_eq!(
+        refused("<robot name=\"r\"><link name=\"base\"/></robot>"),
+        "robot.urdf: robot r: it has no moving joint, at least one was expected"
+    );
+    assert_eq!(
+        refused(&arm_with("<link name=\"upper\"/>")),
+        "robot.urdf: the name upper is used by two links, names must be unique"
+    );
+    let twice = r#"<link name="tip"/><joint name="elbow" type="fixed"><parent link="lower"/><child link="tip"/></joint>"#;
+    assert_eq!(
+        refused(&arm_with(twice)),
+        "robot.urdf: the name elbow is used by two joints, names must be unique"
+    );
+}
+
+#[test]
+fn meshes_are_not_looked_for() {
+    let mesh = "<visual><geometry><mesh filename=\"package://nowhere/a.stl\"/></geometry></visual>";
+    let urdf =
+        arm_with("").replace("<link name=\"upper\">", &format!("<link name=\"upper\">{mesh}"));
+    assert_eq!(
+        load(&[("a.urdf", &urdf)]).unwrap().robot,
+        load(&[("a.urdf", &arm_with(""))]).unwrap().robot
+    );
+}
+
+#[test]
+fn weak_inertias_are_warnings_by_link_name() {
+    let urdf = arm_with("").replacen("izz=\"1\"", "izz=\"3\"", 1);
+    let warnings = load(&[("a.urdf", &urdf)]).unwrap().warnings;
+    let [RobotWarning::Inertia { link, .. }] = &warnings[..] else { panic!("{warnings:?}") };
+    assert_eq!(link, "upper");
+    assert_eq!(
+        warnings[0].to_string(),
+        "link upper: largest principal moment of inertia exceeds the sum of the other two by \
+         1.000e0 kg m², no body has such an inertia"
+    );
+    let flipped = arm_with("").replacen("izz=\"1\"", "izz=\"-1\"", 1);
+    let warnings = load(&[("a.urdf", &flipped)]).unwrap().warnings;
+    assert!(warnings[0].to_string().contains("-1.000e0 kg m²"), "{warnings:?}");
+    assert_eq!(load(&[("a.urdf", &arm_with(""))]).unwrap().warnings, []);
+}
+
+#[test]
+fn a_moving_link_without_inertia_is_massless_with_a_warning() {
+    let extra = r#"<link name="hand"/><joint name="wrist" type="prismatic"><parent link="lower"/><child link="hand"/></joint>"#;
+    let loaded = load(&[("a.urdf", &arm_with(extra))]).unwrap();
+    assert_eq!(loaded.robot.links()[2].inertia, robot::Inertia::zero());
+    assert_eq!(loaded.warnings, [RobotWarning::Massless { link: "hand".to_owned() }]);
+}
+
+#[test]
+fn damping_and_friction_of_the_urdf_become_nominal_friction() {
+    let urdf =
+        arm_with("").replacen("<axis", "<dynamics damping=\"0.7\" friction=\"0.2\"/><axis", 1);
+    let robot = load(&[("a.urdf", &urdf)]).unwrap().robot;
+    let a = &robot.links()[0].actuator;
+    assert_eq!((a.viscous, a.coulomb_forward, a.coulomb_backward), (0.7, 0.2, 0.2));
+    assert_eq!(robot.links()[1].actuator.viscous, 0.0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// Ten bytes of a real URDF overwritten, or its end cut off: an answer, never a panic.
+    #[test]
+    fn damaged_files_never_panic(
+        edits in prop::collection::vec((0usize..9000, any::<u8>()), 0..10),
+        keep in 0usize..12000,
+    ) {
+        let path = in_workspace("robots/wam7/robot.urdf");
+        let mut bytes = std::fs::read(path).unwrap();
+        bytes.truncate(keep.max(20));
+        for (at, byte) in edits {
+            if let Some(b) = bytes.get_mut(at) {
+                *b = byte % 128;
+            }
+        }
+        if let Ok(robot) = Robot::from_urdf(&String::from_utf8_lossy(&bytes)) {
+            prop_assert!(robot.joint_count() > 0);
+        }
+    }
+
+    /// Valid fragments in any order and number.
+    #[test]
+    fn shuffled_elements_never_panic(picks in prop::collection::vec(0usize..22, 0..40)) {
+        let pieces = [
+            "<link name=\"a\">", "<link name=\"b\"/>", "</link>", "<inertial>", "</inertial>",
+            "<mass value=\"1\"/>", "<inertia ixx=\"1\"/>", "<joint name=\"j\" type=\"fixed\">",
+            "<joint name=\"k\" type=\"revolute\">", "</joint>", "<parent link=\"a\"/>",
+            "<child link=\"b\"/>", "<axis xyz=\"0 0 1\"/>", "<limit/>", "<![CDATA[x]]>", "text",
+            "<!-- c -->", "<?pi?>", "&amp;", "&bogus;", "<mimic joint=\"j\"/>", "<a:b/>",
+        ];
+        let inside: String = picks.iter().map(|&i| pieces[i]).collect();
+        let _ = Robot::from_urdf(&format!("<robot name=\"r\">{inside}</robot>"));
+    }
+}

@@ -1,0 +1,187 @@
+use robot::{Gain, Loaded, SensingSide, TorqueSource};
+
+use super::{arm_with, load};
+
+fn with(toml: &str) -> Result<Loaded, String> {
+    let toml = format!("urdf = \"arm.urdf\"\n{toml}");
+    load(&[("robot.toml", &toml), ("arm.urdf", &arm_with(""))])
+}
+
+fn refused(toml: &str) -> String {
+    match with(toml) {
+        Ok(loaded) => panic!("it was accepted: {:?}", loaded.robot),
+        Err(message) => message,
+    }
+}
+
+#[test]
+fn every_key_arrives() {
+    let loaded = with(
+        "gravity_m_per_s2 = [0, 9.81, 0]\ncontrol_rate_hz = 250\nsensing = \"motor\"
+torque_source = \"current\"
+[joint.shoulder]
+rotor_inertia_kg_m2 = 0.1\nviscous_nm_s_per_rad = 0.2\ncoulomb_nm = 0.3
+spring_stiffness_nm_per_rad = 0.4\nspring_rest_rad = 0.5\ntorque_gain = 0.6
+torque_offset_nm = 0.7\ntorque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
+[joint.elbow]
+coulomb_forward_nm = 1\ncoulomb_backward_nm = 2\nsensing = \"link\"\ntorque_source = \"measured\"
+[gains.soft]
+kp_nm_per_rad = [1, 2]\nkd_nm_s_per_rad = [3, 4]
+[link.lower]
+mass_kg = 5\ncom_m = [0.1, 0.2, 0.3]
+inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }",
+    )
+    .unwrap();
+    let [upper, lower] = loaded.robot.links() else { panic!() };
+    let a = &upper.actuator;
+    assert_eq!((a.rotor_inertia, a.viscous), (0.1, 0.2));
+    assert_eq!((a.coulomb_forward, a.coulomb_backward), (0.3, 0.3));
+    assert_eq!((a.spring_stiffness, a.spring_rest), (0.4, 0.5));
+    assert_eq!((a.torque_gain, a.torque_offset), (0.6, 0.7));
+    assert_eq!((a.sensing, a.torque_source), (SensingSide::Motor, TorqueSource::Current));
+    assert_eq!(upper.joint.limits.effort, Some(8.0));
+    let b = &lower.actuator;
+    assert_eq!((b.coulomb_forward, b.coulomb_backward), (1.0, 2.0));
+    assert_eq!((b.sensing, b.torque_source), (SensingSide::Link, TorqueSource::Measured));
+    assert_eq!(
+        (lower.inertia.mass, lower.inertia.com_in_link.as_slice()),
+        (5.0, &[0.1, 0.2, 0.3][..])
+    );
+    let i = &lower.inertia.about_com;
+    assert_eq!([i.m11, i.m12, i.m13, i.m22, i.m23, i.m33], [1.0, 0.01, 0.02, 1.1, 0.03, 1.2]);
+    assert_eq!((i.m21, i.m31, i.m32), (0.01, 0.02, 0.03));
+    assert_eq!(loaded.robot.gravity_in_base().as_slice(), [0.0, 9.81, 0.0]);
+    assert_eq!(loaded.control.rate_hz, Some(250.0));
+    assert_eq!(loaded.control.gains, [Some(Gain { kp: 9.0, kd: 1.0 }), None]);
+    let soft = [Gain { kp: 1.0, kd: 3.0 }, Gain { kp: 2.0, kd: 4.0 }];
+    assert_eq!(loaded.control.gain_sets["soft"], soft);
+    assert!(loaded.urdf_path.ends_with("arm.urdf"));
+}
+
+#[test]
+fn unknown_names_are_refused_with_the_nearest() {
+    assert_eq!(
+        refused("[joint.shouldr]\ntorque_gain = 1"),
+        "robot.toml: [joint]: there is no joint shouldr, did you mean shoulder?"
+    );
+    assert_eq!(
+        refused("[joint.q9]\ntorque_gain = 1"),
+        "robot.toml: [joint]: there is no joint q9, one of shoulder, elbow was expected"
+    );
+    let inertia = "mass_kg = 1\ncom_m = [0, 0, 0]\n\
+                   inertia_kg_m2 = { xx = 1, xy = 0, xz = 0, yy = 1, yz = 0, zz = 1 }";
+    assert_eq!(
+        refused(&format!("[link.loower]\n{inertia}")),
+        "robot.toml: [link]: there is no moving link loower, did you mean lower?"
+    );
+    let tool = r#"<link name="tool"/><joint name="m" type="fixed"><parent link="lower"/><child link="tool"/></joint>"#;
+    let toml = format!("urdf = \"arm.urdf\"\n[link.tool]\n{inertia}");
+    assert_eq!(
+        load(&[("robot.toml", &toml), ("arm.urdf", &arm_with(tool))]).unwrap_err(),
+        "robot.toml: [link]: there is no moving link tool, it is fixed to lower, name that one"
+    );
+}
+
+#[test]
+fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
+    assert_eq!(
+        refused("[joint.elbow]\nviscous = 1"),
+        "robot.toml: line 3, column 1: unknown field `viscous`, expected one of \
+         `rotor_inertia_kg_m2`, `viscous_nm_s_per_rad`, `coulomb_nm`, `coulomb_forward_nm`, \
+         `coulomb_backward_nm`, `spring_stiffness_nm_per_rad`, `spring_rest_rad`, `torque_gain`, \
+         `torque_offset_nm`, `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, \
+         `kd_nm_s_per_rad`"
+    );
+    assert_eq!(
+        refused("[joint.elbow]\ntorque_gain = \"one\""),
+        "robot.toml: line 3, column 15: invalid type: string \"one\", expected f64"
+    );
+    assert_eq!(
+        refused("sensing = \"hand\""),
+        "robot.toml: line 2, column 11: unknown variant `hand`, expected one of `motor`, `link`, \
+         `unknown`"
+    );
+    assert!(refused("[joint.elbow").starts_with("robot.toml: line 2, column "));
+    assert_eq!(
+        load(&[("robot.toml", "control_rate_hz = 1")]).unwrap_err(),
+        "robot.toml: line 1, column 1: missing field `urdf`"
+    );
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    for (toml, message) in [
+        ("gravity_m_per_s2 = [0, 0, nan]", "robot: gravity_m_per_s2 is NaN, a finite number"),
+        ("control_rate_hz = 0", "robot: control_rate_hz is 0, a finite number above 0"),
+        (
+            "[joint.elbow]\nrotor_inertia_kg_m2 = -1e-3",
+            "joint elbow: rotor_inertia_kg_m2 is -0.001, a finite number not below 0",
+        ),
+        (
+            "[joint.elbow]\ntorque_gain = 0",
+            "joint elbow: torque_gain is 0, a finite number above 0",
+        ),
+        (
+            "[joint.elbow]\ntorque_limit_nm = -inf",
+            "joint elbow: torque_limit_nm is -inf, a finite number above 0",
+        ),
+        (
+            "[joint.elbow]\ncoulomb_nm = inf",
+            "joint elbow: coulomb_forward_nm is inf, a finite number",
+        ),
+        (
+            "[joint.elbow]\nkp_nm_per_rad = -2\nkd_nm_s_per_rad = 0",
+            "joint elbow: kp_nm_per_rad is -2, a finite number above 0",
+        ),
+        (
+            "[link.lower]\nmass_kg = 0\ncom_m = [0, 0, 0]\ninertia_kg_m2 = { xx = 1, xy = 0, xz = 0, yy = 1, yz = 0, zz = 1 }",
+            "link lower: mass_kg is 0, a finite number above 0",
+        ),
+    ] {
+        assert_eq!(refused(toml), format!("robot.toml: {message} was expected"));
+    }
+}
+
+#[test]
+fn keys_that_disagree_are_refused() {
+    assert_eq!(
+        refused("[joint.elbow]\ncoulomb_nm = 1\ncoulomb_forward_nm = 2"),
+        "robot.toml: joint elbow: coulomb_nm beside coulomb_forward_nm or coulomb_backward_nm, \
+         either one value for both directions or one per direction was expected"
+    );
+    assert_eq!(
+        refused("[joint.elbow]\nkp_nm_per_rad = 1"),
+        "robot.toml: joint elbow: kp_nm_per_rad is there alone, kd_nm_s_per_rad as well was expected"
+    );
+    assert_eq!(
+        refused("[gains.soft]\nkp_nm_per_rad = [1]\nkd_nm_s_per_rad = [1, 2]"),
+        "robot.toml: gains soft: kp_nm_per_rad has 1 entries, 2 were expected, one per joint"
+    );
+}
+
+#[test]
+fn a_urdf_that_cannot_be_read_is_named_with_the_file_that_asks_for_it() {
+    assert_eq!(
+        load(&[("robot.toml", "urdf = \"none.urdf\"")]).unwrap_err(),
+        "robot.toml: none.urdf: there is no such file, a URDF or a robot.toml was expected"
+    );
+    let broken = arm_with("<link name=\"stray\"/>");
+    assert_eq!(
+        load(&[("robot.toml", "urdf = \"arm.urdf\""), ("arm.urdf", &broken)]).unwrap_err(),
+        "arm.urdf: links base and stray both have no parent, one root was expected"
+    );
+}
+
+#[test]
+fn an_inertia_in_the_toml_replaces_the_warnings_of_the_urdf() {
+    let urdf = arm_with("").replace("izz=\"1\"", "izz=\"3\"");
+    let toml = "urdf = \"arm.urdf\"\n[link.lower]\nmass_kg = 1\ncom_m = [0, 0, 0]\n\
+                inertia_kg_m2 = { xx = 1, xy = 0, xz = 0, yy = 1, yz = 0, zz = 1 }";
+    let loaded = load(&[("robot.toml", toml), ("arm.urdf", &urdf)]).unwrap();
+    let about: Vec<&str> = loaded.warnings.iter().filter_map(|w| w.link()).collect();
+    assert_eq!(about, ["upper"]);
+    let toml = toml.replace("zz = 1", "zz = 2.5");
+    let loaded = load(&[("robot.toml", &toml), ("arm.urdf", &arm_with(""))]).unwrap();
+    let about: Vec<&str> = loaded.warnings.iter().filter_map(|w| w.link()).collect();
+    assert_eq!(about, ["lower"]);
+}
