@@ -1,0 +1,40 @@
+//! Prints the time of one inverse dynamics of a URDF (ns) and a checksum, for the
+//! comparison with Pinocchio: `pinocchio.cpp` does the same with the same states.
+
+#![allow(clippy::unwrap_used, reason = "a benchmark that cannot build its input has failed")]
+
+use std::path::Path;
+use std::time::Instant;
+
+use dynamics::Dynamics;
+use robot::Robot;
+
+const STATES: usize = 1000;
+const ROUNDS: usize = 300;
+
+fn main() {
+    let wam = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/wam7/robot.urdf");
+    let dynamics = Dynamics::new(&Robot::load(&wam).unwrap().robot);
+    let (n, mut ws) = (dynamics.joint_count(), dynamics.workspace());
+    // The linear congruential generator of Knuth's MMIX, as in pinocchio.cpp.
+    let mut seed = 1_u64;
+    let mut draw = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        4.0 * ((seed >> 11) as f64 / (1_u64 << 53) as f64) - 2.0
+    };
+    let states: Vec<Vec<f64>> = (0..STATES).map(|_| (0..3 * n).map(|_| draw()).collect()).collect();
+    let mut tau = vec![0.0; n];
+    let (mut fastest, mut checksum) = (f64::INFINITY, 0.0);
+    for _ in 0..ROUNDS {
+        checksum = 0.0;
+        let start = Instant::now();
+        for state in &states {
+            let (q, rates) = state.split_at(n);
+            let (qd, qdd) = rates.split_at(n);
+            dynamics.inverse_dynamics_into(&mut ws, q, qd, qdd, &mut tau);
+            checksum += tau[0] + tau[n - 1];
+        }
+        fastest = fastest.min(start.elapsed().as_nanos() as f64 / STATES as f64);
+    }
+    println!("{fastest:.1} {checksum:.6}");
+}

@@ -1,0 +1,207 @@
+use faer::Mat;
+use faer::prelude::SolveLstsq;
+use nalgebra::{DMatrix, DVector};
+use robot::Robot;
+
+use crate::error::check;
+use crate::{Column, ColumnSet, Dynamics, DynamicsError};
+
+/// A column counts as dependent when less than this is left of it after projection on
+/// the columns already kept, in units of the longest column of its kind.
+///
+/// Above the 1e-5 that angles written with five digits leave (5e-6 on the Kinova Gen3), and
+/// below real directions: their smallest singular value is 0.1 on the arms of the tests.
+const DEPENDENT_SHARE: f64 = 1e-4;
+
+/// Entries of the mapping below this are rounding errors and set to zero.
+const MAPPING_ROUNDING: f64 = 1e-9;
+
+/// Which combinations of parameters any motion can reveal.
+///
+/// ```text
+/// tau = Y pi = Y_b pi_base,   pi_base = pi[independent] + mapping pi[dependent]
+/// ```
+///
+/// with `Y_b` the independent columns of `Y`. Gautier & Khalil 1990.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BaseParameters {
+    /// All columns, in the order of [`ColumnSet::columns`].
+    pub columns: Vec<Column>,
+    /// Indices of the columns kept, ascending.
+    pub independent: Vec<usize>,
+    /// Indices of the other columns, ascending.
+    pub dependent: Vec<usize>,
+    /// How the dependent parameters enter the independent ones: rank x dependents.
+    pub mapping: DMatrix<f64>,
+    /// Singular values of the stacked regressor, largest first, with the longest column of
+    /// each kind scaled to norm 1: the gap behind entry `rank - 1` is the certainty of the
+    /// count.
+    pub singular_values: Vec<f64>,
+}
+
+impl BaseParameters {
+    /// Number of base parameters.
+    pub fn rank(&self) -> usize {
+        self.independent.len()
+    }
+
+    /// Indices of the columns that no motion shows at all, alone or with others.
+    pub fn invisible(&self) -> Vec<usize> {
+        let silent = |d: &usize| self.mapping.column(*d).iter().all(|&share| share == 0.0);
+        (0..self.dependent.len()).filter(silent).map(|d| self.dependent[d]).collect()
+    }
+
+    /// The base parameters of the full parameters `pi` (units of the columns kept).
+    ///
+    /// # Errors
+    ///
+    /// [`DynamicsError::WrongLength`] and [`DynamicsError::NotFinite`].
+    pub fn project(&self, pi: &[f64]) -> Result<DVector<f64>, DynamicsError> {
+        check("pi", pi, self.columns.len())?;
+        let pick = |indices: &[usize]| {
+            DVector::from_iterator(indices.len(), indices.iter().map(|&i| pi[i]))
+        };
+        Ok(pick(&self.independent) + &self.mapping * pick(&self.dependent))
+    }
+}
+
+/// The base parameters of a robot for the columns of `set`.
+///
+/// Stacks the regressor over fixed pseudo-random states that ignore the joint limits,
+/// scales the kinds of columns alike, reduces them to a triangle by QR, and keeps greedily
+/// every column that is not a combination of those kept before. Drive columns are
+/// offered first, then links from the last to the first (inertias before the mass),
+/// rotor inertias last: so distal links keep their own parameters, and a rotor that a
+/// link can take over is taken over.
+///
+/// The answer depends on the direction of gravity: tilting the base reveals more.
+pub fn base_parameters(robot: &Robot, set: ColumnSet) -> BaseParameters {
+    let columns = set.columns(robot.joint_count());
+    let (triangle, scales) = scaled_triangle(&stacked(robot, set, columns.len()), &columns);
+    let mut kept = Kept { basis: Vec::new(), columns: Vec::new() };
+    for column in preference(&columns) {
+        kept.offer(column, &triangle);
+    }
+    let mut independent = kept.columns;
+    independent.sort_unstable();
+    let dependent: Vec<usize> =
+        (0..columns.len()).filter(|c| independent.binary_search(c).is_err()).collect();
+    let mapping = mapping(&triangle, &scales, &independent, &dependent);
+    let singular_values = triangle.singular_values().iter().copied().collect();
+    BaseParameters { columns, independent, dependent, mapping, singular_values }
+}
+
+/// Order in which columns are offered (see [`base_parameters`]).
+fn preference(columns: &[Column]) -> Vec<usize> {
+    let rank = |column: &Column| match *column {
+        Column::Viscous { .. } | Column::Coulomb { .. } | Column::Offset { .. } => 0,
+        Column::Inertial { .. } => 1,
+        Column::Rotor { .. } => 2,
+    };
+    let mut order: Vec<usize> = (0..columns.len()).rev().collect();
+    order.sort_by_key(|&c| rank(&columns[c]));
+    order
+}
+
+/// The regressor over twice as many states as there are columns.
+fn stacked(robot: &Robot, set: ColumnSet, width: usize) -> Mat<f64> {
+    let dynamics = Dynamics::new(robot);
+    let (n, mut ws) = (dynamics.joint_count(), dynamics.workspace());
+    let states = 2 * width;
+    let mut rows = vec![0.0; n * width];
+    let mut w = Mat::zeros(states * n, width);
+    let mut number = uniform();
+    let mut draw = |half_range: f64| -> Vec<f64> {
+        (0..n).map(|_| half_range * (2.0 * number() - 1.0)).collect()
+    };
+    for state in 0..states {
+        let (q, qd, qdd) = (draw(std::f64::consts::PI), draw(2.0), draw(5.0));
+        dynamics.columns_into(&mut ws, [&q, &qd, &qdd], set, &mut rows);
+        for (i, row) in rows.chunks_exact(width).enumerate() {
+            row.iter().enumerate().for_each(|(c, &value)| w[(state * n + i, c)] = value);
+        }
+    }
+    w
+}
+
+/// Uniform numbers in (0, 1), always the same: splitmix64 (Steele, Lea & Flood 2014).
+fn uniform() -> impl FnMut() -> f64 {
+    let mut counter = 0_u64;
+    move || {
+        counter = counter.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = counter;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// `R` of `W diag(1 / scales) = Q R`, and the scales: of every column, the norm of the
+/// longest one of its kind. The columns of `R` have the inner products of the scaled `W`.
+fn scaled_triangle(w: &Mat<f64>, columns: &[Column]) -> (DMatrix<f64>, Vec<f64>) {
+    let longest = |kind: usize| {
+        let alike = (0..columns.len()).filter(|&c| self::kind(&columns[c]) == kind);
+        let norm = alike.map(|c| w.col(c).norm_l2()).fold(0.0, f64::max);
+        if norm > 0.0 { norm } else { 1.0 }
+    };
+    let scales: Vec<f64> = columns.iter().map(|column| longest(kind(column))).collect();
+    let scaled = Mat::from_fn(w.nrows(), w.ncols(), |i, c| w[(i, c)] / scales[c]);
+    let qr = scaled.qr();
+    let r = qr.thin_R();
+    (DMatrix::from_fn(r.nrows(), r.ncols(), |i, c| r[(i, c)]), scales)
+}
+
+/// Columns of one kind share their unit.
+fn kind(column: &Column) -> usize {
+    match *column {
+        Column::Inertial { parameter: 0, .. } => 0,
+        Column::Inertial { parameter: 1..=3, .. } => 1,
+        Column::Inertial { .. } => 2,
+        Column::Rotor { .. } => 3,
+        Column::Viscous { .. } => 4,
+        Column::Coulomb { .. } => 5,
+        Column::Offset { .. } => 6,
+    }
+}
+
+/// The columns kept so far and an orthonormal basis of what they span.
+struct Kept {
+    basis: Vec<DVector<f64>>,
+    columns: Vec<usize>,
+}
+
+impl Kept {
+    /// Keeps the column of `triangle` if it adds a direction.
+    fn offer(&mut self, column: usize, triangle: &DMatrix<f64>) {
+        let mut rest: DVector<f64> = triangle.column(column).into_owned();
+        // Twice is enough (Parlett 1998, section 6.9): the second pass removes rounding.
+        for _ in 0..2 {
+            for direction in &self.basis {
+                rest.axpy(-direction.dot(&rest), direction, 1.0);
+            }
+        }
+        let norm = rest.norm();
+        if norm > DEPENDENT_SHARE {
+            self.basis.push(rest / norm);
+            self.columns.push(column);
+        }
+    }
+}
+
+/// Least squares `Y_b mapping = Y_dependent`, undone for the scales.
+fn mapping(
+    triangle: &DMatrix<f64>,
+    scales: &[f64],
+    independent: &[usize],
+    dependent: &[usize],
+) -> DMatrix<f64> {
+    let pick = |indices: &[usize]| {
+        Mat::from_fn(triangle.nrows(), indices.len(), |i, c| triangle[(i, indices[c])])
+    };
+    let solution = pick(independent).qr().solve_lstsq(pick(dependent));
+    DMatrix::from_fn(independent.len(), dependent.len(), |i, d| {
+        let share = solution[(i, d)];
+        let unscaled = share * scales[dependent[d]] / scales[independent[i]];
+        if share.abs() < MAPPING_ROUNDING { 0.0 } else { unscaled }
+    })
+}
