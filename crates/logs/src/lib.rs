@@ -1,1 +1,53 @@
 //! The motion log: its files, checks, resampling, filters and derivatives.
+//!
+//! ```text
+//! file -> read_run -> Run -> prepare -> q, qd, qdd, effort on a uniform clock
+//! ```
+//!
+//! A run is one file with the columns `time` (s) and, per joint,
+//! `<joint>.position`, `.velocity`, `.acceleration`, `.effort`, `.desired_position`,
+//! `.desired_velocity`, `.desired_acceleration` and `.commanded_effort` (SI units,
+//! radians). Only `time`, `position` and `effort` have to be there. Columns are found
+//! by name, never by their place; a [`ColumnMap`] reads files that use other names or
+//! units.
+//!
+//! After [`prepare`], `q`, `qd` and `qdd` have passed the same zero-phase [`LowPass`];
+//! the effort has not, so that one filter can be applied to it and to every regressor
+//! column alike.
+
+mod agreement;
+mod clock;
+mod column_map;
+mod csv_file;
+mod cutoff;
+mod degrees;
+mod differentiate;
+mod duplicate;
+mod error;
+mod filter;
+mod filtered;
+mod format;
+mod info;
+mod parquet_file;
+mod plan;
+mod prepare;
+mod read;
+mod run;
+mod uniform;
+mod unit;
+mod warning;
+mod write;
+
+pub use agreement::Agreement;
+pub use column_map::{ColumnMap, MappedColumn};
+pub use differentiate::differentiate;
+pub use duplicate::duplicate_of;
+pub use error::LogError;
+pub use filter::{LowPass, decimate};
+pub use info::{Gap, JointInfo, LogInfo, log_info};
+pub use prepare::{PrepareSettings, Prepared, PreparedJoint, PreparedRun, prepare};
+pub use read::{ReadOptions, read_run};
+pub use run::{Channel, Channels, Run};
+pub use unit::Unit;
+pub use warning::LogWarning;
+pub use write::{replace_file, write_csv, write_parquet};

@@ -1,0 +1,88 @@
+use std::f64::consts::TAU;
+
+/// Longest lag that is looked for (s).
+const LONGEST_LAG_S: f64 = 0.05;
+/// Largest relative difference in scale of a usable column.
+const SCALE_TOLERANCE: f64 = 0.02;
+/// Largest phase that its lag may turn the motion by (rad).
+const PHASE_TOLERANCE: f64 = 0.01;
+
+/// How a measured derivative, such as a velocity, stands to the derivative of its signal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Agreement {
+    /// How late the measured signal is (s): the lag of the largest correlation, between
+    /// samples by a parabola; looked for within 50 ms.
+    pub lag_s: f64,
+    /// Measured signal per derivative at that lag, by least squares.
+    pub scale: f64,
+    /// Correlation coefficient at that lag.
+    pub correlation: f64,
+}
+
+impl Agreement {
+    /// Compares two low-passed signals on one uniform clock.
+    ///
+    /// `cutoff_hz` is that of their low-pass: twenty samples per period of it are enough
+    /// for the sums. `None` for signals shorter than four times the longest lag, or
+    /// constant ones.
+    pub(crate) fn of(
+        measured: &[f64],
+        derived: &[f64],
+        rate_hz: f64,
+        cutoff_hz: f64,
+    ) -> Option<Self> {
+        let reach = (LONGEST_LAG_S * rate_hz).ceil().max(2.0) as usize;
+        let stride = ((rate_hz / (20.0 * cutoff_hz)) as usize).max(1);
+        let n = measured.len().min(derived.len());
+        if n < 4 * reach {
+            return None;
+        }
+        let rows = || (reach..n - reach).step_by(stride);
+        let count = rows().count() as f64;
+        let at = |lag: usize| {
+            // `lag` counts from -reach: row k of the measured is row k - lag + reach.
+            let pairs = || rows().map(|k| (measured[k], derived[k + reach - lag]));
+            let (sm, sd) = pairs().fold((0.0, 0.0), |s, (m, d)| (s.0 + m, s.1 + d));
+            let (mean_m, mean_d) = (sm / count, sd / count);
+            let (mut mm, mut dd, mut md) = (0.0, 0.0, 0.0);
+            for (m, d) in pairs() {
+                let (m, d) = (m - mean_m, d - mean_d);
+                (mm, dd, md) = (mm + m * m, dd + d * d, md + m * d);
+            }
+            (md / (mm * dd).sqrt(), md / dd)
+        };
+        let all: Vec<(f64, f64)> = (0..=2 * reach).map(at).collect();
+        let (best, &(correlation, scale)) =
+            all.iter().enumerate().max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
+        if !correlation.is_finite() || !scale.is_finite() {
+            return None;
+        }
+        let between = match (best.checked_sub(1).and_then(|i| all.get(i)), all.get(best + 1)) {
+            (Some(before), Some(after)) => vertex(before.0, correlation, after.0),
+            _ => 0.0,
+        };
+        let lag_s = (best as f64 - reach as f64 + between) / rate_hz;
+        Some(Self { lag_s, scale, correlation })
+    }
+
+    /// Whether the measured signal can stand for the derivative: its scale is within 2 %
+    /// and its lag turns the phase of the motion by less than 0.01 rad.
+    ///
+    /// The motion is taken to end at `motion_hz`, so that the lag allowed is
+    /// `0.01 / (2 pi motion_hz)`: 1.6 ms for a motion of 1 Hz.
+    pub fn holds(&self, motion_hz: f64) -> bool {
+        self.deviation(motion_hz) <= 1.0
+    }
+
+    /// How far the signals differ, 1 being as far as [`Agreement::holds`] allows.
+    pub(crate) fn deviation(&self, motion_hz: f64) -> f64 {
+        let scale = (self.scale - 1.0).abs() / SCALE_TOLERANCE;
+        scale.max(TAU * motion_hz * self.lag_s.abs() / PHASE_TOLERANCE)
+    }
+}
+
+/// Where the parabola through three neighbouring values has its top, in steps from the middle.
+fn vertex(before: f64, middle: f64, after: f64) -> f64 {
+    let curvature = before - 2.0 * middle + after;
+    if curvature < 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
+}

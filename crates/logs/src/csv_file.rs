@@ -1,0 +1,69 @@
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs::File,
+    path::Path,
+};
+
+use crate::LogError;
+
+fn reader(path: &Path) -> Result<csv::Reader<File>, LogError> {
+    // Rows of another length are let through here and refused by `load` with their number.
+    csv::ReaderBuilder::new()
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .map_err(|e| unreadable(path, &e))
+}
+
+fn unreadable(path: &Path, error: &csv::Error) -> LogError {
+    LogError::Unreadable { path: path.to_owned(), reason: error.to_string() }
+}
+
+/// Names of the columns, in the order of the file.
+pub(crate) fn names(path: &Path) -> Result<Vec<String>, LogError> {
+    let mut reader = reader(path)?;
+    let header = reader.headers().map_err(|e| unreadable(path, &e))?;
+    Ok(header.iter().map(|n| n.trim_start_matches('\u{feff}').to_owned()).collect())
+}
+
+/// Columns by name: those in `required`, where every field must be a number, and of the
+/// rest those in which every field is one.
+pub(crate) fn load(
+    path: &Path,
+    required: &BTreeSet<&str>,
+) -> Result<BTreeMap<String, Vec<f64>>, LogError> {
+    let names = names(path)?;
+    let mut columns: Vec<Option<Vec<f64>>> = vec![Some(Vec::new()); names.len()];
+    let mut reader = reader(path)?;
+    let mut record = csv::StringRecord::new();
+    let mut row = 0;
+    while reader.read_record(&mut record).map_err(|e| unreadable(path, &e))? {
+        row += 1;
+        if record.len() != names.len() {
+            let (found, expected) = (record.len(), names.len());
+            return Err(LogError::WrongFieldCount { path: path.to_owned(), row, found, expected });
+        }
+        for ((field, name), column) in record.iter().zip(&names).zip(&mut columns) {
+            let Some(samples) = column else { continue };
+            match field.parse() {
+                Ok(value) => samples.push(value),
+                Err(_) if required.contains(name.as_str()) => {
+                    return Err(not_a_number(path, row, name, field));
+                }
+                Err(_) => *column = None,
+            }
+        }
+    }
+    let named = names.into_iter().zip(columns);
+    Ok(named.filter_map(|(name, column)| Some((name, column?))).collect())
+}
+
+fn not_a_number(path: &Path, row: usize, column: &str, found: &str) -> LogError {
+    let (path, column) = (path.to_owned(), column.to_owned());
+    if found.is_empty() {
+        return LogError::MissingValue { path, row, column };
+    }
+    // A message stays one line, whatever the file holds.
+    let found = found.chars().take(40).collect();
+    LogError::NotANumber { path, row, column, found }
+}

@@ -1,0 +1,300 @@
+use std::path::PathBuf;
+
+/// Why a log cannot be used.
+///
+/// Rows are counted from 1 at the first row of data; a CSV header is not counted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LogError {
+    /// There is no such file.
+    #[error("{}: there is no such file", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The path is a directory, or another thing that is not a file.
+    #[error("{}: this is {found}, a CSV or Parquet file was expected", path.display())]
+    NotAFile {
+        /// The path.
+        path: PathBuf,
+        /// What it is.
+        found: &'static str,
+    },
+    /// The file has no bytes.
+    #[error("{}: the file is empty, a CSV or Parquet log was expected", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file cannot be opened or read.
+    #[error("{}: it cannot be read: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system or the decoder said.
+        reason: String,
+    },
+    /// The file says that it is Parquet, but it is not whole.
+    #[error("{}: not a whole Parquet file ({reason}); was it cut off while being copied?", path.display())]
+    BrokenParquet {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        reason: String,
+    },
+    /// The file cannot be written.
+    #[error("{}: it cannot be written: {reason}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system or the encoder said.
+        reason: String,
+    },
+    /// Two columns have the same name.
+    #[error("{}: two columns are called {column}, names must be unique", path.display())]
+    DuplicateColumn {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        column: String,
+    },
+    /// A column that is needed is not there.
+    #[error("{}: there is no column {column}, {purpose}{}", path.display(), hint(nearest.as_deref()))]
+    NoColumn {
+        /// The file.
+        path: PathBuf,
+        /// The column that was expected.
+        column: String,
+        /// What it is needed for.
+        purpose: String,
+        /// The column with the most similar name.
+        nearest: Option<String>,
+    },
+    /// A joint of the robot is not in the log.
+    #[error("{}: joint {joint} of the robot is not in the log, a column {column} was expected; the log has {}{}",
+        path.display(), list(found), hint(nearest.as_deref()))]
+    JointAbsent {
+        /// The file.
+        path: PathBuf,
+        /// The robot's joint.
+        joint: String,
+        /// The column that was expected.
+        column: String,
+        /// The joints of the log.
+        found: Vec<String>,
+        /// The joint of the log with the most similar name that the robot does not have.
+        nearest: Option<String>,
+    },
+    /// A row of a CSV file has too few or too many fields.
+    #[error("{}: row {row} has {found} fields, {expected} were expected as in the header", path.display())]
+    WrongFieldCount {
+        /// The file.
+        path: PathBuf,
+        /// The row.
+        row: usize,
+        /// Fields found.
+        found: usize,
+        /// Fields of the header.
+        expected: usize,
+    },
+    /// A field that should be a number is not.
+    #[error("{}: row {row}, column {column}: found {found:?}, a number was expected", path.display())]
+    NotANumber {
+        /// The file.
+        path: PathBuf,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+        /// The text found.
+        found: String,
+    },
+    /// A value is missing.
+    #[error("{}: row {row}, column {column}: the value is missing, a number was expected", path.display())]
+    MissingValue {
+        /// The file.
+        path: PathBuf,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+    },
+    /// A value is NaN or infinite.
+    #[error("{}: row {row}, column {column}: found {found}, a finite number was expected", path.display())]
+    NotFinite {
+        /// The file.
+        path: PathBuf,
+        /// The row.
+        row: usize,
+        /// The column.
+        column: String,
+        /// `NaN`, `inf` or `-inf`.
+        found: String,
+    },
+    /// A column holds something other than numbers.
+    #[error("{}: column {column} holds {found}, numbers were expected", path.display())]
+    ColumnType {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// The type found.
+        found: String,
+    },
+    /// Time stands still or goes backwards.
+    #[error("{}: row {row}, column {column}: time is {found} s after {previous} s, it must increase from row to row", path.display())]
+    TimeNotIncreasing {
+        /// The file.
+        path: PathBuf,
+        /// The row.
+        row: usize,
+        /// The column of time.
+        column: String,
+        /// Time of the row before (s).
+        previous: f64,
+        /// Time of the row (s).
+        found: f64,
+    },
+    /// There are too few rows.
+    #[error("{}: {found} rows of data, at least {expected} were expected", path.display())]
+    TooFewRows {
+        /// The file.
+        path: PathBuf,
+        /// Rows found.
+        found: usize,
+        /// Rows needed.
+        expected: usize,
+    },
+    /// A position is in degrees, by all that is known of the joint.
+    #[error("{}: column {column}, row {row}: found {found}, but joint {joint} {expectation}; \
+        this looks like degrees where radians were expected: convert it, or give the column its unit in a column map", path.display())]
+    LooksLikeDegrees {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// The row of the value farthest from zero.
+        row: usize,
+        /// That value.
+        found: f64,
+        /// The joint.
+        joint: String,
+        /// What was expected, as the end of `joint j1 ...`.
+        expectation: String,
+    },
+    /// A column map cannot be used.
+    #[error("{}: {reason}", path.display())]
+    BadMap {
+        /// The map file.
+        path: PathBuf,
+        /// What is wrong and where.
+        reason: String,
+    },
+    /// A column map names a joint that the robot does not have.
+    #[error("{}: [joint.{joint}]: the robot has no such joint, it has {}{}", path.display(), list(expected), hint(nearest.as_deref()))]
+    MapUnknownJoint {
+        /// The map file.
+        path: PathBuf,
+        /// The joint named.
+        joint: String,
+        /// The joints of the robot.
+        expected: Vec<String>,
+        /// The joint of the robot with the most similar name.
+        nearest: Option<String>,
+    },
+    /// A column map gives a unit of another quantity.
+    #[error("{}: {key}: found the unit {found:?}, a unit of {expected} was expected", path.display())]
+    MapWrongUnit {
+        /// The map file.
+        path: PathBuf,
+        /// The key, such as `joint.j1.position`.
+        key: String,
+        /// The unit found.
+        found: String,
+        /// The quantity expected.
+        expected: &'static str,
+    },
+    /// A filter of this order cannot be made.
+    #[error("the filter's order is {found}, a number from 1 to {highest} was expected")]
+    FilterOrder {
+        /// Order found.
+        found: usize,
+        /// Highest order possible.
+        highest: usize,
+    },
+    /// A cut-off cannot be used at this sampling rate.
+    #[error(
+        "the cut-off is {found_hz} Hz, a frequency above 0 and below {nyquist_hz} Hz (half the sampling rate) was expected"
+    )]
+    CutoffOutOfRange {
+        /// Cut-off found (Hz).
+        found_hz: f64,
+        /// Half the sampling rate (Hz).
+        nyquist_hz: f64,
+    },
+    /// There is nothing to prepare.
+    #[error("no run was given, at least one was expected")]
+    NoRuns,
+    /// Two runs are not of the same robot.
+    #[error(
+        "run {run}: its joints are {}, but those of run {first} are {}",
+        list(found),
+        list(expected)
+    )]
+    JointsDiffer {
+        /// The run.
+        run: String,
+        /// Its joints.
+        found: Vec<String>,
+        /// The first run.
+        first: String,
+        /// The joints of the first run.
+        expected: Vec<String>,
+    },
+    /// A signal does not have one value per sample of time.
+    #[error("run {run}: {column} has {found} samples, {expected} were expected as in time")]
+    WrongLength {
+        /// The run.
+        run: String,
+        /// The column.
+        column: String,
+        /// Samples found.
+        found: usize,
+        /// Samples of time.
+        expected: usize,
+    },
+    /// A run is too short for the filter.
+    #[error(
+        "run {run}: its longest piece without a gap is {found_s:.3} s, at least {expected_s:.3} s were expected \
+        (3 periods of the {cutoff_hz:.2} Hz cut-off)"
+    )]
+    RunTooShort {
+        /// The run.
+        run: String,
+        /// Length of the longest piece (s).
+        found_s: f64,
+        /// Length needed (s).
+        expected_s: f64,
+        /// The cut-off (Hz).
+        cutoff_hz: f64,
+    },
+}
+
+fn hint(nearest: Option<&str>) -> String {
+    nearest.map(|name| format!("; did you mean {name}?")).unwrap_or_default()
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// The candidate most similar to a name, `None` when none is similar.
+pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
+    // At least six letters in ten unchanged: `joint_2` finds `joint2`, not `time`.
+    const SIMILAR: f64 = 0.6;
+    candidates
+        .map(|c| (strsim::normalized_damerau_levenshtein(name, c), c))
+        .filter(|(similarity, _)| *similarity >= SIMILAR)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, c)| c.to_owned())
+}

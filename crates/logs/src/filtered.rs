@@ -1,0 +1,139 @@
+use std::ops::Range;
+
+use crate::{
+    Agreement, LogError, LogWarning, LowPass,
+    cutoff::MULTIPLE,
+    differentiate,
+    uniform::{UniformJoint, UniformRun},
+};
+
+/// Order of the low-pass in one pass.
+pub(crate) const ORDER: usize = 4;
+
+/// The low-passed signals of a piece of a run.
+pub(crate) struct Filtered {
+    rate_hz: f64,
+    cutoff_hz: f64,
+    samples: usize,
+    pub joints: Vec<FilteredJoint>,
+}
+
+/// `qd` and `qdd` are derivatives of `q` until [`choose_sources`] has looked at the
+/// measured ones.
+pub(crate) struct FilteredJoint {
+    pub q: Vec<f64>,
+    pub qd: Vec<f64>,
+    pub qdd: Vec<f64>,
+    velocity: Option<Vec<f64>>,
+    acceleration: Option<Vec<f64>>,
+}
+
+/// A measured column that is not the derivative it should be.
+pub(crate) struct Disagreement {
+    piece: usize,
+    agreement: Agreement,
+    is_velocity: bool,
+}
+
+impl Filtered {
+    pub(crate) fn of(piece: &UniformRun, cutoff_hz: f64) -> Result<Self, LogError> {
+        let rate_hz = piece.rate_hz;
+        let low_pass = LowPass::new(ORDER, cutoff_hz, rate_hz)?;
+        let filter = |x: &Vec<f64>| {
+            let mut x = x.clone();
+            low_pass.apply(&mut x);
+            x
+        };
+        let joint = |raw: &UniformJoint| {
+            let q = filter(&raw.q);
+            let qd = differentiate(&q, rate_hz);
+            let qdd = differentiate(&qd, rate_hz);
+            let velocity = raw.velocity.as_ref().map(filter);
+            let acceleration = raw.acceleration.as_ref().map(filter);
+            FilteredJoint { q, qd, qdd, velocity, acceleration }
+        };
+        let joints = piece.joints.iter().map(joint).collect();
+        Ok(Self { rate_hz, cutoff_hz, samples: piece.time.len(), joints })
+    }
+
+    /// The samples at which the filter has settled: all but `1 / cutoff` at both ends.
+    pub(crate) fn settled(&self) -> Range<usize> {
+        let end = (self.rate_hz / self.cutoff_hz).ceil() as usize;
+        let end = end.min(self.samples.saturating_sub(1) / 2);
+        end..self.samples - end
+    }
+
+    /// The velocity column of a joint against the derivative of its position.
+    pub(crate) fn velocity_agreement(&self, joint: usize) -> Option<Agreement> {
+        let joint = &self.joints[joint];
+        self.compare(joint.velocity.as_ref()?, &joint.qd)
+    }
+
+    fn compare(&self, measured: &[f64], derived: &[f64]) -> Option<Agreement> {
+        let kept = self.settled();
+        Agreement::of(&measured[kept.clone()], &derived[kept], self.rate_hz, self.cutoff_hz)
+    }
+}
+
+/// Takes the measured velocity and acceleration of a joint where they agree with the
+/// derivatives in every run in which it moves (`in_motion`), and tells where they do not.
+pub(crate) fn choose_sources(
+    pieces: &mut [Filtered],
+    in_motion: &[bool],
+    joint: usize,
+    cutoff_hz: f64,
+) -> Vec<Disagreement> {
+    let motion_hz = cutoff_hz / MULTIPLE;
+    let mut disagreements = Vec::new();
+    let velocity = worst(pieces, in_motion, motion_hz, |piece| {
+        let j = &piece.joints[joint];
+        Some((j.velocity.as_ref()?, &j.qd))
+    });
+    if velocity.is_some_and(|(_, a)| a.holds(motion_hz)) {
+        for piece in pieces.iter_mut() {
+            let j = &mut piece.joints[joint];
+            j.qd = j.velocity.take().unwrap_or_default();
+            j.qdd = differentiate(&j.qd, piece.rate_hz);
+        }
+    } else if let Some((piece, agreement)) = velocity {
+        disagreements.push(Disagreement { piece, agreement, is_velocity: true });
+    }
+    let acceleration = worst(pieces, in_motion, motion_hz, |piece| {
+        let j = &piece.joints[joint];
+        Some((j.acceleration.as_ref()?, &j.qdd))
+    });
+    if acceleration.is_some_and(|(_, a)| a.holds(motion_hz)) {
+        for j in pieces.iter_mut().map(|p| &mut p.joints[joint]) {
+            j.qdd = j.acceleration.take().unwrap_or_default();
+        }
+    } else if let Some((piece, agreement)) = acceleration {
+        disagreements.push(Disagreement { piece, agreement, is_velocity: false });
+    }
+    disagreements
+}
+
+/// The worst agreement of a measured column with its derivative over the runs in motion;
+/// `None` where a run does not have the column or none can be compared.
+fn worst<'p>(
+    pieces: &'p [Filtered],
+    in_motion: &[bool],
+    motion_hz: f64,
+    pair: impl Fn(&'p Filtered) -> Option<(&'p Vec<f64>, &'p Vec<f64>)>,
+) -> Option<(usize, Agreement)> {
+    let pairs: Option<Vec<_>> = pieces.iter().map(pair).collect();
+    let compared = pieces.iter().zip(pairs?).enumerate().filter(|(index, _)| in_motion[*index]);
+    compared
+        .filter_map(|(index, (piece, (m, d)))| Some((index, piece.compare(m, d)?)))
+        .max_by(|a, b| a.1.deviation(motion_hz).total_cmp(&b.1.deviation(motion_hz)))
+}
+
+impl Disagreement {
+    pub(crate) fn warning(&self, pieces: &[UniformRun], joint: &str) -> LogWarning {
+        let (run, joint) = (pieces[self.piece].name.clone(), joint.to_owned());
+        let Agreement { lag_s, scale, .. } = self.agreement;
+        match self.is_velocity {
+            true => LogWarning::VelocityDisagrees { run, joint, lag_s, scale },
+            false => LogWarning::AccelerationDisagrees { run, joint, lag_s, scale },
+        }
+    }
+}

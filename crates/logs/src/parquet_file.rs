@@ -1,0 +1,126 @@
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs::File,
+    path::Path,
+};
+
+use arrow_array::{
+    Array, ArrowPrimitiveType,
+    cast::AsArray,
+    types::{
+        Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
+        UInt32Type, UInt64Type,
+    },
+};
+use arrow_schema::{DataType, Schema};
+use parquet::arrow::{ProjectionMask, arrow_reader::ParquetRecordBatchReaderBuilder};
+
+use crate::LogError;
+
+/// Rows decoded at once: what is held besides the columns themselves stays small.
+const BATCH_ROWS: usize = 4096;
+
+type Builder = ParquetRecordBatchReaderBuilder<File>;
+
+fn open(path: &Path) -> Result<Builder, LogError> {
+    let unreadable =
+        |e: std::io::Error| LogError::Unreadable { path: path.to_owned(), reason: e.to_string() };
+    let file = File::open(path).map_err(unreadable)?;
+    Builder::try_new(file).map_err(|e| broken(path, &e))
+}
+
+fn broken(path: &Path, error: &dyn std::fmt::Display) -> LogError {
+    LogError::BrokenParquet { path: path.to_owned(), reason: error.to_string() }
+}
+
+/// Names of the columns, in the order of the file.
+pub(crate) fn names(path: &Path) -> Result<Vec<String>, LogError> {
+    Ok(open(path)?.schema().fields().iter().map(|f| f.name().clone()).collect())
+}
+
+/// Columns by name: those in `required`, which must be numeric and without nulls, and of
+/// the rest those that are.
+pub(crate) fn load(
+    path: &Path,
+    required: &BTreeSet<&str>,
+) -> Result<BTreeMap<String, Vec<f64>>, LogError> {
+    let builder = open(path)?;
+    let wanted = wanted(path, builder.schema(), required)?;
+    let mask = ProjectionMask::roots(builder.parquet_schema(), wanted);
+    let batches = builder
+        .with_projection(mask)
+        .with_batch_size(BATCH_ROWS)
+        .build()
+        .map_err(|e| broken(path, &e))?;
+    let mut columns: BTreeMap<String, Option<Vec<f64>>> = BTreeMap::new();
+    let mut rows = 0;
+    for batch in batches {
+        let batch = batch.map_err(|e| broken(path, &e))?;
+        for (field, array) in batch.schema().fields().iter().zip(batch.columns()) {
+            let column = columns.entry(field.name().clone()).or_insert_with(|| Some(Vec::new()));
+            if let Some(index) = first_null(array) {
+                if required.contains(field.name().as_str()) {
+                    let (row, column) = (rows + index + 1, field.name().clone());
+                    return Err(LogError::MissingValue { path: path.to_owned(), row, column });
+                }
+                *column = None;
+            }
+            if let Some(samples) = column {
+                append(array, samples);
+            }
+        }
+        rows += batch.num_rows();
+    }
+    Ok(columns.into_iter().filter_map(|(name, column)| Some((name, column?))).collect())
+}
+
+/// Indices of the numeric columns; a required one that is not numeric is an error.
+fn wanted(path: &Path, schema: &Schema, required: &BTreeSet<&str>) -> Result<Vec<usize>, LogError> {
+    let mut wanted = Vec::new();
+    for (index, field) in schema.fields().iter().enumerate() {
+        if field.data_type().is_integer() || is_float(field.data_type()) {
+            wanted.push(index);
+        } else if required.contains(field.name().as_str()) {
+            return Err(LogError::ColumnType {
+                path: path.to_owned(),
+                column: field.name().clone(),
+                found: field.data_type().to_string(),
+            });
+        }
+    }
+    Ok(wanted)
+}
+
+fn is_float(kind: &DataType) -> bool {
+    matches!(kind, DataType::Float32 | DataType::Float64)
+}
+
+fn first_null(array: &dyn Array) -> Option<usize> {
+    let nulls = array.nulls().filter(|n| n.null_count() > 0)?;
+    nulls.iter().position(|valid| !valid)
+}
+
+/// Appends an array of one of the types that [`wanted`] lets through.
+fn append(array: &dyn Array, samples: &mut Vec<f64>) {
+    match array.data_type() {
+        DataType::Float64 => extend::<Float64Type>(array, samples, |x| x),
+        DataType::Float32 => extend::<Float32Type>(array, samples, f64::from),
+        DataType::Int8 => extend::<Int8Type>(array, samples, f64::from),
+        DataType::Int16 => extend::<Int16Type>(array, samples, f64::from),
+        DataType::Int32 => extend::<Int32Type>(array, samples, f64::from),
+        DataType::Int64 => extend::<Int64Type>(array, samples, |x| x as f64),
+        DataType::UInt8 => extend::<UInt8Type>(array, samples, f64::from),
+        DataType::UInt16 => extend::<UInt16Type>(array, samples, f64::from),
+        DataType::UInt32 => extend::<UInt32Type>(array, samples, f64::from),
+        DataType::UInt64 => extend::<UInt64Type>(array, samples, |x| x as f64),
+        _ => {}
+    }
+}
+
+fn extend<T: ArrowPrimitiveType>(
+    array: &dyn Array,
+    samples: &mut Vec<f64>,
+    convert: fn(T::Native) -> f64,
+) {
+    samples.extend(array.as_primitive::<T>().values().iter().map(|&x| convert(x)));
+}

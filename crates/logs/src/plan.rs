@@ -1,0 +1,191 @@
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::{Path, PathBuf},
+};
+
+use robot::{Joint, Robot};
+
+use crate::{
+    Channel, Channels, ColumnMap, LogError, MappedColumn, ReadOptions, degrees, error::nearest,
+};
+
+/// Where one signal comes from.
+pub(crate) struct Source<'a> {
+    column: String,
+    mapped: Option<&'a MappedColumn>,
+}
+
+impl Source<'_> {
+    pub(crate) fn take(&self, columns: &BTreeMap<String, Vec<f64>>) -> Vec<f64> {
+        let raw = columns.get(&self.column).map(Vec::as_slice).unwrap_or_default();
+        match self.mapped {
+            Some(mapped) => raw.iter().map(|&x| mapped.convert(x)).collect(),
+            None => raw.to_vec(),
+        }
+    }
+}
+
+/// Which column becomes which signal.
+pub(crate) struct Plan<'a> {
+    path: PathBuf,
+    pub time: Source<'a>,
+    pub joints: Vec<Vec<(Channel, Source<'a>)>>,
+}
+
+impl<'a> Plan<'a> {
+    pub(crate) fn new(
+        path: &Path,
+        names: &[String],
+        robot: &Robot,
+        options: &ReadOptions<'a>,
+    ) -> Result<Self, LogError> {
+        let finder = Finder { path, names, options };
+        let mapped = options.map.and_then(ColumnMap::time);
+        let column = mapped.map_or("time", |m| &m.column).to_owned();
+        if !names.contains(&column) {
+            return Err(finder.no_column(&column, "the time of every row (s) was expected"));
+        }
+        let joints: Result<_, _> =
+            robot.joint_names().map(|joint| finder.joint(joint, robot)).collect();
+        Ok(Self { path: path.to_owned(), time: Source { column, mapped }, joints: joints? })
+    }
+
+    fn sources(&self) -> impl Iterator<Item = &Source<'a>> {
+        let joints = self.joints.iter().flatten().map(|(_, source)| source);
+        std::iter::once(&self.time).chain(joints)
+    }
+
+    pub(crate) fn required(&self) -> BTreeSet<&str> {
+        self.sources().map(|s| s.column.as_str()).collect()
+    }
+
+    /// Two rows or more, finite numbers, time that increases.
+    pub(crate) fn check(&self, columns: &BTreeMap<String, Vec<f64>>) -> Result<(), LogError> {
+        const FEWEST_ROWS: usize = 2;
+        let path = || self.path.clone();
+        let time = self.time.take(columns);
+        if time.len() < FEWEST_ROWS {
+            let (found, expected) = (time.len(), FEWEST_ROWS);
+            return Err(LogError::TooFewRows { path: path(), found, expected });
+        }
+        for source in self.sources() {
+            let samples = source.take(columns);
+            if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
+                let (row, column) = (index + 1, source.column.clone());
+                let found = samples[index].to_string();
+                return Err(LogError::NotFinite { path: path(), row, column, found });
+            }
+        }
+        match time.windows(2).position(|t| t[1] <= t[0]) {
+            Some(index) => Err(LogError::TimeNotIncreasing {
+                path: path(),
+                row: index + 2,
+                column: self.time.column.clone(),
+                previous: time[index],
+                found: time[index + 1],
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// A unit that was stated is believed.
+    pub(crate) fn check_degrees(
+        &self,
+        joint: &Joint,
+        sources: &[(Channel, Source)],
+        time: &[f64],
+        channels: &Channels,
+    ) -> Result<(), LogError> {
+        let source = sources.iter().find(|(c, _)| *c == Channel::Position);
+        let Some((_, source)) = source.filter(|(_, s)| s.mapped.is_none_or(|m| m.unit.is_none()))
+        else {
+            return Ok(());
+        };
+        match degrees::evidence(joint, time, channels) {
+            Some(expectation) => {
+                let (index, found) = degrees::farthest(&channels.position);
+                Err(LogError::LooksLikeDegrees {
+                    path: self.path.clone(),
+                    column: source.column.clone(),
+                    row: index + 1,
+                    found,
+                    joint: joint.name.clone(),
+                    expectation,
+                })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Looks for the columns of the signals.
+struct Finder<'f, 'a> {
+    path: &'f Path,
+    names: &'f [String],
+    options: &'f ReadOptions<'a>,
+}
+
+impl<'a> Finder<'_, 'a> {
+    fn joint(&self, joint: &str, robot: &Robot) -> Result<Vec<(Channel, Source<'a>)>, LogError> {
+        let mut sources = Vec::new();
+        for channel in Channel::ALL {
+            let source = self.source(joint, channel);
+            if self.names.contains(&source.column) {
+                sources.push((channel, source));
+            } else if source.mapped.is_some() {
+                let purpose = format!(
+                    "the column map names it for the {} of joint {joint}",
+                    channel.suffix()
+                );
+                return Err(self.no_column(&source.column, &purpose));
+            } else if channel.is_required() {
+                return Err(self.absent(joint, channel, source.column, robot));
+            }
+        }
+        Ok(sources)
+    }
+
+    fn source(&self, joint: &str, channel: Channel) -> Source<'a> {
+        let suffix = match channel {
+            Channel::Effort => self.options.effort,
+            _ => channel.suffix(),
+        };
+        // The map describes the usual effort, not another one that was asked for.
+        let usual = suffix == channel.suffix();
+        let mapped = self.options.map.filter(|_| usual).and_then(|m| m.channel(joint, channel));
+        let column = mapped.map_or_else(|| format!("{joint}.{suffix}"), |m| m.column.clone());
+        Source { column, mapped }
+    }
+
+    fn absent(&self, joint: &str, channel: Channel, column: String, robot: &Robot) -> LogError {
+        let prefix = format!("{joint}.");
+        if channel != Channel::Position || self.names.iter().any(|n| n.starts_with(&prefix)) {
+            let purpose = format!("the {} of joint {joint} was expected there", channel.suffix());
+            return self.no_column(&column, &purpose);
+        }
+        let found: Vec<String> = self
+            .names
+            .iter()
+            .filter_map(|n| n.strip_suffix(".position"))
+            .map(str::to_owned)
+            .collect();
+        let strange = found.iter().map(String::as_str).filter(|n| robot.joint_index(n).is_none());
+        let nearest = nearest(joint, strange);
+        LogError::JointAbsent {
+            path: self.path.to_owned(),
+            joint: joint.to_owned(),
+            column,
+            found,
+            nearest,
+        }
+    }
+
+    fn no_column(&self, column: &str, purpose: &str) -> LogError {
+        LogError::NoColumn {
+            path: self.path.to_owned(),
+            column: column.to_owned(),
+            purpose: purpose.to_owned(),
+            nearest: nearest(column, self.names.iter().map(String::as_str)),
+        }
+    }
+}

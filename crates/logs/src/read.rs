@@ -1,0 +1,64 @@
+use std::path::Path;
+
+use robot::Robot;
+
+use crate::{
+    Channels, ColumnMap, LogError, Run,
+    format::{Format, sha256},
+    plan::Plan,
+};
+
+/// How a log is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReadOptions<'a> {
+    /// Names and units of a file that has its own.
+    pub map: Option<&'a ColumnMap>,
+    /// The effort is read from the columns `<joint>.<effort>`, by default `effort`; the
+    /// columns `<joint>.effort` then stay among the further ones. With another value the
+    /// column map's `effort` entries are not used.
+    pub effort: &'a str,
+}
+
+impl Default for ReadOptions<'_> {
+    fn default() -> Self {
+        Self { map: None, effort: "effort" }
+    }
+}
+
+/// Reads one run from a CSV or Parquet file and checks it.
+///
+/// Columns are matched to the robot's joints by name. A joint of the log that the robot
+/// does not have stays among the further columns; [`crate::prepare`] warns of it.
+/// Which of the two formats a file has is seen from its first bytes.
+///
+/// # Errors
+///
+/// Every [`LogError`] that names a file: no file, an empty or broken one, a missing
+/// column or joint, a field that is not a finite number, time that does not increase,
+/// fewer than two rows, positions in degrees, a column map that does not fit.
+pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run, LogError> {
+    if let Some(map) = options.map {
+        map.check(robot)?;
+    }
+    let format = Format::of(path)?;
+    let names = format.names(path)?;
+    let plan = Plan::new(path, &names, robot, options)?;
+    let mut columns = format.load(path, &plan.required())?;
+    plan.check(&columns)?;
+
+    let time = plan.time.take(&columns);
+    let mut joints = Vec::new();
+    for (joint, sources) in robot.links().iter().map(|l| &l.joint).zip(&plan.joints) {
+        let mut channels = Channels { name: joint.name.clone(), ..Channels::default() };
+        for (channel, source) in sources {
+            channels.set(*channel, source.take(&columns));
+        }
+        plan.check_degrees(joint, sources, &time, &channels)?;
+        joints.push(channels);
+    }
+    let used: Vec<String> = plan.required().into_iter().map(str::to_owned).collect();
+    columns.retain(|name, _| !used.contains(name));
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let sha256 = sha256(path)?;
+    Ok(Run { name, source: path.to_owned(), sha256, time, joints, extra: columns })
+}

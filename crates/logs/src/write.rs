@@ -1,0 +1,96 @@
+use std::{
+    fs::File,
+    io::{BufWriter, Write},
+    path::Path,
+    sync::Arc,
+};
+
+use arrow_array::{ArrayRef, Float64Array, RecordBatch};
+use arrow_schema::{DataType, Field, Schema};
+use parquet::{arrow::ArrowWriter, basic::Compression, file::properties::WriterProperties};
+
+use crate::{Channel, LogError, Run};
+
+/// Writes a file under a temporary name beside it and renames it when it is whole.
+///
+/// # Errors
+///
+/// [`LogError::Unwritable`]; what was under that name before is then untouched.
+pub fn replace_file(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), Box<dyn std::error::Error>>,
+) -> Result<(), LogError> {
+    let unwritable = |reason: String| LogError::Unwritable { path: path.to_owned(), reason };
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    // The same rights as any new file, not those of a private temporary one.
+    #[cfg(unix)]
+    let builder = {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666))
+    };
+    let temporary =
+        builder.prefix(".plumbline-").tempfile_in(folder).map_err(|e| unwritable(e.to_string()))?;
+    let (file, name) = temporary.into_parts();
+    let mut file = BufWriter::new(file);
+    fill(&mut file).map_err(|e| unwritable(e.to_string()))?;
+    file.flush().map_err(|e| unwritable(e.to_string()))?;
+    drop(file);
+    name.persist(path).map_err(|e| unwritable(e.error.to_string()))
+}
+
+/// Writes a run as Parquet, one `f64` column per signal; reading it back is exact.
+///
+/// # Errors
+///
+/// [`LogError::Unwritable`].
+pub fn write_parquet(path: &Path, run: &Run) -> Result<(), LogError> {
+    let columns = columns(run);
+    let field = |(name, _): &(String, &[f64])| Field::new(name, DataType::Float64, false);
+    let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
+    let array = |(_, x): &(String, &[f64])| Arc::new(Float64Array::from(x.to_vec())) as ArrayRef;
+    let arrays = columns.iter().map(array).collect();
+    replace_file(path, |file| {
+        let batch = RecordBatch::try_new(schema.clone(), arrays)?;
+        let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
+        let mut writer = ArrowWriter::try_new(file, schema, Some(properties))?;
+        writer.write(&batch)?;
+        writer.close()?;
+        Ok(())
+    })
+}
+
+/// Writes a run as CSV with a header; reading it back is exact.
+///
+/// # Errors
+///
+/// [`LogError::Unwritable`].
+pub fn write_csv(path: &Path, run: &Run) -> Result<(), LogError> {
+    let columns = columns(run);
+    replace_file(path, |file| {
+        let mut writer = csv::Writer::from_writer(file);
+        writer.write_record(columns.iter().map(|(name, _)| name))?;
+        for row in 0..run.time.len() {
+            // `{}` prints the shortest number that reads back to the same f64.
+            let field =
+                |(_, x): &(String, &[f64])| x.get(row).map(f64::to_string).unwrap_or_default();
+            writer.write_record(columns.iter().map(field))?;
+        }
+        writer.flush()?;
+        Ok(())
+    })
+}
+
+/// Names and samples in the order of the file.
+fn columns(run: &Run) -> Vec<(String, &[f64])> {
+    let mut columns = vec![("time".to_owned(), run.time.as_slice())];
+    for channel in Channel::ALL {
+        for joint in &run.joints {
+            if let Some(samples) = joint.get(channel) {
+                columns.push((format!("{}.{}", joint.name, channel.suffix()), samples));
+            }
+        }
+    }
+    columns.extend(run.extra.iter().map(|(name, x)| (name.clone(), x.as_slice())));
+    columns
+}
