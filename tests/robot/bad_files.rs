@@ -89,6 +89,12 @@ fn deep_nesting_is_refused() {
 }
 
 #[test]
+fn an_endless_tag_is_refused() {
+    let urdf = format!("<robot name=\"a\" {}/>", "b=\"1\" ".repeat(10_000));
+    assert_eq!(refused(&urdf), "robot.urdf: line 1: a tag has more than 16384 bytes");
+}
+
+#[test]
 fn the_content_decides_when_the_extension_says_nothing() {
     let urdf = arm_with("");
     assert_eq!(load(&[("robot.txt", &urdf)]).unwrap().robot.joint_count(), 2);

@@ -5,6 +5,8 @@ use crate::{RobotError, RobotWarning};
 
 /// Deepest nesting of elements; a URDF needs six.
 const MAX_DEPTH: usize = 64;
+/// Longest start tag (bytes); looking for attributes given twice costs its square.
+const LONGEST_TAG: usize = 16 << 10;
 /// Children of a link and of a joint that matter here. Shapes and meshes do not.
 const KEPT_IN_LINK: [&str; 1] = ["inertial"];
 const KEPT_IN_JOINT: [&str; 7] =
@@ -111,6 +113,9 @@ impl Scan {
         let name = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
         if depth == MAX_DEPTH {
             return Err(self.malformed(format!("elements are nested more than {MAX_DEPTH} deep")));
+        }
+        if tag.len() > LONGEST_TAG {
+            return Err(self.malformed(format!("a tag has more than {LONGEST_TAG} bytes")));
         }
         if name.starts_with("xacro:") {
             let reason = format!("<{name}> was found, expand the file with xacro first");
@@ -222,6 +227,7 @@ fn numbers_only(tag: &BytesStart<'_>) -> Result<(), String> {
         let numbers = value.split_whitespace().all(|t| t.parse::<f64>().is_ok());
         if NUMERIC.contains(&key.as_ref()) && (!numbers || value.trim().is_empty()) {
             let tag = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
+            let value: String = value.chars().take(40).collect();
             return Err(format!("<{tag} {key}=\"{value}\"> was found, a number was expected"));
         }
     }
