@@ -1,1 +1,49 @@
-//! Tables, figures, HTML and JSON of a diagnosis.
+//! A diagnosis for people and for programs: a page, a text for the terminal, JSON.
+//!
+//! ```text
+//! Report { diagnosis, traces, robot, provenance } -> json(), html(), text()
+//! ```
+//!
+//! None of the three holds a date or a random number: the same input gives the same
+//! bytes.
+
+mod chart;
+mod decimate;
+mod draw;
+mod error;
+mod figures;
+mod files;
+mod html;
+mod json;
+mod numbers;
+mod places;
+mod provenance;
+#[cfg(test)]
+mod sample;
+mod sentence;
+mod tables;
+mod terminal;
+
+pub use chart::{Axis, Chart, Role, Series, Shape};
+pub use decimate::{bands, columns};
+pub use error::ReportError;
+pub use files::{sha256_of, write_atomically, write_folder};
+pub use html::html;
+pub use json::json;
+pub use numbers::{interval, percent, significant, unit};
+pub use provenance::{FileHash, Provenance};
+pub use sentence::{bottom_line, verdict_sentence};
+pub use terminal::text;
+
+/// Everything that a report shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Report<'a> {
+    /// The answer.
+    pub diagnosis: &'a diagnosis::Diagnosis,
+    /// The signals behind it, one entry a run.
+    pub traces: &'a [diagnosis::RunTraces],
+    /// The robot as it was given, for units and for the joint of a link.
+    pub robot: &'a robot::Robot,
+    /// Where the answer comes from.
+    pub provenance: &'a Provenance,
+}

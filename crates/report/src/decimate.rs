@@ -1,0 +1,95 @@
+/// Points that draw like all of them on so many pixel columns: of every column the lowest
+/// and the highest, in the order of time. A spike of one sample survives.
+///
+/// `points` are `[x, y]` with ascending `x`; those that are not finite are left out.
+pub fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
+    let finite: Vec<[f64; 2]> =
+        points.iter().copied().filter(|p| p.iter().all(|v| v.is_finite())).collect();
+    let (Some(first), Some(last)) = (finite.first(), finite.last()) else { return Vec::new() };
+    if finite.len() <= 2 * columns || columns == 0 || last[0] <= first[0] {
+        return finite;
+    }
+    let (start, width) = (first[0], (last[0] - first[0]) / columns as f64);
+    let column_of = |p: &[f64; 2]| (((p[0] - start) / width) as usize).min(columns - 1);
+    let mut kept = Vec::with_capacity(2 * columns);
+    for column in finite.chunk_by(|a, b| column_of(a) == column_of(b)) {
+        let by_y = |a: &&[f64; 2], b: &&[f64; 2]| a[1].total_cmp(&b[1]);
+        let lowest = column.iter().min_by(by_y).copied();
+        let highest = column.iter().max_by(by_y).copied();
+        let mut pair: Vec<[f64; 2]> = lowest.into_iter().chain(highest).collect();
+        pair.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        pair.dedup();
+        kept.extend(pair);
+    }
+    kept
+}
+
+/// Where the `y` of each slice of `x` lies: `[x, low, middle, high]`, the 5th, 50th and
+/// 95th percentile.
+///
+/// Slices share the range of `x` between its 0.5th and 99.5th percentile evenly; one with
+/// fewer than eight points is left out.
+pub fn bands(x: &[f64], y: &[f64], slices: usize) -> Vec<[f64; 4]> {
+    let mut ordered: Vec<f64> = x.iter().copied().filter(|v| v.is_finite()).collect();
+    ordered.sort_by(f64::total_cmp);
+    let (Some(low), Some(high)) = (percentile(&ordered, 0.005), percentile(&ordered, 0.995)) else {
+        return Vec::new();
+    };
+    if high <= low || slices == 0 {
+        return Vec::new();
+    }
+    let width = (high - low) / slices as f64;
+    let mut members: Vec<Vec<f64>> = vec![Vec::new(); slices];
+    for (&x, &y) in x.iter().zip(y) {
+        if x >= low && x <= high && y.is_finite() {
+            members[(((x - low) / width) as usize).min(slices - 1)].push(y);
+        }
+    }
+    let middle = |slice: usize| low + (slice as f64 + 0.5) * width;
+    let mut bands = Vec::with_capacity(slices);
+    for (slice, values) in members.iter_mut().enumerate().filter(|(_, v)| v.len() >= 8) {
+        values.sort_by(f64::total_cmp);
+        let at = |share| percentile(values, share).unwrap_or(f64::NAN);
+        bands.push([middle(slice), at(0.05), at(0.5), at(0.95)]);
+    }
+    bands
+}
+
+/// The value below which `share` of the ordered values lie; none when there are none.
+fn percentile(ordered: &[f64], share: f64) -> Option<f64> {
+    let last = ordered.len().checked_sub(1)?;
+    ordered.get((share * last as f64).round() as usize).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spike_of_one_sample_survives() {
+        let mut points: Vec<[f64; 2]> = (0..10_000).map(|k| [f64::from(k), 0.0]).collect();
+        points[5_003][1] = 7.0;
+        points[5_004][1] = f64::NAN;
+        let kept = columns(&points, 100);
+        assert!(kept.len() <= 200);
+        assert!(kept.contains(&[5_003.0, 7.0]));
+        assert!(kept.is_sorted_by(|a, b| a[0] <= b[0]));
+    }
+
+    #[test]
+    fn a_band_follows_the_function_and_ignores_one_outlier() {
+        let x: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.01).collect();
+        let mut y: Vec<f64> = x.iter().map(|x| 2.0 * x).collect();
+        y[500] = 1e6;
+        for [x, low, middle, high] in bands(&x, &y, 20) {
+            assert!((middle - 2.0 * x).abs() < 0.1, "{middle} at {x}");
+            assert!(low >= 2.0 * x - 0.6 && high <= 2.0 * x + 0.6, "{low} {high} at {x}");
+        }
+    }
+
+    #[test]
+    fn a_constant_signal_has_no_bands() {
+        assert!(bands(&[1.0; 50], &[0.0; 50], 10).is_empty());
+        assert!(bands(&[], &[], 10).is_empty());
+    }
+}

@@ -1,0 +1,182 @@
+use diagnosis::{JointTraces, RunTraces};
+
+use crate::decimate::{bands, columns};
+use crate::places::JointUnits;
+use crate::{Axis, Chart, Report, Role, Series, Shape};
+
+/// Size of a figure over time and of one of three beside each other (px).
+const WIDE: (f64, f64) = (1040.0, 230.0);
+const NARROW: (f64, f64) = (345.0, 240.0);
+
+/// Length of the stretch that is shown enlarged (s).
+const DETAIL_S: f64 = 8.0;
+
+/// Points that all figures over time may hold together; about ten bytes each.
+const POINTS_IN_ALL: usize = 90_000;
+
+/// Slices of velocity, position or load.
+const SLICES: usize = 40;
+
+/// The figures of one joint.
+pub(crate) struct JointFigures {
+    /// The worst stretch enlarged, if the runs are longer than it, then torque over time
+    /// run by run.
+    pub time: Vec<Chart>,
+    /// What is left against velocity, position and load, over all runs.
+    pub residual: Vec<Chart>,
+}
+
+/// The figures of the joint with this index; those without data are left out.
+pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
+    let Some(name) = report.diagnosis.joints.get(joint).map(|j| j.name.as_str()) else {
+        return JointFigures { time: Vec::new(), residual: Vec::new() };
+    };
+    let units = JointUnits::of(report.robot, name);
+    let curves = 6 * report.traces.len().max(1) * report.diagnosis.joints.len();
+    let width = (POINTS_IN_ALL / curves).clamp(60, 400);
+    let runs: Vec<(&RunTraces, &JointTraces)> =
+        report.traces.iter().filter_map(|run| Some((run, run.joints.get(joint)?))).collect();
+
+    let detail = worst_stretch(&runs).map(|(run, trace, part)| {
+        let title = format!("Torque of {name}, where the nominal model errs most: {}", run.name);
+        over_time(title, units, slice_of(run, trace, part), 400)
+    });
+    let whole = runs.iter().map(|(run, trace)| {
+        let title = format!("Torque of {name}: {}", run.name);
+        over_time(title, units, slice_of(run, trace, 0..run.time.len()), width)
+    });
+    let mut time: Vec<Chart> = detail.into_iter().chain(whole).collect();
+    time.retain(|chart| !chart.is_empty());
+
+    let against: [(&str, &'static str, Signal); 3] = [
+        ("velocity", units.velocity, |t| &t.velocity),
+        ("position", units.position, |t| &t.position),
+        ("nominal torque", units.effort, |t| &t.nominal),
+    ];
+    let residual = against.into_iter().map(|(label, unit, signal)| {
+        let x = Axis { label: label.to_owned(), unit };
+        residual_against(format!("Residual of {name} against {label}"), x, units, &runs, signal)
+    });
+    JointFigures { time, residual: residual.filter(|chart| !chart.is_empty()).collect() }
+}
+
+type Signal = fn(&JointTraces) -> &Vec<f64>;
+
+/// Time and the three torques over a stretch of a run.
+struct Stretch<'a> {
+    time: &'a [f64],
+    torques: [(Role, &'a [f64]); 3],
+}
+
+fn slice_of<'a>(
+    run: &'a RunTraces,
+    trace: &'a JointTraces,
+    part: std::ops::Range<usize>,
+) -> Stretch<'a> {
+    let slice = |values: &'a [f64]| values.get(part.clone()).unwrap_or(&[]);
+    Stretch {
+        time: slice(&run.time),
+        torques: [
+            (Role::Measured, slice(&trace.measured)),
+            (Role::Nominal, slice(&trace.nominal)),
+            (Role::Extended, slice(&trace.extended)),
+        ],
+    }
+}
+
+fn over_time(title: String, units: JointUnits, stretch: Stretch, width: usize) -> Chart {
+    let line = |(role, torque): (Role, &[f64])| {
+        let points: Vec<[f64; 2]> =
+            stretch.time.iter().zip(torque).map(|(&t, &tau)| [t, tau]).collect();
+        Series { role, shape: Shape::Line(columns(&points, width)) }
+    };
+    Chart {
+        title,
+        x: Axis { label: "time".to_owned(), unit: "s" },
+        y: Axis { label: "torque".to_owned(), unit: units.effort },
+        series: stretch.torques.into_iter().map(line).collect(),
+        size: WIDE,
+    }
+}
+
+/// The stretch of [`DETAIL_S`] in which the nominal residual has the most power; none when
+/// no run is twice as long.
+fn worst_stretch<'a>(
+    runs: &[(&'a RunTraces, &'a JointTraces)],
+) -> Option<(&'a RunTraces, &'a JointTraces, std::ops::Range<usize>)> {
+    let mut worst = None;
+    let mut most = 0.0;
+    for &(run, trace) in runs {
+        let (Some(first), Some(last)) = (run.time.first(), run.time.last()) else { continue };
+        if last - first < 2.0 * DETAIL_S {
+            continue;
+        }
+        let length = (DETAIL_S / (last - first) * run.time.len() as f64) as usize;
+        for start in (0..=run.time.len() - length).step_by((length / 2).max(1)) {
+            let part = start..start + length;
+            let power = power_of_residual(trace, part.clone());
+            if power > most {
+                most = power;
+                worst = Some((run, trace, part));
+            }
+        }
+    }
+    worst
+}
+
+fn power_of_residual(trace: &JointTraces, part: std::ops::Range<usize>) -> f64 {
+    let (measured, nominal) = (trace.measured.get(part.clone()), trace.nominal.get(part));
+    let pairs = measured.unwrap_or(&[]).iter().zip(nominal.unwrap_or(&[]));
+    pairs.map(|(m, n)| (m - n).powi(2)).filter(|p| p.is_finite()).sum()
+}
+
+fn residual_against(
+    title: String,
+    x: Axis,
+    units: JointUnits,
+    runs: &[(&RunTraces, &JointTraces)],
+    signal: Signal,
+) -> Chart {
+    let all = |of: Signal| -> Vec<f64> { runs.iter().flat_map(|(_, t)| of(t).clone()).collect() };
+    let (signal, measured) = (all(signal), all(|t| &t.measured));
+    let mut areas = Vec::new();
+    let mut lines = Vec::new();
+    for (role, predicted) in
+        [(Role::Nominal, all(|t| &t.nominal)), (Role::Extended, all(|t| &t.extended))]
+    {
+        let left: Vec<f64> = measured.iter().zip(&predicted).map(|(m, p)| m - p).collect();
+        let bands = bands(&signal, &left, SLICES);
+        let area = bands.iter().map(|&[x, low, _, high]| [x, low, high]).collect();
+        let line = bands.iter().map(|&[x, _, middle, _]| [x, middle]).collect();
+        areas.push(Series { role, shape: Shape::Band(area) });
+        lines.push(Series { role, shape: Shape::Line(line) });
+    }
+    areas.append(&mut lines);
+    let y = Axis { label: "measured − model".to_owned(), unit: units.effort };
+    Chart { title, x, y, series: areas, size: NARROW }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    #[test]
+    fn every_run_and_every_view_has_a_figure_that_keeps_the_spike() {
+        let sample = sample::arm();
+        let figures = figures_of(&sample.report(), 0);
+        assert_eq!(figures.time.len(), 3, "one enlarged, two runs");
+        assert_eq!(figures.residual.len(), 3);
+        let Shape::Line(measured) = &figures.time[1].series[0].shape else { panic!("no line") };
+        let highest = measured.iter().map(|p| p[1]).fold(0.0, f64::max);
+        assert!(highest > 10.0, "{highest}");
+    }
+
+    #[test]
+    fn a_joint_without_traces_has_no_figures() {
+        let mut sample = sample::arm();
+        sample.traces.clear();
+        let figures = figures_of(&sample.report(), 0);
+        assert!(figures.time.is_empty() && figures.residual.is_empty());
+    }
+}

@@ -1,0 +1,181 @@
+use askama::Template;
+use diagnosis::{DataSummary, Diagnosis};
+
+use crate::figures::figures_of;
+use crate::numbers::{percent, significant};
+use crate::places::listed;
+use crate::sentence::{bottom_line, verdict_sentence};
+use crate::tables::{Cause, JointRow, RuledOutRow, cause, class_of, joint_rows, ruled_out};
+use crate::{Chart, Provenance, Report, ReportError, json};
+
+/// Joints whose figures are shown without a click.
+const OPEN_JOINTS: usize = 2;
+
+/// `report.html`: one file that opens offline and without scripts.
+///
+/// # Errors
+///
+/// [`ReportError::Format`].
+pub fn html(report: &Report) -> Result<String, ReportError> {
+    let page = Page::new(report)?;
+    page.render().map_err(|e| ReportError::Format { format: "HTML", reason: e.to_string() })
+}
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    robot: &'a str,
+    class: &'static str,
+    sentence: String,
+    bottom_line: String,
+    warnings: &'a [String],
+    joints: Vec<JointRow>,
+    causes: Vec<Cause>,
+    figures: Vec<JointSection>,
+    left: Vec<Left>,
+    ruled_out: Vec<(String, Vec<RuledOutRow>)>,
+    data: &'a DataSummary,
+    held_out: &'a str,
+    provenance: &'a Provenance,
+    json: String,
+}
+
+/// The figures of one joint.
+struct JointSection {
+    name: String,
+    verdict: &'static str,
+    class: &'static str,
+    is_open: bool,
+    time: Vec<Figure>,
+    residual: Vec<Figure>,
+}
+
+/// A figure that is already drawn.
+struct Figure {
+    title: String,
+    svg: String,
+}
+
+impl From<Chart> for Figure {
+    fn from(chart: Chart) -> Self {
+        Self { svg: chart.svg(), title: chart.title }
+    }
+}
+
+/// Structure left at a joint, as text.
+struct Left {
+    joint: String,
+    share: String,
+    depends_on: String,
+}
+
+impl<'a> Page<'a> {
+    fn new(report: &Report<'a>) -> Result<Self, ReportError> {
+        let diagnosis = report.diagnosis;
+        Ok(Self {
+            robot: &diagnosis.robot,
+            class: class_of(diagnosis.verdict),
+            sentence: verdict_sentence(diagnosis),
+            bottom_line: bottom_line(report),
+            warnings: &diagnosis.warnings,
+            joints: joint_rows(report),
+            causes: diagnosis.findings.iter().map(cause).collect(),
+            figures: sections(report),
+            left: left(diagnosis),
+            ruled_out: ruled_out(report),
+            data: &diagnosis.data,
+            held_out: &diagnosis.gain.inverse.held_out,
+            provenance: report.provenance,
+            json: inert(&json(report)?),
+        })
+    }
+}
+
+fn sections(report: &Report) -> Vec<JointSection> {
+    let sections = report.diagnosis.joints.iter().enumerate().map(|(i, joint)| {
+        let figures = figures_of(report, i);
+        JointSection {
+            name: joint.name.clone(),
+            verdict: joint.verdict.words(),
+            class: class_of(joint.verdict),
+            is_open: i < OPEN_JOINTS,
+            time: figures.time.into_iter().map(Figure::from).collect(),
+            residual: figures.residual.into_iter().map(Figure::from).collect(),
+        }
+    });
+    sections.collect()
+}
+
+fn left(diagnosis: &Diagnosis) -> Vec<Left> {
+    let rows = diagnosis.unexplained.iter().map(|u| {
+        let signals: Vec<String> = u
+            .depends_on
+            .iter()
+            .map(|d| format!("{} (predicts {} of it)", d.signal, percent(d.share)))
+            .collect();
+        Left {
+            joint: u.joint.clone(),
+            share: percent(u.share),
+            depends_on: if signals.is_empty() {
+                "none of the signals in the log".to_owned()
+            } else {
+                listed(&signals)
+            },
+        }
+    });
+    rows.collect()
+}
+
+/// JSON that cannot end the script element that holds it.
+fn inert(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+/// Filters of the template.
+mod filters {
+    use super::significant;
+
+    /// Three significant digits.
+    #[askama::filter_fn]
+    pub fn short(value: &f64, _: &dyn askama::Values) -> askama::Result<String> {
+        Ok(significant(*value, 3))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::sample;
+
+    #[test]
+    fn the_page_is_self_contained_and_holds_the_answer() {
+        let sample = sample::arm();
+        let page = super::html(&sample.report()).unwrap();
+        assert!(!page.contains("http://") && !page.contains("https://"));
+        assert!(page.contains("default-src 'none'") && !page.contains("<script>"));
+        for expected in
+            ["Partly explained:", "Coulomb friction", "2.00 N·m (1.80 to 2.20)", "0.020"]
+        {
+            assert!(page.contains(expected), "{expected} is missing");
+        }
+        assert!(
+            page.contains("&lt;at&gt;") || page.contains("&#60;at&#62;"),
+            "evidence is not escaped"
+        );
+        assert_eq!(page.matches("<svg").count(), 2 * (3 + 3));
+    }
+
+    #[test]
+    fn a_name_cannot_end_the_embedded_json() {
+        let mut sample = sample::arm();
+        sample.diagnosis.robot = "</script><img>".into();
+        let page = super::html(&sample.report()).unwrap();
+        assert_eq!(page.matches("</script>").count(), 1);
+        assert!(!page.contains("<img>"));
+    }
+
+    #[test]
+    fn the_same_input_gives_the_same_bytes() {
+        let (a, b) = (sample::arm(), sample::arm());
+        assert!(super::html(&a.report()).unwrap() == super::html(&b.report()).unwrap());
+    }
+}

@@ -1,0 +1,128 @@
+use diagnosis::{
+    DataSummary, Diagnosis, EffectAt, Estimate, Finding, Gain, JointReport, RuledOut, Unexplained,
+    Verdict,
+};
+use serde::{Serialize, Serializer};
+
+use crate::{Provenance, Report, ReportError};
+
+/// `diagnosis.json`: the diagnosis in the schema [`diagnosis::SCHEMA`], with provenance.
+///
+/// A number that is not finite is `null`.
+///
+/// # Errors
+///
+/// [`ReportError::Format`].
+pub fn json(report: &Report) -> Result<String, ReportError> {
+    let document = Document::new(report.diagnosis, report.provenance);
+    let mut text = serde_json::to_string_pretty(&document)
+        .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// [`Diagnosis`] as it is written: parameters by name, provenance at the end.
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: &'a str,
+    robot: &'a str,
+    verdict: Verdict,
+    joints: &'a [JointReport],
+    findings: Vec<FindingByName<'a>>,
+    unexplained: &'a [Unexplained],
+    ruled_out: &'a [RuledOut],
+    gain: &'a Gain,
+    data: &'a DataSummary,
+    warnings: &'a [String],
+    provenance: &'a Provenance,
+}
+
+#[derive(Serialize)]
+struct FindingByName<'a> {
+    #[serde(flatten)]
+    at: &'a EffectAt,
+    #[serde(serialize_with = "by_name")]
+    parameters: &'a [Estimate],
+    share_explained: f64,
+    q_value: f64,
+    held_out_gain: f64,
+    stability: f64,
+    not_separable_from: &'a [EffectAt],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    told_apart_by: Option<&'a str>,
+    evidence: &'a [String],
+    undetermined: &'a [String],
+}
+
+impl<'a> Document<'a> {
+    fn new(diagnosis: &'a Diagnosis, provenance: &'a Provenance) -> Self {
+        Self {
+            schema: diagnosis.schema,
+            robot: &diagnosis.robot,
+            verdict: diagnosis.verdict,
+            joints: &diagnosis.joints,
+            findings: diagnosis.findings.iter().map(FindingByName::new).collect(),
+            unexplained: &diagnosis.unexplained,
+            ruled_out: &diagnosis.ruled_out,
+            gain: &diagnosis.gain,
+            data: &diagnosis.data,
+            warnings: &diagnosis.warnings,
+            provenance,
+        }
+    }
+}
+
+impl<'a> FindingByName<'a> {
+    fn new(finding: &'a Finding) -> Self {
+        Self {
+            at: &finding.at,
+            parameters: &finding.parameters,
+            share_explained: finding.share_explained,
+            q_value: finding.q_value,
+            held_out_gain: finding.held_out_gain,
+            stability: finding.stability,
+            not_separable_from: &finding.not_separable_from,
+            told_apart_by: finding.told_apart_by,
+            evidence: &finding.evidence,
+            undetermined: &finding.undetermined,
+        }
+    }
+}
+
+/// What stands under the name of a parameter.
+#[derive(Serialize)]
+struct Value<'a> {
+    value: f64,
+    ci95: [f64; 2],
+    nominal: f64,
+    unit: &'a str,
+    determined: bool,
+}
+
+fn by_name<S: Serializer>(parameters: &[Estimate], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(parameters.iter().map(|p| {
+        let &Estimate { name, value, ci95, nominal, unit, determined } = p;
+        (name, Value { value, ci95, nominal, unit, determined })
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::sample;
+
+    #[test]
+    fn parameters_stand_under_their_names_and_not_a_number_is_null() {
+        let mut sample = sample::arm();
+        sample.diagnosis.findings[0].q_value = f64::NAN;
+        let text = super::json(&sample.report()).unwrap();
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["schema"], "plumbline.diagnosis/1");
+        let finding = &value["findings"][0];
+        assert_eq!(finding["effect"], "coulomb_friction");
+        assert_eq!(finding["joint"], "shoulder");
+        assert_eq!(finding["parameters"]["level"]["unit"], "N m");
+        assert_eq!(finding["parameters"]["level"]["ci95"][1], 2.2);
+        assert!(finding["q_value"].is_null());
+        assert!(value["provenance"]["files"][0]["sha256"].is_string());
+    }
+}

@@ -1,0 +1,183 @@
+use catalogue::EffectKind;
+use diagnosis::{EffectAt, Estimate, Finding, NoiseFloorSource, RuledOut, Verdict};
+
+use crate::Report;
+use crate::numbers::{interval, percent, significant, unit};
+use crate::places::{JointUnits, joint_of};
+
+/// One row of the table before and after, as text.
+pub(crate) struct JointRow {
+    pub name: String,
+    pub verdict: &'static str,
+    /// Class of the verdict in the style sheet.
+    pub class: &'static str,
+    pub because: String,
+    pub unit: &'static str,
+    pub torque: String,
+    pub before: String,
+    pub after: String,
+    pub floor: String,
+    pub floor_from: &'static str,
+    pub nmse_before: String,
+    pub nmse_after: String,
+    pub effective_samples: String,
+    /// Error over torque, before, after and at the floor, as lengths of bars (per cent).
+    pub bars: [f64; 3],
+}
+
+/// The rows of the table before and after, in the order of the joints.
+pub(crate) fn joint_rows(report: &Report) -> Vec<JointRow> {
+    let gain = &report.diagnosis.gain.inverse;
+    let at = |values: &[f64], index: usize| values.get(index).copied().unwrap_or(f64::NAN);
+    let rows = report.diagnosis.joints.iter().enumerate().map(|(i, joint)| {
+        let (before, after) = (at(&gain.rms_before_nm, i), at(&gain.rms_after_nm, i));
+        let bar = |rms: f64| length_of_bar(rms / joint.torque_rms_nm);
+        JointRow {
+            name: joint.name.clone(),
+            verdict: joint.verdict.words(),
+            class: class_of(joint.verdict),
+            because: joint.because.clone(),
+            unit: JointUnits::of(report.robot, &joint.name).effort,
+            torque: significant(joint.torque_rms_nm, 3),
+            before: significant(before, 3),
+            after: significant(after, 3),
+            floor: significant(joint.noise_floor_rms_nm, 3),
+            floor_from: words_for_floor(joint.noise_floor_from),
+            nmse_before: significant(at(&gain.nmse_before, i), 2),
+            nmse_after: significant(at(&gain.nmse_after, i), 2),
+            effective_samples: significant(joint.effective_samples, 3),
+            bars: [bar(before), bar(after), bar(joint.noise_floor_rms_nm)],
+        }
+    });
+    rows.collect()
+}
+
+fn length_of_bar(share: f64) -> f64 {
+    if share.is_finite() { (1000.0 * share.clamp(0.0, 1.0)).round() / 10.0 } else { 0.0 }
+}
+
+/// Class of a verdict in the style sheet.
+pub(crate) fn class_of(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Consistent | Verdict::Explained => "good",
+        Verdict::PartlyExplained => "part",
+        Verdict::Unexplained => "bad",
+        Verdict::DataInadequate => "none",
+    }
+}
+
+fn words_for_floor(source: NoiseFloorSource) -> &'static str {
+    match source {
+        NoiseFloorSource::Repeats => "from runs that repeat a motion",
+        NoiseFloorSource::HighFrequencyBand => "from the spectrum above the motion",
+        NoiseFloorSource::FlexiblePredictor => "from a flexible predictor of the state",
+    }
+}
+
+/// A finding as text.
+pub(crate) struct Cause {
+    pub effect: &'static str,
+    pub place: String,
+    pub equation: &'static str,
+    pub signature: &'static str,
+    pub parameters: Vec<ParameterRow>,
+    pub share: String,
+    pub share_bar: f64,
+    pub gain: String,
+    pub q_value: String,
+    pub stability: String,
+    pub rivals: Vec<String>,
+    pub told_apart_by: Option<&'static str>,
+    pub evidence: Vec<String>,
+    pub undetermined: Vec<String>,
+}
+
+/// A parameter as text.
+pub(crate) struct ParameterRow {
+    pub name: String,
+    pub meaning: &'static str,
+    pub value: String,
+    pub nominal: String,
+    pub determined: bool,
+}
+
+/// A finding as text.
+pub(crate) fn cause(finding: &Finding) -> Cause {
+    let entry = finding.at.effect.entry();
+    Cause {
+        effect: finding.at.effect.words(),
+        place: place(&finding.at),
+        equation: entry.equation,
+        signature: entry.signature,
+        parameters: finding
+            .parameters
+            .iter()
+            .map(|p| parameter_row(p, finding.at.effect))
+            .collect(),
+        share: percent(finding.share_explained),
+        share_bar: length_of_bar(finding.share_explained),
+        gain: percent(finding.held_out_gain),
+        q_value: significant(finding.q_value, 2),
+        stability: percent(finding.stability),
+        rivals: finding.not_separable_from.iter().map(EffectAt::words).collect(),
+        told_apart_by: finding.told_apart_by,
+        evidence: finding.evidence.clone(),
+        undetermined: finding.undetermined.clone(),
+    }
+}
+
+fn place(at: &EffectAt) -> String {
+    match (&at.joint, &at.link) {
+        (Some(joint), _) => format!("joint {joint}"),
+        (None, Some(link)) => format!("link {link}"),
+        (None, None) => "the whole robot".to_owned(),
+    }
+}
+
+fn parameter_row(estimate: &Estimate, kind: EffectKind) -> ParameterRow {
+    let entry = kind.entry();
+    let known = entry.parameters.iter().find(|p| p.name == estimate.name);
+    let unit = unit(estimate.unit);
+    let space = if unit.is_empty() { "" } else { " " };
+    ParameterRow {
+        name: estimate.name.replace('_', " "),
+        meaning: known.map_or("", |p| p.meaning),
+        value: interval(estimate),
+        nominal: format!("{}{space}{unit}", significant(estimate.nominal, 3)),
+        determined: estimate.determined,
+    }
+}
+
+/// An effect that was looked for and not found, as text.
+pub(crate) struct RuledOutRow {
+    pub effect: String,
+    pub smallest: String,
+    pub because: String,
+}
+
+/// What was ruled out, joint by joint; the first name is that of the whole robot.
+pub(crate) fn ruled_out(report: &Report) -> Vec<(String, Vec<RuledOutRow>)> {
+    let places = std::iter::once(None).chain((0..report.diagnosis.joints.len()).map(Some));
+    let groups = places.map(|place| {
+        let name = place.and_then(|i| report.diagnosis.joints.get(i)).map(|j| j.name.clone());
+        let here = report.diagnosis.ruled_out.iter().filter(|r| joint_of(report, &r.at) == place);
+        (name.unwrap_or_else(|| "whole robot".to_owned()), here.map(ruled_out_row).collect())
+    });
+    groups.filter(|(_, rows): &(String, Vec<RuledOutRow>)| !rows.is_empty()).collect()
+}
+
+fn ruled_out_row(ruled_out: &RuledOut) -> RuledOutRow {
+    let link = ruled_out.at.link.as_ref().map(|l| format!(" of {l}")).unwrap_or_default();
+    let smallest = match ruled_out.smallest_detectable {
+        Some(size) => {
+            let parameter = ruled_out.parameter.replace('_', " ");
+            format!("{parameter} {} {}", significant(size, 2), unit(ruled_out.unit))
+        }
+        None => "these logs cannot show any".to_owned(),
+    };
+    RuledOutRow {
+        effect: format!("{}{link}", ruled_out.at.effect.words()),
+        smallest: smallest.trim_end().to_owned(),
+        because: ruled_out.because.clone(),
+    }
+}
