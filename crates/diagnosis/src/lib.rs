@@ -1,10 +1,49 @@
 //! From logs to named causes with honest uncertainty, and the robot extended by them.
+//!
+//! ```text
+//! effort - nominal effort = sum over hypotheses of columns weights + structure + noise
+//! ```
+//!
+//! [`diagnose`] decides which hypotheses earn their place, how large they are, what they
+//! cannot be told apart from and what is left over.
 
+mod blocks;
+mod design;
+mod diagnose;
+mod error;
+mod evaluate;
+mod extend;
+mod extent;
+mod findings;
+mod fit;
+mod flip_test;
+mod floor;
+mod gain;
+mod gram;
+mod noise;
+mod problem;
+mod progress;
 mod result;
+mod rivals;
+mod ruled_out;
+mod search;
+mod select;
+mod settings;
+mod settle;
+mod significance;
+mod stability;
+mod structure;
+mod study;
 mod traces;
+mod uncertainty;
+mod verdict;
 
+pub use diagnose::{Outcome, diagnose};
+pub use error::DiagnosisError;
+pub use progress::{Progress, Silent};
 pub use result::{
     DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
     JointReport, NoiseFloorSource, RuledOut, RunSummary, SCHEMA, Unexplained, Verdict,
 };
+pub use settings::Settings;
 pub use traces::{JointTraces, RunTraces};

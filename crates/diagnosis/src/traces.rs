@@ -1,3 +1,6 @@
+use crate::design::{Design, JointDesign, RunDesign};
+use crate::problem::Problem;
+
 /// Signals behind a diagnosis, for figures: one run, on the regression's clock.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunTraces {
@@ -22,4 +25,28 @@ pub struct JointTraces {
     pub nominal: Vec<f64>,
     /// Effort of the extended model, fitted without this run or block.
     pub extended: Vec<f64>,
+}
+
+/// The signals of every run; `weights` are those found without each fold of `problem`.
+pub(crate) fn traces(design: &Design, problem: &Problem, weights: &[Vec<f64>]) -> Vec<RunTraces> {
+    let residuals = problem.held_out_residuals(|f| weights[f].clone());
+    let run = |(r, run): (usize, &RunDesign)| RunTraces {
+        name: run.name.clone(),
+        time: run.time.clone(),
+        joints: run.joints.iter().zip(&residuals).map(|(j, left)| joint(j, left.get(r))).collect(),
+    };
+    design.runs.iter().enumerate().map(run).collect()
+}
+
+fn joint(design: &JointDesign, left: Option<&Vec<f64>>) -> JointTraces {
+    let [position, velocity, _] = design.state.clone();
+    let left = left.into_iter().flatten();
+    let extended = design.measured.iter().zip(left).map(|(m, l)| m - l).collect();
+    JointTraces {
+        position,
+        velocity,
+        measured: design.measured.clone(),
+        nominal: design.nominal.clone(),
+        extended,
+    }
 }

@@ -1,0 +1,160 @@
+use effects::{Frame, Hypothesis, Scale, hypotheses};
+use logs::{LogError, Prepared};
+use nalgebra::{DMatrix, DVector};
+use robot::Robot;
+
+use crate::evaluate::Evaluated;
+use crate::extent::{frame, scale};
+
+/// A hypothesis and its columns in the design.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Group {
+    /// The hypothesis.
+    pub hypothesis: Hypothesis,
+    /// Indices of its columns; two hypotheses may share a column.
+    pub columns: Vec<usize>,
+    /// Joints that its columns reach.
+    pub joints: Vec<usize>,
+}
+
+/// The regression problem of all runs: which columns reach which joint, and their values.
+#[derive(Debug, Clone)]
+pub(crate) struct Design {
+    /// The hypotheses.
+    pub groups: Vec<Group>,
+    /// Number of columns.
+    pub width: usize,
+    /// Standard deviation of each weight before any data.
+    pub prior: Vec<f64>,
+    /// The columns that reach each joint, in order.
+    pub local: Vec<Vec<usize>>,
+    /// One entry a run.
+    pub runs: Vec<RunDesign>,
+    /// Rate of the samples (Hz).
+    pub rate_hz: f64,
+    /// What the columns were made in.
+    pub frame: Frame,
+    /// Joints that moved; the rows of others take no part.
+    pub moved: Vec<bool>,
+}
+
+/// One run of a [`Design`].
+#[derive(Debug, Clone)]
+pub(crate) struct RunDesign {
+    /// Name of the run.
+    pub name: String,
+    /// Time (s).
+    pub time: Vec<f64>,
+    /// One entry a joint.
+    pub joints: Vec<JointDesign>,
+}
+
+/// One joint of a [`RunDesign`], all signals low-passed alike.
+#[derive(Debug, Clone)]
+pub(crate) struct JointDesign {
+    /// Samples by local columns.
+    pub x: DMatrix<f64>,
+    /// Measured effort (N·m or N).
+    pub measured: Vec<f64>,
+    /// Nominal effort (N·m or N).
+    pub nominal: Vec<f64>,
+    /// Position, velocity and acceleration.
+    pub state: [Vec<f64>; 3],
+}
+
+impl JointDesign {
+    /// Measured minus nominal effort (N·m or N).
+    pub fn residual(&self) -> impl Iterator<Item = f64> + '_ {
+        self.measured.iter().zip(&self.nominal).map(|(m, n)| m - n)
+    }
+}
+
+impl Design {
+    /// Evaluates every hypothesis about `robot` along the prepared runs.
+    pub fn new(robot: &Robot, prepared: &Prepared, moved: &[bool]) -> Result<Self, LogError> {
+        let frame = frame(prepared);
+        let scale = scale(robot, prepared);
+        let relevant = |h: &Hypothesis| h.joint().is_none_or(|j| moved[j]);
+        let hypotheses: Vec<_> = hypotheses(robot).into_iter().filter(relevant).collect();
+        let evaluated: Vec<Evaluated> = prepared
+            .runs
+            .iter()
+            .map(|run| Evaluated::new(robot, &frame, run, prepared.cutoff_hz, &hypotheses))
+            .collect::<Result<_, _>>()?;
+        let mut design = Self {
+            groups: Vec::new(),
+            width: 0,
+            prior: Vec::new(),
+            local: vec![Vec::new(); robot.joint_count()],
+            runs: Vec::new(),
+            rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
+            frame,
+            moved: moved.to_vec(),
+        };
+        let origins = design.lay_out(robot, &hypotheses, &scale, &evaluated);
+        design.runs = evaluated.iter().map(|e| e.to_run(&design.local, &origins)).collect();
+        Ok(design)
+    }
+
+    /// Gives every distinct column an index and every hypothesis its columns; returns the
+    /// hypothesis and weight that each column comes from.
+    fn lay_out(
+        &mut self,
+        robot: &Robot,
+        hypotheses: &[Hypothesis],
+        scale: &Scale,
+        runs: &[Evaluated],
+    ) -> Vec<(usize, usize)> {
+        let mut origins: Vec<(usize, usize)> = Vec::new();
+        for (h, &hypothesis) in hypotheses.iter().enumerate() {
+            let prior = hypothesis.prior(robot, scale);
+            let mut group = Group { hypothesis, columns: Vec::new(), joints: Vec::new() };
+            for (k, &sd) in prior.iter().enumerate() {
+                let reached =
+                    || runs.iter().take(1).flat_map(|r| &r.columns[h][k]).map(|p| p.joint);
+                let same = |&(a, b): &(usize, usize)| {
+                    runs.iter().all(|r| r.columns[a][b] == r.columns[h][k])
+                };
+                let index = origins.iter().position(same).unwrap_or(origins.len());
+                if index == origins.len() {
+                    origins.push((h, k));
+                    self.prior.push(sd);
+                    reached().for_each(|j| self.local[j].push(index));
+                }
+                group.columns.push(index);
+                group.joints.extend(reached().filter(|&j| self.moved[j]));
+            }
+            group.joints.sort_unstable();
+            group.joints.dedup();
+            // What reaches no joint that moved, or has no prior spread, cannot be tested.
+            if !group.joints.is_empty() && prior.iter().all(|&sd| sd > 0.0) {
+                self.groups.push(group);
+            }
+        }
+        self.width = origins.len();
+        origins
+    }
+
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.local.len()
+    }
+
+    /// Weights of all columns in the local order of joint `j`.
+    pub fn local_weights(&self, j: usize, weights: &[f64]) -> Vec<f64> {
+        self.local[j].iter().map(|&c| weights[c]).collect()
+    }
+
+    /// Residual of run `r` at joint `j` after the columns with `weights` (N·m or N).
+    pub fn remaining(&self, r: usize, j: usize, weights: &[f64]) -> Vec<f64> {
+        let joint = &self.runs[r].joints[j];
+        let w = DVector::from_vec(self.local_weights(j, weights));
+        let explained = &joint.x * w;
+        joint.residual().zip(explained.iter()).map(|(y, e)| y - e).collect()
+    }
+
+    /// Index of the hypothesis `h` among the groups.
+    pub fn find(&self, h: Hypothesis) -> Option<usize> {
+        self.groups.iter().position(|g| g.hypothesis == h)
+    }
+}

@@ -1,0 +1,135 @@
+use effects::Hypothesis;
+use robot::Robot;
+
+use crate::problem::{HeldOut, Model};
+use crate::result::{EffectAt, Finding};
+use crate::rivals::rivals;
+use crate::select::Selection;
+use crate::significance::Significance;
+use crate::stability::stability;
+use crate::uncertainty::Uncertainty;
+
+/// A finding together with what the verdict of each joint needs to know of it.
+#[derive(Debug, Clone)]
+pub(crate) struct Found {
+    pub finding: Finding,
+    /// Fall of the held-out mean square of every joint when it is added to the others.
+    pub fall: Vec<f64>,
+}
+
+/// What the findings are made from.
+#[derive(Debug)]
+pub(crate) struct Evidence<'a> {
+    pub selection: &'a Selection<'a>,
+    pub model: &'a Model,
+    pub significance: &'a Significance,
+    /// Weights that made the extended robot.
+    pub weights: &'a [f64],
+    pub seed: u64,
+}
+
+impl Evidence<'_> {
+    /// Every hypothesis of the model as a finding, the largest share first.
+    pub fn findings(&self) -> Vec<Found> {
+        let problem = self.selection.problem;
+        let Some(fit) = problem.fit(self.model) else { return Vec::new() };
+        let uncertainty = Uncertainty::new(problem, &fit, self.weights);
+        let with = problem.held_out(self.model);
+        let nominal = problem.held_out(&Model::new());
+        let stable = stability(problem, self.model, self.seed);
+        let mut found: Vec<Found> = stable
+            .into_iter()
+            .map(|(g, stability)| {
+                let mut without = self.model.clone();
+                without.remove(&g);
+                let bare = problem.held_out(&without);
+                let fall: Vec<f64> =
+                    bare.mean_square.iter().zip(&with.mean_square).map(|(b, w)| b - w).collect();
+                let mut finding = self.finding(g, &uncertainty, [&nominal, &bare, &with]);
+                finding.stability = stability;
+                let loss = problem.fit(&without).map_or(0.0, |f| fit.evidence - f.evidence);
+                finding.evidence = self.evidence(g, loss, &bare, &with);
+                Found { finding, fall }
+            })
+            .collect();
+        found.sort_by(|a, b| b.finding.share_explained.total_cmp(&a.finding.share_explained));
+        found
+    }
+
+    fn finding(
+        &self,
+        g: usize,
+        uncertainty: &Uncertainty,
+        [nominal, bare, with]: [&HeldOut; 3],
+    ) -> Finding {
+        let (problem, robot) = (self.selection.problem, self.selection.robot);
+        let group = &problem.design.groups[g];
+        let over = |of: &HeldOut| group.joints.iter().map(|&j| of.mean_square[j]).sum::<f64>();
+        let (before, without, after) = (over(nominal), over(bare), over(with));
+        let share = |whole: f64| {
+            if whole > 0.0 { ((without - after) / whole).clamp(0.0, 1.0) } else { 0.0 }
+        };
+        let rivals = rivals(self.selection, self.model, g);
+        let (wide, all) = uncertainty.undetermined(problem, g);
+        Finding {
+            at: effect_at(robot, group.hypothesis),
+            parameters: uncertainty.estimates(problem, self.model, g, (robot, self.weights)),
+            share_explained: share(before),
+            q_value: self.significance.q[g].unwrap_or(1.0),
+            held_out_gain: share(without),
+            stability: 0.0,
+            told_apart_by: (!rivals.is_empty())
+                .then(|| group.hypothesis.kind.entry().told_apart_by),
+            not_separable_from: rivals
+                .iter()
+                .map(|&h| effect_at(robot, problem.design.groups[h].hypothesis))
+                .collect(),
+            evidence: Vec::new(),
+            undetermined: undetermined(group.hypothesis, wide, all),
+        }
+    }
+
+    fn evidence(&self, g: usize, loss: f64, bare: &HeldOut, with: &HeldOut) -> Vec<String> {
+        let (problem, robot) = (self.selection.problem, self.selection.robot);
+        let joints = &problem.design.groups[g].joints;
+        let fall = |j: usize| bare.mean_square[j] - with.mean_square[j];
+        let largest = joints.iter().copied().max_by(|&a, &b| {
+            let relative = |j: usize| fall(j) / bare.mean_square[j].max(f64::MIN_POSITIVE);
+            relative(a).total_cmp(&relative(b))
+        });
+        let mut evidence = Vec::new();
+        if let Some(j) = largest {
+            evidence.push(format!(
+                "without it the held-out error at {} is {:.3} instead of {:.3} N m RMS",
+                robot.links()[j].joint.name,
+                bare.mean_square[j].sqrt(),
+                with.mean_square[j].sqrt()
+            ));
+        }
+        evidence.push(format!("log evidence {loss:.0} higher with it than without"));
+        if let Some(p) = self.significance.p[g] {
+            evidence
+                .push(format!("p = {p:.4} in the sign-flip test over {} blocks", problem.of.len()));
+        }
+        evidence
+    }
+}
+
+fn undetermined(hypothesis: Hypothesis, wide: usize, all: usize) -> Vec<String> {
+    if wide == 0 || hypothesis.link().is_none() {
+        return Vec::new();
+    }
+    vec![format!(
+        "{wide} of {all} directions of its inertial parameters are not determined by these logs and stay at the nominal values"
+    )]
+}
+
+/// An effect and its place by name.
+pub(crate) fn effect_at(robot: &Robot, hypothesis: Hypothesis) -> EffectAt {
+    let link = |i: usize| robot.links().get(i);
+    EffectAt {
+        effect: hypothesis.kind,
+        joint: hypothesis.joint().and_then(link).map(|l| l.joint.name.clone()),
+        link: hypothesis.link().and_then(link).map(|l| l.name.clone()),
+    }
+}

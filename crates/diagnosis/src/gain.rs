@@ -1,0 +1,96 @@
+use rayon::prelude::*;
+
+use crate::problem::Problem;
+use crate::progress::Progress;
+use crate::result::{FoldGain, InverseGain};
+use crate::search::Record;
+use crate::settle::settle;
+
+/// Torque prediction on parts of the record that took no part in selection or fit.
+#[derive(Debug, Clone)]
+pub(crate) struct HeldOutGain {
+    /// For the user.
+    pub inverse: InverseGain,
+    /// Weights selected and fitted without each fold of the whole record's problem.
+    pub weights: Vec<Vec<f64>>,
+}
+
+impl HeldOutGain {
+    /// Searches anew without each fold and predicts that fold.
+    pub fn new(record: &Record, whole: &Problem, progress: &dyn Progress) -> Self {
+        progress.stage("testing on held-out data", whole.folds.len());
+        let weights: Vec<Vec<f64>> = whole
+            .folds
+            .par_iter()
+            .map(|fold| {
+                let (problem, model) = record.search(&fold.train);
+                let weights = settle(&problem, &model, &problem.info, record.robot);
+                progress.step();
+                weights
+            })
+            .collect();
+        Self { inverse: inverse(record, whole, &weights), weights }
+    }
+}
+
+fn inverse(record: &Record, whole: &Problem, weights: &[Vec<f64>]) -> InverseGain {
+    let joints = record.design.joints();
+    let nothing = vec![0.0; record.design.width];
+    let rms = |blocks: &[usize], w: &[f64]| -> Vec<f64> {
+        let of = |j| {
+            let (sum, n) = record.grams.remaining(j, blocks, w);
+            (sum / n.max(1) as f64).sqrt()
+        };
+        (0..joints).map(of).collect()
+    };
+    let fold = |(f, fold): (usize, &crate::blocks::Fold)| FoldGain {
+        name: fold.name.clone(),
+        torque_rms_nm: (0..joints).map(|j| measured(record, &fold.test, j).0).collect(),
+        rms_before_nm: rms(&fold.test, &nothing),
+        rms_after_nm: rms(&fold.test, &weights[f]),
+    };
+    let folds: Vec<FoldGain> = whole.folds.iter().enumerate().map(fold).collect();
+    let after = whole.held_out_with(|f| weights[f].clone()).mean_square;
+    let before = whole.held_out_with(|_| nothing.clone()).mean_square;
+    let nmse = |mean_square: &[f64]| {
+        (0..joints).map(|j| mean_square[j] / measured(record, &whole.of, j).1).collect()
+    };
+    InverseGain {
+        nmse_before: nmse(&before),
+        nmse_after: nmse(&after),
+        rms_before_nm: before.iter().map(|v| v.sqrt()).collect(),
+        rms_after_nm: after.iter().map(|v| v.sqrt()).collect(),
+        held_out: held_out(whole),
+        folds,
+    }
+}
+
+fn held_out(whole: &Problem) -> String {
+    let runs = whole.design.runs.len();
+    let count = whole.folds.len();
+    if runs == 1 {
+        format!(
+            "each of {count} parts of the run in turn, with a gap on either side; causes and sizes found on the others"
+        )
+    } else if count == runs {
+        "each run in turn; causes and sizes found on the others".to_owned()
+    } else {
+        format!("each of {count} groups of runs in turn; causes and sizes found on the others")
+    }
+}
+
+/// RMS and variance of the measured effort of joint `j` over some blocks.
+pub(crate) fn measured(record: &Record, blocks: &[usize], j: usize) -> (f64, f64) {
+    let (mut n, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    for &b in blocks {
+        let block = &record.blocks[b];
+        for v in &record.design.runs[block.run].joints[j].measured[block.samples.clone()] {
+            n += 1.0;
+            sum += v;
+            squares += v * v;
+        }
+    }
+    let count = f64::max(n, 1.0);
+    let mean = sum / count;
+    ((squares / count).sqrt(), (squares / count - mean * mean).max(0.0))
+}

@@ -1,0 +1,163 @@
+use std::collections::BTreeSet;
+
+use crate::blocks::{Block, Fold, folds};
+use crate::design::Design;
+use crate::fit::Fit;
+use crate::gram::{Grams, Information};
+use crate::noise::Noise;
+
+/// A set of hypotheses, by index of their groups.
+pub(crate) type Model = BTreeSet<usize>;
+
+/// The regression problem on a part of the record: what selection, tests and fits work on.
+#[derive(Debug, Clone)]
+pub(crate) struct Problem<'a> {
+    pub design: &'a Design,
+    pub blocks: &'a [Block],
+    pub grams: &'a Grams,
+    /// The blocks that take part.
+    pub of: Vec<usize>,
+    /// How they are held out in turn.
+    pub folds: Vec<Fold>,
+    /// Weight of each joint's squared residuals.
+    pub weight: Vec<f64>,
+    /// Normal equations of all blocks.
+    pub info: Information,
+    /// Normal equations of each fold's training blocks.
+    pub training: Vec<Information>,
+}
+
+/// Squared held-out residuals of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct HeldOut {
+    /// Mean square at each joint.
+    pub mean_square: Vec<f64>,
+    /// Weighted sum of squares of each block of the problem.
+    pub deviance: Vec<f64>,
+}
+
+impl HeldOut {
+    /// Weighted sum of squares of all blocks.
+    pub fn total(&self) -> f64 {
+        self.deviance.iter().sum()
+    }
+}
+
+impl<'a> Problem<'a> {
+    /// The problem on the blocks `of`, with joints weighted as `weight` says.
+    pub fn new(
+        design: &'a Design,
+        blocks: &'a [Block],
+        grams: &'a Grams,
+        of: &[usize],
+        weight: Vec<f64>,
+    ) -> Self {
+        let names: Vec<String> = design.runs.iter().map(|r| r.name.clone()).collect();
+        let folds = folds(blocks, of, &names);
+        let info = grams.information(of, &weight);
+        let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
+        Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training }
+    }
+
+    /// The same problem with other weights.
+    pub fn reweighted(&self, weight: Vec<f64>) -> Self {
+        Self::new(self.design, self.blocks, self.grams, &self.of, weight)
+    }
+
+    /// The columns of a model, in increasing order.
+    pub fn columns(&self, model: &Model) -> Vec<usize> {
+        let all: BTreeSet<usize> =
+            model.iter().flat_map(|&g| self.design.groups[g].columns.iter().copied()).collect();
+        all.into_iter().collect()
+    }
+
+    /// The columns of `group` that `model` does not have.
+    pub fn new_columns(&self, model: &Model, group: usize) -> Vec<usize> {
+        let have = self.columns(model);
+        let of_group = &self.design.groups[group].columns;
+        of_group.iter().copied().filter(|k| have.binary_search(k).is_err()).collect()
+    }
+
+    /// The fit of a model to all blocks.
+    pub fn fit(&self, model: &Model) -> Option<Fit> {
+        Fit::new(&self.info, self.columns(model), &self.design.prior)
+    }
+
+    /// All weights of a model fitted to the training blocks of fold `fold`.
+    pub fn fold_weights(&self, model: &Model, fold: usize) -> Vec<f64> {
+        let fit = Fit::new(&self.training[fold], self.columns(model), &self.design.prior);
+        fit.map_or_else(|| vec![0.0; self.design.width], |f| f.expand(self.design.width))
+    }
+
+    /// What a model leaves on the blocks that its weights have not seen.
+    pub fn held_out(&self, model: &Model) -> HeldOut {
+        self.held_out_with(|fold| self.fold_weights(model, fold))
+    }
+
+    /// What the weights of each fold leave on that fold's test blocks.
+    pub fn held_out_with(&self, weights: impl Fn(usize) -> Vec<f64>) -> HeldOut {
+        let joints = self.design.joints();
+        let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
+        let mut deviance = vec![0.0; self.blocks.len()];
+        for (f, fold) in self.folds.iter().enumerate() {
+            let w = weights(f);
+            for &b in &fold.test {
+                for j in 0..joints {
+                    let (sum, n) = self.grams.remaining(j, &[b], &w);
+                    squares[j] += sum;
+                    counts[j] += n;
+                    deviance[b] += self.weight[j] * sum;
+                }
+            }
+        }
+        let mean = |(s, &n): (&f64, &usize)| s / n.max(1) as f64;
+        HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
+    }
+
+    /// Held-out residuals, `[joint][stretch][sample]`, with the weights of each fold.
+    pub fn held_out_residuals(&self, weights: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<Vec<f64>>> {
+        let joints = self.design.joints();
+        let mut by_block: Vec<Option<Vec<Vec<f64>>>> = vec![None; self.blocks.len()];
+        for (f, fold) in self.folds.iter().enumerate() {
+            let w = weights(f);
+            for (r, _) in self.design.runs.iter().enumerate() {
+                let here: Vec<usize> =
+                    fold.test.iter().copied().filter(|&b| self.blocks[b].run == r).collect();
+                if here.is_empty() {
+                    continue;
+                }
+                let all: Vec<_> = (0..joints).map(|j| self.design.remaining(r, j, &w)).collect();
+                for b in here {
+                    let cut = |x: &Vec<f64>| x[self.blocks[b].samples.clone()].to_vec();
+                    by_block[b] = Some(all.iter().map(cut).collect());
+                }
+            }
+        }
+        let mut stretches = vec![Vec::new(); joints];
+        for run in 0..self.design.runs.len() {
+            let mut run_stretch = vec![Vec::new(); joints];
+            for (b, block) in self.blocks.iter().enumerate().filter(|(_, b)| b.run == run) {
+                debug_assert_eq!(block.run, run);
+                for (j, part) in by_block[b].take().into_iter().flatten().enumerate() {
+                    run_stretch[j].extend(part);
+                }
+            }
+            for (all, one) in stretches.iter_mut().zip(run_stretch) {
+                if !one.is_empty() {
+                    all.push(one);
+                }
+            }
+        }
+        stretches
+    }
+
+    /// The noise that a model leaves on held-out blocks.
+    pub fn noise(&self, model: &Model) -> Noise {
+        Noise::of(&self.held_out_residuals(|fold| self.fold_weights(model, fold)))
+    }
+
+    /// The model of every hypothesis at once.
+    pub fn everything(&self) -> Model {
+        (0..self.design.groups.len()).collect()
+    }
+}

@@ -1,0 +1,58 @@
+use robot::Robot;
+
+use crate::blocks::Block;
+use crate::design::Design;
+use crate::gram::Grams;
+use crate::noise::Noise;
+use crate::problem::{Model, Problem};
+use crate::select::Selection;
+
+/// What every search on a record shares.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Record<'a> {
+    pub robot: &'a Robot,
+    pub design: &'a Design,
+    pub blocks: &'a [Block],
+    pub grams: &'a Grams,
+    /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
+    pub practical: &'a [f64],
+}
+
+impl<'a> Record<'a> {
+    /// The problem on the blocks `of`, weighted by the noise that all hypotheses together
+    /// leave on held-out blocks.
+    pub fn problem(&self, of: &[usize]) -> Problem<'a> {
+        let nothing = |j: usize| {
+            let all = self.grams.joint(j, of);
+            all.yy / all.count.max(1) as f64
+        };
+        let joints = self.design.joints();
+        let start = Noise {
+            variance: (0..joints).map(nothing).collect(),
+            time: vec![1.0; joints],
+            samples: 0,
+        };
+        let weight = start.weights(&self.design.moved);
+        let rough = Problem::new(self.design, self.blocks, self.grams, of, weight);
+        let mut noise = rough.noise(&rough.everything());
+        // A model of everything may predict worse than none where it extrapolates.
+        noise.variance.iter_mut().zip(&start.variance).for_each(|(v, s)| *v = v.min(*s));
+        rough.reweighted(noise.weights(&self.design.moved))
+    }
+
+    /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by
+    /// the noise that they leave.
+    pub fn search(&self, of: &[usize]) -> (Problem<'a>, Model) {
+        let problem = self.problem(of);
+        let first = self.selection(&problem).run(Model::new());
+        let weight = problem.noise(&first).weights(&self.design.moved);
+        let problem = problem.reweighted(weight);
+        let model = self.selection(&problem).run(first);
+        (problem, model)
+    }
+
+    /// A selection on `problem` with the record's gates.
+    pub fn selection<'b>(&'b self, problem: &'b Problem<'b>) -> Selection<'b> {
+        Selection { problem, robot: self.robot, practical: self.practical.to_vec() }
+    }
+}

@@ -1,0 +1,169 @@
+use std::cmp::Ordering;
+
+use robot::Robot;
+
+use crate::fit::Fit;
+use crate::problem::{HeldOut, Model, Problem};
+
+/// Least gain in log evidence for a hypothesis to enter or stay: odds of 20 to 1.
+const LEAST_EVIDENCE: f64 = 3.0;
+
+/// Rounds of entering, exchanging and leaving before the search is called settled.
+const ROUNDS: usize = 4;
+
+/// Finds the hypotheses that earn their place.
+///
+/// Forward by evidence, each entrant gated by physics and by what it buys on held-out
+/// blocks; then exchange with hypotheses outside, then backward; until nothing changes.
+#[derive(Debug)]
+pub(crate) struct Selection<'a> {
+    pub problem: &'a Problem<'a>,
+    pub robot: &'a Robot,
+    /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
+    pub practical: Vec<f64>,
+}
+
+impl Selection<'_> {
+    /// The model reached from `start`.
+    pub fn run(&self, start: Model) -> Model {
+        let mut model = start;
+        for _ in 0..ROUNDS {
+            let before = model.clone();
+            self.forward(&mut model);
+            self.exchange(&mut model);
+            self.backward(&mut model);
+            if model == before {
+                break;
+            }
+        }
+        model
+    }
+
+    fn forward(&self, model: &mut Model) {
+        while let Some(fit) = self.problem.fit(model) {
+            let held_out = self.problem.held_out(model);
+            let entrant = self.ranked(model, &fit).into_iter().find(|&g| {
+                let mut larger = model.clone();
+                larger.insert(g);
+                self.is_possible(&larger, g) && self.pays(&held_out, &larger, g)
+            });
+            let Some(entrant) = entrant else { break };
+            model.insert(entrant);
+        }
+    }
+
+    /// Hypotheses outside the model with enough evidence, the most evident first.
+    fn ranked(&self, model: &Model, fit: &Fit) -> Vec<usize> {
+        let gain = |g: usize| {
+            let columns = self.problem.new_columns(model, g);
+            let prior = &self.problem.design.prior;
+            if columns.is_empty() || self.is_excluded(model, g) {
+                f64::NEG_INFINITY
+            } else {
+                fit.evidence_of(&self.problem.info, &columns, prior)
+            }
+        };
+        let all = 0..self.problem.design.groups.len();
+        let mut ranked: Vec<(usize, f64)> =
+            all.filter(|g| !model.contains(g)).map(|g| (g, gain(g))).collect();
+        ranked.retain(|(_, gain)| *gain > LEAST_EVIDENCE);
+        ranked.sort_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(Ordering::Equal));
+        ranked.into_iter().map(|(g, _)| g).collect()
+    }
+
+    /// Whether the model already holds another name for the same change, unless `g` says
+    /// more than that other (asymmetric friction holds Coulomb friction).
+    fn is_excluded(&self, model: &Model, g: usize) -> bool {
+        let groups = &self.problem.design.groups;
+        model.iter().any(|&m| {
+            groups[m].hypothesis.excludes(groups[g].hypothesis)
+                && groups[g].columns.len() <= groups[m].columns.len()
+        })
+    }
+
+    /// Whether the fitted weights of `g` are physically possible.
+    pub fn is_possible(&self, model: &Model, g: usize) -> bool {
+        let Some(fit) = self.problem.fit(model) else { return false };
+        let all = fit.expand(self.problem.design.width);
+        self.admits(&all, g)
+    }
+
+    fn admits(&self, weights: &[f64], g: usize) -> bool {
+        let group = &self.problem.design.groups[g];
+        let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
+        group.hypothesis.admissible(self.robot, &own)
+    }
+
+    /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`.
+    fn pays(&self, before: &HeldOut, larger: &Model, g: usize) -> bool {
+        let after = self.problem.held_out(larger);
+        let fall = |&j: &usize| before.mean_square[j] - after.mean_square[j];
+        let enough = |j: &usize| fall(j) > self.practical[*j].powi(2);
+        after.total() < before.total() && self.problem.design.groups[g].joints.iter().any(enough)
+    }
+
+    /// Replaces a hypothesis by one outside where that is more evident and no worse held out.
+    fn exchange(&self, model: &mut Model) {
+        for g in model.clone() {
+            let Some(fit) = self.problem.fit(model) else { return };
+            let held_out = self.problem.held_out(model).total();
+            let mut best: Option<(f64, Model)> = None;
+            for h in self.neighbours(g) {
+                let mut other = model.clone();
+                other.remove(&g);
+                if other.contains(&h) || self.is_excluded(&other, h) {
+                    continue;
+                }
+                other.insert(h);
+                let Some(evidence) = self.problem.fit(&other).map(|f| f.evidence) else { continue };
+                let bar = best.as_ref().map_or(fit.evidence + 1.0, |(e, _)| *e);
+                if evidence > bar
+                    && self.is_possible(&other, h)
+                    && self.problem.held_out(&other).total() < held_out
+                {
+                    best = Some((evidence, other));
+                }
+            }
+            if let Some((_, other)) = best {
+                *model = other;
+            }
+        }
+    }
+
+    /// Hypotheses that the catalogue says are confused with `g`, where they share a joint.
+    pub fn neighbours(&self, g: usize) -> Vec<usize> {
+        let groups = &self.problem.design.groups;
+        let confused = groups[g].hypothesis.kind.entry().confused_with;
+        let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
+        (0..groups.len())
+            .filter(|&h| h != g && confused.contains(&groups[h].hypothesis.kind))
+            .filter(shares)
+            .collect()
+    }
+
+    /// Takes out, one at a time, what no longer earns its place.
+    fn backward(&self, model: &mut Model) {
+        loop {
+            let Some(full) = self.problem.fit(model) else { return };
+            let weights = full.expand(self.problem.design.width);
+            let mut worst: Option<(f64, usize)> = None;
+            for &g in model.iter() {
+                let mut smaller = model.clone();
+                smaller.remove(&g);
+                let Some(fit) = self.problem.fit(&smaller) else { continue };
+                let loss = if self.admits(&weights, g) {
+                    full.evidence - fit.evidence
+                } else {
+                    f64::NEG_INFINITY
+                };
+                let idle =
+                    loss < LEAST_EVIDENCE || !self.pays(&self.problem.held_out(&smaller), model, g);
+                if idle && worst.is_none_or(|(least, _)| loss < least) {
+                    worst = Some((loss, g));
+                }
+            }
+            let Some((_, g)) = worst else { return };
+            model.remove(&g);
+        }
+    }
+}

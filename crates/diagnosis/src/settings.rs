@@ -1,0 +1,56 @@
+use crate::DiagnosisError;
+
+/// How a diagnosis is made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Cut-off of the low-pass filter (Hz); chosen from the data when none is given.
+    pub cutoff_hz: Option<f64>,
+    /// Expected share of false causes among the findings.
+    pub false_discovery_rate: f64,
+    /// Seed of every random draw.
+    pub seed: u64,
+    /// Number of random sign patterns behind a p-value.
+    pub sign_flips: usize,
+    /// Least held-out fall of a joint's RMS error that counts, as a share of its effort RMS.
+    pub practical_share: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            cutoff_hz: None,
+            false_discovery_rate: 0.05,
+            seed: 0,
+            sign_flips: 1999,
+            practical_share: 0.005,
+        }
+    }
+}
+
+impl Settings {
+    /// The settings, if every one of them can be used.
+    ///
+    /// # Errors
+    ///
+    /// [`DiagnosisError::Setting`] names the first that cannot.
+    pub fn check(&self) -> Result<(), DiagnosisError> {
+        let refuse = |name, value, expected| Err(DiagnosisError::Setting { name, value, expected });
+        match self.cutoff_hz {
+            Some(hz) if !(hz.is_finite() && hz > 0.0) => {
+                return refuse("cut-off", hz, "a positive number of hertz");
+            }
+            _ => {}
+        }
+        let fdr = self.false_discovery_rate;
+        if !(fdr > 0.0 && fdr < 1.0) {
+            return refuse("false discovery rate", fdr, "a number between 0 and 1");
+        }
+        if self.sign_flips < 99 {
+            return refuse("number of sign flips", self.sign_flips as f64, "at least 99");
+        }
+        if !(self.practical_share >= 0.0 && self.practical_share < 1.0) {
+            return refuse("practical share", self.practical_share, "a number from 0 to below 1");
+        }
+        Ok(())
+    }
+}

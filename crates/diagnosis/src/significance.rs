@@ -1,0 +1,51 @@
+use rayon::prelude::*;
+
+use crate::flip_test::{p_value, q_values};
+use crate::problem::{Model, Problem};
+use crate::settings::Settings;
+
+/// The false-discovery rate of every hypothesis, none for those that cannot be tested
+/// because the model already has their columns.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Significance {
+    pub p: Vec<Option<f64>>,
+    pub q: Vec<Option<f64>>,
+}
+
+impl Significance {
+    /// Tests every hypothesis against the others of the model.
+    pub fn new(problem: &Problem, model: &Model, settings: &Settings) -> Self {
+        let p: Vec<Option<f64>> = (0..problem.design.groups.len())
+            .into_par_iter()
+            .map(|g| p_value(problem, model, g, settings.sign_flips, settings.seed))
+            .collect();
+        let tested: Vec<usize> = (0..p.len()).filter(|&g| p[g].is_some()).collect();
+        let values = q_values(&tested.iter().filter_map(|&g| p[g]).collect::<Vec<_>>());
+        let mut q = vec![None; p.len()];
+        tested.iter().zip(values).for_each(|(&g, v)| q[g] = Some(v));
+        Self { p, q }
+    }
+
+    /// Number of hypotheses tested.
+    pub fn count(&self) -> usize {
+        self.p.iter().flatten().count()
+    }
+}
+
+/// Drops the least significant hypothesis until all that are left pass the
+/// false-discovery rate of the settings.
+pub(crate) fn significant(
+    problem: &Problem,
+    mut model: Model,
+    settings: &Settings,
+) -> (Model, Significance) {
+    loop {
+        let significance = Significance::new(problem, &model, settings);
+        let q = |g: &usize| significance.q[*g].unwrap_or(1.0);
+        let worst = model.iter().copied().max_by(|a, b| q(a).total_cmp(&q(b)));
+        match worst.filter(|g| q(g) > settings.false_discovery_rate) {
+            Some(g) => model.remove(&g),
+            None => return (model, significance),
+        };
+    }
+}

@@ -1,0 +1,231 @@
+use logs::Prepared;
+use robot::Robot;
+
+use crate::blocks::{Block, FEWEST_BLOCKS, blocks};
+use crate::design::Design;
+use crate::error::DiagnosisError;
+use crate::extend::extended;
+use crate::extent::range;
+use crate::findings::{Evidence, Found};
+use crate::floor::Floors;
+use crate::gain::{HeldOutGain, measured};
+use crate::gram::Grams;
+use crate::noise::integrated_time;
+use crate::problem::{Model, Problem};
+use crate::progress::Progress;
+use crate::result::{DataSummary, Diagnosis, Gain, JointReport, SCHEMA, Unexplained, Verdict};
+use crate::search::Record;
+use crate::settings::Settings;
+use crate::settle::settle;
+use crate::significance::{Significance, significant};
+use crate::structure::{Probe, Structure};
+use crate::traces::{RunTraces, traces};
+use crate::verdict::{Situation, overall};
+
+/// Everything a diagnosis looks at, once the logs are prepared.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Study<'a> {
+    pub robot: &'a Robot,
+    pub settings: &'a Settings,
+    pub prepared: &'a Prepared,
+    pub design: &'a Design,
+}
+
+/// What the search over the whole record came to.
+struct Answer<'a> {
+    problem: Problem<'a>,
+    model: Model,
+    significance: Significance,
+    weights: Vec<f64>,
+    found: Vec<Found>,
+    gain: HeldOutGain,
+}
+
+impl Study<'_> {
+    /// Searches, tests and reports; `data.runs` and `warnings` are left for the caller.
+    pub fn run(
+        &self,
+        progress: &dyn Progress,
+    ) -> Result<(Diagnosis, Vec<RunTraces>, Robot), DiagnosisError> {
+        progress.stage("searching for causes", 3);
+        let blocks = self.blocks()?;
+        progress.step();
+        let grams = Grams::new(self.design, &blocks);
+        let practical = self.practical();
+        let record = Record {
+            robot: self.robot,
+            design: self.design,
+            blocks: &blocks,
+            grams: &grams,
+            practical: &practical,
+        };
+        let answer = self.answer(&record, progress);
+        let robot = extended(self.robot, self.design, &answer.model, &answer.weights);
+        let diagnosis = self.report(&record, &answer);
+        Ok((diagnosis, traces(self.design, &answer.problem, &answer.gain.weights), robot))
+    }
+
+    /// Blocks of at least five autocorrelation times of what a model of everything leaves.
+    fn blocks(&self) -> Result<Vec<Block>, DiagnosisError> {
+        let rough = blocks(self.design, 1.0);
+        if rough.len() < FEWEST_BLOCKS {
+            return Err(DiagnosisError::TooShort { got: rough.len(), expected: FEWEST_BLOCKS });
+        }
+        let grams = Grams::new(self.design, &rough);
+        let practical = self.practical();
+        let record = Record {
+            robot: self.robot,
+            design: self.design,
+            blocks: &rough,
+            grams: &grams,
+            practical: &practical,
+        };
+        let all: Vec<usize> = (0..rough.len()).collect();
+        let problem = record.problem(&all);
+        let noise = problem.noise(&problem.everything());
+        let moved = noise.time.iter().zip(&self.design.moved).filter(|(_, m)| **m);
+        let mut times: Vec<f64> = moved.map(|(t, _)| *t).collect();
+        times.sort_by(f64::total_cmp);
+        Ok(blocks(self.design, times.get(times.len() / 2).copied().unwrap_or(1.0)))
+    }
+
+    /// Least fall of each joint's held-out RMS error that counts (N·m or N).
+    fn practical(&self) -> Vec<f64> {
+        let rms = |j: usize| {
+            let efforts = self.design.runs.iter().flat_map(|r| &r.joints[j].measured);
+            let (n, sum) = efforts.fold((0, 0.0), |(n, s), e| (n + 1, s + e * e));
+            (sum / f64::from(n.max(1))).sqrt()
+        };
+        (0..self.design.joints()).map(|j| self.settings.practical_share * rms(j)).collect()
+    }
+
+    fn answer<'b>(&self, record: &Record<'b>, progress: &dyn Progress) -> Answer<'b> {
+        let all: Vec<usize> = (0..record.blocks.len()).collect();
+        let (problem, model) = record.search(&all);
+        progress.step();
+        let (model, significance) = significant(&problem, model, self.settings);
+        progress.step();
+        let weights = settle(&problem, &model, &problem.info, self.robot);
+        let gain = HeldOutGain::new(record, &problem, progress);
+        let found = {
+            let selection = record.selection(&problem);
+            let evidence = Evidence {
+                selection: &selection,
+                model: &model,
+                significance: &significance,
+                weights: &weights,
+                seed: self.settings.seed,
+            };
+            evidence.findings()
+        };
+        Answer { problem, model, significance, weights, found, gain }
+    }
+
+    fn report(&self, record: &Record, answer: &Answer) -> Diagnosis {
+        let floors = Floors::new(self.design, self.prepared);
+        let reports: Vec<(JointReport, Structure)> =
+            (0..self.design.joints()).map(|j| self.joint(record, answer, &floors, j)).collect();
+        let unexplained = reports.iter().filter_map(unexplained).collect();
+        let joints: Vec<JointReport> = reports.into_iter().map(|(j, _)| j).collect();
+        let selection = record.selection(&answer.problem);
+        let evidence = Evidence {
+            selection: &selection,
+            model: &answer.model,
+            significance: &answer.significance,
+            weights: &answer.weights,
+            seed: self.settings.seed,
+        };
+        Diagnosis {
+            schema: SCHEMA,
+            robot: self.robot.name().to_owned(),
+            verdict: overall(&joints.iter().map(|j| j.verdict).collect::<Vec<_>>()),
+            joints,
+            findings: answer.found.iter().map(|f| f.finding.clone()).collect(),
+            unexplained,
+            ruled_out: evidence.ruled_out(),
+            gain: Gain { inverse: answer.gain.inverse.clone() },
+            data: self.data(record, answer),
+            warnings: Vec::new(),
+        }
+    }
+
+    fn joint(
+        &self,
+        record: &Record,
+        answer: &Answer,
+        floors: &Floors,
+        j: usize,
+    ) -> (JointReport, Structure) {
+        let problem = &answer.problem;
+        let inverse = &answer.gain.inverse;
+        let (torque_rms, _) = measured(record, &problem.of, j);
+        let residual = self.held_out_residual(answer, j);
+        let time = integrated_time(&residual);
+        let moved = self.design.moved[j];
+        let structure = if moved {
+            let parts = (record.blocks, problem.folds.as_slice());
+            Probe::new(self.robot, self.design, parts, j).structure(&residual)
+        } else {
+            Structure { share: 0.0, depends_on: Vec::new() }
+        };
+        let remaining_rms = inverse.rms_after_nm[j];
+        let (floor, source) = floors.choose(j, remaining_rms * (1.0 - structure.share).sqrt());
+        let lowered = |f: &&Found| f.fall[j] > record.practical[j].powi(2);
+        let situation = Situation {
+            moved,
+            findings: answer.found.iter().filter(lowered).count(),
+            torque_rms,
+            nominal_rms: inverse.rms_before_nm[j],
+            remaining_rms,
+            floor,
+            structure: structure.share,
+        };
+        let (verdict, because) = situation.verdict();
+        let samples = residual.iter().map(Vec::len).sum::<usize>() as f64;
+        let report = JointReport {
+            name: self.robot.links()[j].joint.name.clone(),
+            verdict,
+            because,
+            torque_rms_nm: torque_rms,
+            residual_rms_nm: inverse.rms_before_nm[j],
+            remaining_rms_nm: remaining_rms,
+            noise_floor_rms_nm: floor,
+            noise_floor_from: source,
+            autocorrelation_time_s: time / self.design.rate_hz,
+            effective_samples: samples / time,
+            range: range(self.prepared, j),
+        };
+        (report, Structure { share: situation.unexplained(), ..structure })
+    }
+
+    /// What the extended model leaves at joint `j` where it was held out, `[run][sample]`.
+    fn held_out_residual(&self, answer: &Answer, j: usize) -> Vec<Vec<f64>> {
+        let stretches = answer.problem.held_out_residuals(|f| answer.gain.weights[f].clone());
+        stretches.into_iter().nth(j).unwrap_or_default()
+    }
+
+    fn data(&self, record: &Record, answer: &Answer) -> DataSummary {
+        let samples: usize = self.design.runs.iter().map(|r| r.time.len()).sum();
+        DataSummary {
+            runs: Vec::new(),
+            cutoff_hz: self.prepared.cutoff_hz,
+            cutoff_reason: self.prepared.cutoff_reason.clone(),
+            regression_rate_hz: self.design.rate_hz,
+            block_s: samples as f64 / record.blocks.len() as f64 / self.design.rate_hz,
+            blocks: record.blocks.len(),
+            hypotheses: answer.significance.count(),
+        }
+    }
+}
+
+fn unexplained((joint, structure): &(JointReport, Structure)) -> Option<Unexplained> {
+    let left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
+    left.then(|| {
+        let ratio = joint.remaining_rms_nm / joint.residual_rms_nm.max(f64::MIN_POSITIVE);
+        Unexplained {
+            joint: joint.name.clone(),
+            share: (structure.share * ratio * ratio).min(1.0),
+            depends_on: structure.depends_on.clone(),
+        }
+    })
+}

@@ -1,0 +1,129 @@
+use effects::Quantity;
+use nalgebra::{DMatrix, DVector};
+use robot::Robot;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use crate::extend::extended;
+use crate::fit::{Fit, pick};
+use crate::problem::{Model, Problem};
+use crate::result::Estimate;
+
+/// Share of the prior's standard deviation above which a number is the prior's, not the data's.
+const DETERMINED: f64 = 0.5;
+
+/// The uncertainty of a model's weights.
+///
+/// Two covariances of the weights are kept, and the larger of the two counts:
+///
+/// ```text
+/// likelihood  A^-1, where n correlated samples count as n / time
+/// blocks      A^-1 (sum_b s_b s_b') A^-1 B / (B - 1),  s_b the score of block b
+/// ```
+#[derive(Debug, Clone)]
+pub(crate) struct Uncertainty {
+    columns: Vec<usize>,
+    likelihood: DMatrix<f64>,
+    blocks: DMatrix<f64>,
+    /// Half width of a 95 per cent interval in standard deviations.
+    t: f64,
+}
+
+impl Uncertainty {
+    /// The uncertainty of `fit`, whose weights are used as they stand in `weights`.
+    pub fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
+        let likelihood = fit.covariance();
+        let count = problem.of.len() as f64;
+        let mut meat = DMatrix::zeros(fit.columns.len(), fit.columns.len());
+        for &b in &problem.of {
+            let score = pick(&problem.grams.score(b, &problem.weight, weights), &fit.columns);
+            meat.ger(1.0, &score, &score, 1.0);
+        }
+        let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
+        let t =
+            StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0)).map_or(2.0, |d| d.inverse_cdf(0.975));
+        Self { columns: fit.columns.clone(), likelihood, blocks, t }
+    }
+
+    /// The parameters of `group` as the user reads them, with intervals.
+    pub fn estimates(
+        &self,
+        problem: &Problem,
+        model: &Model,
+        group: usize,
+        (robot, weights): (&Robot, &[f64]),
+    ) -> Vec<Estimate> {
+        let design = problem.design;
+        let hypothesis = design.groups[group].hypothesis;
+        let at = |w: &[f64]| hypothesis.quantities(robot, &extended(robot, design, model, w));
+        let here = at(weights);
+        let own = &design.groups[group].columns;
+        let slopes: Vec<Vec<f64>> =
+            own.iter().map(|&k| slope(&at, &here, weights, k, design.prior[k])).collect();
+        let place: Vec<usize> =
+            own.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
+        here.iter()
+            .enumerate()
+            .map(|(i, quantity)| {
+                let gradient = DVector::from_iterator(own.len(), slopes.iter().map(|s| s[i]));
+                let prior = pick(&DVector::from_column_slice(&design.prior), own);
+                let sd = self.sd(&place, &gradient);
+                let before = gradient.component_mul(&prior).norm();
+                estimate(quantity, sd * self.t, sd < DETERMINED * before)
+            })
+            .collect()
+    }
+
+    /// Standard deviation of `gradient' w` over the columns at `place`.
+    fn sd(&self, place: &[usize], gradient: &DVector<f64>) -> f64 {
+        let variance = |all: &DMatrix<f64>| {
+            let part = DMatrix::from_fn(place.len(), place.len(), |i, k| all[(place[i], place[k])]);
+            gradient.dot(&(part * gradient))
+        };
+        variance(&self.likelihood).max(variance(&self.blocks)).max(0.0).sqrt()
+    }
+
+    /// How many directions of the group's weights the data leave as wide as half the prior,
+    /// and how many there are.
+    pub fn undetermined(&self, problem: &Problem, group: usize) -> (usize, usize) {
+        let design = problem.design;
+        let own = &design.groups[group].columns;
+        let place: Vec<usize> =
+            own.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
+        let scaled = DMatrix::from_fn(place.len(), place.len(), |i, k| {
+            self.likelihood[(place[i], place[k])] / (design.prior[own[i]] * design.prior[own[k]])
+        });
+        let wide =
+            scaled.symmetric_eigenvalues().iter().filter(|v| **v > DETERMINED.powi(2)).count();
+        (wide, own.len())
+    }
+}
+
+/// Change of every quantity per unit of weight `k`, by a central difference.
+fn slope(
+    at: &impl Fn(&[f64]) -> Vec<Quantity>,
+    here: &[Quantity],
+    weights: &[f64],
+    k: usize,
+    prior: f64,
+) -> Vec<f64> {
+    let step = 1e-4 * prior;
+    let moved = |sign: f64| {
+        let mut w = weights.to_vec();
+        w[k] += sign * step;
+        at(&w)
+    };
+    let (up, down) = (moved(1.0), moved(-1.0));
+    let slope = |i: usize| (up[i].value - down[i].value) / (2.0 * step);
+    (0..here.len()).map(slope).collect()
+}
+
+fn estimate(quantity: &Quantity, half: f64, determined: bool) -> Estimate {
+    Estimate {
+        name: quantity.name,
+        value: quantity.value,
+        ci95: [quantity.value - half, quantity.value + half],
+        nominal: quantity.nominal,
+        unit: quantity.unit,
+        determined,
+    }
+}
