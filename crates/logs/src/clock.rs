@@ -14,7 +14,7 @@ pub(crate) struct Piece {
     pub rows: Range<usize>,
     /// Rate of the uniform clock (Hz).
     pub rate_hz: f64,
-    /// Largest difference between a step and the median step of the run (s).
+    /// Largest difference between a step and the usual step of the run (s).
     pub deviation_s: f64,
     /// Whether the rows already are the uniform clock.
     pub is_uniform: bool,
@@ -23,8 +23,11 @@ pub(crate) struct Piece {
 /// The pieces of a run between its long gaps.
 pub(crate) fn pieces(time: &[f64]) -> Vec<Piece> {
     let steps: Vec<f64> = time.windows(2).map(|t| t[1] - t[0]).collect();
-    let usual = median(&steps);
-    let longest = (LONGEST_FILLED as f64 + 0.5) * usual;
+    let middle = median(&steps);
+    // The mean of the steps that are no gaps: the median of steps with jitter is off.
+    let regular = steps.iter().filter(|&&s| s <= 1.5 * middle);
+    let usual = regular.clone().sum::<f64>() / regular.count().max(1) as f64;
+    let longest = (LONGEST_FILLED as f64 + 0.5) * middle;
     let mut pieces = Vec::new();
     let mut start = 0;
     for end in 1..=time.len() {

@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
-use crate::{run::median, uniform::UniformRun};
+use crate::uniform::UniformRun;
 
 /// Width of the bins in which the spectra of runs of different lengths are added (Hz).
 const BIN_HZ: f64 = 0.05;
+/// Density, as a share of the highest, above which a spectrum counts.
+const LEAST_DENSITY: f64 = 1e-3;
 /// Share of the power of the velocities that counts as the motion.
 const MOTION_SHARE: f64 = 0.99;
 /// The cut-off as a multiple of the motion's bandwidth (Gautier's rule for identification).
@@ -19,45 +21,34 @@ const HIGHEST_SHARE: f64 = 0.4;
 
 /// The cut-off (Hz), and why.
 ///
-/// The spectra of the velocities of every moving joint in every run are added, each with
-/// the same total. From each is taken its noise floor, the median over the upper half of
-/// the band. The cut-off is five times the frequency below which 99 % of what remains
-/// lies; it ends where the noise of the acceleration, `(2 pi f)²` times the floor,
-/// reaches the power of its motion, and is kept between 2 Hz and 0.4 of half the lowest
-/// sampling rate. `moving` is per run and joint.
+/// Each moving joint of each run has a power spectrum of its velocity. Of it counts what
+/// is above a thousandth of its highest density, which motion is and broad-band noise is
+/// not. The spectra are scaled to the same total and added; the cut-off is five times the
+/// frequency below which 99 % of the sum lies, kept between 2 Hz and 0.4 of half the
+/// lowest sampling rate. `moving` is per run and joint.
 pub(crate) fn choose(runs: &[UniformRun], moving: &[Vec<bool>]) -> (f64, String) {
     let slowest = runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
     let highest = HIGHEST_SHARE * 0.5 * slowest;
-    let spectrum = Spectrum::of(runs, moving);
-    let Some(motion) = spectrum.motion_hz() else {
+    let Some(motion) = Spectrum::of(runs, moving).motion_hz() else {
         let cutoff = (MULTIPLE * LOWEST_HZ).min(highest);
         return (cutoff, format!("{cutoff:.1} Hz: no joint moves, so the data do not tell"));
     };
     let below = format!("99 % of the motion lies below {motion:.2} Hz");
-    let wanted = MULTIPLE * motion;
-    let noisy = spectrum.noise_hz(motion);
-    let (cutoff, because) = if wanted <= noisy {
-        (wanted, "five times that is kept")
-    } else {
-        (noisy, "above the cut-off the acceleration would hold more noise than motion")
-    };
-    let cutoff = (10.0 * cutoff).round() / 10.0;
+    let cutoff = (10.0 * MULTIPLE * motion).round() / 10.0;
     if cutoff > highest {
         (highest, format!("{highest:.1} Hz: {below}; this is 0.4 of half the sampling rate"))
     } else if cutoff < LOWEST_HZ {
         let lowest = LOWEST_HZ.min(highest);
         (lowest, format!("{lowest:.1} Hz: {below}; no lower cut-off is chosen"))
     } else {
-        (cutoff, format!("{cutoff:.1} Hz: {below}; {because}"))
+        (cutoff, format!("{cutoff:.1} Hz: {below}; five times that is kept"))
     }
 }
 
-/// Power of the velocities over frequency, in bins of [`BIN_HZ`], without their noise
-/// floor, and the floor.
+/// Power of the velocities over frequency, in bins of [`BIN_HZ`].
 #[derive(Default)]
 struct Spectrum {
-    motion: Vec<f64>,
-    noise: Vec<f64>,
+    bins: Vec<f64>,
 }
 
 impl Spectrum {
@@ -73,59 +64,30 @@ impl Spectrum {
         sum
     }
 
-    /// Adds a one-sided power spectrum, scaled to a total of one.
+    /// Adds what counts of a one-sided power spectrum, scaled to a total of one.
     fn add(&mut self, power: &[f64], rate_hz: f64) {
-        let floor = median(&power[power.len() / 2..]);
-        let total: f64 = power.iter().map(|p| p - floor).sum();
-        if total <= 0.0 || !total.is_finite() {
-            return;
-        }
+        let least = LEAST_DENSITY * power.iter().copied().fold(0.0, f64::max);
+        let counted = |p: &&f64| **p > least;
+        let total: f64 = power.iter().filter(counted).sum();
         let step_hz = 0.5 * rate_hz / (power.len() - 1).max(1) as f64;
-        let bins = (0.5 * rate_hz / BIN_HZ) as usize + 1;
-        if self.motion.len() < bins {
-            self.motion.resize(bins, 0.0);
-            self.noise.resize(bins, 0.0);
-        }
-        for (k, p) in power.iter().enumerate() {
+        let count = (0.5 * rate_hz / BIN_HZ) as usize + 1;
+        self.bins.resize(self.bins.len().max(count), 0.0);
+        for (k, p) in power.iter().enumerate().filter(|(_, p)| counted(p)) {
             let bin = (k as f64 * step_hz / BIN_HZ) as usize;
-            if bin < bins {
-                self.motion[bin] += (p - floor) / total;
-                self.noise[bin] += floor / total;
-            }
+            self.bins[bin.min(count - 1)] += p / total;
         }
     }
 
     /// Frequency below which the motion lies (Hz); `None` without motion.
     fn motion_hz(&self) -> Option<f64> {
-        let total: f64 = self.motion.iter().sum();
+        let total: f64 = self.bins.iter().sum();
         let mut below = 0.0;
-        let bin = self.motion.iter().position(|p| {
+        let bin = self.bins.iter().position(|p| {
             below += p;
             below >= MOTION_SHARE * total
         });
-        bin.filter(|_| total > 0.0).map(upper_hz)
+        bin.filter(|_| total > 0.0).map(|bin| (bin + 1) as f64 * BIN_HZ)
     }
-
-    /// Frequency at which the noise of the acceleration reaches the motion below
-    /// `motion_hz` (Hz); infinite where it never does.
-    fn noise_hz(&self, motion_hz: f64) -> f64 {
-        let weight = |bin: usize| (TAU * upper_hz(bin)).powi(2);
-        let motion = self.motion.iter().enumerate();
-        let signal: f64 = motion
-            .filter(|(bin, _)| upper_hz(*bin) <= motion_hz)
-            .map(|(bin, p)| weight(bin) * p)
-            .sum();
-        let mut noise = 0.0;
-        let bin = self.noise.iter().enumerate().position(|(bin, p)| {
-            noise += weight(bin) * p;
-            noise >= signal
-        });
-        bin.map_or(f64::INFINITY, upper_hz)
-    }
-}
-
-fn upper_hz(bin: usize) -> f64 {
-    (bin + 1) as f64 * BIN_HZ
 }
 
 /// One-sided power spectrum of a signal without its mean, under a Hann window.

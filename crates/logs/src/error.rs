@@ -266,7 +266,7 @@ pub enum LogError {
     /// A run is too short for the filter.
     #[error(
         "run {run}: its longest piece without a gap is {found_s:.3} s, at least {expected_s:.3} s were expected \
-        (3 periods of the {cutoff_hz:.2} Hz cut-off)"
+        (4.5 periods of the {cutoff_hz:.2} Hz cut-off)"
     )]
     RunTooShort {
         /// The run.

@@ -11,11 +11,17 @@ use crate::LogError;
 /// is the gain of the two passes together: 1/2 at the cut-off, and a phase of zero. The
 /// filter is a cascade of second-order sections by the bilinear transform. Before the
 /// first sample and after the last the signal is continued by its odd reflection over
-/// `3 (order + 1)` samples, and every pass begins in the steady state of its first
-/// sample, as in `scipy.signal.sosfiltfilt`.
+///
+/// ```text
+/// max(3 (order + 1), ceil(2 rate / cutoff)) samples, or all but one of a shorter signal
+/// ```
+///
+/// and every pass begins in the steady state of its first sample: as in
+/// `scipy.signal.sosfiltfilt` with that `padlen`, whose own choice is the first of the
+/// two and too short for a low cut-off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LowPass {
-    order: usize,
+    padding: usize,
     sections: Vec<Section>,
 }
 
@@ -55,13 +61,14 @@ impl LowPass {
         if order % 2 == 1 {
             sections.push(Section::first_order(warped));
         }
-        Ok(Self { order, sections })
+        let padding = (3 * (order + 1)).max((2.0 * rate_hz / cutoff_hz).ceil() as usize);
+        Ok(Self { padding, sections })
     }
 
     /// Filters a signal in place, forward and backward.
     pub fn apply(&self, x: &mut [f64]) {
         let Some(last) = x.len().checked_sub(1) else { return };
-        let pad = (3 * (self.order + 1)).min(last);
+        let pad = self.padding.min(last);
         let before = (1..=pad).rev().map(|k| 2.0 * x[0] - x[k]);
         let after = (1..=pad).map(|k| 2.0 * x[last] - x[last - k]);
         let mut padded: Vec<f64> = before.chain(x.iter().copied()).chain(after).collect();

@@ -10,6 +10,10 @@ use crate::{
 /// Order of the low-pass in one pass.
 pub(crate) const ORDER: usize = 4;
 
+/// What is cut from either end, in periods of the cut-off. The slowest pole of the filter
+/// decays by `exp(-2 pi sin(pi / 8))` in one period: 3 % of an error at the end is left.
+pub(crate) const SETTLING_PERIODS: f64 = 1.5;
+
 /// The low-passed signals of a piece of a run.
 pub(crate) struct Filtered {
     rate_hz: f64,
@@ -56,9 +60,9 @@ impl Filtered {
         Ok(Self { rate_hz, cutoff_hz, samples: piece.time.len(), joints })
     }
 
-    /// The samples at which the filter has settled: all but `1 / cutoff` at both ends.
+    /// The samples at which the filter has settled: all but `1.5 / cutoff` at both ends.
     pub(crate) fn settled(&self) -> Range<usize> {
-        let end = (self.rate_hz / self.cutoff_hz).ceil() as usize;
+        let end = (SETTLING_PERIODS * self.rate_hz / self.cutoff_hz).ceil() as usize;
         let end = end.min(self.samples.saturating_sub(1) / 2);
         end..self.samples - end
     }

@@ -159,9 +159,12 @@ impl<'a> Finder<'_, 'a> {
 
     fn absent(&self, joint: &str, channel: Channel, column: String, robot: &Robot) -> LogError {
         let prefix = format!("{joint}.");
-        if channel != Channel::Position || self.names.iter().any(|n| n.starts_with(&prefix)) {
+        let own = |name: &&String| name.starts_with(&prefix);
+        if channel != Channel::Position || self.names.iter().any(|n| own(&n)) {
             let purpose = format!("the {} of joint {joint} was expected there", channel.suffix());
-            return self.no_column(&column, &purpose);
+            // A column of another joint is no misspelling of this one's.
+            let nearest = nearest(&column, self.names.iter().filter(own).map(String::as_str));
+            return LogError::NoColumn { path: self.path.to_owned(), column, purpose, nearest };
         }
         let found: Vec<String> = self
             .names

@@ -4,7 +4,7 @@ use crate::{
     LogError, LogWarning, LowPass, Run,
     clock::LONGEST_FILLED,
     cutoff, duplicate_of,
-    filtered::{Filtered, ORDER, choose_sources},
+    filtered::{Filtered, ORDER, SETTLING_PERIODS, choose_sources},
     info::{saturation, unknown_joints},
     uniform::{UniformRun, check, moving, uniform},
 };
@@ -58,7 +58,7 @@ pub struct PreparedJoint {
 /// Brings runs to a uniform clock and low-passes them.
 ///
 /// 1. Clock: a run whose rows lie on a uniform clock is kept as it is; any other is
-///    interpolated (cubic) at its median rate, rounded. It is split at gaps of more than
+///    interpolated (cubic) at its usual rate, rounded. It is split at gaps of more than
 ///    five samples.
 /// 2. Low-pass: zero-phase Butterworth of order 4 ([`LowPass`]), one cut-off for all runs
 ///    and joints. It is five times the bandwidth of the motion, unless it is given.
@@ -72,7 +72,7 @@ pub struct PreparedJoint {
 ///
 ///    so that all three have passed the same filter `L`. A column agrees when
 ///    [`Agreement::holds`] in every run in which the joint moves.
-/// 4. `1 / cutoff` seconds are cut from both ends, where the filter and those of the
+/// 4. `1.5 / cutoff` seconds are cut from both ends, where this filter and those of the
 ///    robot's own software still settle.
 ///
 /// # Errors
@@ -107,7 +107,7 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
 
 /// The shortest piece that is of use (s): a third of it is left between the ends.
 fn shortest_s(cutoff_hz: f64) -> f64 {
-    3.0 / cutoff_hz
+    3.0 * SETTLING_PERIODS / cutoff_hz
 }
 
 /// The pieces that are long enough, at least one of every run.

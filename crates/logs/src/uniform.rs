@@ -14,7 +14,7 @@ pub(crate) struct UniformRun {
     pub name: String,
     pub rate_hz: f64,
     /// Where it was resampled: the largest difference between a step of the file and
-    /// the median step (s).
+    /// the usual step (s).
     pub deviation_s: Option<f64>,
     pub time: Vec<f64>,
     pub joints: Vec<UniformJoint>,

@@ -51,7 +51,7 @@ pub enum LogWarning {
     Resampled {
         /// The run.
         run: String,
-        /// Largest difference between a step and the median step (s).
+        /// Largest difference between a step and the usual step (s).
         deviation_s: f64,
         /// Rate of the uniform clock (Hz).
         rate_hz: f64,
