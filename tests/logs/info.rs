@@ -25,6 +25,7 @@ fn injected_lag_and_scale_of_the_velocity_are_found() {
         let info = log_info(&run(time.clone(), vec![j1]), &arm);
         let found = info.joints[0].velocity_agreement.unwrap();
         assert!((found.lag_s - lag).abs() < 1e-4, "lag {} for {lag}", found.lag_s);
+        assert!(found.lag_std_s < 1e-3, "{}", found.lag_std_s);
         assert!((found.scale - scale).abs() < 2e-3, "scale {} for {scale}", found.scale);
     }
 }

@@ -225,3 +225,15 @@ fn a_duplicate_and_a_saturated_effort_are_warned_of() {
     assert!(prepared.warnings.contains(&expected));
     assert!(prepared.warnings.iter().any(|w| matches!(w, LogWarning::Saturated { .. })));
 }
+
+#[test]
+fn a_lag_that_an_even_motion_cannot_show_is_not_held_against_the_velocity() {
+    let time = clock(4000, 1000.0);
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    // Even acceleration: a late velocity is the same but for a constant.
+    let mut j1 = follows("j1", &time, |t| 0.1 * t * t);
+    let noise = |random: &mut ChaCha8Rng| 2e-2 * gaussian(random);
+    j1.velocity = Some(time.iter().map(|t| 0.2 * (t - 0.005) + noise(&mut random)).collect());
+    let even = prepare(&[run(time.clone(), vec![j1])], &PrepareSettings { cutoff_hz: Some(5.0) });
+    assert_eq!(even.unwrap().warnings, []);
+}

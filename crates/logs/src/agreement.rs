@@ -13,6 +13,15 @@ pub struct Agreement {
     /// How late the measured signal is (s): the lag of the largest correlation, between
     /// samples by a parabola; looked for within 50 ms.
     pub lag_s: f64,
+    /// Standard error of the lag (s): large where the motion is too even to show one.
+    ///
+    /// ```text
+    /// rms(measured - scale derived) / (scale rms(d/dt derived) sqrt(cutoff duration))
+    /// ```
+    ///
+    /// with the part of `d/dt derived` that is proportional to `derived` taken out, and
+    /// one independent sample per period of the cut-off.
+    pub lag_std_s: f64,
     /// Measured signal per derivative at that lag, by least squares.
     pub scale: f64,
     /// Correlation coefficient at that lag.
@@ -62,14 +71,18 @@ impl Agreement {
             _ => 0.0,
         };
         let lag_s = (best as f64 - reach as f64 + between) / rate_hz;
-        Some(Self { lag_s, scale, correlation })
+        let lag_std_s = lag_std(measured, derived, rate_hz, (reach, best), scale)
+            / (cutoff_hz * n as f64 / rate_hz).sqrt();
+        Some(Self { lag_s, lag_std_s, scale, correlation })
     }
 
     /// Whether the measured signal can stand for the derivative: its scale is within 2 %
-    /// and its lag turns the phase of the motion by less than 0.01 rad.
+    /// and its lag, less two standard errors, turns the phase of the motion by less than
+    /// 0.01 rad.
     ///
     /// The motion is taken to end at `motion_hz`, so that the lag allowed is
-    /// `0.01 / (2 pi motion_hz)`: 1.6 ms for a motion of 1 Hz.
+    /// `0.01 / (2 pi motion_hz)`: 1.6 ms for a motion of 1 Hz. A lag that the motion is
+    /// too even to show does no harm in that motion.
     pub fn holds(&self, motion_hz: f64) -> bool {
         self.deviation(motion_hz) <= 1.0
     }
@@ -77,8 +90,32 @@ impl Agreement {
     /// How far the signals differ, 1 being as far as [`Agreement::holds`] allows.
     pub(crate) fn deviation(&self, motion_hz: f64) -> f64 {
         let scale = (self.scale - 1.0).abs() / SCALE_TOLERANCE;
-        scale.max(TAU * motion_hz * self.lag_s.abs() / PHASE_TOLERANCE)
+        let lag_s = (self.lag_s.abs() - 2.0 * self.lag_std_s).max(0.0);
+        scale.max(TAU * motion_hz * lag_s / PHASE_TOLERANCE)
     }
+}
+
+/// Standard error of a lag (s), times the root of the number of independent samples.
+fn lag_std(m: &[f64], d: &[f64], rate_hz: f64, (reach, lag): (usize, usize), scale: f64) -> f64 {
+    let shifted = |k: usize| k + reach - lag;
+    let rows = reach + 1..m.len().min(d.len()) - reach - 1;
+    let of = |f: &dyn Fn(usize) -> f64| centred(rows.clone().map(f).collect());
+    let signal = of(&|k| d[shifted(k)]);
+    let rest = of(&|k| m[k] - scale * d[shifted(k)]);
+    let slope = of(&|k| 0.5 * rate_hz * (d[shifted(k) + 1] - d[shifted(k) - 1]));
+    let (ss, sd, dd) = (dot(&slope, &slope), dot(&slope, &signal), dot(&signal, &signal));
+    let free = (ss - sd * sd / dd).max(f64::MIN_POSITIVE);
+    (dot(&rest, &rest) / free).sqrt() / scale.abs()
+}
+
+fn centred(mut x: Vec<f64>) -> Vec<f64> {
+    let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
+    x.iter_mut().for_each(|v| *v -= mean);
+    x
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Where the parabola through three neighbouring values has its top, in steps from the middle.
