@@ -1,3 +1,47 @@
 //! The program `plumbline`.
 
-fn main() {}
+mod arguments;
+mod commands;
+mod error;
+mod output;
+mod progress;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
+use crate::commands::{diagnose, explain, log_info, robot_check};
+use crate::error::CliError;
+
+/// How a command that ran to its end turned out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Exit code 0.
+    Good,
+    /// A gap is left or an inertia is impossible: exit code 1.
+    Gap,
+}
+
+fn main() -> ExitCode {
+    let result = run(&Arguments::parse());
+    match result {
+        Ok(Outcome::Good) => ExitCode::SUCCESS,
+        Ok(Outcome::Gap) => ExitCode::from(1),
+        // The reader of the output has gone: nothing is wrong, and nobody is left to tell.
+        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(error) => {
+            error.print();
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    match &arguments.command {
+        Command::Diagnose(arguments) => diagnose::run(arguments),
+        Command::Robot(RobotCommand::Check(arguments)) => robot_check::run(arguments),
+        Command::Log(LogCommand::Info(arguments)) => log_info::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
+    }
+}

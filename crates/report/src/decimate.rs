@@ -24,35 +24,33 @@ pub fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     kept
 }
 
-/// Where the `y` of each slice of `x` lies: `[x, low, middle, high]`, the 5th, 50th and
-/// 95th percentile.
+/// Fewest points of a slice of [`bands`].
+const FEWEST: usize = 20;
+
+/// Where `y` lies along `x`: `[x, low, middle, high]` per slice, with the median of `x` and
+/// the 5th, 50th and 95th percentile of `y`.
 ///
-/// Slices share the range of `x` between its 0.5th and 99.5th percentile evenly; one with
-/// fewer than eight points is left out.
+/// There are at most so many slices, all of the same number of points, so that none is
+/// sparse. Nothing when `x` is constant.
 pub fn bands(x: &[f64], y: &[f64], slices: usize) -> Vec<[f64; 4]> {
-    let mut ordered: Vec<f64> = x.iter().copied().filter(|v| v.is_finite()).collect();
-    ordered.sort_by(f64::total_cmp);
-    let (Some(low), Some(high)) = (percentile(&ordered, 0.005), percentile(&ordered, 0.995)) else {
+    let pairs = x.iter().copied().zip(y.iter().copied());
+    let mut points: Vec<(f64, f64)> =
+        pairs.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
+    if last.0 <= first.0 {
         return Vec::new();
-    };
-    if high <= low || slices == 0 {
-        return Vec::new();
     }
-    let width = (high - low) / slices as f64;
-    let mut members: Vec<Vec<f64>> = vec![Vec::new(); slices];
-    for (&x, &y) in x.iter().zip(y) {
-        if x >= low && x <= high && y.is_finite() {
-            members[(((x - low) / width) as usize).min(slices - 1)].push(y);
-        }
-    }
-    let middle = |slice: usize| low + (slice as f64 + 0.5) * width;
-    let mut bands = Vec::with_capacity(slices);
-    for (slice, values) in members.iter_mut().enumerate().filter(|(_, v)| v.len() >= 8) {
-        values.sort_by(f64::total_cmp);
-        let at = |share| percentile(values, share).unwrap_or(f64::NAN);
-        bands.push([middle(slice), at(0.05), at(0.5), at(0.95)]);
-    }
-    bands
+    let members = points.len().div_ceil(slices.max(1)).max(FEWEST);
+    points.chunks(members).filter(|c| 2 * c.len() >= FEWEST).map(band).collect()
+}
+
+fn band(slice: &[(f64, f64)]) -> [f64; 4] {
+    let x: Vec<f64> = slice.iter().map(|p| p.0).collect();
+    let mut y: Vec<f64> = slice.iter().map(|p| p.1).collect();
+    y.sort_by(f64::total_cmp);
+    let at = |ordered: &[f64], share| percentile(ordered, share).unwrap_or(f64::NAN);
+    [at(&x, 0.5), at(&y, 0.05), at(&y, 0.5), at(&y, 0.95)]
 }
 
 /// The value below which `share` of the ordered values lie; none when there are none.

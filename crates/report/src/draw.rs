@@ -35,6 +35,8 @@ impl Chart {
         Layout::new((x[0], x[1]), padded(y))
             .with_width(self.size.0)
             .with_height(self.size.1)
+            .with_x_axis_min(x[0])
+            .with_x_axis_max(x[1])
             .with_x_label(self.x.text())
             .with_y_label(self.y.text())
             .with_label_size(12)

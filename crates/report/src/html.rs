@@ -1,5 +1,5 @@
 use askama::Template;
-use diagnosis::{DataSummary, Diagnosis};
+use diagnosis::{DataSummary, Diagnosis, FoldGain};
 
 use crate::figures::figures_of;
 use crate::numbers::{percent, significant};
@@ -30,6 +30,7 @@ struct Page<'a> {
     bottom_line: String,
     warnings: &'a [String],
     joints: Vec<JointRow>,
+    folds: Vec<Fold<'a>>,
     causes: Vec<Cause>,
     figures: Vec<JointSection>,
     left: Vec<Left>,
@@ -62,6 +63,21 @@ impl From<Chart> for Figure {
     }
 }
 
+/// The gain on one held-out part.
+struct Fold<'a>(&'a FoldGain);
+
+impl Fold<'_> {
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Error before and after, joint by joint.
+    fn errors(&self) -> Vec<(String, String)> {
+        let pairs = self.0.rms_before_nm.iter().zip(&self.0.rms_after_nm);
+        pairs.map(|(&before, &after)| (significant(before, 3), significant(after, 3))).collect()
+    }
+}
+
 /// Structure left at a joint, as text.
 struct Left {
     joint: String,
@@ -79,6 +95,7 @@ impl<'a> Page<'a> {
             bottom_line: bottom_line(report),
             warnings: &diagnosis.warnings,
             joints: joint_rows(report),
+            folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
             causes: diagnosis.findings.iter().map(cause).collect(),
             figures: sections(report),
             left: left(diagnosis),

@@ -40,6 +40,7 @@ fn at_joints(joints: &[JointReport], wanted: impl Fn(Verdict) -> bool) -> String
         joints.iter().filter(|j| wanted(j.verdict)).map(|j| j.name.clone()).collect();
     match names.len() {
         0 => "no joint".to_owned(),
+        n if n == joints.len() && n > 1 => "every joint".to_owned(),
         1..=4 => {
             format!("{} {}", if names.len() == 1 { "joint" } else { "joints" }, listed(&names))
         }

@@ -115,12 +115,17 @@ fn finding(out: &mut String, finding: &Finding) {
     }
 }
 
-/// The size of a parameter, with its name where there are several.
+/// The size of a parameter and what it was, with its name where there are several.
 fn size(parameter: &Estimate, count: usize) -> String {
+    let was = if parameter.nominal.abs() > 0.0 {
+        format!(", was {}", significant(parameter.nominal, 3))
+    } else {
+        String::new()
+    };
     if count == 1 {
-        return interval(parameter);
+        return format!("{}{was}", interval(parameter));
     }
-    format!("{} {}", parameter.name.replace('_', " "), interval(parameter))
+    format!("{} {}{was}", parameter.name.replace('_', " "), interval(parameter))
 }
 
 fn warnings(out: &mut String, warnings: &[String]) {

@@ -1,0 +1,6 @@
+//! One file per command: its arguments and what it does.
+
+pub mod diagnose;
+pub mod explain;
+pub mod log_info;
+pub mod robot_check;

@@ -1,0 +1,182 @@
+use std::path::PathBuf;
+
+use dynamics::{ColumnSet, base_parameters};
+use robot::{Actuator, JointKind, Link, Loaded, Robot, RobotWarning};
+use serde::Serialize;
+
+use crate::Outcome;
+use crate::error::CliError;
+use crate::output::{print, print_json, shown, table};
+
+/// Arguments of `robot check`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// A robot.urdf, or a robot.toml that names one
+    file: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Prints what a robot description says and whether its inertias are possible.
+pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    let loaded = Robot::load(&arguments.file)?;
+    let check = Check::new(&loaded, shown(&arguments.file));
+    if arguments.json {
+        print_json(&check)?;
+    } else {
+        print(&text(&check))?;
+    }
+    let has_defect = loaded.warnings.iter().any(|w| matches!(w, RobotWarning::Inertia { .. }))
+        || check.joints.iter().any(|j| !j.link_defects.is_empty());
+    Ok(if has_defect { Outcome::Gap } else { Outcome::Good })
+}
+
+/// What is printed.
+#[derive(Serialize)]
+struct Check {
+    schema: &'static str,
+    robot: String,
+    file: String,
+    urdf: String,
+    base_link: String,
+    gravity_m_per_s2: [f64; 3],
+    joints: Vec<JointCheck>,
+    base_parameters: BaseCounts,
+    warnings: Vec<String>,
+}
+
+/// One joint with its link.
+#[derive(Serialize)]
+struct JointCheck {
+    name: String,
+    kind: &'static str,
+    position_limits: Option<(f64, f64)>,
+    velocity_limit: Option<f64>,
+    effort_limit: Option<f64>,
+    rotor_inertia: f64,
+    viscous: f64,
+    coulomb_forward: f64,
+    coulomb_backward: f64,
+    link: String,
+    mass_kg: f64,
+    merged: Vec<String>,
+    link_defects: Vec<String>,
+}
+
+/// How many combinations of parameters any motion can reveal.
+#[derive(Serialize)]
+struct BaseCounts {
+    inertial: usize,
+    with_rotors: usize,
+    with_friction: usize,
+    with_rotors_friction_and_offsets: usize,
+}
+
+impl Check {
+    fn new(loaded: &Loaded, file: String) -> Self {
+        let robot = &loaded.robot;
+        let count = |set| base_parameters(robot, set).rank();
+        let rotors = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };
+        let friction = ColumnSet { viscous: true, coulomb: true, ..ColumnSet::INERTIAL };
+        Self {
+            schema: "plumbline.robot_check/1",
+            robot: robot.name().to_owned(),
+            file,
+            urdf: shown(&loaded.urdf_path),
+            base_link: loaded.base_link.clone(),
+            gravity_m_per_s2: robot.gravity_in_base().into(),
+            joints: robot.links().iter().map(JointCheck::new).collect(),
+            base_parameters: BaseCounts {
+                inertial: count(ColumnSet::INERTIAL),
+                with_rotors: count(rotors),
+                with_friction: count(friction),
+                with_rotors_friction_and_offsets: count(ColumnSet::ALL),
+            },
+            warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+impl JointCheck {
+    fn new(link: &Link) -> Self {
+        let (joint, inertia) = (&link.joint, &link.inertia);
+        let Actuator { rotor_inertia, viscous, coulomb_forward, coulomb_backward, .. } =
+            link.actuator;
+        Self {
+            name: joint.name.clone(),
+            kind: match joint.kind {
+                JointKind::Revolute => "revolute",
+                JointKind::Continuous => "continuous",
+                JointKind::Prismatic => "prismatic",
+            },
+            position_limits: joint.limits.position,
+            velocity_limit: joint.limits.velocity,
+            effort_limit: joint.limits.effort,
+            rotor_inertia,
+            viscous,
+            coulomb_forward,
+            coulomb_backward,
+            link: link.name.clone(),
+            mass_kg: inertia.mass,
+            merged: link.merged.clone(),
+            link_defects: inertia.defects().iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+fn text(check: &Check) -> String {
+    let [x, y, z] = check.gravity_m_per_s2;
+    let mut text = format!(
+        "{}: {} joints on {}, gravity ({x}, {y}, {z}) m/s²\n\n",
+        check.robot,
+        check.joints.len(),
+        check.base_link
+    );
+    let joints = check.joints.iter().map(|j| {
+        let range = j.position_limits.map(|(a, b)| format!("{} to {}", short(a), short(b)));
+        let limit = |l: Option<f64>| l.map_or_else(|| "-".to_owned(), short);
+        vec![
+            j.name.clone(),
+            j.kind.to_owned(),
+            range.unwrap_or_else(|| "-".to_owned()),
+            limit(j.velocity_limit),
+            limit(j.effort_limit),
+            short(j.rotor_inertia),
+            short(j.viscous),
+            coulomb(j),
+        ]
+    });
+    let header = ["joint", "type", "range", ">speed", ">effort", ">rotor", ">viscous", ">Coulomb"];
+    text.push_str(&table(&header, joints));
+    text.push_str(" rad or m, /s, N·m or N; rotor in kg·m² or kg; - where there is no limit\n\n");
+    let links = check.joints.iter().map(|j| {
+        let verdict = match j.link_defects.as_slice() {
+            [] => "consistent".to_owned(),
+            defects => defects.join("; "),
+        };
+        vec![j.link.clone(), format!("{} kg", short(j.mass_kg)), j.merged.join(", "), verdict]
+    });
+    text.push_str(&table(&["link", ">mass", "fixed to it", "inertia"], links));
+    let base = &check.base_parameters;
+    text.push_str(&format!(
+        "\nbase parameters: {} inertial, {} with rotors, {} with friction, {} with both and offsets\n",
+        base.inertial,
+        base.with_rotors,
+        base.with_friction,
+        base.with_rotors_friction_and_offsets
+    ));
+    for warning in &check.warnings {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    text
+}
+
+fn coulomb(joint: &JointCheck) -> String {
+    let (forward, backward) = (short(joint.coulomb_forward), short(joint.coulomb_backward));
+    if forward == backward { forward } else { format!("{forward}/{backward}") }
+}
+
+fn short(value: f64) -> String {
+    report::significant(value, 3)
+}

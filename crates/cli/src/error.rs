@@ -1,0 +1,100 @@
+use std::io;
+use std::path::PathBuf;
+
+use anstyle::{AnsiColor, Style};
+use diagnosis::DiagnosisError;
+use logs::LogError;
+use report::ReportError;
+use robot::RobotError;
+
+/// Why a command did not run to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// The robot cannot be used.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// A log or a column map cannot be used.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// The logs together cannot be diagnosed.
+    #[error(transparent)]
+    Diagnosis(#[from] DiagnosisError),
+    /// The report cannot be made or written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// A file has no joints to look at.
+    #[error("{}: there is no column <joint>.position, at least one was expected", path.display())]
+    NoJoints {
+        /// The log.
+        path: PathBuf,
+    },
+    /// No effect has this name.
+    #[error("effect {name}: it is not in the catalogue, {hint}")]
+    UnknownEffect {
+        /// The name that was asked for.
+        name: String,
+        /// The nearest name, or all of them.
+        hint: String,
+    },
+    /// The standard output cannot be written.
+    #[error("the standard output cannot be written: {0}")]
+    Output(#[from] io::Error),
+}
+
+impl CliError {
+    /// 2 for usage, 3 for data that cannot be used.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::UnknownEffect { .. } | Self::Output(_) => 2,
+            Self::Report(ReportError::Unreadable { .. }) => 3,
+            Self::Report(_) | Self::Diagnosis(DiagnosisError::Setting { .. }) => 2,
+            Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => match log {
+                LogError::CutoffOutOfRange { .. } => 2,
+                _ => 3,
+            },
+            Self::Robot(_) | Self::Diagnosis(_) | Self::NoJoints { .. } => 3,
+        }
+    }
+
+    /// Whether the reader of the standard output has gone.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Self::Output(e) if e.kind() == io::ErrorKind::BrokenPipe)
+    }
+
+    /// What to do about it, where that can be said.
+    fn help(&self) -> Option<&'static str> {
+        let log = match self {
+            Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => log,
+            Self::UnknownEffect { .. } => return Some("plumbline explain lists every effect"),
+            Self::NoJoints { .. } => {
+                return Some(
+                    "give the robot with --robot, and --map if the columns have other names",
+                );
+            }
+            Self::Report(ReportError::NotAFolder { .. }) => return Some("give --out another name"),
+            _ => return None,
+        };
+        match log {
+            LogError::JointAbsent { .. } | LogError::NoColumn { .. } => Some(
+                "a column map (--map) says where a file with other names has its signals, --effort picks the effort column",
+            ),
+            LogError::LooksLikeDegrees { .. } => {
+                Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
+            }
+            LogError::CutoffOutOfRange { .. } => {
+                Some("leave --cutoff-hz out and the cut-off is chosen from the data")
+            }
+            _ => None,
+        }
+    }
+
+    /// Prints the error, and advice where there is any, on the standard error.
+    pub fn print(&self) {
+        let red: Style = AnsiColor::Red.on_default().bold();
+        let cyan: Style = AnsiColor::Cyan.on_default().bold();
+        anstream::eprintln!("{red}error:{red:#} {self}");
+        if let Some(help) = self.help() {
+            anstream::eprintln!("{cyan}help:{cyan:#} {help}");
+        }
+    }
+}

@@ -1,0 +1,53 @@
+use std::io::Write;
+use std::path::Path;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+use serde::Serialize;
+
+use crate::error::CliError;
+
+/// Prints text on the standard output, its colours only where they are wanted.
+///
+/// # Errors
+///
+/// [`CliError::Output`], also when the reader has gone.
+pub fn print(text: &str) -> Result<(), CliError> {
+    let mut out = anstream::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    Ok(out.flush()?)
+}
+
+/// Prints a value as JSON on the standard output.
+///
+/// # Errors
+///
+/// [`CliError::Output`].
+pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
+    let text = serde_json::to_string_pretty(value).map_err(std::io::Error::from)?;
+    print(&(text + "\n"))
+}
+
+/// A table without lines, numbers to the right, for a terminal of any width.
+///
+/// Columns whose header starts with `>` are aligned to the right.
+pub fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(header.iter().map(|name| name.trim_start_matches('>')));
+    for (index, _) in header.iter().enumerate().filter(|(_, name)| name.starts_with('>')) {
+        if let Some(column) = table.column_mut(index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    rows.into_iter().for_each(|row| {
+        table.add_row(row);
+    });
+    let lines = table.lines().map(|line| format!(" {}\n", line.trim_end()));
+    lines.collect()
+}
+
+/// The file as it was given, for messages and provenance.
+pub fn shown(path: &Path) -> String {
+    path.display().to_string()
+}
