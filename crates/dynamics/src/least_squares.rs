@@ -4,6 +4,9 @@ use nalgebra::DVector;
 
 use crate::DynamicsError;
 
+/// Share of a column's square below which what is left of it is rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// Least squares over any number of rows in the memory of one Gram matrix:
 ///
 /// ```text
@@ -73,7 +76,8 @@ impl NormalEquations {
     ///
     /// # Errors
     ///
-    /// [`DynamicsError::NotPositiveDefinite`] when the rows do not determine them.
+    /// [`DynamicsError::NotPositiveDefinite`] when the rows do not determine them: less
+    /// than 1e-13 of a column's square is left beside the columns before it.
     ///
     /// # Panics
     ///
@@ -85,9 +89,17 @@ impl NormalEquations {
             .collect();
         let mut weights =
             DVector::from_iterator(chosen.len(), chosen.iter().map(|&i| self.rhs[(i, 0)]));
-        crate::cholesky::factor(&mut gram, chosen.len()).map_err(|(row, pivot)| {
-            DynamicsError::NotPositiveDefinite { matrix: "gram", row, pivot }
-        })?;
+        let width = chosen.len();
+        let squares: Vec<f64> = gram.iter().copied().step_by(width + 1).collect();
+        let refused =
+            |(row, pivot)| DynamicsError::NotPositiveDefinite { matrix: "gram", row, pivot };
+        crate::cholesky::factor(&mut gram, width).map_err(refused)?;
+        let pivots = gram.iter().step_by(width + 1).map(|l| l * l);
+        let vanishing =
+            pivots.zip(squares).enumerate().find(|(_, (p, square))| *p < ROUNDING * square);
+        if let Some((row, (pivot, _))) = vanishing {
+            return Err(refused((row, pivot)));
+        }
         crate::cholesky::solve_factored(&gram, weights.as_mut_slice());
         Ok(weights)
     }
@@ -110,8 +122,9 @@ mod tests {
     #[test]
     fn columns_that_depend_on_each_other_are_refused() {
         let mut equations = NormalEquations::new(2);
-        equations.add(&[1.0, 2.0, 2.0, 4.0], &[1.0, 2.0]).unwrap();
-        let expected = DynamicsError::NotPositiveDefinite { matrix: "gram", row: 1, pivot: 0.0 };
-        assert_eq!(equations.solve(&[0, 1]), Err(expected));
+        equations.add(&[0.1, 0.3, 0.7, 2.1], &[1.0, 2.0]).unwrap();
+        let error = equations.solve(&[0, 1]).unwrap_err();
+        assert!(matches!(error, DynamicsError::NotPositiveDefinite { row: 1, .. }), "{error}");
+        assert!(equations.solve(&[1]).is_ok());
     }
 }
