@@ -5,6 +5,8 @@ use robot::Robot;
 
 use crate::evaluate::Evaluated;
 use crate::extent::{frame, scale};
+use crate::fit::Beliefs;
+use crate::repeats::motions;
 
 /// A hypothesis and its columns in the design.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +28,8 @@ pub(crate) struct Design {
     pub width: usize,
     /// Standard deviation of each weight before any data.
     pub prior: Vec<f64>,
+    /// Lowest and highest physically possible value of each weight.
+    pub bounds: Vec<(f64, f64)>,
     /// The columns that reach each joint, in order.
     pub local: Vec<Vec<usize>>,
     /// One entry a run.
@@ -36,6 +40,8 @@ pub(crate) struct Design {
     pub frame: Frame,
     /// Joints that moved; the rows of others take no part.
     pub moved: Vec<bool>,
+    /// Number of the motion of each run: runs that repeat a motion share it.
+    pub motion: Vec<usize>,
 }
 
 /// One run of a [`Design`].
@@ -85,14 +91,17 @@ impl Design {
             groups: Vec::new(),
             width: 0,
             prior: Vec::new(),
+            bounds: Vec::new(),
             local: vec![Vec::new(); robot.joint_count()],
             runs: Vec::new(),
             rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
             frame,
             moved: moved.to_vec(),
+            motion: Vec::new(),
         };
         let origins = design.lay_out(robot, &hypotheses, &scale, &evaluated);
         design.runs = evaluated.iter().map(|e| e.to_run(&design.local, &origins)).collect();
+        design.motion = motions(&design);
         Ok(design)
     }
 
@@ -108,6 +117,7 @@ impl Design {
         let mut origins: Vec<(usize, usize)> = Vec::new();
         for (h, &hypothesis) in hypotheses.iter().enumerate() {
             let prior = hypothesis.prior(robot, scale);
+            let bounds = hypothesis.bounds(robot);
             let mut group = Group { hypothesis, columns: Vec::new(), joints: Vec::new() };
             for (k, &sd) in prior.iter().enumerate() {
                 let reached =
@@ -119,6 +129,7 @@ impl Design {
                 if index == origins.len() {
                     origins.push((h, k));
                     self.prior.push(sd);
+                    self.bounds.push(bounds[k]);
                     reached().for_each(|j| self.local[j].push(index));
                 }
                 group.columns.push(index);
@@ -133,6 +144,11 @@ impl Design {
         }
         self.width = origins.len();
         origins
+    }
+
+    /// What is believed of every weight before any data.
+    pub fn beliefs(&self) -> Beliefs<'_> {
+        Beliefs { prior: &self.prior, bounds: &self.bounds }
     }
 
     /// Number of joints.

@@ -16,7 +16,7 @@ pub(crate) struct HeldOutGain {
 }
 
 impl HeldOutGain {
-    /// Searches anew without each fold and predicts that fold.
+    /// Searches anew without each fold of `whole` and predicts that fold.
     pub fn new(record: &Record, whole: &Problem, progress: &dyn Progress) -> Self {
         progress.stage("testing on held-out data", whole.folds.len());
         let weights: Vec<Vec<f64>> = whole
@@ -44,7 +44,7 @@ fn inverse(record: &Record, whole: &Problem, weights: &[Vec<f64>]) -> InverseGai
         (0..joints).map(of).collect()
     };
     let fold = |(f, fold): (usize, &crate::blocks::Fold)| FoldGain {
-        name: fold.name.clone(),
+        name: name(whole, f),
         torque_rms_nm: (0..joints).map(|j| measured(record, &fold.test, j).0).collect(),
         rms_before_nm: rms(&fold.test, &nothing),
         rms_after_nm: rms(&fold.test, &weights[f]),
@@ -63,6 +63,16 @@ fn inverse(record: &Record, whole: &Problem, weights: &[Vec<f64>]) -> InverseGai
         held_out: held_out(whole),
         folds,
     }
+}
+
+fn name(whole: &Problem, f: usize) -> String {
+    let runs = &whole.design.runs;
+    if runs.len() == 1 {
+        return format!("part {} of {}", f + 1, whole.folds.len());
+    }
+    let mut held: Vec<usize> = whole.folds[f].test.iter().map(|&b| whole.blocks[b].run).collect();
+    held.dedup();
+    held.iter().map(|&r| runs[r].name.as_str()).collect::<Vec<_>>().join(" + ")
 }
 
 fn held_out(whole: &Problem) -> String {

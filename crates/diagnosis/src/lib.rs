@@ -23,6 +23,7 @@ mod gram;
 mod noise;
 mod problem;
 mod progress;
+mod repeats;
 mod result;
 mod rivals;
 mod ruled_out;

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use crate::blocks::{Block, Fold, folds};
+use crate::blocks::{Block, Fold, Folding, folds};
 use crate::design::Design;
 use crate::fit::Fit;
 use crate::gram::{Grams, Information};
@@ -52,8 +52,7 @@ impl<'a> Problem<'a> {
         of: &[usize],
         weight: Vec<f64>,
     ) -> Self {
-        let names: Vec<String> = design.runs.iter().map(|r| r.name.clone()).collect();
-        let folds = folds(blocks, of, &names);
+        let folds = folds(blocks, of, &design.motion, Folding::ByMotion);
         let info = grams.information(of, &weight);
         let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
         Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training }
@@ -62,6 +61,14 @@ impl<'a> Problem<'a> {
     /// The same problem with other weights.
     pub fn reweighted(&self, weight: Vec<f64>) -> Self {
         Self::new(self.design, self.blocks, self.grams, &self.of, weight)
+    }
+
+    /// The same problem held out in another way.
+    pub fn refolded(&self, folding: Folding) -> Self {
+        let folds = folds(self.blocks, &self.of, &self.design.motion, folding);
+        let information = |f: &Fold| self.grams.information(&f.train, &self.weight);
+        let training = folds.iter().map(information).collect();
+        Self { folds, training, ..self.clone() }
     }
 
     /// The columns of a model, in increasing order.
@@ -80,12 +87,12 @@ impl<'a> Problem<'a> {
 
     /// The fit of a model to all blocks.
     pub fn fit(&self, model: &Model) -> Option<Fit> {
-        Fit::new(&self.info, self.columns(model), &self.design.prior)
+        Fit::new(&self.info, self.columns(model), self.design.beliefs())
     }
 
     /// All weights of a model fitted to the training blocks of fold `fold`.
     pub fn fold_weights(&self, model: &Model, fold: usize) -> Vec<f64> {
-        let fit = Fit::new(&self.training[fold], self.columns(model), &self.design.prior);
+        let fit = Fit::new(&self.training[fold], self.columns(model), self.design.beliefs());
         fit.map_or_else(|| vec![0.0; self.design.width], |f| f.expand(self.design.width))
     }
 
@@ -154,6 +161,12 @@ impl<'a> Problem<'a> {
     /// The noise that a model leaves on held-out blocks.
     pub fn noise(&self, model: &Model) -> Noise {
         Noise::of(&self.held_out_residuals(|fold| self.fold_weights(model, fold)))
+    }
+
+    /// The noise that a model leaves on the blocks it is fitted to.
+    pub fn fitted_noise(&self, model: &Model) -> Noise {
+        let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
+        Noise::of(&self.held_out_residuals(|_| weights.clone()))
     }
 
     /// The model of every hypothesis at once.

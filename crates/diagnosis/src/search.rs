@@ -7,6 +7,9 @@ use crate::noise::Noise;
 use crate::problem::{Model, Problem};
 use crate::select::Selection;
 
+/// Rounds of selecting and measuring anew the noise that the selected model leaves.
+const ROUNDS: usize = 4;
+
 /// What every search on a record shares.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record<'a> {
@@ -34,20 +37,24 @@ impl<'a> Record<'a> {
         };
         let weight = start.weights(&self.design.moved);
         let rough = Problem::new(self.design, self.blocks, self.grams, of, weight);
-        let mut noise = rough.noise(&rough.everything());
-        // A model of everything may predict worse than none where it extrapolates.
-        noise.variance.iter_mut().zip(&start.variance).for_each(|(v, s)| *v = v.min(*s));
+        let noise = rough.fitted_noise(&rough.everything());
         rough.reweighted(noise.weights(&self.design.moved))
     }
 
     /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by
     /// the noise that they leave.
     pub fn search(&self, of: &[usize]) -> (Problem<'a>, Model) {
-        let problem = self.problem(of);
-        let first = self.selection(&problem).run(Model::new());
-        let weight = problem.noise(&first).weights(&self.design.moved);
-        let problem = problem.reweighted(weight);
-        let model = self.selection(&problem).run(first);
+        let mut problem = self.problem(of);
+        let mut model = Model::new();
+        for _ in 0..ROUNDS {
+            let next = self.selection(&problem).run(model.clone());
+            let settled = next == model;
+            model = next;
+            problem = problem.reweighted(problem.noise(&model).weights(&self.design.moved));
+            if settled {
+                break;
+            }
+        }
         (problem, model)
     }
 

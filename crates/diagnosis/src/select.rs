@@ -1,5 +1,7 @@
 use std::cmp::Ordering;
 
+use catalogue::EffectKind;
+use effects::Hypothesis;
 use robot::Robot;
 
 use crate::fit::Fit;
@@ -36,7 +38,30 @@ impl Selection<'_> {
                 break;
             }
         }
+        self.plainer(&mut model);
         model
+    }
+
+    /// Names a disputed constant by its plainer cause: where Coulomb friction with a torque
+    /// offset explains the log as well as asymmetric friction, the pair is taken. The two
+    /// differ only at standstill, and an offset is there whether the joint moves or not.
+    fn plainer(&self, model: &mut Model) {
+        use EffectKind::{AsymmetricFriction, CoulombFriction, TorqueOffset};
+        let design = self.problem.design;
+        for g in model.clone() {
+            let Hypothesis { kind: AsymmetricFriction, place } = design.groups[g].hypothesis else {
+                continue;
+            };
+            let mut pair = model.clone();
+            pair.remove(&g);
+            let parts = [CoulombFriction, TorqueOffset];
+            pair.extend(parts.iter().filter_map(|&kind| design.find(Hypothesis { kind, place })));
+            let evidence = |m: &Model| self.problem.fit(m).map(|f| f.evidence);
+            let Some((ours, theirs)) = evidence(model).zip(evidence(&pair)) else { continue };
+            if theirs > ours - LEAST_EVIDENCE {
+                *model = pair;
+            }
+        }
     }
 
     fn forward(&self, model: &mut Model) {
@@ -91,7 +116,9 @@ impl Selection<'_> {
     fn admits(&self, weights: &[f64], g: usize) -> bool {
         let group = &self.problem.design.groups[g];
         let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
-        group.hypothesis.admissible(self.robot, &own)
+        // A friction that wants to be negative is held at zero, and then is no change at all.
+        let changes = own.iter().any(|w| w.abs() > 0.0);
+        changes && group.hypothesis.admissible(self.robot, &own)
     }
 
     /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`.

@@ -29,12 +29,12 @@ pub(crate) fn settle(
     let links = links(design, model);
     let all = problem.columns(model);
     if links.is_empty() {
-        let fit = Fit::new(info, all, &design.prior);
+        let fit = Fit::new(info, all, design.beliefs());
         return fit.map_or_else(|| vec![0.0; design.width], |f| f.expand(design.width));
     }
     let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
     let rest: Vec<usize> = all.into_iter().filter(|k| !body.contains(k)).collect();
-    let Some(others) = Fit::new(info, rest.clone(), &design.prior) else {
+    let Some(others) = Fit::new(info, rest.clone(), design.beliefs()) else {
         return vec![0.0; design.width];
     };
     let change = consistent_change(&others, info, robot, &links, design);
@@ -46,8 +46,9 @@ pub(crate) fn settle(
         g: &info.g - &info.h * DVector::from_column_slice(&weights),
         yy: info.yy,
     };
-    if let Some(fit) = Fit::new(&held, rest, &design.prior) {
-        fit.columns.iter().zip(fit.weights.iter()).for_each(|(&k, &w)| weights[k] = w);
+    if let Some(fit) = Fit::new(&held, rest, design.beliefs()) {
+        let others = fit.expand(design.width);
+        weights.iter_mut().zip(others).for_each(|(w, other)| *w += other);
     }
     weights
 }
@@ -72,8 +73,8 @@ fn consistent_change(
 ) -> Vec<f64> {
     let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
     let flat = vec![f64::INFINITY; design.width];
-    let complement = others.complement(info, &body, &flat);
-    let (h, u) = (&complement.b, complement.project(&info.g));
+    let (complement, u) = others.beyond(info, &body, &flat);
+    let h = &complement.b;
     let prior = pick(&DVector::from_column_slice(&design.prior), &body);
     // Seen directions are solved for, unseen ones stay: (P H P + eps) x = P u.
     let scaled = DMatrix::from_fn(h.nrows(), h.ncols(), |i, k| prior[i] * h[(i, k)] * prior[k]);

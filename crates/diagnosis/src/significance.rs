@@ -3,6 +3,11 @@ use rayon::prelude::*;
 use crate::flip_test::{p_value, q_values};
 use crate::problem::{Model, Problem};
 use crate::settings::Settings;
+use crate::stability::stability;
+
+/// Least share of half-samples in which a finding must have evidence (Meinshausen &
+/// Buhlmann 2010 advise 0.6 to 0.9).
+const LEAST_STABILITY: f64 = 0.8;
 
 /// The false-discovery rate of every hypothesis, none for those that cannot be tested
 /// because the model already has their columns.
@@ -32,8 +37,8 @@ impl Significance {
     }
 }
 
-/// Drops the least significant hypothesis until all that are left pass the
-/// false-discovery rate of the settings.
+/// Drops hypotheses one at a time until all that are left are significant and stable: the
+/// least significant first, then the least stable.
 pub(crate) fn significant(
     problem: &Problem,
     mut model: Model,
@@ -43,8 +48,14 @@ pub(crate) fn significant(
         let significance = Significance::new(problem, &model, settings);
         let q = |g: &usize| significance.q[*g].unwrap_or(1.0);
         let worst = model.iter().copied().max_by(|a, b| q(a).total_cmp(&q(b)));
-        match worst.filter(|g| q(g) > settings.false_discovery_rate) {
-            Some(g) => model.remove(&g),
+        if let Some(g) = worst.filter(|g| q(g) > settings.false_discovery_rate) {
+            model.remove(&g);
+            continue;
+        }
+        let stable = stability(problem, &model, settings.seed);
+        let least = stable.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        match least.filter(|(_, share)| *share < LEAST_STABILITY) {
+            Some((g, _)) => model.remove(&g),
             None => return (model, significance),
         };
     }

@@ -24,7 +24,7 @@ pub(crate) fn stability(problem: &Problem, model: &Model, seed: u64) -> Vec<(usi
         for half in [first, second] {
             let info = problem.grams.information(half, &problem.weight);
             let evidence = |m: &Model| {
-                Fit::new(&info, problem.columns(m), &problem.design.prior).map(|f| f.evidence)
+                Fit::new(&info, problem.columns(m), problem.design.beliefs()).map(|f| f.evidence)
             };
             let full = evidence(model);
             for (g, count) in &mut kept {

@@ -27,7 +27,7 @@ pub(crate) struct Structure {
 /// A flexible predictor of one joint's residual: a sum of piecewise linear functions,
 ///
 /// ```text
-/// r = sum_k f_k(q_k) + f_v(qd) + f_a(qdd) + f_load(tau) + sign(qd) (h_q(q) + h_load(tau))
+/// r = sum_k (f_k(q_k) + v_k(qd_k)) + f_a(qdd) + f_load(tau) + sign(qd) (h_q(q) + h_load(tau))
 /// ```
 ///
 /// each on nine knots, ridge-regularised; judged on held-out parts only.
@@ -175,7 +175,8 @@ fn families(robot: &Robot, design: &Design, joint: usize) -> Vec<Family> {
         .filter(|&j| design.moved[j])
         .map(|j| family(name("position", j), state(0, j), false))
         .collect();
-    all.push(family(name("velocity", joint), state(1, joint), false));
+    let velocities = (0..design.joints()).filter(|&j| design.moved[j]);
+    all.extend(velocities.map(|j| family(name("velocity", j), state(1, j), false)));
     all.push(family(name("acceleration", joint), state(2, joint), false));
     all.push(family(name("load", joint), load(), false));
     all.push(family(name("position", joint), state(0, joint), true));

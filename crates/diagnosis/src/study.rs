@@ -1,7 +1,7 @@
 use logs::Prepared;
 use robot::Robot;
 
-use crate::blocks::{Block, FEWEST_BLOCKS, blocks};
+use crate::blocks::{Block, FEWEST_BLOCKS, Folding, blocks};
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extend::extended;
@@ -34,6 +34,8 @@ pub(crate) struct Study<'a> {
 /// What the search over the whole record came to.
 struct Answer<'a> {
     problem: Problem<'a>,
+    /// The same problem held out by run.
+    by_run: Problem<'a>,
     model: Model,
     significance: Significance,
     weights: Vec<f64>,
@@ -62,7 +64,7 @@ impl Study<'_> {
         let answer = self.answer(&record, progress);
         let robot = extended(self.robot, self.design, &answer.model, &answer.weights);
         let diagnosis = self.report(&record, &answer);
-        Ok((diagnosis, traces(self.design, &answer.problem, &answer.gain.weights), robot))
+        Ok((diagnosis, traces(self.design, &answer.by_run, &answer.gain.weights), robot))
     }
 
     /// Blocks of at least five autocorrelation times of what a model of everything leaves.
@@ -106,7 +108,8 @@ impl Study<'_> {
         let (model, significance) = significant(&problem, model, self.settings);
         progress.step();
         let weights = settle(&problem, &model, &problem.info, self.robot);
-        let gain = HeldOutGain::new(record, &problem, progress);
+        let by_run = problem.refolded(Folding::ByRun);
+        let gain = HeldOutGain::new(record, &by_run, progress);
         let found = {
             let selection = record.selection(&problem);
             let evidence = Evidence {
@@ -118,7 +121,7 @@ impl Study<'_> {
             };
             evidence.findings()
         };
-        Answer { problem, model, significance, weights, found, gain }
+        Answer { problem, by_run, model, significance, weights, found, gain }
     }
 
     fn report(&self, record: &Record, answer: &Answer) -> Diagnosis {
@@ -163,13 +166,14 @@ impl Study<'_> {
         let time = integrated_time(&residual);
         let moved = self.design.moved[j];
         let structure = if moved {
-            let parts = (record.blocks, problem.folds.as_slice());
+            let parts = (record.blocks, answer.by_run.folds.as_slice());
             Probe::new(self.robot, self.design, parts, j).structure(&residual)
         } else {
             Structure { share: 0.0, depends_on: Vec::new() }
         };
         let remaining_rms = inverse.rms_after_nm[j];
-        let (floor, source) = floors.choose(j, remaining_rms * (1.0 - structure.share).sqrt());
+        let (floor, source) =
+            floors.choose(j, remaining_rms * (1.0 - structure.share).sqrt(), time);
         let lowered = |f: &&Found| f.fall[j] > record.practical[j].powi(2);
         let situation = Situation {
             moved,
@@ -200,7 +204,7 @@ impl Study<'_> {
 
     /// What the extended model leaves at joint `j` where it was held out, `[run][sample]`.
     fn held_out_residual(&self, answer: &Answer, j: usize) -> Vec<Vec<f64>> {
-        let stretches = answer.problem.held_out_residuals(|f| answer.gain.weights[f].clone());
+        let stretches = answer.by_run.held_out_residuals(|f| answer.gain.weights[f].clone());
         stretches.into_iter().nth(j).unwrap_or_default()
     }
 

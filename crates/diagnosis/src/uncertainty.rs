@@ -4,7 +4,7 @@ use robot::Robot;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::extend::extended;
-use crate::fit::{Fit, pick};
+use crate::fit::{Fit, covariance, pick};
 use crate::problem::{Model, Problem};
 use crate::result::Estimate;
 
@@ -22,6 +22,8 @@ const DETERMINED: f64 = 0.5;
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
     columns: Vec<usize>,
+    /// Columns whose weight is held at a physical bound.
+    held: Vec<usize>,
     likelihood: DMatrix<f64>,
     blocks: DMatrix<f64>,
     /// Half width of a 95 per cent interval in standard deviations.
@@ -31,17 +33,21 @@ pub(crate) struct Uncertainty {
 impl Uncertainty {
     /// The uncertainty of `fit`, whose weights are used as they stand in `weights`.
     pub fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
-        let likelihood = fit.covariance();
+        let held: Vec<usize> = fit.held.iter().map(|(k, _)| *k).collect();
+        // Held weights are uncertain too, on the side that is possible.
+        let mut columns = [fit.columns.as_slice(), &held].concat();
+        columns.sort_unstable();
+        let likelihood = covariance(&problem.info, &columns, &problem.design.prior);
         let count = problem.of.len() as f64;
-        let mut meat = DMatrix::zeros(fit.columns.len(), fit.columns.len());
+        let mut meat = DMatrix::zeros(columns.len(), columns.len());
         for &b in &problem.of {
-            let score = pick(&problem.grams.score(b, &problem.weight, weights), &fit.columns);
+            let score = pick(&problem.grams.score(b, &problem.weight, weights), &columns);
             meat.ger(1.0, &score, &score, 1.0);
         }
         let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
         let t =
             StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0)).map_or(2.0, |d| d.inverse_cdf(0.975));
-        Self { columns: fit.columns.clone(), likelihood, blocks, t }
+        Self { columns, held, likelihood, blocks, t }
     }
 
     /// The parameters of `group` as the user reads them, with intervals.
@@ -68,7 +74,12 @@ impl Uncertainty {
                 let prior = pick(&DVector::from_column_slice(&design.prior), own);
                 let sd = self.sd(&place, &gradient);
                 let before = gradient.component_mul(&prior).norm();
-                estimate(quantity, sd * self.t, sd < DETERMINED * before)
+                let mut estimate = estimate(quantity, sd * self.t, sd < DETERMINED * before);
+                if let ([k], true) = (own.as_slice(), self.held.contains(&own[0])) {
+                    let low = design.bounds[*k].0.is_finite() == (gradient[0] > 0.0);
+                    estimate.ci95[usize::from(!low)] = quantity.value;
+                }
+                estimate
             })
             .collect()
     }

@@ -1,10 +1,13 @@
 use crate::result::Verdict;
 
-/// Share of a residual's power above which what a predictor finds in it counts as structure.
+/// Share of a residual's power above which what is not noise in it counts as structure.
 const STRUCTURED: f64 = 0.15;
 
 /// RMS of structure that matters, as a share of the effort's RMS.
 const MATTERS: f64 = 0.01;
+
+/// Share of the nominal residual's power that may stay without a name where the rest has one.
+const EXPLAINED: f64 = 0.05;
 
 /// What is known of one joint when its verdict is due.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,9 +34,16 @@ impl Situation {
         self.structure.max(above).clamp(0.0, 1.0)
     }
 
+    /// RMS of what is left without a name.
+    fn left(&self) -> f64 {
+        self.unexplained().sqrt() * self.remaining_rms
+    }
+
     fn structure_is_left(&self) -> bool {
-        let share = self.unexplained();
-        share > STRUCTURED && share.sqrt() * self.remaining_rms > MATTERS * self.torque_rms
+        let named = if self.findings > 0 { EXPLAINED } else { 0.0 };
+        self.unexplained() > STRUCTURED
+            && self.left() > MATTERS * self.torque_rms
+            && self.left().powi(2) > named * self.nominal_rms.powi(2)
     }
 
     /// The verdict and why.
@@ -41,29 +51,25 @@ impl Situation {
         if !self.moved {
             return (Verdict::DataInadequate, "the joint does not move in these logs".to_owned());
         }
+        let share = 100.0 * (self.remaining_rms / self.nominal_rms.max(f64::MIN_POSITIVE)).powi(2);
         let left = format!(
-            "{:.3} N m RMS remain over a noise floor of {:.3}",
+            "{share:.1} % of the gap's power is left, {:.3} N m RMS over a noise floor of {:.3}",
             self.remaining_rms, self.floor
         );
         match (self.findings, self.structure_is_left()) {
             (0, false) => (
                 Verdict::Consistent,
                 format!(
-                    "the nominal model leaves {:.3} N m RMS, its noise floor is {:.3}",
+                    "the nominal model leaves {:.3} N m RMS over a noise floor of {:.3}",
                     self.nominal_rms, self.floor
                 ),
             ),
             (0, true) => (Verdict::Unexplained, format!("no named effect earns its place; {left}")),
-            (_, false) => {
-                (Verdict::Explained, format!("named effects bring the error to the noise; {left}"))
+            (_, false) => (Verdict::Explained, left),
+            (_, true) => {
+                let structure = 100.0 * self.unexplained();
+                (Verdict::PartlyExplained, format!("{left}; {structure:.0} % of that is no noise"))
             }
-            (_, true) => (
-                Verdict::PartlyExplained,
-                format!(
-                    "{left}; {:.0} % of the remaining power is structure",
-                    100.0 * self.unexplained()
-                ),
-            ),
         }
     }
 }

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint, unbounded};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `forward` for positive and `-backward` for negative velocity: two weights a joint,
@@ -30,6 +30,12 @@ impl Explain for AsymmetricFriction {
     fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
         let Place::Joint(j) = place else { return Vec::new() };
         vec![scale.effort[j]; 2]
+    }
+
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let a = &robot.links()[j].actuator;
+        [down_to_zero(a.coulomb_forward.min(a.coulomb_backward)), unbounded(1)].concat()
     }
 
     fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {

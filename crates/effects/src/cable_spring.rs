@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
-use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `stiffness (q - rest)`: one weight a joint, the change of the stiffness.
@@ -31,9 +31,9 @@ impl Explain for CableSpring {
         vec![scale.effort_per(j, &scale.range)]
     }
 
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
-        let (Place::Joint(j), [change]) = (place, weights) else { return false };
-        robot.links()[j].actuator.spring_stiffness + change >= 0.0
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        down_to_zero(robot.links()[j].actuator.spring_stiffness)
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `level sign(qd)`: one weight a joint, the change of both Coulomb levels.
@@ -27,10 +27,10 @@ impl Explain for CoulombFriction {
         vec![scale.effort[j]]
     }
 
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
-        let (Place::Joint(j), [change]) = (place, weights) else { return false };
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
         let a = &robot.links()[j].actuator;
-        a.coulomb_forward.min(a.coulomb_backward) + change >= 0.0
+        down_to_zero(a.coulomb_forward.min(a.coulomb_backward))
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {

@@ -44,8 +44,14 @@ pub trait Explain: Sync {
     /// Standard deviation of each weight before any data is seen.
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64>;
 
-    /// Whether the robot changed by `weights` is physically possible.
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool;
+    /// Lowest and highest physically possible value of each weight.
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)>;
+
+    /// Whether the robot changed by `weights`, each within its bounds, is possible.
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
+        let _ = (place, robot, weights);
+        true
+    }
 
     /// The robot changed by `weights`, whose columns were made in `frame`.
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame);
@@ -68,6 +74,16 @@ pub fn model(kind: EffectKind) -> &'static dyn Explain {
         EffectKind::GravityDirection => &crate::gravity_direction::GravityDirection,
         EffectKind::TorqueConstant => &crate::torque_constant::TorqueConstant,
     }
+}
+
+/// No bounds on any of `count` weights.
+pub(crate) fn unbounded(count: usize) -> Vec<(f64, f64)> {
+    vec![(f64::NEG_INFINITY, f64::INFINITY); count]
+}
+
+/// The bounds of a change that may take a nominal value down to zero, and up to anything.
+pub(crate) fn down_to_zero(nominal: f64) -> Vec<(f64, f64)> {
+    vec![(-nominal, f64::INFINITY)]
 }
 
 /// A column that reaches one joint.

@@ -41,8 +41,13 @@ impl Explain for GravityDirection {
         vec![TILT_SD; 2]
     }
 
+    fn bounds(&self, _: Place, _: &Robot) -> Vec<(f64, f64)> {
+        vec![(-TILT_LIMIT, TILT_LIMIT); 2]
+    }
+
+    /// A tilt at the limit of what the columns describe is no explanation.
     fn admissible(&self, _: Place, _: &Robot, weights: &[f64]) -> bool {
-        weights.iter().all(|tilt| tilt.abs() <= TILT_LIMIT)
+        weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * TILT_LIMIT)
     }
 
     fn extend(&self, _: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {

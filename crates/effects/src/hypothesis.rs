@@ -47,6 +47,11 @@ impl Hypothesis {
         self.model().prior(self.place, robot, scale)
     }
 
+    /// See [`Explain::bounds`].
+    pub fn bounds(self, robot: &Robot) -> Vec<(f64, f64)> {
+        self.model().bounds(self.place, robot)
+    }
+
     /// See [`Explain::admissible`].
     pub fn admissible(self, robot: &Robot, weights: &[f64]) -> bool {
         self.model().admissible(self.place, robot, weights)

@@ -2,6 +2,7 @@ use catalogue::EffectKind;
 use dynamics::PARAMETERS_PER_LINK;
 use robot::{Inertia, Robot};
 
+use crate::explain::{down_to_zero, unbounded};
 use crate::{Column, Explain, Frame, Motion, Part, Place, Quantity, Scale};
 
 /// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
@@ -27,9 +28,13 @@ impl Explain for InertialParameters {
         link_prior(robot.links()[link].inertia.mass, scale)
     }
 
-    /// Any change may be tried; what is written into a robot is made physical first.
-    fn admissible(&self, _: Place, _: &Robot, _: &[f64]) -> bool {
-        true
+    /// The mass stays positive; that the whole inertia is physical is seen to where it is
+    /// written into a robot.
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Link(link) = place else { return Vec::new() };
+        let mut bounds = down_to_zero(robot.links()[link].inertia.mass);
+        bounds.extend(unbounded(PARAMETERS_PER_LINK - 1));
+        bounds
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {

@@ -2,7 +2,9 @@ use catalogue::EffectKind;
 use nalgebra::Vector3;
 use robot::{Inertia, Robot};
 
-use crate::inertial_parameters::{extend_link, link_columns, link_prior, mass_and_com, quantities};
+use crate::inertial_parameters::{
+    InertialParameters, extend_link, link_columns, link_prior, mass_and_com, quantities,
+};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `Y_last pi_payload`: ten weights, the inertial parameters of a body held by a last
@@ -34,6 +36,11 @@ impl Explain for Payload {
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let Place::Link(link) = place else { return Vec::new() };
         link_prior(robot.links()[link].inertia.mass, scale)
+    }
+
+    /// As for the link's own parameters: what makes it a body is tested together.
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        InertialParameters.bounds(place, robot)
     }
 
     fn admissible(&self, _: Place, _: &Robot, weights: &[f64]) -> bool {

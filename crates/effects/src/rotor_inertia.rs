@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `rotor_inertia qdd`: one weight a joint, the change of the rotor inertia.
@@ -27,9 +27,9 @@ impl Explain for RotorInertia {
         vec![scale.effort_per(j, &scale.acceleration)]
     }
 
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
-        let (Place::Joint(j), [change]) = (place, weights) else { return false };
-        robot.links()[j].actuator.rotor_inertia + change >= 0.0
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        down_to_zero(robot.links()[j].actuator.rotor_inertia)
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {

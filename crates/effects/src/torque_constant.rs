@@ -15,7 +15,7 @@ pub(crate) struct TorqueConstant;
 const GAIN_SD: f64 = 0.2;
 
 /// Largest believable relative error of a gain.
-const GAIN_LIMIT: f64 = 0.9;
+const GAIN_LIMIT: f64 = 0.4;
 
 impl Explain for TorqueConstant {
     fn kind(&self) -> EffectKind {
@@ -35,9 +35,16 @@ impl Explain for TorqueConstant {
         vec![GAIN_SD]
     }
 
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let largest = GAIN_LIMIT * robot.links()[j].actuator.torque_gain;
+        vec![(-largest, largest)]
+    }
+
+    /// A gain at the limit of what is believable is no explanation.
     fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
         let (Place::Joint(j), [change]) = (place, weights) else { return false };
-        change.abs() <= GAIN_LIMIT * robot.links()[j].actuator.torque_gain
+        change.abs() < (1.0 - 1e-9) * GAIN_LIMIT * robot.links()[j].actuator.torque_gain
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::explain::{actuator_quantity, at_joint, every_joint};
+use crate::explain::{actuator_quantity, at_joint, every_joint, unbounded};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `offset`: one weight a joint, the change of the effort reported at zero torque.
@@ -27,8 +27,8 @@ impl Explain for TorqueOffset {
         vec![scale.effort[j]]
     }
 
-    fn admissible(&self, _: Place, _: &Robot, _: &[f64]) -> bool {
-        true
+    fn bounds(&self, _: Place, _: &Robot) -> Vec<(f64, f64)> {
+        unbounded(1)
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
