@@ -64,6 +64,24 @@ fn truncated_parquet() {
 }
 
 #[test]
+fn damaged_parquet_never_panics() {
+    let time = clock(100, 100.0);
+    let (j1, j2) = (follows("j1", &time, f64::sin), follows("j2", &time, f64::cos));
+    let file = Scratch::new("run.parquet", "");
+    write_parquet(&file.path, &run(time, vec![j1, j2])).unwrap();
+    let whole = fs::read(&file.path).unwrap();
+    let mut refused = 0;
+    // Every third byte of the file's description, which is at its end.
+    for position in (whole.len() - 1500..whole.len()).step_by(3) {
+        let mut damaged = whole.clone();
+        damaged[position] ^= 0x55;
+        fs::write(&file.path, &damaged).unwrap();
+        refused += usize::from(file.read(&two_joints()).is_err());
+    }
+    assert!(refused > 50, "{refused}");
+}
+
+#[test]
 fn parquet_in_name_only() {
     let message = Scratch::new("run.parquet", "time,j1.position\n").message(&two_joints());
     assert_eq!(

@@ -1,6 +1,7 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs::File,
+    panic::{UnwindSafe, catch_unwind},
     path::Path,
 };
 
@@ -13,7 +14,10 @@ use arrow_array::{
     },
 };
 use arrow_schema::{DataType, Schema};
-use parquet::arrow::{ProjectionMask, arrow_reader::ParquetRecordBatchReaderBuilder};
+use parquet::arrow::{
+    ProjectionMask,
+    arrow_reader::{ArrowReaderOptions, ParquetRecordBatchReaderBuilder},
+};
 
 use crate::LogError;
 
@@ -26,7 +30,18 @@ fn open(path: &Path) -> Result<Builder, LogError> {
     let unreadable =
         |e: std::io::Error| LogError::Unreadable { path: path.to_owned(), reason: e.to_string() };
     let file = File::open(path).map_err(unreadable)?;
-    Builder::try_new(file).map_err(|e| broken(path, &e))
+    // The columns' own types are enough; the Arrow schema that a writer may have added
+    // is one more thing that can be damaged.
+    let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
+    Builder::try_new_with_options(file, options).map_err(|e| broken(path, &e))
+}
+
+/// Runs the decoder, which panics at some damaged files instead of refusing them.
+fn guarded<T>(
+    path: &Path,
+    decode: impl FnOnce() -> Result<T, LogError> + UnwindSafe,
+) -> Result<T, LogError> {
+    catch_unwind(decode).unwrap_or_else(|_| Err(broken(path, &"the decoder gave up")))
 }
 
 fn broken(path: &Path, error: &dyn std::fmt::Display) -> LogError {
@@ -35,7 +50,8 @@ fn broken(path: &Path, error: &dyn std::fmt::Display) -> LogError {
 
 /// Names of the columns, in the order of the file.
 pub(crate) fn names(path: &Path) -> Result<Vec<String>, LogError> {
-    Ok(open(path)?.schema().fields().iter().map(|f| f.name().clone()).collect())
+    let names = || Ok(open(path)?.schema().fields().iter().map(|f| f.name().clone()).collect());
+    guarded(path, names)
 }
 
 /// Columns by name: those in `required`, which must be numeric and without nulls, and of
@@ -44,6 +60,10 @@ pub(crate) fn load(
     path: &Path,
     required: &BTreeSet<&str>,
 ) -> Result<BTreeMap<String, Vec<f64>>, LogError> {
+    guarded(path, || decode(path, required))
+}
+
+fn decode(path: &Path, required: &BTreeSet<&str>) -> Result<BTreeMap<String, Vec<f64>>, LogError> {
     let builder = open(path)?;
     let wanted = wanted(path, builder.schema(), required)?;
     let mask = ProjectionMask::roots(builder.parquet_schema(), wanted);
