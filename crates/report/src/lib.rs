@@ -27,7 +27,7 @@ mod terminal;
 pub use chart::{Axis, Chart, Role, Series, Shape};
 pub use decimate::{bands, columns};
 pub use error::ReportError;
-pub use files::{sha256_of, write_atomically, write_folder};
+pub use files::{sha256_of, write_folder};
 pub use html::html;
 pub use json::json;
 pub use numbers::{interval, percent, significant, unit};

@@ -29,10 +29,10 @@ pub struct Arguments {
     #[arg(long, value_name = "COLUMN", default_value = "effort")]
     effort: String,
     /// Cut-off of the low-pass filter; chosen from the data when it is left out
-    #[arg(long, value_name = "HZ", value_parser = positive)]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     cutoff_hz: Option<f64>,
     /// Expected share of false causes among the findings
-    #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share)]
+    #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share, allow_negative_numbers = true)]
     fdr: f64,
     /// Seed of every random draw
     #[arg(long, default_value_t = Settings::default().seed)]

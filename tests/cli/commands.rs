@@ -1,0 +1,110 @@
+use crate::arm::{self, Gap};
+use crate::program::{Answer, plumbline, run};
+
+#[test]
+fn help_names_every_command_and_every_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let help = run(folder.path(), &["--help"]);
+    assert_eq!(help.code, 0);
+    for expected in ["diagnose", "robot", "log", "explain", "Exit codes:", "  3  unusable data"] {
+        assert!(help.out.contains(expected), "{expected} is missing in\n{}", help.out);
+    }
+    let help = run(folder.path(), &["diagnose", "--help"]);
+    for expected in ["--robot", "--log", "--out", "--map", "--effort", "--seed", "Exit codes:"] {
+        assert!(help.out.contains(expected), "{expected} is missing in\n{}", help.out);
+    }
+}
+
+#[test]
+fn wrong_usage_exits_with_two() {
+    let folder = arm::folder(Gap::None);
+    let base = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "--out", "out"];
+    let with = |more: &[&str]| run(folder.path(), &[&base, more].concat());
+    let cases: [(Answer, &str); 8] = [
+        (run(folder.path(), &[]), "Usage"),
+        (run(folder.path(), &["diagnoze"]), "diagnose"),
+        (run(folder.path(), &["diagnose", "--robot", "arm.urdf"]), "--log"),
+        (with(&["--fdr", "1.5"]), "between 0 and 1"),
+        (with(&["--cutoff-hz", "-3"]), "--cutoff-hz"),
+        (with(&["--cutoff-hz", "abc"]), "a positive number was expected"),
+        (with(&["--cutoff-hz", "5000"]), "half the sampling rate"),
+        (run(folder.path(), &["explain", "frictoin"]), "did you mean viscous_friction"),
+    ];
+    for (answer, expected) in cases {
+        assert_eq!(answer.code, 2, "{answer:?}");
+        assert!(answer.err.contains(expected), "{expected} is missing in\n{}", answer.err);
+    }
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn explain_prints_the_catalogue() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = run(folder.path(), &["explain"]);
+    for kind in catalogue::EffectKind::ALL {
+        assert!(list.out.contains(kind.name()), "{}", list.out);
+        let one = run(folder.path(), &["explain", kind.name()]);
+        assert_eq!(one.code, 0);
+        for expected in [kind.entry().equation, kind.entry().told_apart_by, kind.entry().source] {
+            assert!(one.out.contains(expected), "{expected} is missing in\n{}", one.out);
+        }
+    }
+}
+
+#[test]
+fn robot_check_names_an_impossible_inertia_and_exits_with_one() {
+    let folder = arm::folder(Gap::None);
+    let good = run(folder.path(), &["robot", "check", "arm.urdf"]);
+    assert_eq!((good.code, good.err.as_str()), (0, ""));
+    for expected in ["shoulder", "revolute", "-2.90 to 2.90", "consistent", "base parameters:"] {
+        assert!(good.out.contains(expected), "{expected} is missing in\n{}", good.out);
+    }
+    arm::write(folder.path(), "bad.urdf", &arm::URDF.replace("iyy=\"0.03\"", "iyy=\"0.3\""));
+    let bad = run(folder.path(), &["robot", "check", "bad.urdf", "--json"]);
+    assert_eq!(bad.code, 1);
+    let value: serde_json::Value = serde_json::from_str(&bad.out).unwrap();
+    assert_eq!(value["joints"][0]["link_defects"].as_array().unwrap().len(), 0);
+    let defect = value["joints"][1]["link_defects"][0].as_str().unwrap();
+    assert!(defect.contains("exceeds the sum of the other two"), "{defect}");
+}
+
+#[test]
+fn log_info_reads_a_log_with_and_without_a_robot() {
+    let folder = arm::folder(Gap::None);
+    let alone = run(folder.path(), &["log", "info", "run_0.csv"]);
+    assert_eq!(alone.code, 0, "{}", alone.err);
+    for expected in ["6000 rows", "200 Hz", "no gaps", "shoulder", "no acceleration"] {
+        assert!(alone.out.contains(expected), "{expected} is missing in\n{}", alone.out);
+    }
+    std::fs::copy(folder.path().join("run_0.csv"), folder.path().join("copy.csv")).unwrap();
+    let with = ["log", "info", "run_0.csv", "copy.csv", "--robot", "arm.urdf", "--json"];
+    let answer = run(folder.path(), &with);
+    let value: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(value["files"][0]["joints"][1]["limits"][1], 2.9);
+    assert!(value["files"][0]["repeats"].is_null());
+    assert_eq!(value["files"][1]["repeats"], "run_0.csv");
+}
+
+#[test]
+fn a_reader_that_has_gone_is_no_error() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = plumbline().arg("explain").stdout(writer).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+}
+
+#[test]
+fn colours_are_left_out_of_a_pipe_and_where_they_are_not_wanted() {
+    let coloured = |name: Option<&str>| {
+        let mut command = plumbline();
+        command.args(["explain", "payload"]).env("CLICOLOR_FORCE", "1");
+        name.map(|name| command.env(name, "1"));
+        let answer: Answer = command.output().unwrap().into();
+        answer.out.contains('\u{1b}')
+    };
+    assert!(coloured(None), "colours can be forced");
+    assert!(!coloured(Some("NO_COLOR")));
+    let piped: Answer = plumbline().args(["explain", "payload"]).output().unwrap().into();
+    assert!(!piped.out.contains('\u{1b}'));
+}

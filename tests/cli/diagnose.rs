@@ -1,0 +1,134 @@
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::arm::{self, Gap};
+use crate::program::{Answer, run};
+
+const FILES: [&str; 4] = ["diagnosis.json", "extended.toml", "report.html", "robot.urdf"];
+
+fn diagnose(folder: &Path, more: &[&str]) -> Answer {
+    let base = ["diagnose", "--log", "run_0.csv", "run_1.csv", "--log", "run_2.csv"];
+    run(folder, &[&base, more].concat())
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn friction_is_named_written_down_and_gone_from_the_extended_robot() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let answer = diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out"]);
+    assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
+    assert!(answer.out.starts_with("Explained: "), "{}", answer.out);
+    assert!(answer.out.contains("Coulomb friction"), "{}", answer.out);
+    assert!(answer.out.trim_end().ends_with("extended model out/extended.toml (for --robot)"));
+    assert!(!answer.out.contains('\u{1b}') && answer.err.is_empty(), "{answer:?}");
+    assert_eq!(names(&folder.path().join("out")), FILES);
+
+    let value = json(&folder.path().join("out/diagnosis.json"));
+    let finding = &value["findings"][0];
+    assert_eq!(
+        (&finding["effect"], &finding["joint"]),
+        (&"coulomb_friction".into(), &"elbow".into())
+    );
+    let level = finding["parameters"]["level"]["value"].as_f64().unwrap();
+    assert!((level - 1.5).abs() < 0.1, "{level}");
+
+    let again = diagnose(
+        folder.path(),
+        &["--robot", "out/extended.toml", "--out", "again", "--json", "--quiet"],
+    );
+    assert_eq!(again.code, 0, "{}", again.err);
+    let value: Value = serde_json::from_str(&again.out).unwrap();
+    assert_eq!(value["verdict"], "consistent");
+    assert_eq!(value["findings"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn a_gap_without_a_name_and_a_log_without_motion_exit_with_one() {
+    let folder = arm::folder(Gap::Ripple(1.5));
+    let answer = diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out"]);
+    assert_eq!(answer.code, 1, "{}{}", answer.out, answer.err);
+    let verdict = json(&folder.path().join("out/diagnosis.json"))["joints"][1]["verdict"].clone();
+    assert!(["unexplained", "partly_explained"].contains(&verdict.as_str().unwrap()), "{verdict}");
+
+    arm::write(folder.path(), "still.csv", &arm::still());
+    let arguments = ["diagnose", "--robot", "arm.urdf", "--log", "still.csv", "--out", "still"];
+    let answer = run(folder.path(), &arguments);
+    assert_eq!(answer.code, 1, "{}{}", answer.out, answer.err);
+    let value = json(&folder.path().join("still/diagnosis.json"));
+    assert_eq!(value["verdict"], "data_inadequate");
+}
+
+#[test]
+fn the_json_has_the_keys_of_the_schema_and_is_the_same_everywhere() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let answer = diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out", "--json"]);
+    let value: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(value["schema"], "plumbline.diagnosis/1");
+    for key in
+        ["verdict", "joints", "findings", "unexplained", "ruled_out", "gain", "data", "provenance"]
+    {
+        assert!(!value[key].is_null(), "{key} is missing");
+    }
+    for key in ["nmse_before", "nmse_after", "rms_before_nm", "rms_after_nm"] {
+        assert_eq!(value["gain"]["inverse"][key].as_array().unwrap().len(), 2, "{key}");
+    }
+    let files = value["provenance"]["files"].as_array().unwrap();
+    assert_eq!(files.len(), 4, "the robot and three logs");
+    assert!(files.iter().all(|f| f["sha256"].as_str().unwrap().len() == 64));
+    assert!(answer.err.contains("out/report.html"), "{}", answer.err);
+    assert_eq!(fs::read_to_string(folder.path().join("out/diagnosis.json")).unwrap(), answer.out);
+}
+
+#[test]
+fn the_same_command_writes_the_same_bytes() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let read = || FILES.map(|name| fs::read(folder.path().join("out").join(name)).unwrap());
+    let arguments = ["--robot", "arm.urdf", "--out", "out", "--quiet"];
+    let first = diagnose(folder.path(), &arguments);
+    assert_eq!((first.out.as_str(), first.err.as_str()), ("", ""));
+    let before = read();
+    diagnose(folder.path(), &arguments);
+    for (name, (a, b)) in FILES.iter().zip(before.iter().zip(&read())) {
+        assert!(a == b, "{name} differs");
+    }
+}
+
+#[test]
+fn the_report_opens_offline_and_holds_the_same_json() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let answer = diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out", "--json"]);
+    let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert!(!page.contains("http://") && !page.contains("https://"));
+    let policy = "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\"";
+    assert!(page.contains(policy));
+    assert_eq!(page.matches("<script").count(), 1, "only the data");
+    let (_, data) = page.split_once("<script type=\"application/json\" id=\"diagnosis\">").unwrap();
+    let embedded: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    assert_eq!(embedded, serde_json::from_str::<Value>(&answer.out).unwrap());
+    // Two joints, each with three views, one enlarged stretch and three runs.
+    assert_eq!(page.matches("<svg").count(), 2 * (3 + 1 + 3));
+    assert!(page.len() < 1_500_000, "{} bytes", page.len());
+}
+
+#[test]
+fn a_mesh_that_is_nowhere_is_no_error() {
+    let folder = arm::folder(Gap::None);
+    let mesh = r#"<link name="upper"><visual><geometry><mesh filename="package://no/such.stl"/></geometry></visual>"#;
+    arm::write(folder.path(), "mesh.urdf", &arm::URDF.replace("<link name=\"upper\">", mesh));
+    let answer = diagnose(folder.path(), &["--robot", "mesh.urdf", "--out", "out"]);
+    assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
+    assert!(answer.out.starts_with("Consistent: "), "{}", answer.out);
+}

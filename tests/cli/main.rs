@@ -1,0 +1,8 @@
+//! The program: messages, exit codes and files, from the outside.
+#![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
+
+mod arm;
+mod bad_input;
+mod commands;
+mod diagnose;
+mod program;

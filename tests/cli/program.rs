@@ -1,0 +1,36 @@
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The program that was built with this test: it lies one folder above.
+pub fn plumbline() -> Command {
+    let test = std::env::current_exe().unwrap();
+    let folder = test.parent().and_then(Path::parent).unwrap();
+    let program: PathBuf = folder.join(format!("plumbline{}", std::env::consts::EXE_SUFFIX));
+    assert!(program.exists(), "{} is not built: run cargo test --workspace", program.display());
+    let mut command = Command::new(program);
+    command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
+    command
+}
+
+/// Exit code, standard output and standard error.
+#[derive(Debug)]
+pub struct Answer {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
+}
+
+impl From<Output> for Answer {
+    fn from(output: Output) -> Self {
+        Self {
+            code: output.status.code().unwrap(),
+            out: String::from_utf8(output.stdout).unwrap(),
+            err: String::from_utf8(output.stderr).unwrap(),
+        }
+    }
+}
+
+/// Runs the program with these arguments in this folder.
+pub fn run(folder: &Path, arguments: &[&str]) -> Answer {
+    plumbline().current_dir(folder).args(arguments).output().unwrap().into()
+}
