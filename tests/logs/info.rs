@@ -51,7 +51,7 @@ fn injected_quantisation_is_found_and_smooth_positions_have_none() {
 #[test]
 fn gaps_rate_and_jitter_are_those_put_in() {
     let arm = robot(&[("j1", JointKind::Revolute)]);
-    let wobble = |k: usize| if k % 2 == 0 { 1e-4 } else { 0.0 };
+    let wobble = |k: usize| if k.is_multiple_of(2) { 1e-4 } else { 0.0 };
     let mut time: Vec<f64> = (0..1000).map(|k| k as f64 * 0.01 + wobble(k)).collect();
     time.drain(400..407);
     let info = log_info(&run(time.clone(), vec![follows("j1", &time, motion)]), &arm);

@@ -71,7 +71,9 @@ fn little_is_left_of_the_filters_settling_at_the_ends() {
 fn a_clock_that_is_uniform_is_left_alone_and_both_ends_are_cut() {
     let time: Vec<f64> = clock(1000, 100.0).iter().map(|t| t + 17.0).collect();
     let recorded = run(time.clone(), vec![follows("j1", &time, motion)]);
-    let prepared = prepare(&[recorded.clone()], &PrepareSettings { cutoff_hz: Some(5.0) }).unwrap();
+    let prepared =
+        prepare(std::slice::from_ref(&recorded), &PrepareSettings { cutoff_hz: Some(5.0) })
+            .unwrap();
     let first = &prepared.runs[0];
     assert_eq!(first.time, time[30..970]);
     assert_eq!(first.joints[0].effort, recorded.joints[0].effort[30..970]);
