@@ -1,1 +1,9 @@
-//! Support for the tests: golden files, synthetic logs, the built program.
+//! Support for the tests: synthetic logs, recorded logs where they are present.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a broken helper should stop the test that uses it"
+)]
+
+pub mod recorded;
+pub mod synthetic;

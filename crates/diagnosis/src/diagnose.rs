@@ -3,7 +3,7 @@ use robot::Robot;
 
 use crate::design::Design;
 use crate::error::DiagnosisError;
-use crate::extent::moved;
+use crate::extent::inadequate;
 use crate::progress::Progress;
 use crate::result::{Diagnosis, RunSummary};
 use crate::settings::Settings;
@@ -52,9 +52,12 @@ pub fn diagnose(
     let prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
     progress.step();
-    let design = Design::new(robot, &prepared, &moved(robot, &prepared))?;
+    let inadequate = inadequate(robot, &prepared);
+    let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
+    let design = Design::new(robot, &prepared, &moved)?;
     progress.step();
-    let study = Study { robot, settings, prepared: &prepared, design: &design };
+    let study =
+        Study { robot, settings, prepared: &prepared, design: &design, inadequate: &inadequate };
     let (mut diagnosis, traces, extended) = study.run(progress)?;
     diagnosis.data.runs = runs.iter().map(summary).collect();
     diagnosis.warnings = warnings;

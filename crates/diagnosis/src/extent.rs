@@ -37,10 +37,23 @@ pub(crate) fn scale(robot: &Robot, prepared: &Prepared) -> Scale {
     }
 }
 
-/// Whether each joint moved enough to show anything.
-pub(crate) fn moved(robot: &Robot, prepared: &Prepared) -> Vec<bool> {
-    let links = robot.links().iter().enumerate();
-    links.map(|(j, l)| range(prepared, j) > UNMOVED_SHARE * full_range(&l.joint)).collect()
+/// Why the logs can say nothing of a joint, for every joint of which that is so.
+pub(crate) fn inadequate(robot: &Robot, prepared: &Prepared) -> Vec<Option<String>> {
+    let reason = |(j, link): (usize, &robot::Link)| {
+        let (range, least) = (range(prepared, j), UNMOVED_SHARE * full_range(&link.joint));
+        if range <= least {
+            let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
+            return Some(format!(
+                "the joint moves over {range:.4} {unit} in these logs, at least {least:.3} are needed"
+            ));
+        }
+        let constant = prepared.runs.iter().find(|r| {
+            let effort = &r.joints[j].effort;
+            effort.iter().all(|e| (e - effort[0]).abs() <= f64::EPSILON * effort[0].abs())
+        })?;
+        Some(format!("its effort never changes in {}: it was not recorded there", constant.name))
+    };
+    robot.links().iter().enumerate().map(reason).collect()
 }
 
 /// Range of motion of joint `j` over all runs (rad or m).

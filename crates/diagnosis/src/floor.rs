@@ -8,9 +8,6 @@ use crate::result::NoiseFloorSource;
 /// Noise above the band begins at so many cut-offs.
 const ABOVE_BAND: f64 = 3.0;
 
-/// How near white noise must come to what a flexible predictor leaves to account for it.
-const ACCOUNTS: f64 = 0.8;
-
 /// Autocorrelation time (samples) above which a residual is too slow to be noise.
 const SLOW: f64 = 2.5;
 
@@ -33,13 +30,12 @@ impl Floors {
     /// leaves, `flexible`. Where that is slow (`time` in samples) although the effort's own
     /// noise is white and smaller, it is not noise, and the white noise is the floor.
     pub fn choose(&self, j: usize, flexible: f64, time: f64) -> (f64, NoiseFloorSource) {
-        let repeats = self.repeats.as_ref().map(|r| r[j]).filter(|r| *r <= flexible);
-        let white = self.white.as_ref().map(|w| w[j]);
-        match (repeats, white) {
+        let below = |floors: &Option<Vec<f64>>| {
+            floors.as_ref().map(|rms| rms[j]).filter(|rms| *rms <= flexible)
+        };
+        match (below(&self.repeats), below(&self.white)) {
             (Some(rms), _) => (rms, NoiseFloorSource::Repeats),
-            (None, Some(rms)) if time > SLOW || rms > ACCOUNTS * flexible => {
-                (rms.min(flexible), NoiseFloorSource::HighFrequencyBand)
-            }
+            (None, Some(rms)) if time > SLOW => (rms, NoiseFloorSource::HighFrequencyBand),
             _ => (flexible, NoiseFloorSource::FlexiblePredictor),
         }
     }

@@ -1,7 +1,7 @@
 use std::cmp::Ordering;
 
 use catalogue::EffectKind;
-use effects::Hypothesis;
+use effects::{Hypothesis, Place};
 use robot::Robot;
 
 use crate::fit::Fit;
@@ -42,26 +42,43 @@ impl Selection<'_> {
         model
     }
 
-    /// Names a disputed constant by its plainer cause: where Coulomb friction with a torque
-    /// offset explains the log as well as asymmetric friction, the pair is taken. The two
-    /// differ only at standstill, and an offset is there whether the joint moves or not.
+    /// Names a disputed cause by its plainer rival, where that has as much evidence: Coulomb
+    /// friction with a torque offset for asymmetric friction (they differ only at
+    /// standstill), rotor inertia for the inertia of the link behind the same joint.
     fn plainer(&self, model: &mut Model) {
-        use EffectKind::{AsymmetricFriction, CoulombFriction, TorqueOffset};
-        let design = self.problem.design;
         for g in model.clone() {
-            let Hypothesis { kind: AsymmetricFriction, place } = design.groups[g].hypothesis else {
+            let plain = self.plainer_than(g);
+            let mut other = model.clone();
+            other.remove(&g);
+            if plain.is_empty() || plain.iter().all(|p| other.contains(p)) {
                 continue;
-            };
-            let mut pair = model.clone();
-            pair.remove(&g);
-            let parts = [CoulombFriction, TorqueOffset];
-            pair.extend(parts.iter().filter_map(|&kind| design.find(Hypothesis { kind, place })));
+            }
+            other.extend(plain.iter().copied());
             let evidence = |m: &Model| self.problem.fit(m).map(|f| f.evidence);
-            let Some((ours, theirs)) = evidence(model).zip(evidence(&pair)) else { continue };
-            if theirs > ours - LEAST_EVIDENCE {
-                *model = pair;
+            let Some((ours, theirs)) = evidence(model).zip(evidence(&other)) else { continue };
+            if theirs > ours - LEAST_EVIDENCE && plain.iter().all(|&p| self.is_possible(&other, p))
+            {
+                *model = other;
             }
         }
+    }
+
+    fn plainer_than(&self, g: usize) -> Vec<usize> {
+        use EffectKind::{
+            AsymmetricFriction, CoulombFriction, InertialParameters, RotorInertia, TorqueOffset,
+        };
+        let design = self.problem.design;
+        let Hypothesis { kind, place } = design.groups[g].hypothesis;
+        let plain: Vec<Hypothesis> = match (kind, place) {
+            (AsymmetricFriction, _) => {
+                [CoulombFriction, TorqueOffset].map(|kind| Hypothesis { kind, place }).to_vec()
+            }
+            (InertialParameters, Place::Link(j)) => {
+                vec![Hypothesis { kind: RotorInertia, place: Place::Joint(j) }]
+            }
+            _ => Vec::new(),
+        };
+        plain.into_iter().filter_map(|h| design.find(h)).collect()
     }
 
     fn forward(&self, model: &mut Model) {

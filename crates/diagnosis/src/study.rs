@@ -29,6 +29,8 @@ pub(crate) struct Study<'a> {
     pub settings: &'a Settings,
     pub prepared: &'a Prepared,
     pub design: &'a Design,
+    /// Why the logs say nothing of a joint.
+    pub inadequate: &'a [Option<String>],
 }
 
 /// What the search over the whole record came to.
@@ -176,7 +178,7 @@ impl Study<'_> {
             floors.choose(j, remaining_rms * (1.0 - structure.share).sqrt(), time);
         let lowered = |f: &&Found| f.fall[j] > record.practical[j].powi(2);
         let situation = Situation {
-            moved,
+            inadequate: self.inadequate[j].clone(),
             findings: answer.found.iter().filter(lowered).count(),
             torque_rms,
             nominal_rms: inverse.rms_before_nm[j],

@@ -10,9 +10,10 @@ const MATTERS: f64 = 0.01;
 const EXPLAINED: f64 = 0.05;
 
 /// What is known of one joint when its verdict is due.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Situation {
-    pub moved: bool,
+    /// Why the logs say nothing of the joint.
+    pub inadequate: Option<String>,
     /// Number of findings that lower its held-out error.
     pub findings: usize,
     /// RMS of the effort (N·m or N).
@@ -48,8 +49,8 @@ impl Situation {
 
     /// The verdict and why.
     pub fn verdict(&self) -> (Verdict, String) {
-        if !self.moved {
-            return (Verdict::DataInadequate, "the joint does not move in these logs".to_owned());
+        if let Some(reason) = &self.inadequate {
+            return (Verdict::DataInadequate, reason.clone());
         }
         let share = 100.0 * (self.remaining_rms / self.nominal_rms.max(f64::MIN_POSITIVE)).powi(2);
         let left = format!(
