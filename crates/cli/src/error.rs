@@ -22,6 +22,9 @@ pub enum CliError {
     /// The report cannot be made or written.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// The robot with the findings is none that can be described.
+    #[error("the extended model cannot be written: {0}")]
+    Extended(RobotError),
     /// A file has no joints to look at.
     #[error("{}: there is no column <joint>.position, at least one was expected", path.display())]
     NoJoints {
@@ -52,7 +55,7 @@ impl CliError {
                 LogError::CutoffOutOfRange { .. } => 2,
                 _ => 3,
             },
-            Self::Robot(_) | Self::Diagnosis(_) | Self::NoJoints { .. } => 3,
+            Self::Robot(_) | Self::Extended(_) | Self::Diagnosis(_) | Self::NoJoints { .. } => 3,
         }
     }
 

@@ -2,7 +2,7 @@
 /// and the highest, in the order of time. A spike of one sample survives.
 ///
 /// `points` are `[x, y]` with ascending `x`; those that are not finite are left out.
-pub fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
+pub(crate) fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     let finite: Vec<[f64; 2]> =
         points.iter().copied().filter(|p| p.iter().all(|v| v.is_finite())).collect();
     let (Some(first), Some(last)) = (finite.first(), finite.last()) else { return Vec::new() };
@@ -32,7 +32,7 @@ const FEWEST: usize = 20;
 ///
 /// There are at most so many slices, all of the same number of points, so that none is
 /// sparse. Nothing when `x` is constant.
-pub fn bands(x: &[f64], y: &[f64], slices: usize) -> Vec<[f64; 4]> {
+pub(crate) fn bands(x: &[f64], y: &[f64], slices: usize) -> Vec<[f64; 4]> {
     let pairs = x.iter().copied().zip(y.iter().copied());
     let mut points: Vec<(f64, f64)> =
         pairs.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();

@@ -1,6 +1,8 @@
+use std::sync::Arc;
+
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{BandPlot, LinePlot};
-use kuva::render::layout::Layout;
+use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 use kuva::render::theme::Theme;
@@ -42,6 +44,7 @@ impl Chart {
             .with_label_size(12)
             .with_tick_size(11)
             .with_ticks(5)
+            .with_tick_format(TickFormat::Custom(Arc::new(tick)))
             .with_theme(theme)
     }
 }
@@ -52,6 +55,15 @@ fn padded([low, high]: [f64; 2]) -> (f64, f64) {
     let is_flat = high - low <= 1e-9 * size;
     let room = if is_flat { (0.1 * size).max(0.01) } else { 0.04 * (high - low) };
     (low - room, high + room)
+}
+
+/// A number at an axis, without zeros at its end.
+fn tick(value: f64) -> String {
+    if value.abs() > 0.0 && !(1e-4..1e6).contains(&value.abs()) {
+        return format!("{value:.1e}");
+    }
+    let text = format!("{value:.5}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn colour(role: Role) -> &'static str {
@@ -150,6 +162,12 @@ mod tests {
     fn a_path_keeps_its_points_and_loses_its_length() {
         let path = compact("M 1.234 5.0 L 2.0 3.01 L 10.06 -3.04 Z");
         assert_eq!(path, "M1.2 5 2 3 10.1 -3Z");
+    }
+
+    #[test]
+    fn ticks_are_short() {
+        let ticks = [0.0, -0.005, 12.5, 200.0, 3e-6].map(tick);
+        assert_eq!(ticks, ["0", "-0.005", "12.5", "200", "3.0e-6"]);
     }
 
     #[test]

@@ -25,7 +25,6 @@ mod tables;
 mod terminal;
 
 pub use chart::{Axis, Chart, Role, Series, Shape};
-pub use decimate::{bands, columns};
 pub use error::ReportError;
 pub use files::{sha256_of, write_folder};
 pub use html::html;

@@ -128,9 +128,9 @@ pub(crate) fn cause(finding: &Finding) -> Cause {
 
 fn place(at: &EffectAt) -> String {
     match (&at.joint, &at.link) {
-        (Some(joint), _) => format!("joint {joint}"),
-        (None, Some(link)) => format!("link {link}"),
-        (None, None) => "the whole robot".to_owned(),
+        (Some(joint), _) => format!("at joint {joint}"),
+        (None, Some(link)) => format!("of link {link}"),
+        (None, None) => "of the whole robot".to_owned(),
     }
 }
 

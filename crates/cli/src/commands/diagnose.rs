@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use diagnosis::{Diagnosis, Progress, Settings, Silent, Verdict};
 use logs::{ColumnMap, ReadOptions, Run};
 use report::{FileHash, Provenance, Report, ReportError};
-use robot::{Loaded, Robot, RobotError};
+use robot::{Loaded, Robot};
 
 use crate::Outcome;
 use crate::error::CliError;
@@ -25,7 +25,7 @@ pub struct Arguments {
     /// Names and units of columns that are called otherwise (TOML)
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
-    /// The effort is read from the columns <joint>.COLUMN
+    /// The effort is read from the columns `<joint>.COLUMN`
     #[arg(long, value_name = "COLUMN", default_value = "effort")]
     effort: String,
     /// Cut-off of the low-pass filter; chosen from the data when it is left out
@@ -145,7 +145,7 @@ fn extended_toml(
     loaded: &Loaded,
     extended: &Robot,
     diagnosis: &Diagnosis,
-) -> Result<String, RobotError> {
+) -> Result<String, CliError> {
     let mut text = format!("# {} with the findings of diagnosis.json\n", extended.name());
     for finding in &diagnosis.findings {
         let sizes: Vec<String> = finding
@@ -156,7 +156,8 @@ fn extended_toml(
             .collect();
         text.push_str(&format!("# {}: {}\n", finding.at.words(), sizes.join(", ")));
     }
-    Ok(text + "\n" + &loaded.to_toml(extended, "robot.urdf")?)
+    let toml = loaded.to_toml(extended, "robot.urdf").map_err(CliError::Extended)?;
+    Ok(format!("{text}\n{toml}"))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, ReportError> {

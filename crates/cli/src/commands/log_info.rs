@@ -20,7 +20,7 @@ pub struct Arguments {
     /// Names and units of columns that are called otherwise (TOML)
     #[arg(long, requires = "robot")]
     map: Option<PathBuf>,
-    /// The effort is read from the columns <joint>.COLUMN
+    /// The effort is read from the columns `<joint>.COLUMN`
     #[arg(long, value_name = "COLUMN", default_value = "effort")]
     effort: String,
     /// Print JSON
