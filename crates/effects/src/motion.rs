@@ -147,13 +147,9 @@ pub(crate) fn tilt_axes(gravity: Vector3<f64>) -> [Vector3<f64>; 2] {
 /// `[joint][link]`: whether the joint carries the link.
 fn carries(robot: &Robot) -> Vec<Vec<bool>> {
     let n = robot.joint_count();
-    let mut carries = vec![vec![false; n]; n];
-    for j in 0..n {
-        let mut at = Some(j);
-        while let Some(i) = at {
-            carries[i][j] = true;
-            at = robot.links()[i].parent;
-        }
-    }
-    carries
+    let carriers = |link: usize| -> Vec<usize> {
+        std::iter::successors(Some(link), |&at| robot.links()[at].parent).collect()
+    };
+    let carriers: Vec<Vec<usize>> = (0..n).map(carriers).collect();
+    (0..n).map(|joint| carriers.iter().map(|c| c.contains(&joint)).collect()).collect()
 }
