@@ -1,7 +1,14 @@
+use catalogue::EffectKind;
+use logs::{LogError, Prepared};
 use robot::Robot;
 
 use crate::design::Design;
-use crate::problem::Model;
+use crate::gram::Grams;
+use crate::problem::{Model, Problem};
+use crate::settle::settle;
+
+/// Rounds of fitting anew about the extended robot.
+const ROUNDS: usize = 2;
 
 /// The robot changed by the weights of a model.
 pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &[f64]) -> Robot {
@@ -12,4 +19,32 @@ pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &
         group.hypothesis.extend(&mut changed, &own, &design.frame);
     }
     changed
+}
+
+/// The robot changed by the weights of a model, with what is left of the changes fitted
+/// again about it where columns are tangents only: a gain scales what the other findings
+/// add, and a tilt turns gravity on a circle. A Gauss-Newton iteration.
+pub(crate) fn extended_anew(
+    robot: &Robot,
+    prepared: &Prepared,
+    problem: &Problem,
+    (model, weights): (&Model, &[f64]),
+) -> Result<Robot, LogError> {
+    let mut changed = extended(robot, problem.design, model, weights);
+    let kinds = model.iter().map(|&g| problem.design.groups[g].hypothesis.kind);
+    let tangent = |k| matches!(k, EffectKind::TorqueConstant | EffectKind::GravityDirection);
+    if !kinds.into_iter().any(tangent) {
+        return Ok(changed);
+    }
+    for _ in 0..ROUNDS {
+        let design = Design::new(&changed, prepared, &problem.design.moved)?;
+        let same = model.iter().filter_map(|&g| design.find(problem.design.groups[g].hypothesis));
+        let model: Model = same.collect();
+        let grams = Grams::new(&design, problem.blocks);
+        let weight = problem.weight.clone();
+        let about = Problem::new(&design, problem.blocks, &grams, &problem.of, weight);
+        let weights = settle(&about, &model, &about.info, &changed);
+        changed = extended(&changed, &design, &model, &weights);
+    }
+    Ok(changed)
 }

@@ -25,6 +25,8 @@ pub(crate) struct Evidence<'a> {
     pub significance: &'a Significance,
     /// Weights that made the extended robot.
     pub weights: &'a [f64],
+    /// The robot with the findings.
+    pub extended: &'a Robot,
     pub seed: u64,
 }
 
@@ -73,7 +75,12 @@ impl Evidence<'_> {
         let (wide, all) = uncertainty.undetermined(problem, g);
         Finding {
             at: effect_at(robot, group.hypothesis),
-            parameters: uncertainty.estimates(problem, self.model, g, (robot, self.weights)),
+            parameters: uncertainty.estimates(
+                problem,
+                self.model,
+                g,
+                (robot, self.extended, self.weights),
+            ),
             share_explained: share(before),
             q_value: self.significance.q[g].unwrap_or(1.0),
             held_out_gain: share(without),

@@ -24,30 +24,33 @@ impl Evidence<'_> {
     fn one(&self, g: usize, fit: &Fit) -> RuledOut {
         let (problem, robot) = (self.selection.problem, self.selection.robot);
         let group = &problem.design.groups[g];
-        let parameter = &group.hypothesis.kind.entry().parameters[0];
         let rotation =
             group.hypothesis.joint().is_none_or(|j| robot.links()[j].joint.kind.is_rotation());
-        let (smallest_detectable, because) = self.judge(g, fit);
+        let (sharpest, because) = self.judge(g, fit);
+        let parameter = &group.hypothesis.kind.entry().parameters[sharpest.map_or(0, |(i, _)| i)];
         RuledOut {
             at: effect_at(robot, group.hypothesis),
             parameter: parameter.name,
-            smallest_detectable,
+            smallest_detectable: sharpest.map(|(_, size)| size),
             unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
             because,
         }
     }
 
-    fn judge(&self, g: usize, fit: &Fit) -> (Option<f64>, String) {
+    /// The parameter that the logs show best with the smallest size of it that would have
+    /// been found, and why the hypothesis is no finding.
+    fn judge(&self, g: usize, fit: &Fit) -> (Option<(usize, f64)>, String) {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
-        let Some(&main) = columns.first() else {
+        if columns.is_empty() {
             return (None, "a finding already changes the same numbers".to_owned());
-        };
-        let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
-        let sd = standard_error(problem, fit, &complement);
-        if sd > SHOWS_NOTHING * problem.design.prior[main] {
-            return (None, "these logs cannot show it".to_owned());
         }
+        let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
+        let Some(sharpest) =
+            self.sharpest(g, &columns, &standard_errors(problem, fit, &complement))
+        else {
+            return (None, "these logs cannot show it".to_owned());
+        };
         let mut larger = self.model.clone();
         larger.insert(g);
         let gain = fit.evidence_of(&problem.info, &columns, &problem.design.prior);
@@ -59,20 +62,39 @@ impl Evidence<'_> {
         } else {
             format!("it adds nothing on held-out data that counts{p}")
         };
-        (Some(DETECTED_AT * sd), because)
+        (Some(sharpest), because)
+    }
+
+    /// Index and smallest detectable size of the parameter whose standard error is the
+    /// smallest share of its prior; none if all are near the prior.
+    fn sharpest(&self, g: usize, columns: &[usize], errors: &[f64]) -> Option<(usize, f64)> {
+        let design = self.selection.problem.design;
+        let hypothesis = design.groups[g].hypothesis;
+        let parameters = hypothesis.kind.entry().parameters.len();
+        let share = |k: usize| errors[k] / design.prior[columns[k]];
+        let best =
+            (0..errors.len().min(parameters)).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+        let size = DETECTED_AT * errors[best];
+        // The weights behind a centre of mass are first moments: m c.
+        let mass = hypothesis.link().map(|l| self.selection.robot.links()[l].inertia.mass);
+        let unit = if best > 0 { mass.filter(|m| *m > 0.0).unwrap_or(1.0) } else { 1.0 };
+        (share(best) <= SHOWS_NOTHING).then_some((best, size / unit))
     }
 }
 
-/// Standard error of the first weight of a group that is not in the model: the larger of
-/// what the likelihood and what the scatter of the blocks' scores say.
-fn standard_error(problem: &Problem, fit: &Fit, complement: &Complement) -> f64 {
-    let Some(inverse) = complement.b.clone().try_inverse() else { return f64::INFINITY };
+/// Standard errors of the weights of a group that is not in the model: the larger of what
+/// the likelihood and what the scatter of the blocks' scores say.
+fn standard_errors(problem: &Problem, fit: &Fit, complement: &Complement) -> Vec<f64> {
+    let count = complement.b.nrows();
+    let Some(inverse) = complement.b.clone().try_inverse() else {
+        return vec![f64::INFINITY; count];
+    };
     let weights = fit.expand(problem.design.width);
-    let mut meat = DMatrix::zeros(inverse.nrows(), inverse.nrows());
+    let mut meat = DMatrix::zeros(count, count);
     for &b in &problem.of {
         let score = complement.project(&problem.grams.score(b, &problem.weight, &weights));
         meat.ger(1.0, &score, &score, 1.0);
     }
     let blocks = &inverse * meat * &inverse;
-    inverse[(0, 0)].max(blocks[(0, 0)]).max(0.0).sqrt()
+    (0..count).map(|k| inverse[(k, k)].max(blocks[(k, k)]).max(0.0).sqrt()).collect()
 }

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
@@ -15,6 +17,9 @@ const SPREADS: [f64; 3] = [0.1, 0.4, 1.5];
 /// Least share of a residual that a signal must predict to be named.
 const NAMED: f64 = 0.03;
 
+/// Number of signals named.
+const LISTED: usize = 3;
+
 /// What a flexible predictor finds in a residual.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Structure {
@@ -22,6 +27,52 @@ pub(crate) struct Structure {
     pub share: f64,
     /// The signals it follows, the strongest first.
     pub depends_on: Vec<Dependence>,
+}
+
+/// A signal of the state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Signal {
+    Position(usize),
+    Velocity(usize),
+    Acceleration(usize),
+    Load(usize),
+}
+
+impl Signal {
+    fn values(self, run: &RunDesign) -> &[f64] {
+        match self {
+            Self::Position(j) => &run.joints[j].state[0],
+            Self::Velocity(j) => &run.joints[j].state[1],
+            Self::Acceleration(j) => &run.joints[j].state[2],
+            Self::Load(j) => &run.joints[j].nominal,
+        }
+    }
+
+    fn words(self, robot: &Robot) -> String {
+        let (what, j) = match self {
+            Self::Position(j) => ("position", j),
+            Self::Velocity(j) => ("velocity", j),
+            Self::Acceleration(j) => ("acceleration", j),
+            Self::Load(j) => ("load", j),
+        };
+        format!("{what} of {}", robot.links()[j].joint.name)
+    }
+}
+
+/// What multiplies the functions of a signal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Factor {
+    One,
+    /// Direction of the joint's motion.
+    Direction,
+}
+
+/// Functions of one signal, and their columns among the features.
+#[derive(Debug, Clone)]
+struct Family {
+    signal: Signal,
+    factor: Factor,
+    columns: Range<usize>,
 }
 
 /// A flexible predictor of one joint's residual: a sum of piecewise linear functions,
@@ -33,153 +84,123 @@ pub(crate) struct Structure {
 /// each on nine knots, ridge-regularised; judged on held-out parts only.
 #[derive(Debug)]
 pub(crate) struct Probe<'a> {
+    robot: &'a Robot,
     blocks: &'a [Block],
     folds: &'a [Fold],
-    /// Features of every block, and what signal each family of columns follows.
+    families: Vec<Family>,
+    /// Features of every block, samples by columns.
     features: Vec<DMatrix<f64>>,
-    families: Vec<(String, std::ops::Range<usize>)>,
-}
-
-/// A signal of the state, and what multiplies its functions.
-struct Family {
-    name: String,
-    values: Box<dyn Fn(&RunDesign) -> Vec<f64>>,
-    directed: bool,
 }
 
 impl<'a> Probe<'a> {
-    /// The predictor for `joint`, held out as `folds` say.
+    /// The predictor for `joint`, held out as the folds say.
     pub fn new(
-        robot: &Robot,
+        robot: &'a Robot,
         design: &Design,
         (blocks, folds): (&'a [Block], &'a [Fold]),
         joint: usize,
     ) -> Self {
-        let families = families(robot, design, joint);
-        let mut columns = Vec::new();
-        let mut ranges = Vec::new();
-        for family in &families {
-            let values: Vec<Vec<f64>> = design.runs.iter().map(|r| (family.values)(r)).collect();
-            let all = values.iter().flatten();
-            let (low, high) =
-                all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-            let start = columns.len();
-            for knot in 0..KNOTS {
-                let hat = |v: f64| {
-                    let place =
-                        (v - low) / (high - low).max(f64::MIN_POSITIVE) * (KNOTS - 1) as f64;
-                    (1.0 - (place - knot as f64).abs()).max(0.0)
-                };
-                let column = |(r, v): (usize, &Vec<f64>)| -> Vec<f64> {
-                    let direction = &design.runs[r].joints[joint].state[1];
-                    let sign = |t: usize| if family.directed { direction[t].signum() } else { 1.0 };
-                    v.iter().enumerate().map(|(t, v)| hat(*v) * sign(t)).collect()
-                };
-                columns.push(values.iter().enumerate().map(column).collect::<Vec<_>>());
+        let families = families(design, joint);
+        let width = families.last().map_or(0, |f| f.columns.end);
+        let spans: Vec<(f64, f64)> = families.iter().map(|f| span(design, f.signal)).collect();
+        let features = |block: &Block| {
+            let run = &design.runs[block.run];
+            let mut x = DMatrix::zeros(block.samples.len(), width);
+            for (family, &(low, high)) in families.iter().zip(&spans) {
+                let (values, qd) = (family.signal.values(run), &run.joints[joint].state[1]);
+                for (row, t) in block.samples.clone().enumerate() {
+                    let factor = match family.factor {
+                        Factor::One => 1.0,
+                        Factor::Direction => qd[t].signum(),
+                    };
+                    let place = (values[t] - low) / (high - low).max(f64::MIN_POSITIVE);
+                    for knot in 0..KNOTS {
+                        let hat = 1.0 - (place * (KNOTS - 1) as f64 - knot as f64).abs();
+                        x[(row, family.columns.start + knot)] = factor * hat.max(0.0);
+                    }
+                }
             }
-            ranges.push((family.name.clone(), start..columns.len()));
-        }
-        let matrix = |b: &Block| {
-            DMatrix::from_fn(b.samples.len(), columns.len(), |t, k| {
-                columns[k][b.run][b.samples.start + t]
-            })
+            x
         };
-        let features = blocks.iter().map(matrix).collect();
-        Self { blocks, folds, features, families: ranges }
+        let features = blocks.iter().map(features).collect();
+        Self { robot, blocks, folds, families, features }
     }
 
     /// The structure in a residual, given `[run][sample]`.
     pub fn structure(&self, residual: &[Vec<f64>]) -> Structure {
-        let parts: Vec<DVector<f64>> = self
-            .blocks
-            .iter()
-            .map(|b| DVector::from_column_slice(&residual[b.run][b.samples.clone()]))
-            .collect();
-        let everything = 0..self.families.last().map_or(0, |(_, r)| r.end);
-        let share = self.predicted(residual, &parts, everything);
-        let mut depends_on: Vec<Dependence> = self
-            .families
-            .iter()
-            .map(|(signal, range)| Dependence {
-                signal: signal.clone(),
-                share: self.predicted(residual, &parts, range.clone()),
-            })
-            .filter(|d| d.share >= NAMED)
-            .collect();
-        depends_on.sort_by(|a, b| b.share.total_cmp(&a.share));
-        // A signal may appear with and without the direction: the stronger is kept.
-        let mut seen = Vec::new();
-        depends_on.retain(|d| {
-            let new = !seen.contains(&d.signal);
-            seen.push(d.signal.clone());
-            new
-        });
-        depends_on.truncate(3);
-        Structure { share, depends_on }
+        let part = |b: &Block| DVector::from_column_slice(&residual[b.run][b.samples.clone()]);
+        let parts: Vec<DVector<f64>> = self.blocks.iter().map(part).collect();
+        let time = integrated_time(residual);
+        let all = 0..self.families.last().map_or(0, |f| f.columns.end);
+        let mut depends_on: Vec<(Signal, f64)> = Vec::new();
+        for family in &self.families {
+            let share = self.predicted(&parts, time, family.columns.clone());
+            // A signal may come with and without the direction: the stronger is kept.
+            match depends_on.iter_mut().find(|(signal, _)| *signal == family.signal) {
+                Some((_, known)) => *known = known.max(share),
+                None => depends_on.push((family.signal, share)),
+            }
+        }
+        depends_on.retain(|(_, share)| *share >= NAMED);
+        depends_on.sort_by(|a, b| b.1.total_cmp(&a.1));
+        depends_on.truncate(LISTED);
+        let named =
+            |(signal, share): (Signal, f64)| Dependence { signal: signal.words(self.robot), share };
+        Structure {
+            share: self.predicted(&parts, time, all),
+            depends_on: depends_on.into_iter().map(named).collect(),
+        }
     }
 
-    /// Share of the residual's power that the features in `range` predict when held out.
-    fn predicted(
-        &self,
-        residual: &[Vec<f64>],
-        y: &[DVector<f64>],
-        range: std::ops::Range<usize>,
-    ) -> f64 {
-        let all: Vec<DMatrix<f64>> =
-            self.features.iter().map(|f| f.columns_range(range.clone()).into_owned()).collect();
-        let grams: Vec<(DMatrix<f64>, DVector<f64>)> =
-            all.iter().zip(y).map(|(x, y)| (x.tr_mul(x), x.tr_mul(y))).collect();
-        let (power, count) =
-            y.iter().fold((0.0, 0), |(p, n), y| (p + y.norm_squared(), n + y.len()));
+    /// Share of the residual's power that the features in `columns` predict when held out,
+    /// with the best of the spreads.
+    fn predicted(&self, y: &[DVector<f64>], time: f64, columns: Range<usize>) -> f64 {
+        let power: f64 = y.iter().map(DVector::norm_squared).sum();
         if power <= 0.0 {
             return 0.0;
         }
-        let rms = (power / count.max(1) as f64).sqrt();
-        let weight = 1.0 / (rms * rms * integrated_time(residual));
-        let best = SPREADS.iter().map(|spread| {
-            let ridge = 1.0 / (weight * (spread * rms).powi(2));
-            let left: f64 = self
-                .folds
-                .iter()
-                .map(|fold| {
-                    let mut a = DMatrix::identity(range.len(), range.len()) * ridge;
-                    let mut g = DVector::zeros(range.len());
-                    for &b in &fold.train {
-                        a += &grams[b].0;
-                        g += &grams[b].1;
-                    }
-                    let Some(factor) = a.cholesky() else { return f64::INFINITY };
-                    let w = factor.solve(&g);
-                    let part = |&b: &usize| (&y[b] - &all[b] * &w).norm_squared();
-                    fold.test.iter().map(part).sum::<f64>()
-                })
-                .sum();
-            1.0 - left / power
-        });
-        best.fold(0.0, f64::max)
+        let x: Vec<_> = self.features.iter().map(|f| f.columns_range(columns.clone())).collect();
+        let grams: Vec<(DMatrix<f64>, DVector<f64>)> =
+            x.iter().zip(y).map(|(x, y)| (x.transpose() * x, x.tr_mul(y))).collect();
+        let left = |spread: f64| -> f64 {
+            // Variance of the noise over that of the prior; n samples count as n / time.
+            let ridge = time / (spread * spread);
+            let fold = |fold: &Fold| {
+                let mut a = DMatrix::identity(columns.len(), columns.len()) * ridge;
+                let mut g = DVector::zeros(columns.len());
+                for &b in &fold.train {
+                    a += &grams[b].0;
+                    g += &grams[b].1;
+                }
+                let Some(factor) = a.cholesky() else { return f64::INFINITY };
+                let w = factor.solve(&g);
+                fold.test.iter().map(|&b| (&y[b] - x[b] * &w).norm_squared()).sum::<f64>()
+            };
+            self.folds.iter().map(fold).sum()
+        };
+        SPREADS.iter().map(|&spread| 1.0 - left(spread) / power).fold(0.0, f64::max)
     }
 }
 
-fn families(robot: &Robot, design: &Design, joint: usize) -> Vec<Family> {
-    let state = move |which: usize, j: usize| -> Box<dyn Fn(&RunDesign) -> Vec<f64>> {
-        Box::new(move |r| r.joints[j].state[which].clone())
+fn families(design: &Design, joint: usize) -> Vec<Family> {
+    let moved = || (0..design.joints()).filter(|&j| design.moved[j]);
+    let mut all: Vec<(Signal, Factor)> = Vec::new();
+    all.extend(moved().map(|j| (Signal::Position(j), Factor::One)));
+    all.extend(moved().map(|j| (Signal::Velocity(j), Factor::One)));
+    all.push((Signal::Acceleration(joint), Factor::One));
+    all.push((Signal::Load(joint), Factor::One));
+    all.push((Signal::Position(joint), Factor::Direction));
+    all.push((Signal::Load(joint), Factor::Direction));
+    let family = |(k, (signal, factor)): (usize, (Signal, Factor))| Family {
+        signal,
+        factor,
+        columns: KNOTS * k..KNOTS * (k + 1),
     };
-    let load = move || -> Box<dyn Fn(&RunDesign) -> Vec<f64>> {
-        Box::new(move |r| r.joints[joint].nominal.clone())
-    };
-    let name = |what: &str, j: usize| {
-        format!("{what} of {}", robot.links().get(j).map_or("", |l| l.joint.name.as_str()))
-    };
-    let family = |name, values, directed| Family { name, values, directed };
-    let mut all: Vec<Family> = (0..design.joints())
-        .filter(|&j| design.moved[j])
-        .map(|j| family(name("position", j), state(0, j), false))
-        .collect();
-    let velocities = (0..design.joints()).filter(|&j| design.moved[j]);
-    all.extend(velocities.map(|j| family(name("velocity", j), state(1, j), false)));
-    all.push(family(name("acceleration", joint), state(2, joint), false));
-    all.push(family(name("load", joint), load(), false));
-    all.push(family(name("position", joint), state(0, joint), true));
-    all.push(family(name("load", joint), load(), true));
-    all
+    all.into_iter().enumerate().map(family).collect()
+}
+
+/// Smallest and largest value of a signal over all runs.
+fn span(design: &Design, signal: Signal) -> (f64, f64) {
+    let all = design.runs.iter().flat_map(|r| signal.values(r));
+    all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)))
 }

@@ -4,7 +4,7 @@ use robot::Robot;
 use crate::blocks::{Block, FEWEST_BLOCKS, Folding, blocks};
 use crate::design::Design;
 use crate::error::DiagnosisError;
-use crate::extend::extended;
+use crate::extend::extended_anew;
 use crate::extent::range;
 use crate::findings::{Evidence, Found};
 use crate::floor::Floors;
@@ -41,6 +41,7 @@ struct Answer<'a> {
     model: Model,
     significance: Significance,
     weights: Vec<f64>,
+    extended: Robot,
     found: Vec<Found>,
     gain: HeldOutGain,
 }
@@ -63,10 +64,10 @@ impl Study<'_> {
             grams: &grams,
             practical: &practical,
         };
-        let answer = self.answer(&record, progress);
-        let robot = extended(self.robot, self.design, &answer.model, &answer.weights);
+        let answer = self.answer(&record, progress)?;
         let diagnosis = self.report(&record, &answer);
-        Ok((diagnosis, traces(self.design, &answer.by_run, &answer.gain.weights), robot))
+        let traces = traces(self.design, &answer.by_run, &answer.gain.weights);
+        Ok((diagnosis, traces, answer.extended))
     }
 
     /// Blocks of at least five autocorrelation times of what a model of everything leaves.
@@ -103,13 +104,19 @@ impl Study<'_> {
         (0..self.design.joints()).map(|j| self.settings.practical_share * rms(j)).collect()
     }
 
-    fn answer<'b>(&self, record: &Record<'b>, progress: &dyn Progress) -> Answer<'b> {
+    fn answer<'b>(
+        &self,
+        record: &Record<'b>,
+        progress: &dyn Progress,
+    ) -> Result<Answer<'b>, DiagnosisError> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let (problem, model) = record.search(&all);
         progress.step();
         let (model, significance) = significant(&problem, model, self.settings);
         progress.step();
         let weights = settle(&problem, &model, &problem.info, self.robot);
+        let settled = (&model, weights.as_slice());
+        let extended = extended_anew(self.robot, self.prepared, &problem, settled)?;
         let by_run = problem.refolded(Folding::ByRun);
         let gain = HeldOutGain::new(record, &by_run, progress);
         let found = {
@@ -119,11 +126,12 @@ impl Study<'_> {
                 model: &model,
                 significance: &significance,
                 weights: &weights,
+                extended: &extended,
                 seed: self.settings.seed,
             };
             evidence.findings()
         };
-        Answer { problem, by_run, model, significance, weights, found, gain }
+        Ok(Answer { problem, by_run, model, significance, weights, extended, found, gain })
     }
 
     fn report(&self, record: &Record, answer: &Answer) -> Diagnosis {
@@ -138,6 +146,7 @@ impl Study<'_> {
             model: &answer.model,
             significance: &answer.significance,
             weights: &answer.weights,
+            extended: &answer.extended,
             seed: self.settings.seed,
         };
         Diagnosis {

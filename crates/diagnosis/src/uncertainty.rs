@@ -22,8 +22,6 @@ const DETERMINED: f64 = 0.5;
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
     columns: Vec<usize>,
-    /// Columns whose weight is held at a physical bound.
-    held: Vec<usize>,
     likelihood: DMatrix<f64>,
     blocks: DMatrix<f64>,
     /// Half width of a 95 per cent interval in standard deviations.
@@ -33,9 +31,9 @@ pub(crate) struct Uncertainty {
 impl Uncertainty {
     /// The uncertainty of `fit`, whose weights are used as they stand in `weights`.
     pub fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
-        let held: Vec<usize> = fit.held.iter().map(|(k, _)| *k).collect();
-        // Held weights are uncertain too, on the side that is possible.
-        let mut columns = [fit.columns.as_slice(), &held].concat();
+        // Weights held at a bound are uncertain too, on the side that is possible.
+        let held = fit.held.iter().map(|(k, _)| *k);
+        let mut columns: Vec<usize> = fit.columns.iter().copied().chain(held).collect();
         columns.sort_unstable();
         let likelihood = covariance(&problem.info, &columns, &problem.design.prior);
         let count = problem.of.len() as f64;
@@ -47,7 +45,7 @@ impl Uncertainty {
         let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
         let t =
             StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0)).map_or(2.0, |d| d.inverse_cdf(0.975));
-        Self { columns, held, likelihood, blocks, t }
+        Self { columns, likelihood, blocks, t }
     }
 
     /// The parameters of `group` as the user reads them, with intervals.
@@ -56,12 +54,13 @@ impl Uncertainty {
         problem: &Problem,
         model: &Model,
         group: usize,
-        (robot, weights): (&Robot, &[f64]),
+        (robot, changed, weights): (&Robot, &Robot, &[f64]),
     ) -> Vec<Estimate> {
         let design = problem.design;
         let hypothesis = design.groups[group].hypothesis;
         let at = |w: &[f64]| hypothesis.quantities(robot, &extended(robot, design, model, w));
-        let here = at(weights);
+        let here = hypothesis.quantities(robot, changed);
+        let linear = at(weights);
         let own = &design.groups[group].columns;
         let slopes: Vec<Vec<f64>> =
             own.iter().map(|&k| slope(&at, &here, weights, k, design.prior[k])).collect();
@@ -74,11 +73,9 @@ impl Uncertainty {
                 let prior = pick(&DVector::from_column_slice(&design.prior), own);
                 let sd = self.sd(&place, &gradient);
                 let before = gradient.component_mul(&prior).norm();
-                let mut estimate = estimate(quantity, sd * self.t, sd < DETERMINED * before);
-                if let ([k], true) = (own.as_slice(), self.held.contains(&own[0])) {
-                    let low = design.bounds[*k].0.is_finite() == (gradient[0] > 0.0);
-                    estimate.ci95[usize::from(!low)] = quantity.value;
-                }
+                let mut estimate = estimate(quantity, sd * self.t, before * self.t);
+                let place = (linear[i].value, weights);
+                clip(&mut estimate, (own, &gradient), &design.bounds, place);
                 estimate
             })
             .collect()
@@ -128,13 +125,30 @@ fn slope(
     (0..here.len()).map(slope).collect()
 }
 
-fn estimate(quantity: &Quantity, half: f64, determined: bool) -> Estimate {
+/// Keeps an interval within what is physically possible, where its quantity follows one
+/// bounded weight; `value` is the quantity at `weights`.
+fn clip(
+    estimate: &mut Estimate,
+    (own, gradient): (&[usize], &DVector<f64>),
+    bounds: &[(f64, f64)],
+    (value, weights): (f64, &[f64]),
+) {
+    let mut followed = own.iter().zip(gradient.iter()).filter(|(_, g)| g.abs() > 0.0);
+    let (Some((&k, &slope)), None) = (followed.next(), followed.next()) else { return };
+    let at = |bound: f64| value + slope * (bound - weights[k]);
+    let (a, b) = (at(bounds[k].0), at(bounds[k].1));
+    let [low, high] = estimate.ci95;
+    estimate.ci95 = [low.max(a.min(b)).min(estimate.value), high.min(a.max(b)).max(estimate.value)];
+}
+
+/// An estimate with the half width `half` of its interval, which was `before` without data.
+fn estimate(quantity: &Quantity, half: f64, before: f64) -> Estimate {
     Estimate {
         name: quantity.name,
         value: quantity.value,
         ci95: [quantity.value - half, quantity.value + half],
         nominal: quantity.nominal,
         unit: quantity.unit,
-        determined,
+        determined: half < DETERMINED * before,
     }
 }
