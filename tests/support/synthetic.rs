@@ -108,13 +108,18 @@ fn path(time: f64) -> (f64, f64, f64) {
     (s, ds, dds)
 }
 
-/// One run of `seconds` at 250 Hz: every number follows from the seed.
+/// One run of `seconds` at 250 Hz.
 pub fn run(truth: &Truth, noise: &Noise, seconds: f64, seed: u64) -> Run {
+    run_at(truth, noise, [seconds, 250.0], seed)
+}
+
+/// One run of so many seconds at so many hertz: every number follows from the seed.
+pub fn run_at(truth: &Truth, noise: &Noise, [seconds, hertz]: [f64; 2], seed: u64) -> Run {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let motion = Motion::new(truth.robot, &mut rng);
     let n = truth.robot.joint_count();
     let dynamics = Dynamics::new(truth.robot);
-    let time: Vec<f64> = (0..(seconds * 250.0) as usize).map(|t| t as f64 / 250.0).collect();
+    let time: Vec<f64> = (0..(seconds * hertz) as usize).map(|t| t as f64 / hertz).collect();
     let channels = |link: &robot::Link| Channels {
         name: link.joint.name.clone(),
         velocity: Some(Vec::new()),
