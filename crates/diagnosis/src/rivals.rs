@@ -22,7 +22,7 @@ pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<
     selection
         .neighbours(group)
         .into_iter()
-        .filter(|h| !model.contains(h))
+        .filter(|h| !model.contains(h) && !is_special_case(problem, group, *h))
         .filter(|&h| {
             let replaced = replaced(problem, &without, group, h);
             if !selection.is_possible(&replaced, h) {
@@ -48,6 +48,14 @@ fn replaced(problem: &Problem, without: &Model, group: usize, rival: usize) -> M
         model.extend(problem.design.find(symmetric));
     }
     model
+}
+
+/// Whether `group` is `other` with some weights zero, as Coulomb friction is symmetric
+/// asymmetric friction: then `other` can only do as well, and is no rival.
+fn is_special_case(problem: &Problem, group: usize, other: usize) -> bool {
+    let columns = |g: usize| &problem.design.groups[g].columns;
+    columns(other).len() > columns(group).len()
+        && columns(group).iter().all(|k| columns(other).contains(k))
 }
 
 fn is_worse(problem: &Problem, with: &HeldOut, rival: &HeldOut) -> bool {
