@@ -57,7 +57,7 @@ fn links(document: &str) -> Vec<&str> {
     files.filter(|file| !file.is_empty() && !file.contains(':')).collect()
 }
 
-/// Names said to be a crate: before or after that word, or behind `-p`.
+/// Names said to be a crate: before or after that word, or behind cargo's `-p`.
 fn named_crates(document: &str) -> Vec<&str> {
     let mut names = Vec::new();
     for paragraph in document.split("\n\n") {
@@ -68,9 +68,11 @@ fn named_crates(document: &str) -> Vec<&str> {
         };
         names.extend((1..pieces.len()).step_by(2).filter(said).map(|i| pieces[i]));
     }
-    let words: Vec<&str> = code(document).into_iter().flat_map(str::split_whitespace).collect();
-    let behind = words.windows(2).filter(|pair| pair[0] == "-p").map(|pair| pair[1]);
-    names.extend(behind);
+    for command in code(document).into_iter().filter(|line| line.trim().starts_with("cargo ")) {
+        let words: Vec<&str> = command.split_whitespace().collect();
+        let behind = words.windows(2).filter(|pair| pair[0] == "-p").map(|pair| pair[1]);
+        names.extend(behind);
+    }
     names
 }
 
@@ -138,7 +140,8 @@ fn the_script_runs_the_test_command_of_the_readme() {
 fn what_is_not_there_is_reported() {
     let document = "See `crates/robot` and `crates/ghost/src`, `mirage.rs`, [this](gone.md).\n\n\
                     The `phantom` crate, the crate `robot`.\n\n\
-                    ```\ncargo run -p spectre -- robots/shade/robot.toml\n```\n\
+                    ```\nmkdir -p out\n\
+                    cargo run -p spectre -- robots/shade/robot.toml\n```\n\
                     Then `tests/spirit.rs`; `robots/<name>/robot.toml` is a pattern.\n";
     let missing = broken("crates/robot/README.md", document, &["robot".to_owned()]);
     let expected = [

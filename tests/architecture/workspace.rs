@@ -106,12 +106,3 @@ pub fn reach<'a>(packages: &'a [Package], name: &str) -> BTreeSet<&'a str> {
     }
     reached
 }
-
-#[test]
-fn every_folder_of_crates_is_a_package() {
-    let mut found: Vec<String> = crates().iter().map(Package::folder).collect();
-    found.sort();
-    let folders: Vec<String> =
-        crate::tree::folders("crates").iter().map(|f| format!("crates/{f}")).collect();
-    assert_eq!(found, folders);
-}

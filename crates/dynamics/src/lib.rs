@@ -22,6 +22,9 @@
 //! assert!((tau[0] - 9.81).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! Names, signs and frames are those of the map of the workspace, which follows.
+#![doc = include_str!("../../README.md")]
 
 mod base_parameters;
 mod cholesky;
