@@ -1,7 +1,8 @@
+use catalogue::EffectKind;
 use effects::Hypothesis;
 use robot::Robot;
 
-use crate::problem::{HeldOut, Model};
+use crate::problem::{HeldOut, Model, Problem};
 use crate::result::{EffectAt, Finding};
 use crate::rivals::rivals;
 use crate::select::Selection;
@@ -85,8 +86,7 @@ impl Evidence<'_> {
             q_value: self.significance.q[g].unwrap_or(1.0),
             held_out_gain: share(without),
             stability: 0.0,
-            told_apart_by: (!rivals.is_empty())
-                .then(|| group.hypothesis.kind.entry().told_apart_by),
+            told_apart_by: told_apart_by(problem, g, &rivals),
             not_separable_from: rivals
                 .iter()
                 .map(|&h| effect_at(robot, problem.design.groups[h].hypothesis))
@@ -120,6 +120,16 @@ impl Evidence<'_> {
         }
         evidence
     }
+}
+
+/// The motion that separates a finding from its rivals: the catalogue's words for the
+/// finding, or for a payload where one is involved, which only a second log settles.
+fn told_apart_by(problem: &Problem, group: usize, rivals: &[usize]) -> Option<&'static str> {
+    let kind = |g: usize| problem.design.groups[g].hypothesis.kind;
+    rivals.first()?;
+    let payload = rivals.iter().any(|&h| kind(h) == EffectKind::Payload);
+    let of = if payload { EffectKind::Payload } else { kind(group) };
+    Some(of.entry().told_apart_by)
 }
 
 fn undetermined(hypothesis: Hypothesis, wide: usize, all: usize) -> Vec<String> {

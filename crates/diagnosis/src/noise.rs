@@ -89,6 +89,7 @@ mod tests {
             x[t] = a * x[t - 1] + rng.random_range(-1.0..1.0);
         }
         let time = integrated_time(&[x]);
-        assert!((time / 9.0 - 1.0).abs() < 0.05, "{time}");
+        // Standard deviation of the estimate: 9 sqrt(2 (2 M + 1) / n) with M = 45, 3 %.
+        assert!((time / 9.0 - 1.0).abs() < 0.12, "{time}");
     }
 }

@@ -21,8 +21,8 @@ pub enum LogWarning {
         of: String,
     },
     /// The measured velocity is not the derivative of the position.
-    #[error("run {run}: the velocity of joint {joint} is {scale:.3} times the derivative of its position and {:.2} ms late; \
-        the derivative of the position is used in all runs", 1e3 * lag_s)]
+    #[error("run {run}: the velocity of joint {joint} is {scale:.3} times the derivative of its position and {}; \
+        the derivative of the position is used in all runs", late(*lag_s))]
     VelocityDisagrees {
         /// The run in which it differs most.
         run: String,
@@ -34,8 +34,8 @@ pub enum LogWarning {
         scale: f64,
     },
     /// The measured acceleration is not the derivative of the velocity.
-    #[error("run {run}: the acceleration of joint {joint} is {scale:.3} times the derivative of its velocity and {:.2} ms late; \
-        the derivative of the velocity is used in all runs", 1e3 * lag_s)]
+    #[error("run {run}: the acceleration of joint {joint} is {scale:.3} times the derivative of its velocity and {}; \
+        the derivative of the velocity is used in all runs", late(*lag_s))]
     AccelerationDisagrees {
         /// The run in which it differs most.
         run: String,
@@ -80,4 +80,9 @@ pub enum LogWarning {
         /// Share of the samples, 0 to 1.
         share: f64,
     },
+}
+
+/// A lag in words, such as `6.50 ms late`.
+fn late(lag_s: f64) -> String {
+    format!("{:.2} ms {}", 1e3 * lag_s.abs(), if lag_s < 0.0 { "early" } else { "late" })
 }
