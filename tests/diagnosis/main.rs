@@ -1,4 +1,13 @@
 //! The diagnosis on logs whose cause is known, and on recorded ones.
-#![allow(clippy::unwrap_used, reason = "a broken fixture should stop the test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a broken fixture should stop the test")]
 
 mod clean;
+mod extended;
+mod false_alarms;
+mod found;
+mod intervals;
+mod recorded;
+mod repeatable;
+mod together;
+mod trials;
+mod world;
