@@ -6,7 +6,8 @@ use serde_json::Value;
 use crate::arm::{self, Gap};
 use crate::program::{Answer, run};
 
-const FILES: [&str; 4] = ["diagnosis.json", "extended.toml", "report.html", "robot.urdf"];
+const FILES: [&str; 5] =
+    ["diagnosis.json", "extended.toml", "figure.svg", "report.html", "robot.urdf"];
 
 fn diagnose(folder: &Path, more: &[&str]) -> Answer {
     let base = ["diagnose", "--log", "run_0.csv", "run_1.csv", "--log", "run_2.csv"];
@@ -32,6 +33,7 @@ fn friction_is_named_written_down_and_gone_from_the_extended_robot() {
     assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
     assert!(answer.out.starts_with("Explained: "), "{}", answer.out);
     assert!(answer.out.contains("Coulomb friction"), "{}", answer.out);
+    assert!(answer.out.contains("figure         out/figure.svg"), "{}", answer.out);
     assert!(answer.out.trim_end().ends_with("extended model out/extended.toml (for --robot)"));
     assert!(!answer.out.contains('\u{1b}') && answer.err.is_empty(), "{answer:?}");
     assert_eq!(names(&folder.path().join("out")), FILES);
@@ -121,6 +123,19 @@ fn the_report_opens_offline_and_holds_the_same_json() {
     // Two joints, each with three views, one enlarged stretch and three runs.
     assert_eq!(page.matches("<svg").count(), 2 * (3 + 1 + 3));
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
+}
+
+#[test]
+fn the_figure_stands_alone_and_shows_the_joint_with_its_cause() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out", "--quiet"]);
+    let svg = fs::read_to_string(folder.path().join("out/figure.svg")).unwrap();
+    assert!(svg.starts_with("<svg xmlns=") && svg.trim_end().ends_with("</svg>"));
+    for expected in ["elbow: torque over time", "Coulomb friction", "arm: explained by 1 named"] {
+        assert!(svg.contains(expected), "{expected} is missing");
+    }
+    assert_eq!(svg.matches("http").count(), 1, "only the name space");
+    assert!(svg.len() < 150_000, "{} bytes", svg.len());
 }
 
 #[test]

@@ -9,26 +9,70 @@ use kuva::render::theme::Theme;
 
 use crate::{Chart, Role, Series, Shape};
 
+/// The colours of a figure, as SVG understands them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Colours {
+    pub measured: &'static str,
+    pub nominal: &'static str,
+    pub extended: &'static str,
+    pub ink: &'static str,
+    pub grid: &'static str,
+}
+
+impl Colours {
+    /// Those that the style sheet of the page defines, for light and dark.
+    const OF_PAGE: Self = Self {
+        measured: "var(--measured)",
+        nominal: "var(--nominal)",
+        extended: "var(--extended)",
+        ink: "var(--ink)",
+        grid: "var(--grid)",
+    };
+
+    /// The page's light ones, for a drawing that stands alone on white.
+    pub const ON_WHITE: Self = Self {
+        measured: "#30363d",
+        nominal: "#c8500a",
+        extended: "#1668c5",
+        ink: "#1f2328",
+        grid: "#e4e8ec",
+    };
+
+    fn of(&self, role: Role) -> &'static str {
+        match role {
+            Role::Measured => self.measured,
+            Role::Nominal => self.nominal,
+            Role::Extended => self.extended,
+        }
+    }
+}
+
 impl Chart {
     /// The figure as an SVG element for a page that defines the colours `--measured`,
     /// `--nominal`, `--extended`, `--ink` and `--grid`; empty when there is nothing to draw.
     pub fn svg(&self) -> String {
+        self.drawn(&Colours::OF_PAGE)
+    }
+
+    /// The figure in these colours, without a name space and without a place; empty when
+    /// there is nothing to draw.
+    pub(crate) fn drawn(&self, colours: &Colours) -> String {
         if self.is_empty() {
             return String::new();
         }
-        let plots = self.series.iter().map(plot).collect();
-        let scene = render_multiple(plots, self.layout());
+        let plots = self.series.iter().map(|series| plot(series, colours)).collect();
+        let scene = render_multiple(plots, self.layout(colours));
         let drawn = SvgBackend::new().render_scene(&scene);
         embed(&drawn, self.size, &self.alt_text())
     }
 
-    fn layout(&self) -> Layout {
+    fn layout(&self, colours: &Colours) -> Layout {
         let [x, y] = self.ranges();
-        let ink = "var(--ink)".to_owned();
+        let ink = colours.ink.to_owned();
         let theme = Theme {
             background: "none".into(),
             axis_color: ink.clone(),
-            grid_color: "var(--grid)".into(),
+            grid_color: colours.grid.into(),
             tick_color: ink.clone(),
             text_color: ink,
             font_family: Some("inherit".into()),
@@ -66,16 +110,8 @@ fn tick(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn colour(role: Role) -> &'static str {
-    match role {
-        Role::Measured => "var(--measured)",
-        Role::Nominal => "var(--nominal)",
-        Role::Extended => "var(--extended)",
-    }
-}
-
-fn plot(series: &Series) -> Plot {
-    let colour = colour(series.role);
+fn plot(series: &Series, colours: &Colours) -> Plot {
+    let colour = colours.of(series.role);
     match &series.shape {
         Shape::Line(points) => {
             let width = if series.role == Role::Measured { 1.8 } else { 1.4 };

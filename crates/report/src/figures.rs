@@ -26,6 +26,24 @@ pub(crate) struct JointFigures {
     pub residual: Vec<Chart>,
 }
 
+type Runs<'a> = Vec<(&'a RunTraces, &'a JointTraces)>;
+
+fn runs_of<'a>(report: &Report<'a>, joint: usize) -> Runs<'a> {
+    report.traces.iter().filter_map(|run| Some((run, run.joints.get(joint)?))).collect()
+}
+
+/// The torque of one joint over the stretch of [`DETAIL_S`] where the nominal model errs
+/// most, over the worst run where all are shorter; with the name of its run.
+pub(crate) fn worst_of<'a>(report: &Report<'a>, joint: usize) -> Option<(Chart, &'a str)> {
+    let name = &report.diagnosis.joints.get(joint)?.name;
+    let runs = runs_of(report, joint);
+    let (run, trace, part) = worst_stretch(&runs).or_else(|| worst_run(&runs))?;
+    let units = JointUnits::of(report.robot, name);
+    let title = format!("Torque of {name}, where the nominal model errs most: {}", run.name);
+    let chart = over_time(title, units, slice_of(run, trace, part), 400);
+    (!chart.is_empty()).then_some((chart, run.name.as_str()))
+}
+
 /// The figures of the joint with this index; those without data are left out.
 pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
     let Some(name) = report.diagnosis.joints.get(joint).map(|j| j.name.as_str()) else {
@@ -34,13 +52,8 @@ pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
     let units = JointUnits::of(report.robot, name);
     let curves = 6 * report.traces.len().max(1) * report.diagnosis.joints.len();
     let width = (POINTS_IN_ALL / curves).clamp(60, 400);
-    let runs: Vec<(&RunTraces, &JointTraces)> =
-        report.traces.iter().filter_map(|run| Some((run, run.joints.get(joint)?))).collect();
-
-    let detail = worst_stretch(&runs).map(|(run, trace, part)| {
-        let title = format!("Torque of {name}, where the nominal model errs most: {}", run.name);
-        over_time(title, units, slice_of(run, trace, part), 400)
-    });
+    let runs = runs_of(report, joint);
+    let detail = worst_stretch(&runs).and_then(|_| worst_of(report, joint)).map(|(chart, _)| chart);
     let whole = runs.iter().map(|(run, trace)| {
         let title = format!("Torque of {name}: {}", run.name);
         over_time(title, units, slice_of(run, trace, 0..run.time.len()), width)
@@ -48,10 +61,11 @@ pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
     let mut time: Vec<Chart> = detail.into_iter().chain(whole).collect();
     time.retain(|chart| !chart.is_empty());
 
+    let nominal = format!("nominal {}", units.load);
     let against: [(&str, &'static str, Signal); 3] = [
         ("velocity", units.velocity, |t| &t.velocity),
         ("position", units.position, |t| &t.position),
-        ("nominal torque", units.effort, |t| &t.nominal),
+        (nominal.as_str(), units.effort, |t| &t.nominal),
     ];
     let residual = against.into_iter().map(|(label, unit, signal)| {
         let x = Axis { label: label.to_owned(), unit };
@@ -93,17 +107,25 @@ fn over_time(title: String, units: JointUnits, stretch: Stretch, width: usize) -
     Chart {
         title,
         x: Axis { label: "time".to_owned(), unit: "s" },
-        y: Axis { label: "torque".to_owned(), unit: units.effort },
+        y: Axis { label: units.load.to_owned(), unit: units.effort },
         series: stretch.torques.into_iter().map(line).collect(),
         size: WIDE,
     }
 }
 
+type Part<'a> = (&'a RunTraces, &'a JointTraces, std::ops::Range<usize>);
+
+/// The run in which the nominal residual has the most power.
+fn worst_run<'a>(runs: &[(&'a RunTraces, &'a JointTraces)]) -> Option<Part<'a>> {
+    let whole = |run: &RunTraces| 0..run.time.len();
+    let power = |&&(run, trace): &&(&RunTraces, &JointTraces)| power_of_residual(trace, whole(run));
+    let worst = runs.iter().max_by(|a, b| power(a).total_cmp(&power(b)))?;
+    Some((worst.0, worst.1, whole(worst.0)))
+}
+
 /// The stretch of [`DETAIL_S`] in which the nominal residual has the most power; none when
 /// no run is twice as long.
-fn worst_stretch<'a>(
-    runs: &[(&'a RunTraces, &'a JointTraces)],
-) -> Option<(&'a RunTraces, &'a JointTraces, std::ops::Range<usize>)> {
+fn worst_stretch<'a>(runs: &[(&'a RunTraces, &'a JointTraces)]) -> Option<Part<'a>> {
     let mut worst = None;
     let mut most = 0.0;
     for &(run, trace) in runs {

@@ -1,5 +1,5 @@
 use askama::Template;
-use diagnosis::{DataSummary, Diagnosis, FoldGain};
+use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 
 use crate::figures::figures_of;
 use crate::numbers::{percent, significant};
@@ -8,8 +8,8 @@ use crate::sentence::{bottom_line, verdict_sentence};
 use crate::tables::{Cause, JointRow, RuledOutRow, cause, class_of, joint_rows, ruled_out};
 use crate::{Chart, Provenance, Report, ReportError, json};
 
-/// Joints whose figures are shown without a click.
-const OPEN_JOINTS: usize = 2;
+/// Joints whose figures are shown without a click; never one whose data are inadequate.
+const OPEN_JOINTS: usize = 3;
 
 /// `report.html`: one file that opens offline and without scripts.
 ///
@@ -108,14 +108,19 @@ impl<'a> Page<'a> {
     }
 }
 
+/// The joints with adequate data first.
 fn sections(report: &Report) -> Vec<JointSection> {
-    let sections = report.diagnosis.joints.iter().enumerate().map(|(i, joint)| {
+    let joints = report.diagnosis.joints.iter().enumerate();
+    let (adequate, inadequate): (Vec<_>, Vec<_>) =
+        joints.partition(|(_, joint)| joint.verdict != Verdict::DataInadequate);
+    let open = adequate.len().min(OPEN_JOINTS);
+    let sections = adequate.into_iter().chain(inadequate).enumerate().map(|(place, (i, joint))| {
         let figures = figures_of(report, i);
         JointSection {
             name: joint.name.clone(),
             verdict: joint.verdict.words(),
             class: class_of(joint.verdict),
-            is_open: i < OPEN_JOINTS,
+            is_open: place < open,
             time: figures.time.into_iter().map(Figure::from).collect(),
             residual: figures.residual.into_iter().map(Figure::from).collect(),
         }

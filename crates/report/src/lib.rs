@@ -1,10 +1,10 @@
-//! A diagnosis for people and for programs: a page, a text for the terminal, JSON.
+//! A diagnosis for people and for programs: a page, a figure, a text for the terminal, JSON.
 //!
 //! ```text
-//! Report { diagnosis, traces, robot, provenance } -> json(), html(), text()
+//! Report { diagnosis, traces, robot, provenance } -> json(), html(), figure(), text()
 //! ```
 //!
-//! None of the three holds a date or a random number: the same input gives the same
+//! None of them holds a date or a random number: the same input gives the same
 //! bytes.
 
 mod chart;
@@ -17,12 +17,14 @@ mod html;
 mod json;
 mod numbers;
 mod places;
+mod poster;
 mod provenance;
 #[cfg(test)]
 mod sample;
 mod sentence;
 mod tables;
 mod terminal;
+mod wrap;
 
 pub use chart::{Axis, Chart, Role, Series, Shape};
 pub use error::ReportError;
@@ -30,9 +32,12 @@ pub use files::{sha256_of, write_folder};
 pub use html::html;
 pub use json::json;
 pub use numbers::{interval, percent, significant, unit};
+pub use poster::figure;
 pub use provenance::{FileHash, Provenance};
 pub use sentence::{bottom_line, verdict_sentence};
+pub use tables::sizes;
 pub use terminal::text;
+pub use wrap::packed;
 
 /// Everything that a report shows.
 #[derive(Debug, Clone, Copy)]

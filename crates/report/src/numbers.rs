@@ -40,14 +40,27 @@ pub fn unit(plain: &str) -> String {
 }
 
 /// Value, interval and unit with as many decimals as the interval bears:
-/// `3.21 N·m (3.05 to 3.37)`.
+/// `3.21 N·m (3.05 to 3.37)`; words where the logs do not narrow it down.
 pub fn interval(estimate: &Estimate) -> String {
-    let [low, high] = estimate.ci95;
-    let places = places(0.5 * (high - low)).unwrap_or(places(estimate.value).unwrap_or(0));
-    let number = |value: f64| if value.is_finite() { decimals(value, places) } else { "-".into() };
+    if !estimate.determined {
+        return "not determined by this log".to_owned();
+    }
+    let [low, high] = estimate.ci95.map(|end| as_precise(estimate, end));
+    format!("{} ({low} to {high})", value(estimate))
+}
+
+/// Value and unit of [`interval`].
+pub(crate) fn value(estimate: &Estimate) -> String {
     let unit = unit(estimate.unit);
     let space = if unit.is_empty() { "" } else { " " };
-    format!("{}{space}{unit} ({} to {})", number(estimate.value), number(low), number(high))
+    format!("{}{space}{unit}", as_precise(estimate, estimate.value))
+}
+
+/// A number with as many decimals as the interval of the estimate bears.
+fn as_precise(estimate: &Estimate, number: f64) -> String {
+    let [low, high] = estimate.ci95;
+    let places = places(0.5 * (high - low)).unwrap_or(places(estimate.value).unwrap_or(0));
+    if number.is_finite() { decimals(number, places) } else { "-".to_owned() }
 }
 
 /// Decimals that show two significant digits of `size`.
@@ -104,6 +117,8 @@ mod tests {
             "9880 N (9000 to 10750)"
         );
         assert_eq!(interval(&estimate(2.0, [2.0, 2.0], "m")), "2.0 m (2.0 to 2.0)");
+        let open = Estimate { determined: false, ..estimate(0.0, [-0.1, 0.1], "rad") };
+        assert_eq!(interval(&open), "not determined by this log");
     }
 
     #[test]

@@ -9,6 +9,8 @@ pub(crate) struct JointUnits {
     pub position: &'static str,
     pub velocity: &'static str,
     pub effort: &'static str,
+    /// What the effort is: `torque` or `force`.
+    pub load: &'static str,
 }
 
 impl JointUnits {
@@ -18,10 +20,15 @@ impl JointUnits {
         let is_rotation =
             index.and_then(|i| robot.links().get(i)).is_none_or(|l| l.joint.kind.is_rotation());
         if is_rotation {
-            Self { position: "rad", velocity: "rad/s", effort: "N·m" }
+            Self { position: "rad", velocity: "rad/s", effort: "N·m", load: "torque" }
         } else {
-            Self { position: "m", velocity: "m/s", effort: "N" }
+            Self { position: "m", velocity: "m/s", effort: "N", load: "force" }
         }
+    }
+
+    /// A sentence in which an effort has the unit `N m`, with the unit of this joint.
+    pub fn said(self, sentence: &str) -> String {
+        sentence.replace("N m", self.effort)
     }
 }
 
@@ -42,6 +49,24 @@ pub(crate) fn findings_of<'a>(report: &Report<'a>, joint: Option<usize>) -> Vec<
     all.filter(|f| joint_of(report, &f.at) == joint).collect()
 }
 
+/// The findings that change the effort of one joint: its own, those of its link and of the
+/// links that it carries, those of the whole robot.
+pub(crate) fn acting_on<'a>(report: &Report<'a>, joint: usize) -> Vec<&'a Finding> {
+    let name = report.diagnosis.joints.get(joint).map(|j| j.name.as_str());
+    let links = report.robot.links();
+    let carries = |link: &str| {
+        let start = links.iter().position(|l| l.name == link);
+        let mut outward = std::iter::successors(start, |&i| links.get(i)?.parent);
+        outward.any(|i| links.get(i).is_some_and(|l| Some(l.joint.name.as_str()) == name))
+    };
+    let acts = |at: &EffectAt| match (&at.joint, &at.link) {
+        (Some(at), _) => Some(at.as_str()) == name,
+        (None, Some(link)) => carries(link),
+        (None, None) => true,
+    };
+    report.diagnosis.findings.iter().filter(|f| acts(&f.at)).collect()
+}
+
 /// Names as they stand in a sentence: `a`, `a and b`, `a, b and c`.
 pub(crate) fn listed(names: &[String]) -> String {
     match names {
@@ -54,4 +79,30 @@ pub(crate) fn listed(names: &[String]) -> String {
 /// `1 effect`, `3 effects`.
 pub(crate) fn counted(count: usize, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    #[test]
+    fn a_joint_feels_the_links_that_it_carries_and_no_other_joint() {
+        let sample = sample::arm();
+        let words = |joint| -> Vec<String> {
+            acting_on(&sample.report(), joint).iter().map(|f| f.at.words()).collect()
+        };
+        let of_link = "inertial parameters at elbow_link";
+        assert_eq!(words(0), ["Coulomb friction at shoulder", of_link]);
+        assert_eq!(words(1), [of_link]);
+    }
+
+    #[test]
+    fn a_sliding_joint_has_forces() {
+        let mut links = sample::arm().robot.links().to_vec();
+        links[1].joint.kind = robot::JointKind::Prismatic;
+        let robot = Robot::new("arm", nalgebra::Vector3::zeros(), links).unwrap();
+        assert_eq!(JointUnits::of(&robot, "elbow").said("0.4 N m RMS"), "0.4 N RMS");
+        assert_eq!(JointUnits::of(&robot, "shoulder").said("0.4 N m RMS"), "0.4 N·m RMS");
+    }
 }

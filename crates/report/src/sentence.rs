@@ -11,10 +11,10 @@ pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
     let left = at_joints(joints, |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained));
     match verdict {
         Verdict::Consistent => {
-            format!("Consistent: the model of {robot} explains the log down to its noise floor")
+            format!("Consistent: the log gives no reason to change the model of {robot}")
         }
         Verdict::Explained => format!(
-            "Explained: {effects} {} what the model of {robot} gets wrong",
+            "Explained: {effects} {} nearly all that the model of {robot} gets wrong",
             verb(findings.len())
         ),
         Verdict::PartlyExplained => {
@@ -48,35 +48,86 @@ fn at_joints(joints: &[JointReport], wanted: impl Fn(Verdict) -> bool) -> String
     }
 }
 
+/// The robot and its verdict, as a title.
+pub(crate) fn title(diagnosis: &Diagnosis) -> String {
+    let Diagnosis { robot, findings, verdict, .. } = diagnosis;
+    let effects = counted(findings.len(), "named effect");
+    match verdict {
+        Verdict::Explained | Verdict::PartlyExplained => {
+            format!("{robot}: {} by {effects}", verdict.words())
+        }
+        _ => format!("{robot}: {}", verdict.words()),
+    }
+}
+
 /// What the extended model buys on held-out data, in one sentence with numbers.
 ///
 /// Over all joints: root of the sum of squared errors where every joint turns, mean nMSE
 /// where units differ.
 pub fn bottom_line(report: &Report) -> String {
-    let gain = &report.diagnosis.gain.inverse;
-    let turns = report.robot.links().iter().all(|l| l.joint.kind.is_rotation());
-    let (before, after) = if turns {
-        (root_of_squares(&gain.rms_before_nm), root_of_squares(&gain.rms_after_nm))
-    } else {
-        (mean(&gain.nmse_before), mean(&gain.nmse_after))
-    };
-    let what = if turns { "the torque error" } else { "the mean nMSE of the torque" };
-    let unit = if turns { " N·m RMS" } else { "" };
-    let held_out = &gain.held_out;
-    if !(before.is_finite() && after.is_finite() && before > 0.0) {
+    let total = Total::new(report);
+    let Total { what, unit, .. } = total;
+    let held_out = &report.diagnosis.gain.inverse.held_out;
+    let Some(fall) = total.fall() else {
         return "No joint has held-out data on which a gain could be measured".to_owned();
-    }
-    let fall = 1.0 - after / before;
-    let (before, after) = (significant(before, 3), significant(after, 3));
-    if fall.abs() < 0.0005 {
-        return format!("On held-out data ({held_out}) {what} over all joints is {before}{unit}");
+    };
+    let (before, after) = (significant(total.before, 3), significant(total.after, 3));
+    if fall.abs() < LEAST_FALL {
+        return format!(
+            "On held-out data ({held_out}) the {what} over all joints is {before}{unit}"
+        );
     }
     let way = if fall > 0.0 { "falls" } else { "rises" };
     format!(
-        "On held-out data ({held_out}) {what} over all joints {way} from {before} to {after}{unit} ({} {})",
-        percent(fall.abs()),
-        if fall > 0.0 { "less" } else { "more" }
+        "On held-out data ({held_out}) the {what} over all joints {way} from {before} to {after}{unit} ({})",
+        less_or_more(fall)
     )
+}
+
+/// The bottom line as a subtitle.
+pub(crate) fn short_bottom_line(report: &Report) -> String {
+    let total = Total::new(report);
+    let Total { what, unit, .. } = total;
+    let Some(fall) = total.fall() else { return bottom_line(report) };
+    let (before, after) = (significant(total.before, 3), significant(total.after, 3));
+    let change =
+        if fall.abs() < LEAST_FALL { String::new() } else { format!(" ({})", less_or_more(fall)) };
+    format!("Held-out {what} over all joints: {before} → {after}{unit}{change}")
+}
+
+/// Change of the error that is worth words.
+const LEAST_FALL: f64 = 0.0005;
+
+/// The error over all joints.
+struct Total {
+    what: &'static str,
+    unit: &'static str,
+    before: f64,
+    after: f64,
+}
+
+impl Total {
+    fn new(report: &Report) -> Self {
+        let gain = &report.diagnosis.gain.inverse;
+        if report.robot.links().iter().all(|l| l.joint.kind.is_rotation()) {
+            let before = root_of_squares(&gain.rms_before_nm);
+            let after = root_of_squares(&gain.rms_after_nm);
+            Self { what: "torque error", unit: " N·m RMS", before, after }
+        } else {
+            let (before, after) = (mean(&gain.nmse_before), mean(&gain.nmse_after));
+            Self { what: "mean nMSE of torque and force", unit: "", before, after }
+        }
+    }
+
+    /// Relative fall; none when there is nothing to compare.
+    fn fall(&self) -> Option<f64> {
+        let is_measured = self.before.is_finite() && self.after.is_finite() && self.before > 0.0;
+        is_measured.then(|| 1.0 - self.after / self.before)
+    }
+}
+
+fn less_or_more(fall: f64) -> String {
+    format!("{} {}", percent(fall.abs()), if fall > 0.0 { "less" } else { "more" })
 }
 
 fn root_of_squares(values: &[f64]) -> f64 {

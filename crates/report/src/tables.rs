@@ -17,7 +17,10 @@ pub(crate) struct JointRow {
     pub before: String,
     pub after: String,
     pub floor: String,
-    pub floor_from: &'static str,
+    /// What is taken for noise, in a word and in a sentence.
+    pub floor_from: [&'static str; 2],
+    /// Whether the logs say anything of the joint.
+    pub adequate: bool,
     pub nmse_before: String,
     pub nmse_after: String,
     pub effective_samples: String,
@@ -32,17 +35,19 @@ pub(crate) fn joint_rows(report: &Report) -> Vec<JointRow> {
     let rows = report.diagnosis.joints.iter().enumerate().map(|(i, joint)| {
         let (before, after) = (at(&gain.rms_before_nm, i), at(&gain.rms_after_nm, i));
         let bar = |rms: f64| length_of_bar(rms / joint.torque_rms_nm);
+        let units = JointUnits::of(report.robot, &joint.name);
         JointRow {
             name: joint.name.clone(),
             verdict: joint.verdict.words(),
             class: class_of(joint.verdict),
-            because: joint.because.clone(),
-            unit: JointUnits::of(report.robot, &joint.name).effort,
+            because: units.said(&joint.because),
+            unit: units.effort,
             torque: significant(joint.torque_rms_nm, 3),
             before: significant(before, 3),
             after: significant(after, 3),
             floor: significant(joint.noise_floor_rms_nm, 3),
             floor_from: words_for_floor(joint.noise_floor_from),
+            adequate: joint.verdict != Verdict::DataInadequate,
             nmse_before: significant(at(&gain.nmse_before, i), 2),
             nmse_after: significant(at(&gain.nmse_after, i), 2),
             effective_samples: significant(joint.effective_samples, 3),
@@ -66,12 +71,37 @@ pub(crate) fn class_of(verdict: Verdict) -> &'static str {
     }
 }
 
-fn words_for_floor(source: NoiseFloorSource) -> &'static str {
+/// What is taken for noise at a joint, in a word and in a sentence.
+pub(crate) fn words_for_floor(source: NoiseFloorSource) -> [&'static str; 2] {
     match source {
-        NoiseFloorSource::Repeats => "from runs that repeat a motion",
-        NoiseFloorSource::HighFrequencyBand => "from the spectrum above the motion",
-        NoiseFloorSource::FlexiblePredictor => "from a flexible predictor of the state",
+        NoiseFloorSource::Repeats => ["repeats", "what differs between runs of one motion"],
+        NoiseFloorSource::HighFrequencyBand => ["white", "white noise measured above the band"],
+        NoiseFloorSource::FlexiblePredictor => ["state", "what no function of the state predicts"],
     }
+}
+
+/// The sizes of a finding that the logs determine, with their names where it has several
+/// and with what they were.
+pub fn sizes(finding: &Finding) -> Vec<String> {
+    let known = finding.parameters.iter().filter(|p| p.determined);
+    known.map(|p| size(p, finding.parameters.len())).collect()
+}
+
+/// The size of one of `count` parameters.
+pub(crate) fn size(parameter: &Estimate, count: usize) -> String {
+    let name = if count == 1 { String::new() } else { parameter.name.replace('_', " ") + " " };
+    let was = if parameter.nominal.abs() > 0.0 {
+        format!(", was {}", significant(parameter.nominal, 3))
+    } else {
+        String::new()
+    };
+    format!("{name}{}{was}", interval(parameter))
+}
+
+/// The effect, with its link where it has one: a joint stands elsewhere.
+pub(crate) fn name_beside_joint(at: &EffectAt) -> String {
+    let link = at.link.as_ref().map(|l| format!(" of {l}")).unwrap_or_default();
+    format!("{}{link}", at.effect.words())
 }
 
 /// A finding as text.
@@ -167,7 +197,6 @@ pub(crate) fn ruled_out(report: &Report) -> Vec<(String, Vec<RuledOutRow>)> {
 }
 
 fn ruled_out_row(ruled_out: &RuledOut) -> RuledOutRow {
-    let link = ruled_out.at.link.as_ref().map(|l| format!(" of {l}")).unwrap_or_default();
     let smallest = match ruled_out.smallest_detectable {
         Some(size) => {
             let parameter = ruled_out.parameter.replace('_', " ");
@@ -176,7 +205,7 @@ fn ruled_out_row(ruled_out: &RuledOut) -> RuledOutRow {
         None => "these logs cannot show any".to_owned(),
     };
     RuledOutRow {
-        effect: format!("{}{link}", ruled_out.at.effect.words()),
+        effect: name_beside_joint(&ruled_out.at),
         smallest: smallest.trim_end().to_owned(),
         because: ruled_out.because.clone(),
     }

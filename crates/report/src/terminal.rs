@@ -1,16 +1,15 @@
 use anstyle::{AnsiColor, Style};
-use diagnosis::{EffectAt, Estimate, Finding, JointReport, Verdict};
+use diagnosis::{EffectAt, Finding, JointReport, Verdict};
 
 use crate::Report;
-use crate::numbers::{interval, percent, significant};
-use crate::places::{JointUnits, counted, findings_of, listed};
+use crate::numbers::{percent, significant};
+use crate::places::{JointUnits, acting_on, findings_of, listed};
 use crate::sentence::{bottom_line, verdict_sentence};
+use crate::tables::{name_beside_joint, sizes, words_for_floor};
+use crate::wrap::{packed, wrapped};
 
 /// Columns of the terminal that the text fills.
 const WIDTH: usize = 100;
-
-/// Parameters of one finding that are printed; the report has them all.
-const MOST_PARAMETERS: usize = 4;
 
 const BOLD: Style = Style::new().bold();
 const FAINT: Style = Style::new().dimmed();
@@ -18,48 +17,84 @@ const FAINT: Style = Style::new().dimmed();
 /// The verdict as text for a terminal of 100 columns, with colours as escape codes that
 /// `anstream` removes where they are not wanted.
 ///
-/// The first line is the verdict in a sentence, the second what it buys; then one block a
-/// joint, with its findings, their rivals and what is left.
+/// The first line is the verdict in a sentence, the second what it buys, then what the
+/// words of the blocks mean; then one block a joint, with its findings, the largest share
+/// first, their rivals and what is left. Joints that the log does not show come last.
 pub fn text(report: &Report) -> String {
     let diagnosis = report.diagnosis;
     let style = style_of(diagnosis.verdict).bold();
     let mut out = String::new();
-    for line in wrapped(&format!("{}.", verdict_sentence(diagnosis)), 0) {
+    for line in wrapped(&format!("{}.", verdict_sentence(diagnosis)), WIDTH) {
         out.push_str(&format!("{style}{line}{style:#}\n"));
     }
-    for line in wrapped(&format!("{}.", bottom_line(report)), 0) {
+    for line in wrapped(&format!("{}.", bottom_line(report)), WIDTH) {
         out.push_str(&format!("{line}\n"));
     }
+    legend(&mut out, report);
     let whole = findings_of(report, None);
     if !whole.is_empty() {
         out.push_str(&format!("\n{BOLD}whole robot{BOLD:#}\n"));
         whole.iter().for_each(|f| finding(&mut out, f));
     }
-    for (index, joint) in diagnosis.joints.iter().enumerate() {
+    let joints = diagnosis.joints.iter().enumerate();
+    let (adequate, inadequate): (Vec<_>, Vec<_>) = joints.partition(|(_, j)| is_adequate(j));
+    for (index, joint) in adequate.into_iter().chain(inadequate) {
         block(&mut out, report, index, joint);
     }
+    motions(&mut out, &diagnosis.findings);
     warnings(&mut out, &diagnosis.warnings);
     out
 }
 
+fn is_adequate(joint: &JointReport) -> bool {
+    joint.verdict != Verdict::DataInadequate
+}
+
+/// What the words in the blocks mean, only those that occur.
+fn legend(out: &mut String, report: &Report) {
+    let adequate = report.diagnosis.joints.iter().filter(|j| is_adequate(j));
+    let mut floors: Vec<[&str; 2]> =
+        adequate.map(|j| words_for_floor(j.noise_floor_from)).collect();
+    if !floors.is_empty() {
+        out.push('\n');
+        entry(
+            out,
+            "error",
+            "measured minus predicted torque, nominal -> extended model, of the torque itself",
+        );
+    }
+    if !report.diagnosis.findings.is_empty() {
+        entry(
+            out,
+            "gap",
+            "mean square of the nominal error; shares of similar causes need not add up",
+        );
+        entry(out, "gain", "fall of the held-out mean square error when the cause is added last");
+    }
+    floors.sort_unstable();
+    floors.dedup();
+    for [word, meaning] in floors {
+        entry(out, &format!("noise ({word})"), meaning);
+    }
+}
+
+fn entry(out: &mut String, word: &str, meaning: &str) {
+    out.push_str(&format!("{FAINT}{word:<18} {meaning}{FAINT:#}\n"));
+}
+
 fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
-    let gain = &report.diagnosis.gain.inverse;
-    let number = |values: &[f64]| significant(values.get(index).copied().unwrap_or(f64::NAN), 3);
-    let unit = JointUnits::of(report.robot, &joint.name).effort;
     let style = style_of(joint.verdict);
     let verdict = joint.verdict.words();
-    let gap = " ".repeat(17_usize.saturating_sub(verdict.len()));
-    out.push_str(&format!(
-        "\n{BOLD}{:<18}{BOLD:#} {style}{verdict}{style:#}{gap} error {} -> {} of {} {unit} RMS, noise floor {}\n",
-        joint.name,
-        number(&gain.rms_before_nm),
-        number(&gain.rms_after_nm),
-        significant(joint.torque_rms_nm, 3),
-        significant(joint.noise_floor_rms_nm, 3),
-    ));
+    out.push_str(&format!("\n{BOLD}{:<18}{BOLD:#} {style}{verdict}{style:#}", joint.name));
+    if is_adequate(joint) {
+        let gap = " ".repeat(17_usize.saturating_sub(verdict.len()));
+        out.push_str(&format!("{gap} {}", errors(report, index, joint)));
+    }
+    out.push('\n');
     let found = findings_of(report, Some(index));
-    if found.is_empty() {
-        note(out, &joint.because);
+    if found.is_empty() || !is_adequate(joint) {
+        elsewhere(out, report, index);
+        note(out, &JointUnits::of(report.robot, &joint.name).said(&joint.because));
     }
     found.iter().for_each(|f| finding(out, f));
     for left in report.diagnosis.unexplained.iter().filter(|u| u.joint == joint.name) {
@@ -77,55 +112,75 @@ fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
     }
 }
 
-/// Effect and size on one line with share and gain, then rivals and open directions.
-fn finding(out: &mut String, finding: &Finding) {
-    let mut name = finding.at.effect.words().to_owned();
-    if let Some(link) = &finding.at.link {
-        name.push_str(&format!(" of {link}"));
+/// What changes the torque of a joint that has no finding of its own.
+fn elsewhere(out: &mut String, report: &Report, index: usize) {
+    let names: Vec<String> =
+        acting_on(report, index).iter().map(|f| name_beside_joint(&f.at)).collect();
+    if !names.is_empty() && findings_of(report, Some(index)).is_empty() {
+        note(out, &format!("no cause of its own; affected by {}", listed(&names)));
     }
-    let shown: Vec<&Estimate> =
-        finding.parameters.iter().filter(|p| p.determined).take(MOST_PARAMETERS).collect();
-    let mut sizes = shown.iter().map(|p| size(p, shown.len()));
-    let first = sizes.next().unwrap_or_else(|| "size not determined".to_owned());
+}
+
+/// Error before and after, torque and noise floor of a joint.
+fn errors(report: &Report, index: usize, joint: &JointReport) -> String {
+    let gain = &report.diagnosis.gain.inverse;
+    let number = |values: &[f64]| significant(values.get(index).copied().unwrap_or(f64::NAN), 3);
+    let [floor, _] = words_for_floor(joint.noise_floor_from);
+    format!(
+        "error {} -> {} of {} {} RMS, noise {} ({floor})",
+        number(&gain.rms_before_nm),
+        number(&gain.rms_after_nm),
+        significant(joint.torque_rms_nm, 3),
+        JointUnits::of(report.robot, &joint.name).effort,
+        significant(joint.noise_floor_rms_nm, 3),
+    )
+}
+
+/// Effect and size on one line with share and gain, then rivals and open parameters.
+fn finding(out: &mut String, finding: &Finding) {
+    let name = name_beside_joint(&finding.at);
+    let sizes = sizes(finding);
     let worth = format!(
         "{:>6} of the gap, gain {}",
         percent(finding.share_explained),
         percent(finding.held_out_gain)
     );
-    // A long name or size takes a line of its own, so that the columns stay aligned.
-    let wide = name.chars().count() > 22 || first.chars().count() > 40;
-    if wide {
-        out.push_str(&format!("  {name:<64}{worth}\n    {first}\n"));
-    } else {
-        out.push_str(&format!("  {name:<23} {first:<40}{worth}\n"));
-    }
-    let indent = if wide { 4 } else { 26 };
-    sizes.for_each(|line| out.push_str(&format!("{:indent$}{line}\n", "")));
-    let hidden = finding.parameters.iter().filter(|p| p.determined).count() - shown.len();
-    if hidden > 0 {
-        note(out, &format!("{} more in the report", counted(hidden, "parameter")));
+    match sizes.as_slice() {
+        [size] if name.chars().count() <= 22 && size.chars().count() <= 43 => {
+            out.push_str(&format!("  {name:<23} {size:<43}{worth}\n"));
+        }
+        // What does not fit between the columns takes lines of its own.
+        _ => {
+            out.push_str(&format!("  {name:<67}{worth}\n"));
+            for line in packed(sizes.iter().map(String::as_str), "; ", WIDTH - 4) {
+                out.push_str(&format!("    {line}\n"));
+            }
+        }
     }
     if !finding.not_separable_from.is_empty() {
         let rivals: Vec<String> = finding.not_separable_from.iter().map(EffectAt::words).collect();
-        let motion = finding.told_apart_by.map(|m| format!("; told apart by {m}"));
-        note(out, &format!("or {}{}", rivals.join(", or "), motion.unwrap_or_default()));
+        note(out, &format!("may as well be {}", rivals.join(" or ")));
     }
-    if !finding.undetermined.is_empty() {
-        note(out, &format!("left open by this log: {}", finding.undetermined.join("; ")));
+    let open = finding.parameters.iter().filter(|p| !p.determined);
+    let open: Vec<String> = open.map(|p| p.name.replace('_', " ")).collect();
+    if !open.is_empty() {
+        note(out, &format!("not determined by this log: {}", open.join(", ")));
     }
 }
 
-/// The size of a parameter and what it was, with its name where there are several.
-fn size(parameter: &Estimate, count: usize) -> String {
-    let was = if parameter.nominal.abs() > 0.0 {
-        format!(", was {}", significant(parameter.nominal, 3))
-    } else {
-        String::new()
-    };
-    if count == 1 {
-        return format!("{}{was}", interval(parameter));
+/// The motions that would tell the findings from their rivals.
+fn motions(out: &mut String, findings: &[Finding]) {
+    let mut motions: Vec<&str> = findings.iter().filter_map(|f| f.told_apart_by).collect();
+    motions.sort_unstable();
+    motions.dedup();
+    if !motions.is_empty() {
+        out.push_str("\nTo tell a cause from what it may as well be, record\n");
     }
-    format!("{} {}{was}", parameter.name.replace('_', " "), interval(parameter))
+    for motion in motions {
+        for (i, line) in wrapped(motion, WIDTH - 4).iter().enumerate() {
+            out.push_str(&format!("  {} {line}\n", if i == 0 { '-' } else { ' ' }));
+        }
+    }
 }
 
 fn warnings(out: &mut String, warnings: &[String]) {
@@ -134,7 +189,7 @@ fn warnings(out: &mut String, warnings: &[String]) {
     }
     for warning in warnings {
         let style = AnsiColor::Yellow.on_default();
-        for (i, line) in wrapped(warning, 9).iter().enumerate() {
+        for (i, line) in wrapped(warning, WIDTH - 9).iter().enumerate() {
             let lead = if i == 0 { "warning:" } else { "        " };
             out.push_str(&format!("{style}{lead}{style:#} {line}\n"));
         }
@@ -143,7 +198,7 @@ fn warnings(out: &mut String, warnings: &[String]) {
 
 /// A faint line under a finding, wrapped.
 fn note(out: &mut String, text: &str) {
-    for line in wrapped(text, 4) {
+    for line in wrapped(text, WIDTH - 4) {
         out.push_str(&format!("    {FAINT}{line}{FAINT:#}\n"));
     }
 }
@@ -157,21 +212,6 @@ fn style_of(verdict: Verdict) -> Style {
     }
 }
 
-/// Lines of at most [`WIDTH`] columns less the indent, broken at spaces.
-fn wrapped(text: &str, indent: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() + 1 + indent <= WIDTH => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -182,16 +222,23 @@ Partly explained: 2 named effects found in the model of arm, structure is left a
 On held-out data (each run in turn) the torque error over all joints falls from 2.28 to 0.640 N·m
 RMS (72 % less).
 
-shoulder           explained         error 2.10 -> 0.400 of 5.00 N·m RMS, noise floor 0.350
-  Coulomb friction        2.00 N·m (1.80 to 2.20)                   71 % of the gap, gain 62 %
-    or viscous friction at shoulder; told apart by constant speeds, slow and fast, in both
-    directions
+error              measured minus predicted torque, nominal -> extended model, of the torque itself
+gap                mean square of the nominal error; shares of similar causes need not add up
+gain               fall of the held-out mean square error when the cause is added last
+noise (state)      what no function of the state predicts
 
-elbow              partly explained  error 0.900 -> 0.500 of 5.00 N·m RMS, noise floor 0.350
-  inertial parameters of elbow_link                                 71 % of the gap, gain 62 %
-    2.50 kg (2.30 to 2.70)
-    left open by this log: centre of mass along y
+shoulder           explained         error 2.10 -> 0.400 of 5.00 N·m RMS, noise 0.350 (state)
+  Coulomb friction        2.00 N·m (1.80 to 2.20)                      71 % of the gap, gain 62 %
+    may as well be viscous friction at shoulder
+
+elbow              partly explained  error 0.900 -> 0.500 of 5.00 N·m RMS, noise 0.350 (state)
+  inertial parameters of elbow_link                                    71 % of the gap, gain 62 %
+    mass 2.50 kg (2.30 to 2.70)
+    not determined by this log: com y
     left: 29 % of the gap has no name, it follows position of elbow (31 %)
+
+To tell a cause from what it may as well be, record
+  - constant speeds, slow and fast, in both directions
 
 warning: elbow: quantised in steps of 0.01 N m
 ";
@@ -204,6 +251,16 @@ warning: elbow: quantised in steps of 0.01 N m
         let plain = without_escapes(&coloured);
         assert_eq!(plain, EXPECTED);
         assert!(plain.lines().all(|line| line.chars().count() <= WIDTH));
+    }
+
+    #[test]
+    fn a_joint_that_hardly_moves_comes_last_with_its_reason_and_without_numbers() {
+        let mut sample = sample::arm();
+        sample.diagnosis.joints[0].verdict = Verdict::DataInadequate;
+        let plain = without_escapes(&text(&sample.report()));
+        let (_, last) = plain.split_once("\nelbow ").unwrap();
+        let block = "shoulder           data inadequate\n    the reason in a sentence\n  Coulomb";
+        assert!(last.contains(block), "{last}");
     }
 
     fn without_escapes(text: &str) -> String {

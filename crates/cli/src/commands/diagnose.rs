@@ -10,6 +10,9 @@ use crate::error::CliError;
 use crate::output::{print, shown};
 use crate::progress::Bar;
 
+/// Columns of a comment in `extended.toml`.
+const COMMENT_WIDTH: usize = 95;
+
 /// Arguments of `diagnose`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -19,7 +22,7 @@ pub struct Arguments {
     /// CSV or Parquet files, one run each
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
-    /// Folder for diagnosis.json, report.html, extended.toml and robot.urdf
+    /// Folder for report.html, figure.svg, diagnosis.json, extended.toml and robot.urdf
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Names and units of columns that are called otherwise (TOML)
@@ -91,6 +94,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         &[
             ("diagnosis.json", json.as_bytes()),
             ("report.html", report::html(&report)?.as_bytes()),
+            ("figure.svg", report::figure(&report)?.as_bytes()),
             ("extended.toml", extended.as_bytes()),
             ("robot.urdf", &urdf),
         ],
@@ -148,13 +152,12 @@ fn extended_toml(
 ) -> Result<String, CliError> {
     let mut text = format!("# {} with the findings of diagnosis.json\n", extended.name());
     for finding in &diagnosis.findings {
-        let sizes: Vec<String> = finding
-            .parameters
-            .iter()
-            .filter(|p| p.determined)
-            .map(|p| format!("{} {}", p.name, report::interval(p)))
-            .collect();
-        text.push_str(&format!("# {}: {}\n", finding.at.words(), sizes.join(", ")));
+        let mut sizes = report::sizes(finding);
+        if let Some(first) = sizes.first_mut() {
+            *first = format!("{}: {first}", finding.at.words());
+        }
+        let lines = report::packed(sizes.iter().map(String::as_str), "; ", COMMENT_WIDTH);
+        text.push_str(&format!("# {}\n", lines.join("\n#   ")));
     }
     let toml = loaded.to_toml(extended, "robot.urdf").map_err(CliError::Extended)?;
     Ok(format!("{text}\n{toml}"))
@@ -169,8 +172,9 @@ fn read(path: &Path) -> Result<Vec<u8>, ReportError> {
 fn say(arguments: &Arguments, report: &Report, json: &str) -> Result<(), CliError> {
     let out = &arguments.out;
     let closing = format!(
-        "report         {} (open it in a browser)\nextended model {} (for --robot)\n",
+        "report         {} (open it in a browser)\nfigure         {}\nextended model {} (for --robot)\n",
         shown(&out.join("report.html")),
+        shown(&out.join("figure.svg")),
         shown(&out.join("extended.toml"))
     );
     if arguments.json {
