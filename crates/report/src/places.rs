@@ -43,10 +43,10 @@ pub(crate) fn joint_of(report: &Report, at: &EffectAt) -> Option<usize> {
     report.diagnosis.joints.iter().position(|j| j.name == name)
 }
 
-/// The findings of one joint and of its link; with `None`, those of the whole robot.
-pub(crate) fn findings_of<'a>(report: &Report<'a>, joint: Option<usize>) -> Vec<&'a Finding> {
-    let all = report.diagnosis.findings.iter();
-    all.filter(|f| joint_of(report, &f.at) == joint).collect()
+/// The findings at one joint; with `None`, those of links and of the whole robot, which
+/// change the effort of several.
+pub(crate) fn findings_of<'a>(report: &Report<'a>, joint: Option<&str>) -> Vec<&'a Finding> {
+    report.diagnosis.findings.iter().filter(|f| f.at.joint.as_deref() == joint).collect()
 }
 
 /// The findings that change the effort of one joint: its own, those of its link and of the

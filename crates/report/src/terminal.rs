@@ -31,14 +31,19 @@ pub fn text(report: &Report) -> String {
         out.push_str(&format!("{line}\n"));
     }
     legend(&mut out, report);
-    let whole = findings_of(report, None);
-    if !whole.is_empty() {
-        out.push_str(&format!("\n{BOLD}whole robot{BOLD:#}\n"));
-        whole.iter().for_each(|f| finding(&mut out, f));
+    let shared = findings_of(report, None);
+    if !shared.is_empty() {
+        out.push_str(&format!("\n{BOLD}links and whole robot{BOLD:#}\n"));
+        shared.iter().for_each(|f| finding(&mut out, f));
     }
     let joints = diagnosis.joints.iter().enumerate();
     let (adequate, inadequate): (Vec<_>, Vec<_>) = joints.partition(|(_, j)| is_adequate(j));
-    for (index, joint) in adequate.into_iter().chain(inadequate) {
+    for (index, joint) in adequate {
+        out.push('\n');
+        block(&mut out, report, index, joint);
+    }
+    out.push_str(if inadequate.is_empty() { "" } else { "\n" });
+    for (index, joint) in inadequate {
         block(&mut out, report, index, joint);
     }
     motions(&mut out, &diagnosis.findings);
@@ -85,15 +90,17 @@ fn entry(out: &mut String, word: &str, meaning: &str) {
 fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
     let style = style_of(joint.verdict);
     let verdict = joint.verdict.words();
-    out.push_str(&format!("\n{BOLD}{:<18}{BOLD:#} {style}{verdict}{style:#}", joint.name));
+    out.push_str(&format!("{BOLD}{:<18}{BOLD:#} {style}{verdict}{style:#}", joint.name));
     if is_adequate(joint) {
         let gap = " ".repeat(17_usize.saturating_sub(verdict.len()));
         out.push_str(&format!("{gap} {}", errors(report, index, joint)));
     }
     out.push('\n');
-    let found = findings_of(report, Some(index));
-    if found.is_empty() || !is_adequate(joint) {
+    let found = findings_of(report, Some(&joint.name));
+    if found.is_empty() && is_adequate(joint) {
         elsewhere(out, report, index);
+    }
+    if found.is_empty() || !is_adequate(joint) {
         note(out, &JointUnits::of(report.robot, &joint.name).said(&joint.because));
     }
     found.iter().for_each(|f| finding(out, f));
@@ -116,7 +123,7 @@ fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
 fn elsewhere(out: &mut String, report: &Report, index: usize) {
     let names: Vec<String> =
         acting_on(report, index).iter().map(|f| name_beside_joint(&f.at)).collect();
-    if !names.is_empty() && findings_of(report, Some(index)).is_empty() {
+    if !names.is_empty() {
         note(out, &format!("no cause of its own; affected by {}", listed(&names)));
     }
 }
@@ -227,14 +234,18 @@ gap                mean square of the nominal error; shares of similar causes ne
 gain               fall of the held-out mean square error when the cause is added last
 noise (state)      what no function of the state predicts
 
+links and whole robot
+  inertial parameters of elbow_link                                    71 % of the gap, gain 62 %
+    mass 2.50 kg (2.30 to 2.70)
+    not determined by this log: com y
+
 shoulder           explained         error 2.10 -> 0.400 of 5.00 N·m RMS, noise 0.350 (state)
   Coulomb friction        2.00 N·m (1.80 to 2.20)                      71 % of the gap, gain 62 %
     may as well be viscous friction at shoulder
 
 elbow              partly explained  error 0.900 -> 0.500 of 5.00 N·m RMS, noise 0.350 (state)
-  inertial parameters of elbow_link                                    71 % of the gap, gain 62 %
-    mass 2.50 kg (2.30 to 2.70)
-    not determined by this log: com y
+    no cause of its own; affected by inertial parameters of elbow_link
+    the reason in a sentence
     left: 29 % of the gap has no name, it follows position of elbow (31 %)
 
 To tell a cause from what it may as well be, record
