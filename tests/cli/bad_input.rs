@@ -176,3 +176,11 @@ fn an_output_folder_that_is_a_file() {
     assert!(answer.err.contains("taken: it is a file"), "{}", answer.err);
     assert_eq!(fs::read_to_string(folder.path().join("taken")).unwrap(), "mine");
 }
+
+#[test]
+fn a_log_in_the_place_of_the_robot_and_the_other_way_round() {
+    let folder = folder();
+    let kinds = "a robot is a .urdf or a .toml file";
+    refused(folder.path(), "good.csv", "good.csv", &[], 3, &["good.csv", "help:", kinds]);
+    refused(folder.path(), "arm.urdf", "arm.urdf", &[], 3, &["arm.urdf", "help:", kinds]);
+}

@@ -6,11 +6,23 @@ fn help_names_every_command_and_every_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let help = run(folder.path(), &["--help"]);
     assert_eq!(help.code, 0);
-    for expected in ["diagnose", "robot", "log", "explain", "Exit codes:", "  3  unusable data"] {
+    for expected in
+        ["diagnose", "robot", "log", "explain", "Examples:", "Exit codes:", "  3  unusable data"]
+    {
         assert!(help.out.contains(expected), "{expected} is missing in\n{}", help.out);
     }
     let help = run(folder.path(), &["diagnose", "--help"]);
-    for expected in ["--robot", "--log", "--out", "--map", "--effort", "--seed", "Exit codes:"] {
+    for expected in [
+        "--robot",
+        "--log",
+        "--out",
+        "--map",
+        "--effort",
+        "--seed",
+        "figure.svg",
+        "Examples:",
+        "Exit codes:",
+    ] {
         assert!(help.out.contains(expected), "{expected} is missing in\n{}", help.out);
     }
 }
@@ -92,6 +104,18 @@ fn a_reader_that_has_gone_is_no_error() {
     let output = plumbline().arg("explain").stdout(writer).output().unwrap();
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+}
+
+#[test]
+fn the_exit_code_is_that_of_the_verdict_also_when_the_reader_has_gone() {
+    let folder = arm::folder(Gap::Ripple(1.5));
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let arguments = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "--out", "out"];
+    let mut command = plumbline();
+    command.current_dir(folder.path()).args(arguments).stdout(writer);
+    assert_eq!(command.output().unwrap().status.code(), Some(1));
+    assert!(folder.path().join("out/report.html").exists());
 }
 
 #[test]

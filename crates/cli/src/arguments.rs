@@ -9,10 +9,30 @@ Exit codes:
   2  usage: arguments, or an output folder that cannot be written
   3  unusable data: a robot, a log or a column map";
 
+const EXAMPLES: &str = "\
+Examples:
+  plumbline log info run_1.csv --robot robot.urdf
+  plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out out
+  plumbline explain coulomb_friction";
+
+const DIAGNOSE_EXAMPLES: &str = "\
+Examples:
+  plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out out
+  plumbline diagnose --robot out/extended.toml --log run_3.csv --out check
+
+Logs have a column time (s) and the columns <joint>.position (rad or m) and <joint>.effort
+(N m or N), and <joint>.velocity, <joint>.acceleration where they were recorded.
+
+The output folder holds
+  report.html     the whole answer for a browser
+  figure.svg      the answer in one figure
+  diagnosis.json  the whole answer for programs
+  extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it";
+
 /// Shows what a simulation gets wrong in a recorded log, names the cause, extends the
 /// model and measures the gain.
 #[derive(Debug, Parser)]
-#[command(name = "plumbline", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+#[command(name = "plumbline", version, after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"), arg_required_else_help = true)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -22,16 +42,16 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Names what the model gets wrong in the logs and writes the extended model and a report
-    #[command(after_help = EXIT_CODES)]
+    /// Names what a model gets wrong in logs, writes the extended model, a report and a figure
+    #[command(after_help = format!("{DIAGNOSE_EXAMPLES}\n\n{EXIT_CODES}"))]
     Diagnose(diagnose::Arguments),
-    /// Looks at a robot description
+    /// Looks at a robot description: joints, limits, masses, consistency
     #[command(subcommand)]
     Robot(RobotCommand),
-    /// Looks at logs
+    /// Looks at logs: rate, gaps, ranges, noise, time skew
     #[command(subcommand)]
     Log(LogCommand),
-    /// Explains an effect: equation, signature, what it is confused with; without a name, lists all
+    /// Explains an effect by its name; lists all effects without one
     Explain(explain::Arguments),
 }
 

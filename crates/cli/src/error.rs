@@ -1,5 +1,5 @@
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anstyle::{AnsiColor, Style};
 use diagnosis::DiagnosisError;
@@ -44,6 +44,14 @@ pub enum CliError {
     Output(#[from] io::Error),
 }
 
+const KINDS_OF_FILES: &str =
+    "a robot is a .urdf or a .toml file (--robot), a log is a .csv or a .parquet file (--log)";
+
+fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    let own = path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
+    own.is_some_and(|own| extensions.contains(&own.as_str()))
+}
+
 impl CliError {
     /// 2 for usage, 3 for data that cannot be used.
     pub fn exit_code(&self) -> u8 {
@@ -59,11 +67,6 @@ impl CliError {
         }
     }
 
-    /// Whether the reader of the standard output has gone.
-    pub fn is_broken_pipe(&self) -> bool {
-        matches!(self, Self::Output(e) if e.kind() == io::ErrorKind::BrokenPipe)
-    }
-
     /// What to do about it, where that can be said.
     fn help(&self) -> Option<&'static str> {
         let log = match self {
@@ -75,9 +78,15 @@ impl CliError {
                 );
             }
             Self::Report(ReportError::NotAFolder { .. }) => return Some("give --out another name"),
+            Self::Robot(RobotError::InFile { path, .. } | RobotError::Unreadable { path, .. }) => {
+                return (!has_extension(path, &["urdf", "xml", "toml"])).then_some(KINDS_OF_FILES);
+            }
             _ => return None,
         };
         match log {
+            LogError::NoColumn { path, .. } if has_extension(path, &["urdf", "xml", "toml"]) => {
+                Some(KINDS_OF_FILES)
+            }
             LogError::JointAbsent { .. } | LogError::NoColumn { .. } => Some(
                 "a column map (--map) says where a file with other names has its signals, --effort picks the effort column",
             ),

@@ -28,8 +28,6 @@ fn main() -> ExitCode {
     match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Gap) => ExitCode::from(1),
-        // The reader of the output has gone: nothing is wrong, and nobody is left to tell.
-        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {
             error.print();
             ExitCode::from(error.exit_code())

@@ -1,4 +1,4 @@
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use comfy_table::presets::NOTHING;
@@ -9,13 +9,17 @@ use crate::error::CliError;
 
 /// Prints text on the standard output, its colours only where they are wanted.
 ///
+/// A reader that has gone has read what it wanted: that is no error.
+///
 /// # Errors
 ///
-/// [`CliError::Output`], also when the reader has gone.
+/// [`CliError::Output`].
 pub fn print(text: &str) -> Result<(), CliError> {
     let mut out = anstream::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    Ok(out.flush()?)
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
 }
 
 /// Prints a value as JSON on the standard output.

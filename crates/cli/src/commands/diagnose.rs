@@ -19,10 +19,10 @@ pub struct Arguments {
     /// The robot: a robot.urdf, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
-    /// CSV or Parquet files, one run each
+    /// CSV or Parquet files, one run each, of the same robot
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
-    /// Folder for report.html, figure.svg, diagnosis.json, extended.toml and robot.urdf
+    /// Folder for report.html, figure.svg, diagnosis.json and extended.toml
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Names and units of columns that are called otherwise (TOML)
@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Cut-off of the low-pass filter; chosen from the data when it is left out
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     cutoff_hz: Option<f64>,
-    /// Expected share of false causes among the findings
+    /// Share of false causes that is accepted among the findings
     #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share, allow_negative_numbers = true)]
     fdr: f64,
     /// Seed of every random draw
