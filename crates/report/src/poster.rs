@@ -7,7 +7,7 @@ use crate::numbers::value;
 use crate::places::{JointUnits, acting_on, listed};
 use crate::sentence::{short_bottom_line, title};
 use crate::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
-use crate::wrap::{packed, wrapped};
+use crate::wrap::{packed, shortened, wrapped};
 use crate::{Report, ReportError};
 
 /// Width of the right panel (px); the left one stands in the template.
@@ -26,7 +26,9 @@ const MOST_JOINTS: usize = 12;
 /// Findings in the right panel.
 const MOST_FINDINGS: usize = 5;
 
-/// Characters of a line of a panel.
+/// Characters of the title, of the name of a joint or run, and of a line of a panel.
+const TITLE_CHARACTERS: usize = 68;
+const NAME_CHARACTERS: usize = 28;
 const LEFT_CHARACTERS: usize = 56;
 const RIGHT_CHARACTERS: usize = 66;
 
@@ -99,7 +101,7 @@ impl Poster {
         Self {
             height: TOP + left.max(chart + text) + 14.0,
             colours: Colours::ON_WHITE,
-            title: title(report.diagnosis),
+            title: shortened(&title(report.diagnosis), TITLE_CHARACTERS),
             subtitle: short_bottom_line(report),
             notes: placed(notes, TOP + row * joints.len() as f64 + 12.0, LINE),
             joints: placed(joints, TOP, row),
@@ -132,7 +134,11 @@ fn rows(report: &Report) -> (Vec<JointRow>, Vec<String>) {
         let sentence = format!("These logs show too little of {}.", listed(&names));
         notes.extend(wrapped(&sentence, LEFT_CHARACTERS));
     }
-    (rows.into_iter().map(|(_, row)| row).collect(), notes)
+    let short = |(_, row): (usize, JointRow)| JointRow {
+        name: shortened(&row.name, NAME_CHARACTERS),
+        ..row
+    };
+    (rows.into_iter().map(short).collect(), notes)
 }
 
 /// The joint with a [`VISIBLE`] error that loses the largest part of it; of all joints,
@@ -159,8 +165,8 @@ impl Best {
         let (mut chart, run) = worst_of(report, joint)?;
         chart.size = size;
         Some(Self {
-            joint: name.clone(),
-            run: run.to_owned(),
+            joint: shortened(name, NAME_CHARACTERS),
+            run: shortened(run, NAME_CHARACTERS),
             load: JointUnits::of(report.robot, name).load,
             chart: chart.drawn(&Colours::ON_WHITE),
             size,
@@ -186,7 +192,7 @@ fn lines(findings: &[&Finding]) -> Vec<TextLine> {
 
 /// Name and changes on one line; a name on its own line where they do not fit.
 fn lines_of(finding: &Finding) -> Vec<TextLine> {
-    let bold = name_beside_joint(&finding.at);
+    let bold = shortened(&name_beside_joint(&finding.at), RIGHT_CHARACTERS - 8);
     let changes = changes(finding);
     let plain = changes.join(", ");
     if bold.chars().count() + plain.chars().count() + 2 <= RIGHT_CHARACTERS {
@@ -264,6 +270,15 @@ mod tests {
         let (rows, notes) = super::rows(&report);
         assert_eq!((rows.len(), rows[0].name.as_str()), (1, "elbow"));
         assert_eq!(notes, ["These logs show too little of shoulder."]);
+    }
+
+    #[test]
+    fn long_names_are_cut_to_fit() {
+        let mut sample = sample::arm();
+        sample.diagnosis.joints[0].name = "shoulder".repeat(9);
+        let svg = super::figure(&sample.report()).unwrap();
+        assert!(svg.contains("shouldershouldershouldersho…: torque over time"));
+        assert!(!svg.contains(&format!(">{}<", "shoulder".repeat(9))));
     }
 
     #[test]

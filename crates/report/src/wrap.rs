@@ -23,9 +23,23 @@ pub fn packed<'a>(
     lines
 }
 
+/// A text of at most `most` characters, with an ellipsis for what is cut off.
+pub(crate) fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_long_name_ends_in_an_ellipsis() {
+        assert_eq!(shortened("élbow", 5), "élbow");
+        assert_eq!(shortened("élbow_1", 5), "élbo…");
+    }
 
     #[test]
     fn lines_are_filled_and_not_overfilled() {
