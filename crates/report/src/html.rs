@@ -96,7 +96,7 @@ impl<'a> Page<'a> {
             warnings: &diagnosis.warnings,
             joints: joint_rows(report),
             folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
-            causes: diagnosis.findings.iter().map(cause).collect(),
+            causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
             figures: sections(report),
             left: left(diagnosis),
             ruled_out: ruled_out(report),
@@ -184,6 +184,17 @@ mod tests {
             "evidence is not escaped"
         );
         assert_eq!(page.matches("<svg").count(), 2 * (3 + 3));
+    }
+
+    #[test]
+    fn a_joint_that_the_log_does_not_show_is_grey_and_comes_last_and_closed() {
+        let mut sample = sample::arm();
+        sample.diagnosis.joints[0].verdict = diagnosis::Verdict::DataInadequate;
+        let page = super::html(&sample.report()).unwrap();
+        assert!(page.contains(r#"<tr class="open"><th scope="row">shoulder"#));
+        let sections: Vec<&str> = page.split(r#"<details class="joint""#).skip(1).collect();
+        assert!(sections[0].starts_with(" open><summary>elbow"));
+        assert!(sections[1].starts_with("><summary>shoulder"));
     }
 
     #[test]

@@ -132,8 +132,10 @@ pub(crate) struct ParameterRow {
 }
 
 /// A finding as text.
-pub(crate) fn cause(finding: &Finding) -> Cause {
+pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
     let entry = finding.at.effect.entry();
+    let joint = joint_of(report, &finding.at).and_then(|i| report.diagnosis.joints.get(i));
+    let units = JointUnits::of(report.robot, joint.map_or("", |j| &j.name));
     Cause {
         effect: finding.at.effect.words(),
         place: place(&finding.at),
@@ -151,7 +153,7 @@ pub(crate) fn cause(finding: &Finding) -> Cause {
         stability: percent(finding.stability),
         rivals: finding.not_separable_from.iter().map(EffectAt::words).collect(),
         told_apart_by: finding.told_apart_by,
-        evidence: finding.evidence.clone(),
+        evidence: finding.evidence.iter().map(|line| units.said(line)).collect(),
         undetermined: finding.undetermined.clone(),
     }
 }
