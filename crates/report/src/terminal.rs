@@ -269,9 +269,9 @@ warning: elbow: quantised in steps of 0.01 N m
         let mut sample = sample::arm();
         sample.diagnosis.joints[0].verdict = Verdict::DataInadequate;
         let plain = without_escapes(&text(&sample.report()));
-        let (_, last) = plain.split_once("\nelbow ").unwrap();
         let block = "shoulder           data inadequate\n    the reason in a sentence\n  Coulomb";
-        assert!(last.contains(block), "{last}");
+        let elbow = plain.find("\nelbow ");
+        assert!(elbow.is_some() && plain.find(block) > elbow, "{plain}");
     }
 
     fn without_escapes(text: &str) -> String {
