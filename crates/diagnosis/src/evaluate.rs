@@ -51,8 +51,8 @@ impl Evaluated {
         let signals = |pick: fn(&PreparedJoint) -> &Vec<f64>| -> Vec<Vec<f64>> {
             run.joints.iter().map(|j| decimate(pick(j), first)).collect()
         };
-        let motion =
-            Motion::new(robot, frame, [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)]);
+        let state = [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)];
+        let motion = Motion::new(robot, frame, state, &signals(|j| &j.qd_wide));
         let filtered = |mut column: Column| {
             column.iter_mut().for_each(|p| p.values = finish(std::mem::take(&mut p.values)));
             column

@@ -62,6 +62,14 @@ pub(crate) struct Information {
     pub yy: f64,
 }
 
+impl Information {
+    /// What the weights `w` leave: `yy - 2 w' g + w' H w`.
+    pub fn deviance(&self, w: &[f64]) -> f64 {
+        let w = DVector::from_column_slice(w);
+        self.yy - 2.0 * w.dot(&self.g) + w.dot(&(&self.h * &w))
+    }
+}
+
 impl Grams {
     /// One pass over the design.
     pub fn new(design: &Design, blocks: &[Block]) -> Self {

@@ -6,9 +6,13 @@ use robot::Robot;
 
 use crate::fit::Fit;
 use crate::problem::{HeldOut, Model, Problem};
+use crate::settle::settle;
 
 /// Least gain in log evidence for a hypothesis to enter or stay: odds of 20 to 1.
 const LEAST_EVIDENCE: f64 = 3.0;
+
+/// Least share of what a link's inertia explains that a physical inertia must explain.
+const KEPT_BY_BODIES: f64 = 0.9;
 
 /// Rounds of entering, exchanging and leaving before the search is called settled.
 const ROUNDS: usize = 4;
@@ -127,7 +131,23 @@ impl Selection<'_> {
     pub fn is_possible(&self, model: &Model, g: usize) -> bool {
         let Some(fit) = self.problem.fit(model) else { return false };
         let all = fit.expand(self.problem.design.width);
-        self.admits(&all, g)
+        self.admits(&all, g) && self.is_body(model, g, &all)
+    }
+
+    /// Whether a change of a link's inertia keeps most of what it explains when every
+    /// inertia is made physical; true for what is no link.
+    fn is_body(&self, model: &Model, g: usize, weights: &[f64]) -> bool {
+        let (problem, design) = (self.problem, self.problem.design);
+        if design.groups[g].hypothesis.link().is_none() {
+            return true;
+        }
+        let mut without = model.clone();
+        without.remove(&g);
+        let Some(fit) = problem.fit(&without) else { return false };
+        let bare = problem.info.deviance(&fit.expand(design.width));
+        let settled = settle(problem, model, &problem.info, self.robot);
+        let gain = bare - problem.info.deviance(weights);
+        bare - problem.info.deviance(&settled) >= KEPT_BY_BODIES * gain
     }
 
     fn admits(&self, weights: &[f64], g: usize) -> bool {

@@ -142,6 +142,7 @@ fn clip(
 }
 
 /// An estimate with the half width `half` of its interval, which was `before` without data.
+/// A quantity that no weight moves is not determined.
 fn estimate(quantity: &Quantity, half: f64, before: f64) -> Estimate {
     Estimate {
         name: quantity.name,
@@ -149,6 +150,6 @@ fn estimate(quantity: &Quantity, half: f64, before: f64) -> Estimate {
         ci95: [quantity.value - half, quantity.value + half],
         nominal: quantity.nominal,
         unit: quantity.unit,
-        determined: half < DETERMINED * before,
+        determined: before > 1e-9 * quantity.value.abs() && half < DETERMINED * before,
     }
 }

@@ -17,6 +17,9 @@ const STAGE_DECREMENT: f64 = 0.1;
 const STEPS_PER_STAGE: usize = 60;
 const STAGES: usize = 60;
 
+/// Ridges tried on a Newton system with unit diagonal: rounding is about 1e-16 times its size.
+const RIDGES: [f64; 6] = [0.0, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10];
+
 /// Smallest eigenvalue of a shifted prior's pseudo-inertia, as a share of its trace.
 const PRIOR_FLOOR: f64 = 1e-6;
 
@@ -312,17 +315,31 @@ impl Objective {
     }
 }
 
-/// `hessian^-1 gradient`.
+/// `hessian^-1 gradient`, in units in which the diagonal of the Hessian is one.
+///
+/// Near the edge of the cone the Hessian loses definiteness to rounding; then a ridge, as
+/// small as does it, keeps the step one of descent (Levenberg).
 fn newton_step(
     gradient: &DVector<f64>,
-    mut hessian: DMatrix<f64>,
+    hessian: DMatrix<f64>,
 ) -> Result<DVector<f64>, DynamicsError> {
-    let mut step = gradient.clone();
-    crate::cholesky::factor(hessian.as_mut_slice(), gradient.len()).map_err(|(row, pivot)| {
-        DynamicsError::NotPositiveDefinite { matrix: "information", row, pivot }
-    })?;
-    crate::cholesky::solve_factored(hessian.as_slice(), step.as_mut_slice());
-    Ok(step)
+    let n = gradient.len();
+    let unit = hessian.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 1.0 });
+    let scaled = DMatrix::from_fn(n, n, |i, k| unit[i] * hessian[(i, k)] * unit[k]);
+    let mut failure = (0, 0.0);
+    for ridge in RIDGES {
+        let mut factor = scaled.clone() + DMatrix::identity(n, n) * ridge;
+        match crate::cholesky::factor(factor.as_mut_slice(), n) {
+            Ok(()) => {
+                let mut step = gradient.component_mul(&unit);
+                crate::cholesky::solve_factored(factor.as_slice(), step.as_mut_slice());
+                return Ok(step.component_mul(&unit));
+            }
+            Err(found) => failure = found,
+        }
+    }
+    let (row, pivot) = failure;
+    Err(DynamicsError::NotPositiveDefinite { matrix: "information", row, pivot })
 }
 
 fn link_parameters(pi: &DVector<f64>, k: usize) -> Parameters {

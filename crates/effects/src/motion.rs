@@ -13,7 +13,8 @@ pub struct Motion {
     pub qd: Vec<Vec<f64>>,
     /// Acceleration (rad/s² or m/s²).
     pub qdd: Vec<Vec<f64>>,
-    /// Direction of motion, in [-1, 1]: sign of the velocity, in proportion to it below the rest speed.
+    /// Direction of motion, in [-1, 1]: the sign of the velocity, in proportion to it below
+    /// the rest speed.
     pub direction: Vec<Vec<f64>>,
     /// Torque of the nominal robot before its gain and offset (N·m or N).
     pub torque: Vec<Vec<f64>>,
@@ -39,7 +40,8 @@ pub struct Frame {
 }
 
 impl Motion {
-    /// Evaluates the nominal robot along `q`, `qd`, `qdd` (each `[joint][sample]`).
+    /// Evaluates the nominal robot along `q`, `qd`, `qdd` (each `[joint][sample]`), with
+    /// directions from `swift`, a velocity that is filtered less.
     ///
     /// ```text
     /// torque = Y pi + rotor_inertia qdd + viscous qd + coulomb(direction) + stiffness (q - rest)
@@ -49,8 +51,13 @@ impl Motion {
     /// # Panics
     ///
     /// When the signals do not have one entry a joint of equal length.
-    pub fn new(robot: &Robot, frame: &Frame, [q, qd, qdd]: [Vec<Vec<f64>>; 3]) -> Self {
-        let direction = qd
+    pub fn new(
+        robot: &Robot,
+        frame: &Frame,
+        [q, qd, qdd]: [Vec<Vec<f64>>; 3],
+        swift: &[Vec<f64>],
+    ) -> Self {
+        let direction = swift
             .iter()
             .zip(&frame.rest_speed)
             .map(|(v, rest)| v.iter().map(|v| (v / rest).clamp(-1.0, 1.0)).collect())

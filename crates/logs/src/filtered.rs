@@ -28,9 +28,18 @@ pub(crate) struct FilteredJoint {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
     pub qdd: Vec<f64>,
+    pub qd_wide: Vec<f64>,
     velocity: Option<Vec<f64>>,
+    velocity_wide: Option<Vec<f64>>,
     acceleration: Option<Vec<f64>>,
 }
+
+/// Cut-off of the velocity whose sign is taken, in cut-offs of the other signals. A filter
+/// rings where a motion starts and stops; four times as wide it rings a quarter as long.
+const WIDE: f64 = 4.0;
+
+/// Largest cut-off, as a share of the sampling rate.
+const WIDEST: f64 = 0.2;
 
 /// A measured column that is not the derivative it should be.
 pub(crate) struct Disagreement {
@@ -43,18 +52,23 @@ impl Filtered {
     pub(crate) fn of(piece: &UniformRun, cutoff_hz: f64) -> Result<Self, LogError> {
         let rate_hz = piece.rate_hz;
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate_hz)?;
-        let filter = |x: &Vec<f64>| {
+        let wide_hz = (WIDE * cutoff_hz).min(WIDEST * rate_hz).max(cutoff_hz);
+        let wide = LowPass::new(ORDER, wide_hz, rate_hz)?;
+        let pass = |low_pass: &LowPass, x: &Vec<f64>| {
             let mut x = x.clone();
             low_pass.apply(&mut x);
             x
         };
+        let filter = |x: &Vec<f64>| pass(&low_pass, x);
         let joint = |raw: &UniformJoint| {
             let q = filter(&raw.q);
             let qd = differentiate(&q, rate_hz);
             let qdd = differentiate(&qd, rate_hz);
             let velocity = raw.velocity.as_ref().map(filter);
             let acceleration = raw.acceleration.as_ref().map(filter);
-            FilteredJoint { q, qd, qdd, velocity, acceleration }
+            let qd_wide = differentiate(&pass(&wide, &raw.q), rate_hz);
+            let velocity_wide = raw.velocity.as_ref().map(|v| pass(&wide, v));
+            FilteredJoint { q, qd, qdd, qd_wide, velocity, velocity_wide, acceleration }
         };
         let joints = piece.joints.iter().map(joint).collect();
         Ok(Self { rate_hz, cutoff_hz, samples: piece.time.len(), joints })
@@ -97,6 +111,7 @@ pub(crate) fn choose_sources(
         for piece in pieces.iter_mut() {
             let j = &mut piece.joints[joint];
             j.qd = j.velocity.take().unwrap_or_default();
+            j.qd_wide = j.velocity_wide.take().unwrap_or_default();
             j.qdd = differentiate(&j.qd, piece.rate_hz);
         }
     } else if let Some((piece, agreement)) = velocity {

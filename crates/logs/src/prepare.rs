@@ -51,6 +51,9 @@ pub struct PreparedJoint {
     pub qd: Vec<f64>,
     /// Acceleration, low-passed (rad/s² or m/s²).
     pub qdd: Vec<f64>,
+    /// Velocity with four times the cut-off, whose sign is that of the motion up to the
+    /// moments at which it starts and stops (rad/s or m/s).
+    pub qd_wide: Vec<f64>,
     /// Effort on the same clock, not low-passed (N·m or N).
     pub effort: Vec<f64>,
 }
@@ -139,6 +142,7 @@ fn without_ends(piece: UniformRun, filtered: Filtered) -> PreparedRun {
             q: cut(f.q),
             qd: cut(f.qd),
             qdd: cut(f.qdd),
+            qd_wide: cut(f.qd_wide),
             effort: cut(raw.effort),
         })
         .collect();
