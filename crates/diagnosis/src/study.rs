@@ -112,7 +112,7 @@ impl Study<'_> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let (problem, model) = record.search(&all);
         progress.step();
-        let (model, significance) = significant(&problem, model, self.settings);
+        let (model, significance) = significant(&problem, model, (self.robot, self.settings));
         progress.step();
         let weights = settle(&problem, &model, &problem.info, self.robot);
         let settled = (&model, weights.as_slice());

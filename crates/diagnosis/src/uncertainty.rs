@@ -81,6 +81,12 @@ impl Uncertainty {
             .collect()
     }
 
+    /// Half the width of the 95 per cent interval of the weight of `column`.
+    pub fn half_width(&self, column: usize) -> f64 {
+        let place = self.columns.iter().position(|&c| c == column);
+        place.map_or(f64::INFINITY, |k| self.t * self.sd(&[k], &DVector::from_element(1, 1.0)))
+    }
+
     /// Standard deviation of `gradient' w` over the columns at `place`.
     fn sd(&self, place: &[usize], gradient: &DVector<f64>) -> f64 {
         let variance = |all: &DMatrix<f64>| {
