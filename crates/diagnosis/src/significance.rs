@@ -1,12 +1,9 @@
 use rayon::prelude::*;
-use robot::Robot;
 
 use crate::flip_test::{p_value, q_values};
 use crate::problem::{Model, Problem};
 use crate::settings::Settings;
-use crate::settle::settle;
 use crate::stability::stability;
-use crate::uncertainty::Uncertainty;
 
 /// Least share of half-samples in which a finding must have evidence (Meinshausen &
 /// Buhlmann 2010 advise 0.6 to 0.9).
@@ -40,12 +37,12 @@ impl Significance {
     }
 }
 
-/// Drops hypotheses one at a time until all that are left are significant, stable and of a
-/// decided size: the least significant first, then the least stable.
+/// Drops hypotheses one at a time until all that are left are significant and stable: the
+/// least significant first, then the least stable.
 pub(crate) fn significant(
     problem: &Problem,
     mut model: Model,
-    (robot, settings): (&Robot, &Settings),
+    settings: &Settings,
 ) -> (Model, Significance) {
     loop {
         let significance = Significance::new(problem, &model, settings);
@@ -57,21 +54,9 @@ pub(crate) fn significant(
         }
         let stable = stability(problem, &model, settings.seed);
         let least = stable.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
-        let unstable = least.filter(|(_, share)| *share < LEAST_STABILITY).map(|(g, _)| g);
-        match unstable.or_else(|| undecided(problem, &model, robot)) {
-            Some(g) => model.remove(&g),
+        match least.filter(|(_, share)| *share < LEAST_STABILITY) {
+            Some((g, _)) => model.remove(&g),
             None => return (model, significance),
         };
     }
-}
-
-/// A hypothesis with one weight whose 95 per cent interval holds zero, if there is one.
-fn undecided(problem: &Problem, model: &Model, robot: &Robot) -> Option<usize> {
-    let fit = problem.fit(model)?;
-    let weights = settle(problem, model, &problem.info, robot);
-    let uncertainty = Uncertainty::new(problem, &fit, &weights);
-    model.iter().copied().find(|&g| match problem.design.groups[g].columns.as_slice() {
-        [column] => weights[*column].abs() <= uncertainty.half_width(*column),
-        _ => false,
-    })
 }

@@ -11,15 +11,18 @@ use crate::floor::Floors;
 use crate::gain::{HeldOutGain, measured};
 use crate::gram::Grams;
 use crate::noise::integrated_time;
-use crate::problem::{Model, Problem};
+use crate::problem::Problem;
 use crate::progress::Progress;
-use crate::result::{DataSummary, Diagnosis, Gain, JointReport, SCHEMA, Unexplained, Verdict};
+use crate::result::{
+    DataSummary, Diagnosis, Gain, JointReport, RuledOut, SCHEMA, Unexplained, Verdict,
+};
 use crate::search::Record;
 use crate::settings::Settings;
 use crate::settle::settle;
-use crate::significance::{Significance, significant};
+use crate::significance::significant;
 use crate::structure::{Probe, Structure};
 use crate::traces::{RunTraces, traces};
+use crate::uncertainty::undecided;
 use crate::verdict::{Situation, overall};
 
 /// Everything a diagnosis looks at, once the logs are prepared.
@@ -38,11 +41,11 @@ struct Answer<'a> {
     problem: Problem<'a>,
     /// The same problem held out by run.
     by_run: Problem<'a>,
-    model: Model,
-    significance: Significance,
-    weights: Vec<f64>,
     extended: Robot,
     found: Vec<Found>,
+    ruled_out: Vec<RuledOut>,
+    /// Number of hypotheses tested.
+    hypotheses: usize,
     gain: HeldOutGain,
 }
 
@@ -112,26 +115,30 @@ impl Study<'_> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let (problem, model) = record.search(&all);
         progress.step();
-        let (model, significance) = significant(&problem, model, (self.robot, self.settings));
+        let (mut model, mut significance) = significant(&problem, model, self.settings);
+        let (weights, extended) = loop {
+            let weights = settle(&problem, &model, &problem.info, self.robot);
+            let settled = (&model, weights.as_slice());
+            let extended = extended_anew(self.robot, self.prepared, &problem, settled)?;
+            let sized = (self.robot, &extended, weights.as_slice());
+            let Some(open) = undecided(&problem, &model, sized) else { break (weights, extended) };
+            model.remove(&open);
+            (model, significance) = significant(&problem, model, self.settings);
+        };
         progress.step();
-        let weights = settle(&problem, &model, &problem.info, self.robot);
-        let settled = (&model, weights.as_slice());
-        let extended = extended_anew(self.robot, self.prepared, &problem, settled)?;
         let by_run = problem.refolded(Folding::ByRun);
         let gain = HeldOutGain::new(record, &by_run, progress);
-        let found = {
-            let selection = record.selection(&problem);
-            let evidence = Evidence {
-                selection: &selection,
-                model: &model,
-                significance: &significance,
-                weights: &weights,
-                extended: &extended,
-                seed: self.settings.seed,
-            };
-            evidence.findings()
+        let evidence = Evidence {
+            selection: &record.selection(&problem),
+            model: &model,
+            significance: &significance,
+            weights: &weights,
+            extended: &extended,
+            seed: self.settings.seed,
         };
-        Ok(Answer { problem, by_run, model, significance, weights, extended, found, gain })
+        let (found, ruled_out) = (evidence.findings(), evidence.ruled_out());
+        let hypotheses = significance.count();
+        Ok(Answer { problem, by_run, extended, found, ruled_out, hypotheses, gain })
     }
 
     fn report(&self, record: &Record, answer: &Answer) -> Diagnosis {
@@ -140,15 +147,6 @@ impl Study<'_> {
             (0..self.design.joints()).map(|j| self.joint(record, answer, &floors, j)).collect();
         let unexplained = reports.iter().filter_map(unexplained).collect();
         let joints: Vec<JointReport> = reports.into_iter().map(|(j, _)| j).collect();
-        let selection = record.selection(&answer.problem);
-        let evidence = Evidence {
-            selection: &selection,
-            model: &answer.model,
-            significance: &answer.significance,
-            weights: &answer.weights,
-            extended: &answer.extended,
-            seed: self.settings.seed,
-        };
         Diagnosis {
             schema: SCHEMA,
             robot: self.robot.name().to_owned(),
@@ -156,7 +154,7 @@ impl Study<'_> {
             joints,
             findings: answer.found.iter().map(|f| f.finding.clone()).collect(),
             unexplained,
-            ruled_out: evidence.ruled_out(),
+            ruled_out: answer.ruled_out.clone(),
             gain: Gain { inverse: answer.gain.inverse.clone() },
             data: self.data(record, answer),
             warnings: Vec::new(),
@@ -228,7 +226,7 @@ impl Study<'_> {
             regression_rate_hz: self.design.rate_hz,
             block_s: samples as f64 / record.blocks.len() as f64 / self.design.rate_hz,
             blocks: record.blocks.len(),
-            hypotheses: answer.significance.count(),
+            hypotheses: answer.hypotheses,
         }
     }
 }

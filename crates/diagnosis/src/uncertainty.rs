@@ -81,12 +81,6 @@ impl Uncertainty {
             .collect()
     }
 
-    /// Half the width of the 95 per cent interval of the weight of `column`.
-    pub fn half_width(&self, column: usize) -> f64 {
-        let place = self.columns.iter().position(|&c| c == column);
-        place.map_or(f64::INFINITY, |k| self.t * self.sd(&[k], &DVector::from_element(1, 1.0)))
-    }
-
     /// Standard deviation of `gradient' w` over the columns at `place`.
     fn sd(&self, place: &[usize], gradient: &DVector<f64>) -> f64 {
         let variance = |all: &DMatrix<f64>| {
@@ -110,6 +104,22 @@ impl Uncertainty {
             scaled.symmetric_eigenvalues().iter().filter(|v| **v > DETERMINED.powi(2)).count();
         (wide, own.len())
     }
+}
+
+/// A hypothesis with one weight none of whose parameters differs from its nominal value by
+/// more than its 95 per cent interval, if there is one: its size is not decided.
+pub(crate) fn undecided(
+    problem: &Problem,
+    model: &Model,
+    sized: (&Robot, &Robot, &[f64]),
+) -> Option<usize> {
+    let fit = problem.fit(model)?;
+    let uncertainty = Uncertainty::new(problem, &fit, sized.2);
+    let holds = |e: &Estimate| e.ci95[0] <= e.nominal && e.nominal <= e.ci95[1];
+    model.iter().copied().find(|&g| {
+        let single = problem.design.groups[g].columns.len() == 1;
+        single && uncertainty.estimates(problem, model, g, sized).iter().all(holds)
+    })
 }
 
 /// Change of every quantity per unit of weight `k`, by a central difference.
