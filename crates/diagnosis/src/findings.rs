@@ -115,8 +115,10 @@ impl Evidence<'_> {
         }
         evidence.push(format!("log evidence {loss:.0} higher with it than without"));
         if let Some(p) = self.significance.p[g] {
-            evidence
-                .push(format!("p = {p:.4} in the sign-flip test over {} blocks", problem.of.len()));
+            let stretches = problem.independent().len();
+            evidence.push(format!(
+                "p = {p:.4} in the sign-flip test over {stretches} independent stretches"
+            ));
         }
         evidence
     }

@@ -16,7 +16,8 @@ use crate::problem::{Model, Problem};
 ///
 /// If the group is idle the contributions of separate blocks are as likely positive as
 /// negative, whatever the spectrum and the variance of the noise within a block: the
-/// flipped residual is a surrogate of the noise with its own autocorrelation kept.
+/// flipped residual is a surrogate of the noise with its own autocorrelation kept. Blocks of
+/// runs that repeat a motion are flipped together.
 /// None when the group has no column of its own.
 ///
 /// # Source
@@ -41,14 +42,9 @@ pub(crate) fn p_value(
     let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
     let root = Cholesky::new(complement.b.clone())?.l();
     let weights = fit.expand(problem.design.width);
-    let contributions: Vec<DVector<f64>> = problem
-        .of
-        .iter()
-        .filter_map(|&b| {
-            let score = problem.grams.score(b, &problem.weight, &weights);
-            root.solve_lower_triangular(&complement.project(&score))
-        })
-        .collect();
+    let scores = problem.scores(&weights);
+    let effective = |score| root.solve_lower_triangular(&complement.project(score));
+    let contributions: Vec<DVector<f64>> = scores.iter().filter_map(effective).collect();
     let statistic = |signs: &mut dyn FnMut() -> f64| {
         let mut sum = DVector::zeros(columns.len());
         contributions.iter().for_each(|nu| sum.axpy(signs(), nu, 1.0));

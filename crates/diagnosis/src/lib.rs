@@ -8,6 +8,8 @@
 //! cannot be told apart from and what is left over.
 
 mod blocks;
+#[cfg(test)]
+mod calibration;
 mod design;
 mod diagnose;
 mod error;

@@ -1,4 +1,6 @@
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::DVector;
 
 use crate::blocks::{Block, Fold, Folding, folds};
 use crate::design::Design;
@@ -69,6 +71,25 @@ impl<'a> Problem<'a> {
         let information = |f: &Fold| self.grams.information(&f.train, &self.weight);
         let training = folds.iter().map(information).collect();
         Self { folds, training, ..self.clone() }
+    }
+
+    /// The blocks in groups that are independent of each other: where runs repeat a motion,
+    /// what is left of them repeats too, and the same stretch of each belongs together.
+    pub fn independent(&self) -> Vec<Vec<usize>> {
+        let mut groups: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+        for &b in &self.of {
+            let run = self.blocks[b].run;
+            let place = self.blocks[..b].iter().filter(|other| other.run == run).count();
+            groups.entry((self.design.motion[run], place)).or_default().push(b);
+        }
+        groups.into_values().collect()
+    }
+
+    /// The score of every independent group of blocks, `sum_j c_j X_j' (y_j - X_j w)`.
+    pub fn scores(&self, weights: &[f64]) -> Vec<DVector<f64>> {
+        let score = |b: &usize| self.grams.score(*b, &self.weight, weights);
+        let sum = |group: &Vec<usize>| group.iter().map(score).sum();
+        self.independent().iter().map(sum).collect()
     }
 
     /// The columns of a model, in increasing order.

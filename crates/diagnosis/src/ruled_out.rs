@@ -91,9 +91,9 @@ fn standard_errors(problem: &Problem, fit: &Fit, complement: &Complement) -> Vec
     };
     let weights = fit.expand(problem.design.width);
     let mut meat = DMatrix::zeros(count, count);
-    for &b in &problem.of {
-        let score = complement.project(&problem.grams.score(b, &problem.weight, &weights));
-        meat.ger(1.0, &score, &score, 1.0);
+    for score in problem.scores(&weights) {
+        let own = complement.project(&score);
+        meat.ger(1.0, &own, &own, 1.0);
     }
     let blocks = &inverse * meat * &inverse;
     (0..count).map(|k| inverse[(k, k)].max(blocks[(k, k)]).max(0.0).sqrt()).collect()

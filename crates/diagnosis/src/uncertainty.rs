@@ -36,11 +36,12 @@ impl Uncertainty {
         let mut columns: Vec<usize> = fit.columns.iter().copied().chain(held).collect();
         columns.sort_unstable();
         let likelihood = covariance(&problem.info, &columns, &problem.design.prior);
-        let count = problem.of.len() as f64;
+        let scores = problem.scores(weights);
+        let count = scores.len() as f64;
         let mut meat = DMatrix::zeros(columns.len(), columns.len());
-        for &b in &problem.of {
-            let score = pick(&problem.grams.score(b, &problem.weight, weights), &columns);
-            meat.ger(1.0, &score, &score, 1.0);
+        for score in &scores {
+            let own = pick(score, &columns);
+            meat.ger(1.0, &own, &own, 1.0);
         }
         let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
         let t =
