@@ -1,13 +1,9 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
-/// The program that was built with this test: it lies one folder above.
+/// The program.
 pub fn plumbline() -> Command {
-    let test = std::env::current_exe().unwrap();
-    let folder = test.parent().and_then(Path::parent).unwrap();
-    let program: PathBuf = folder.join(format!("plumbline{}", std::env::consts::EXE_SUFFIX));
-    assert!(program.exists(), "{} is not built: run cargo test --workspace", program.display());
-    let mut command = Command::new(program);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_plumbline"));
     command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
     command
 }
