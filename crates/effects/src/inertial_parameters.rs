@@ -20,12 +20,28 @@ impl Explain for InertialParameters {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Link(link) = place else { return Vec::new() };
-        link_columns(link, motion)
+        let column = |parameter: usize| {
+            let carriers =
+                motion.regressor.iter().enumerate().filter(|(_, row)| !row[link].is_empty());
+            let part = |(joint, row): (usize, &Vec<Vec<Vec<f64>>>)| Part {
+                joint,
+                values: row[link][parameter].iter().map(|y| motion.gain[joint] * y).collect(),
+            };
+            carriers.map(part).collect()
+        };
+        (0..PARAMETERS_PER_LINK).map(column).collect()
     }
 
+    /// Round numbers: the mass is known to itself plus a third of a mean link, the centre of
+    /// mass to the length of a link.
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let Place::Link(link) = place else { return Vec::new() };
-        link_prior(robot.links()[link].inertia.mass, scale)
+        let mass = robot.links()[link].inertia.mass.max(0.0);
+        let (m, l) = (mass + 0.3 * scale.link_mass, scale.link_length);
+        let mut sd = vec![m];
+        sd.extend([m * l; 3]);
+        sd.extend([m * l * l; 6]);
+        sd
     }
 
     /// The mass stays positive; that the whole inertia is physical is seen to where it is
@@ -38,46 +54,18 @@ impl Explain for InertialParameters {
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        extend_link(place, robot, weights);
+        let Place::Link(index) = place else { return };
+        if let Some(link) = robot.link_mut(index) {
+            let mut pi = link.inertia.parameters();
+            pi.iter_mut().zip(weights).for_each(|(p, w)| *p += w);
+            link.inertia = Inertia::from_parameters(&pi);
+        }
     }
 
     fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let Place::Link(link) = place else { return Vec::new() };
         let read = |r: &Robot| mass_and_com(&r.links()[link].inertia);
         quantities(self.kind(), read(nominal), read(extended))
-    }
-}
-
-/// The ten columns of a link, over every joint that carries it.
-pub(crate) fn link_columns(link: usize, motion: &Motion) -> Vec<Column> {
-    let column = |parameter: usize| {
-        let carriers = motion.regressor.iter().enumerate().filter(|(_, row)| !row[link].is_empty());
-        let part = |(joint, row): (usize, &Vec<Vec<Vec<f64>>>)| Part {
-            joint,
-            values: row[link][parameter].iter().map(|y| motion.gain[joint] * y).collect(),
-        };
-        carriers.map(part).collect()
-    };
-    (0..PARAMETERS_PER_LINK).map(column).collect()
-}
-
-/// What is believed of a link before any data, in round numbers: its mass is known to
-/// itself plus a third of a mean link, its centre of mass to the length of a link.
-pub(crate) fn link_prior(mass: f64, scale: &Scale) -> Vec<f64> {
-    let (m, l) = (mass.max(0.0) + 0.3 * scale.link_mass, scale.link_length);
-    let mut sd = vec![m];
-    sd.extend([m * l; 3]);
-    sd.extend([m * l * l; 6]);
-    sd
-}
-
-/// Adds ten changes to the inertia of a link.
-pub(crate) fn extend_link(place: Place, robot: &mut Robot, weights: &[f64]) {
-    let Place::Link(index) = place else { return };
-    if let Some(link) = robot.link_mut(index) {
-        let mut pi = link.inertia.parameters();
-        pi.iter_mut().zip(weights).for_each(|(p, w)| *p += w);
-        link.inertia = Inertia::from_parameters(&pi);
     }
 }
 

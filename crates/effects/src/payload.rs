@@ -2,9 +2,7 @@ use catalogue::EffectKind;
 use nalgebra::Vector3;
 use robot::{Inertia, Robot};
 
-use crate::inertial_parameters::{
-    InertialParameters, extend_link, link_columns, link_prior, mass_and_com, quantities,
-};
+use crate::inertial_parameters::{InertialParameters, mass_and_com, quantities};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `Y_last pi_payload`: ten weights, the inertial parameters of a body held by a last
@@ -29,13 +27,11 @@ impl Explain for Payload {
     }
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Link(link) = place else { return Vec::new() };
-        link_columns(link, motion)
+        InertialParameters.columns(place, motion)
     }
 
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Link(link) = place else { return Vec::new() };
-        link_prior(robot.links()[link].inertia.mass, scale)
+        InertialParameters.prior(place, robot, scale)
     }
 
     /// As for the link's own parameters: what makes it a body is tested together.
@@ -48,8 +44,8 @@ impl Explain for Payload {
         *mass > 0.0 && Vector3::new(*x, *y, *z).norm() <= REACH * mass
     }
 
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        extend_link(place, robot, weights);
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+        InertialParameters.extend(place, robot, weights, frame);
     }
 
     fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
