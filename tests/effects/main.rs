@@ -1,0 +1,128 @@
+//! The two halves of the model side: what explains an effect in a log is what the extended
+//! robot adds.
+#![allow(clippy::unwrap_used, reason = "a broken fixture should stop the test")]
+
+use checks::synthetic::wam;
+use effects::{Frame, Hypothesis, Motion, Scale, hypotheses};
+use robot::Robot;
+
+const SAMPLES: usize = 40;
+
+/// Step of the central difference, in standard deviations of the prior: the truncation is
+/// second order, the rounding 1e-16 over it.
+const STEP: f64 = 1e-4;
+
+/// Largest difference, as a share of the largest value of the column.
+const TOLERANCE: f64 = 1e-6;
+
+/// Rounding of an effort (N m).
+const ROUNDING: f64 = 1e-13;
+
+/// A WAM whose drives have a bit of everything.
+fn worn() -> Robot {
+    let mut robot = wam();
+    for j in 0..robot.joint_count() {
+        let a = &mut robot.link_mut(j).unwrap().actuator;
+        (a.viscous, a.coulomb_forward, a.coulomb_backward) = (0.5, 0.4, 0.3);
+        (a.spring_stiffness, a.spring_rest) = (0.2, 0.1);
+        (a.torque_gain, a.torque_offset) = (1.1, 0.05);
+    }
+    robot
+}
+
+fn frame(robot: &Robot) -> Frame {
+    let n = robot.joint_count();
+    Frame { rest_speed: vec![0.01; n], centre: (0..n).map(|j| 0.1 * j as f64).collect() }
+}
+
+fn scale(robot: &Robot) -> Scale {
+    let same = |value: f64| vec![value; robot.joint_count()];
+    Scale {
+        effort: same(2.0),
+        speed: same(1.0),
+        acceleration: same(3.0),
+        range: same(2.0),
+        link_mass: 2.0,
+        link_length: 0.2,
+    }
+}
+
+fn motion(robot: &Robot) -> Motion {
+    let signal = |amplitude: f64, phase: f64| -> Vec<Vec<f64>> {
+        let at = |j: usize, t: usize| {
+            amplitude * (0.37 * (t as f64) * (1.0 + 0.1 * j as f64) + phase + j as f64).sin()
+        };
+        (0..robot.joint_count()).map(|j| (0..SAMPLES).map(|t| at(j, t)).collect()).collect()
+    };
+    let qd = signal(1.0, 1.3);
+    Motion::new(robot, &frame(robot), [signal(0.8, 0.0), qd.clone(), signal(2.0, 0.7)], &qd)
+}
+
+/// `d effort / d weight` of one weight by a central difference through the extended robot.
+fn derivative(robot: &Robot, h: Hypothesis, weight: usize, step: f64) -> Vec<Vec<f64>> {
+    let count = h.prior(robot, &scale(robot)).len();
+    let effort = |sign: f64| {
+        let mut weights = vec![0.0; count];
+        weights[weight] = sign * step;
+        let mut changed = robot.clone();
+        h.extend(&mut changed, &weights, &frame(robot));
+        motion(&changed).effort
+    };
+    let (up, down) = (effort(1.0), effort(-1.0));
+    let slope = |(u, d): (&Vec<f64>, &Vec<f64>)| {
+        u.iter().zip(d).map(|(u, d)| (u - d) / (2.0 * step)).collect()
+    };
+    up.iter().zip(&down).map(slope).collect()
+}
+
+#[test]
+fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
+    let robot = worn();
+    let nominal = motion(&robot);
+    for h in hypotheses(&robot) {
+        let prior = h.prior(&robot, &scale(&robot));
+        for (weight, column) in h.columns(&nominal).iter().enumerate() {
+            let step = STEP * prior[weight];
+            let slope = derivative(&robot, h, weight, step);
+            let largest = slope.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+            for (joint, slope) in slope.iter().enumerate() {
+                let part = column.iter().find(|p| p.joint == joint);
+                for (t, expected) in slope.iter().enumerate() {
+                    let value = part.map_or(0.0, |p| p.values[t]);
+                    assert!(
+                        (value - expected).abs() <= TOLERANCE * largest + ROUNDING / step,
+                        "{h:?} weight {weight} joint {joint}: {value} and {expected}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn no_change_is_no_change_and_bounds_hold_it() {
+    let robot = worn();
+    for h in hypotheses(&robot) {
+        let zero = vec![0.0; h.prior(&robot, &scale(&robot)).len()];
+        let mut same = robot.clone();
+        h.extend(&mut same, &zero, &frame(&robot));
+        let difference = |(a, b): (&Vec<f64>, &Vec<f64>)| {
+            a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
+        };
+        let (before, after) = (motion(&robot).effort, motion(&same).effort);
+        assert!(before.iter().zip(&after).map(difference).fold(0.0, f64::max) < 1e-12, "{h:?}");
+        for (low, high) in h.bounds(&robot) {
+            assert!(low <= 0.0 && high >= 0.0, "{h:?}");
+        }
+    }
+}
+
+#[test]
+fn parameters_carry_the_names_of_the_catalogue() {
+    let robot = worn();
+    for h in hypotheses(&robot) {
+        let names: Vec<_> = h.quantities(&robot, &robot).iter().map(|q| q.name).collect();
+        let known: Vec<_> = h.kind.entry().parameters.iter().map(|p| p.name).collect();
+        assert_eq!(names, known, "{h:?}");
+    }
+}
