@@ -5,8 +5,6 @@ pub(crate) struct Noise {
     pub variance: Vec<f64>,
     /// Integrated autocorrelation time (samples), at least one.
     pub time: Vec<f64>,
-    /// Number of samples that the estimate rests on.
-    pub samples: usize,
 }
 
 impl Noise {
@@ -17,11 +15,9 @@ impl Noise {
                 stretches.iter().flatten().fold((0, 0.0), |(n, s), r| (n + 1, s + r * r));
             sum / f64::from(n.max(1))
         };
-        let count = |stretches: &Vec<Vec<f64>>| stretches.iter().map(Vec::len).sum();
         Self {
             variance: residuals.iter().map(power).collect(),
             time: residuals.iter().map(|s| integrated_time(s)).collect(),
-            samples: residuals.iter().map(count).max().unwrap_or(0),
         }
     }
 

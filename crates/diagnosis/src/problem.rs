@@ -142,41 +142,30 @@ impl<'a> Problem<'a> {
         HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
     }
 
-    /// Held-out residuals, `[joint][stretch][sample]`, with the weights of each fold.
+    /// Held-out residuals, `[joint][run][sample]`, with the weights of each fold; runs that
+    /// take no part are left out.
     pub fn held_out_residuals(&self, weights: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<Vec<f64>>> {
-        let joints = self.design.joints();
-        let mut by_block: Vec<Option<Vec<Vec<f64>>>> = vec![None; self.blocks.len()];
-        for (f, fold) in self.folds.iter().enumerate() {
-            let w = weights(f);
-            for (r, _) in self.design.runs.iter().enumerate() {
-                let here: Vec<usize> =
-                    fold.test.iter().copied().filter(|&b| self.blocks[b].run == r).collect();
-                if here.is_empty() {
-                    continue;
-                }
-                let all: Vec<_> = (0..joints).map(|j| self.design.remaining(r, j, &w)).collect();
-                for b in here {
-                    let cut = |x: &Vec<f64>| x[self.blocks[b].samples.clone()].to_vec();
-                    by_block[b] = Some(all.iter().map(cut).collect());
-                }
-            }
-        }
-        let mut stretches = vec![Vec::new(); joints];
+        let weights: Vec<Vec<f64>> = (0..self.folds.len()).map(weights).collect();
+        let fold_of = |b: usize| self.folds.iter().position(|f| f.test.contains(&b));
+        let mut residuals = vec![Vec::new(); self.design.joints()];
         for run in 0..self.design.runs.len() {
-            let mut run_stretch = vec![Vec::new(); joints];
-            for (b, block) in self.blocks.iter().enumerate().filter(|(_, b)| b.run == run) {
-                debug_assert_eq!(block.run, run);
-                for (j, part) in by_block[b].take().into_iter().flatten().enumerate() {
-                    run_stretch[j].extend(part);
-                }
+            let of_run = self.blocks.iter().enumerate().filter(|(_, block)| block.run == run);
+            let own: Vec<(&Block, usize)> =
+                of_run.filter_map(|(b, block)| Some((block, fold_of(b)?))).collect();
+            if own.is_empty() {
+                continue;
             }
-            for (all, one) in stretches.iter_mut().zip(run_stretch) {
-                if !one.is_empty() {
-                    all.push(one);
-                }
+            for (j, residual) in residuals.iter_mut().enumerate() {
+                let left = |(f, w): (usize, &Vec<f64>)| {
+                    let used = own.iter().any(|(_, fold)| *fold == f);
+                    if used { self.design.remaining(run, j, w) } else { Vec::new() }
+                };
+                let left: Vec<Vec<f64>> = weights.iter().enumerate().map(left).collect();
+                let part = |(block, f): &(&Block, usize)| left[*f][block.samples.clone()].to_vec();
+                residual.push(own.iter().flat_map(part).collect());
             }
         }
-        stretches
+        residuals
     }
 
     /// The noise that a model leaves on held-out blocks.

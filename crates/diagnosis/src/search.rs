@@ -23,18 +23,15 @@ pub(crate) struct Record<'a> {
 
 impl<'a> Record<'a> {
     /// The problem on the blocks `of`, weighted by the noise that all hypotheses together
-    /// leave on held-out blocks.
+    /// leave on the blocks they are fitted to: too little, which a search that measures it
+    /// anew mends, while too much would hide the causes from it.
     pub fn problem(&self, of: &[usize]) -> Problem<'a> {
         let nothing = |j: usize| {
             let all = self.grams.joint(j, of);
             all.yy / all.count.max(1) as f64
         };
         let joints = self.design.joints();
-        let start = Noise {
-            variance: (0..joints).map(nothing).collect(),
-            time: vec![1.0; joints],
-            samples: 0,
-        };
+        let start = Noise { variance: (0..joints).map(nothing).collect(), time: vec![1.0; joints] };
         let weight = start.weights(&self.design.moved);
         let rough = Problem::new(self.design, self.blocks, self.grams, of, weight);
         let noise = rough.fitted_noise(&rough.everything());
