@@ -62,24 +62,22 @@ pub(crate) fn title(diagnosis: &Diagnosis) -> String {
 
 /// What the extended model buys on held-out data, in one sentence with numbers.
 ///
-/// Over all joints: root of the sum of squared errors where every joint turns, mean nMSE
+/// Over the joints that the logs show something of: root of the sum of squared errors where every joint turns, mean nMSE
 /// where units differ.
 pub fn bottom_line(report: &Report) -> String {
     let total = Total::new(report);
-    let Total { what, unit, .. } = total;
+    let Total { what, unit, over, .. } = total;
     let held_out = &report.diagnosis.gain.inverse.held_out;
     let Some(fall) = total.fall() else {
         return "No joint has held-out data on which a gain could be measured".to_owned();
     };
     let (before, after) = (significant(total.before, 3), significant(total.after, 3));
     if fall.abs() < LEAST_FALL {
-        return format!(
-            "On held-out data ({held_out}) the {what} over all joints is {before}{unit}"
-        );
+        return format!("On held-out data ({held_out}) the {what} over {over} is {before}{unit}");
     }
     let way = if fall > 0.0 { "falls" } else { "rises" };
     format!(
-        "On held-out data ({held_out}) the {what} over all joints {way} from {before} to {after}{unit} ({})",
+        "On held-out data ({held_out}) the {what} over {over} {way} from {before} to {after}{unit} ({})",
         less_or_more(fall)
     )
 }
@@ -87,19 +85,20 @@ pub fn bottom_line(report: &Report) -> String {
 /// The bottom line as a subtitle.
 pub(crate) fn short_bottom_line(report: &Report) -> String {
     let total = Total::new(report);
-    let Total { what, unit, .. } = total;
+    let Total { what, unit, over, .. } = total;
     let Some(fall) = total.fall() else { return bottom_line(report) };
     let (before, after) = (significant(total.before, 3), significant(total.after, 3));
     let change =
         if fall.abs() < LEAST_FALL { String::new() } else { format!(" ({})", less_or_more(fall)) };
-    format!("Held-out {what} over all joints: {before} → {after}{unit}{change}")
+    format!("Held-out {what} over {over}: {before} → {after}{unit}{change}")
 }
 
 /// Change of the error that is worth words.
 const LEAST_FALL: f64 = 0.0005;
 
-/// The error over all joints.
+/// The error over the joints that the logs show something of.
 struct Total {
+    over: &'static str,
     what: &'static str,
     unit: &'static str,
     before: f64,
@@ -108,14 +107,21 @@ struct Total {
 
 impl Total {
     fn new(report: &Report) -> Self {
-        let gain = &report.diagnosis.gain.inverse;
+        let Diagnosis { joints, gain, .. } = report.diagnosis;
+        let shown = |values: &[f64]| -> Vec<f64> {
+            let pairs = joints.iter().zip(values);
+            pairs.filter(|(j, _)| j.verdict != Verdict::DataInadequate).map(|(_, v)| *v).collect()
+        };
+        let all = joints.iter().all(|j| j.verdict != Verdict::DataInadequate);
+        let over = if all { "all joints" } else { "the joints that the logs show" };
+        let gain = &gain.inverse;
         if report.robot.links().iter().all(|l| l.joint.kind.is_rotation()) {
-            let before = root_of_squares(&gain.rms_before_nm);
-            let after = root_of_squares(&gain.rms_after_nm);
-            Self { what: "torque error", unit: " N·m RMS", before, after }
+            let before = root_of_squares(&shown(&gain.rms_before_nm));
+            let after = root_of_squares(&shown(&gain.rms_after_nm));
+            Self { over, what: "torque error", unit: " N·m RMS", before, after }
         } else {
-            let (before, after) = (mean(&gain.nmse_before), mean(&gain.nmse_after));
-            Self { what: "mean nMSE of torque and force", unit: "", before, after }
+            let (before, after) = (mean(&shown(&gain.nmse_before)), mean(&shown(&gain.nmse_after)));
+            Self { over, what: "mean nMSE of torque and force", unit: "", before, after }
         }
     }
 
@@ -151,6 +157,18 @@ mod tests {
         assert_eq!(
             verdict_sentence(&sample.diagnosis),
             "Partly explained: 2 named effects found in the model of arm, structure is left at joint elbow"
+        );
+    }
+
+    #[test]
+    fn the_bottom_line_leaves_out_joints_of_which_the_logs_show_nothing() {
+        let mut sample = sample::arm();
+        sample.diagnosis.joints[1].verdict = Verdict::DataInadequate;
+        let gain = &mut sample.diagnosis.gain.inverse;
+        (gain.rms_before_nm, gain.rms_after_nm) = (vec![3.0, 4.0], vec![0.6, 0.8]);
+        assert_eq!(
+            bottom_line(&sample.report()),
+            "On held-out data (each run in turn) the torque error over the joints that the logs show falls from 3.00 to 0.600 N·m RMS (80 % less)"
         );
     }
 
