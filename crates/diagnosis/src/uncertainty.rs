@@ -101,6 +101,10 @@ impl Uncertainty {
         let scaled = DMatrix::from_fn(place.len(), place.len(), |i, k| {
             self.likelihood[(place[i], place[k])] / (design.prior[own[i]] * design.prior[own[k]])
         });
+        // An infinite covariance has no eigenvalues, and determines nothing.
+        if scaled.is_empty() || scaled.iter().any(|v| !v.is_finite()) {
+            return (own.len(), own.len());
+        }
         let wide =
             scaled.symmetric_eigenvalues().iter().filter(|v| **v > DETERMINED.powi(2)).count();
         (wide, own.len())
