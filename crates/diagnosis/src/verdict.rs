@@ -65,7 +65,13 @@ impl Situation {
                     self.nominal_rms, self.floor
                 ),
             ),
-            (0, true) => (Verdict::Unexplained, format!("no named effect earns its place; {left}")),
+            (0, true) => (
+                Verdict::Unexplained,
+                format!(
+                    "no named effect earns its place; the nominal model leaves {:.3} N m RMS over a noise floor of {:.3}",
+                    self.nominal_rms, self.floor
+                ),
+            ),
             (_, false) => (Verdict::Explained, left),
             (_, true) => {
                 let structure = 100.0 * self.unexplained();
