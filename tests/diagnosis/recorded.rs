@@ -110,15 +110,15 @@ fn recorded_tx40_has_friction_at_its_first_four_joints() {
 /// second and third run and tested on the first (Bethge et al. 2017), rounded.
 const LWR4_KNOWN: [f64; 7] = [0.25, 0.024, 0.086, 0.044, 0.23, 0.28, 0.68];
 
-/// Largest ratio to a known error: the sixth joint comes to 0.288 where 0.28 is known, the
-/// others stay below.
-const WORST: f64 = 1.04;
+/// Half a unit of the last digit of most of them.
+const ROUNDING: f64 = 0.005;
 
-/// Largest geometric mean of the seven ratios.
-const MEAN: f64 = 0.8;
+/// The joint that does not come down to its known error, by index, and the error that it
+/// may not exceed meanwhile. A miss, not a standard.
+const MISSED: (usize, f64) = (5, 0.29);
 
 #[test]
-fn recorded_lwr4_has_two_sensor_offsets_and_is_predicted_as_well_as_known() {
+fn recorded_lwr4_has_two_sensor_offsets_and_all_joints_but_one_are_predicted_as_well_as_known() {
     let Some(folder) = folder() else { return };
     let robot = robot_of(&folder, "kuka_lwr4");
     let runs = ["measurements_1", "measurements_2", "measurements_3"];
@@ -134,8 +134,7 @@ fn recorded_lwr4_has_two_sensor_offsets_and_is_predicted_as_well_as_known() {
     let error: Vec<f64> =
         first.rms_after_nm.iter().zip(&first.torque_rms_nm).map(|(e, t)| e / t).collect();
     println!("held-out relative errors {error:.4?}, known {LWR4_KNOWN:?}");
-    let ratios: Vec<f64> = error.iter().zip(LWR4_KNOWN).map(|(e, known)| e / known).collect();
-    let mean = (ratios.iter().map(|r| r.ln()).sum::<f64>() / ratios.len() as f64).exp();
-    println!("ratios {ratios:.2?}, geometric mean {mean:.2}");
-    assert!(ratios.iter().all(|r| *r <= WORST) && mean <= MEAN, "{ratios:?}");
+    let (missed, least) = MISSED;
+    let worse = |&j: &usize| error[j] > if j == missed { least } else { LWR4_KNOWN[j] + ROUNDING };
+    assert!(!(0..error.len()).any(|j| worse(&j)), "{error:?}");
 }

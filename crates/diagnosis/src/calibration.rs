@@ -99,9 +99,11 @@ fn recorded_residuals_make_few_impossible_causes_significant() {
         let p = p_values(&robot, &files(&data.join(arm)));
         let alarms = p.iter().filter(|p| **p < 0.05).count();
         println!("{arm}: {alarms} of {} impossible causes have p < 0.05", p.len());
-        // The LWR4 moves in slow sines: a column moved in time still resembles itself, and
-        // what its friction leaves is not noise but repeats from run to run.
-        if arm != "kuka_lwr4" {
+        if arm == "kuka_lwr4" {
+            // Above nominal, and known to be: slow sines, whose moved columns resemble them,
+            // and a residual that repeats from run to run. 24 when repeats are flipped apart.
+            assert!(alarms <= 14 && p.len() == 70, "{alarms} of {}", p.len());
+        } else {
             counts = (counts.0 + alarms, counts.1 + p.len());
         }
     }
