@@ -8,6 +8,7 @@ mod found;
 mod intervals;
 mod recorded;
 mod repeatable;
+mod rivals;
 mod together;
 mod trials;
 mod world;

@@ -29,6 +29,16 @@ fn diagnosis(robot: &Robot, folder: &Path, runs: &[&str], effort: &str) -> Diagn
     diagnose(robot, &runs, &Settings::default(), &Silent).unwrap().diagnosis
 }
 
+/// Findings with one determined parameter whose interval holds the nominal value.
+fn undecided(diagnosis: &Diagnosis) -> Vec<String> {
+    let holds = |f: &&diagnosis::Finding| {
+        let determined: Vec<_> = f.parameters.iter().filter(|p| p.determined).collect();
+        let [p] = determined.as_slice() else { return false };
+        f.at.joint.is_some() && p.ci95[0] <= p.nominal && p.nominal <= p.ci95[1]
+    };
+    diagnosis.findings.iter().filter(holds).map(|f| f.at.words()).collect()
+}
+
 fn joints_with(diagnosis: &Diagnosis, kinds: &[EffectKind]) -> Vec<String> {
     let of = |f: &&diagnosis::Finding| kinds.contains(&f.at.effect);
     let mut joints: Vec<String> =
@@ -60,6 +70,7 @@ fn recorded_kinova_has_friction_in_the_motors_and_hardly_any_in_the_sensors() {
     println!("Coulomb levels: motors {of_motor:?}, sensors {of_sensor:?}");
     let sum = |levels: &[f64]| levels.iter().sum::<f64>();
     assert!(sum(&of_sensor) < 0.4 * sum(&of_motor));
+    assert_eq!([undecided(&motor), undecided(&sensor)], [Vec::<String>::new(), Vec::new()]);
 }
 
 /// The runs that have a column `effort_sensor`.

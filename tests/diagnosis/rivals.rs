@@ -1,0 +1,38 @@
+//! What is named together with a finding because the log cannot tell the two apart.
+
+use diagnosis::Diagnosis;
+
+use crate::world::{World, against_nominal, finding, sign};
+
+/// Rivals of the finding `words`, in words.
+fn rivals(diagnosis: &Diagnosis, words: &str) -> Vec<String> {
+    let found = finding(diagnosis, words).unwrap_or_else(|| panic!("no {words}"));
+    found.not_separable_from.iter().map(|r| r.words()).collect()
+}
+
+/// Asymmetric friction can always do what Coulomb friction does: that makes it no rival.
+#[test]
+fn the_general_case_is_no_rival_of_its_special_case() {
+    for seed in 2100..2103 {
+        let world = World::nominal().torque(3, |[_, qd, _]| 0.5 * sign(qd));
+        let answer = against_nominal(&world.log(seed)).diagnosis;
+        let rivals = rivals(&answer, "Coulomb friction at j4_elbow_pitch");
+        assert!(!rivals.iter().any(|r| r.starts_with("asymmetric friction")), "{rivals:?}");
+    }
+}
+
+/// A payload and the last link's own inertia are the same numbers.
+#[test]
+fn a_payload_and_the_inertia_of_the_last_link_are_named_together() {
+    let world = World::nominal().body(|mut robot| {
+        let palm = robot.joint_count() - 1;
+        robot.link_mut(palm).unwrap().inertia.mass += 1.0;
+        robot
+    });
+    let answer = against_nominal(&world.log(2110)).diagnosis;
+    let pair = ["payload at palm", "inertial parameters at palm"];
+    let named = pair.iter().find(|words| finding(&answer, words).is_some()).unwrap();
+    let other = pair.iter().find(|words| *words != named).unwrap();
+    let rivals = rivals(&answer, named);
+    assert!(rivals.iter().any(|r| r == other), "{named}: {rivals:?}");
+}
