@@ -7,7 +7,8 @@
 //!
 //! The terms of a rigid body come from [`Link`] and [`Joint`], what an actuator
 //! adds from [`Actuator`]. [`Robot::load`] reads them from `robot.urdf` and
-//! `robot.toml`. Data only: no dynamics is computed here.
+//! `robot.toml`. Data only: no dynamics is computed here. [`Machine`] is what a controller
+//! sees of an arm, simulated or real.
 
 mod actuator;
 mod control;
@@ -17,6 +18,7 @@ mod inertia;
 mod joint;
 mod link;
 mod load;
+mod machine;
 mod model;
 mod urdf;
 mod warning;
@@ -29,5 +31,6 @@ pub use inertia::{Inertia, InertiaDefect};
 pub use joint::{Joint, JointKind, Limits};
 pub use link::Link;
 pub use load::Loaded;
+pub use machine::{Machine, MachineFault, Reading};
 pub use model::Robot;
 pub use warning::RobotWarning;

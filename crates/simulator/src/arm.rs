@@ -1,0 +1,251 @@
+use nalgebra::Isometry3;
+
+use crate::engine::{Body, Engine, Load, Push};
+use crate::inject::Efforts;
+use crate::{Plant, Transmission};
+
+/// The moving arm: joints on one side, the engine's degrees of freedom on the other.
+///
+/// A joint with a rigid transmission has one degree of freedom, of motor and link alike. Any
+/// other has two: the motor's angle `theta`, carried by a massless body with the rotor's
+/// inertia, and on it the deflection `delta`, so that `q = theta + delta`.
+pub(crate) struct Arm {
+    engine: Engine,
+    joints: Vec<Drive>,
+    /// Body of each link.
+    link_body: Vec<usize>,
+    load: Load,
+    constraint: Vec<f64>,
+    motor_q: Vec<f64>,
+    motor_qd: Vec<f64>,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    transmitted: Vec<f64>,
+}
+
+/// How one joint is driven.
+#[derive(Debug, Clone)]
+struct Drive {
+    /// Degree of freedom of the motor.
+    motor: usize,
+    /// Degree of freedom of the deflection.
+    deflection: Option<usize>,
+    transmission: Transmission,
+    rotor_inertia: f64,
+    spring_stiffness: f64,
+    spring_rest: f64,
+}
+
+impl Arm {
+    /// Builds the engine's bodies from the plant; `None` if the engine takes no such tree.
+    pub fn new(plant: &Plant, step_s: f64) -> Option<Self> {
+        let mut bodies: Vec<Body> = Vec::new();
+        let mut link_body: Vec<usize> = Vec::new();
+        let mut joints = Vec::new();
+        for (link, &transmission) in plant.robot.links().iter().zip(&plant.transmissions) {
+            let mut body = Body {
+                parent: link.parent.and_then(|p| link_body.get(p).copied()),
+                turns: link.joint.kind.is_rotation(),
+                parent_from_body: link.joint.parent_from_joint,
+                axis: link.joint.axis_in_joint,
+                inertia: None,
+                armature: link.actuator.rotor_inertia,
+                stops: link.joint.limits.position,
+            };
+            let motor = bodies.len();
+            if !transmission.is_rigid() {
+                bodies.push(body.clone());
+                body.parent = Some(motor);
+                body.parent_from_body = Isometry3::identity();
+                body.armature = 0.0;
+                body.stops = transmission
+                    .stiffness
+                    .is_none()
+                    .then_some((-0.5 * transmission.gap, 0.5 * transmission.gap));
+            }
+            body.inertia = Some(link.inertia.clone());
+            link_body.push(bodies.len());
+            let deflection = (!transmission.is_rigid()).then_some(bodies.len());
+            joints.push(Drive::new(&link.actuator, motor, deflection, transmission));
+            bodies.push(body);
+        }
+        let count = joints.len();
+        Some(Self {
+            engine: Engine::new(&bodies, plant.robot.gravity_in_base(), step_s)?,
+            joints,
+            link_body,
+            load: Load::none(bodies.len()),
+            constraint: vec![0.0; bodies.len()],
+            motor_q: vec![0.0; count],
+            motor_qd: vec![0.0; count],
+            q: vec![0.0; count],
+            qd: vec![0.0; count],
+            transmitted: vec![0.0; count],
+        })
+    }
+
+    pub fn motor_q(&self) -> &[f64] {
+        &self.motor_q
+    }
+
+    pub fn motor_qd(&self) -> &[f64] {
+        &self.motor_qd
+    }
+
+    pub fn q(&self) -> &[f64] {
+        &self.q
+    }
+
+    pub fn qd(&self) -> &[f64] {
+        &self.qd
+    }
+
+    /// Torque that each transmission carried to its link in the last step (N m or N), as of the
+    /// last call of [`measure_load`](Self::measure_load).
+    pub fn transmitted(&self) -> &[f64] {
+        &self.transmitted
+    }
+
+    /// Length of a step (s).
+    pub fn step_s(&self) -> f64 {
+        self.engine.step_s()
+    }
+
+    /// Puts the joints into a state, nothing deflected.
+    pub fn set_state(&mut self, q: &[f64], qd: &[f64]) {
+        let mut at = Load::none(self.constraint.len());
+        let mut velocity = at.effort.clone();
+        for (i, joint) in self.joints.iter().enumerate() {
+            at.effort[joint.motor] = q[i];
+            velocity[joint.motor] = qd[i];
+        }
+        self.engine.set_state(&at.effort, &velocity);
+        self.observe();
+    }
+
+    /// One step of the engine under what acts on the joints.
+    pub fn step(&mut self, efforts: &Efforts) {
+        self.load.clear();
+        for (i, joint) in self.joints.iter().enumerate() {
+            joint.add(&self.engine, efforts, i, &mut self.load);
+        }
+        let body = |p: &Push| Push { body: self.link_body[p.body], ..*p };
+        self.load.pushes.extend(efforts.pushes.iter().map(body));
+        self.engine.step(&self.load);
+        self.observe();
+    }
+
+    /// Works out what the transmissions carried in the last step:
+    ///
+    /// ```text
+    /// rigid:    load = tau_motor + friction - viscous qd - J qdd
+    /// otherwise load = spring or stop between motor and link
+    /// ```
+    pub fn measure_load(&mut self, efforts: &Efforts) {
+        self.engine.constraint_effort(&mut self.constraint);
+        let qdd = self.engine.qdd();
+        for (i, joint) in self.joints.iter().enumerate() {
+            self.transmitted[i] = match joint.deflection {
+                Some(d) => {
+                    self.load.effort[d] - self.load.damping[d] * self.engine.qd()[d]
+                        + self.constraint[d]
+                        - efforts.link[i]
+                        - joint.spring(self.q[i])
+                }
+                None => {
+                    let m = joint.motor;
+                    efforts.motor[i] - dry_shift(efforts, i) + self.constraint[m]
+                        - self.load.damping[m] * self.engine.qd()[m]
+                        - joint.rotor_inertia * qdd[m]
+                }
+            };
+        }
+    }
+
+    /// Torque that links, without gravity's help, resist each transmission with per unit of
+    /// acceleration, inverted: `(1/(kg m²))` between motor and link, for the check of springs.
+    pub fn inverse_inertia(&mut self) -> Vec<f64> {
+        let of = self.engine.inverse_inertia();
+        self.joints.iter().map(|j| of[j.deflection.unwrap_or(j.motor)]).collect()
+    }
+
+    fn observe(&mut self) {
+        let (q, qd) = (self.engine.q(), self.engine.qd());
+        for (i, joint) in self.joints.iter().enumerate() {
+            self.motor_q[i] = q[joint.motor];
+            self.motor_qd[i] = qd[joint.motor];
+            self.q[i] = q[joint.motor] + joint.deflection.map_or(0.0, |d| q[d]);
+            self.qd[i] = qd[joint.motor] + joint.deflection.map_or(0.0, |d| qd[d]);
+        }
+    }
+}
+
+impl Drive {
+    fn new(
+        actuator: &robot::Actuator,
+        motor: usize,
+        deflection: Option<usize>,
+        transmission: Transmission,
+    ) -> Self {
+        Self {
+            motor,
+            deflection,
+            transmission,
+            rotor_inertia: actuator.rotor_inertia,
+            spring_stiffness: actuator.spring_stiffness,
+            spring_rest: actuator.spring_rest,
+        }
+    }
+
+    /// Torque of the spring that pulls the link to its rest position (N m or N).
+    fn spring(&self, q: f64) -> f64 {
+        -self.spring_stiffness * (q - self.spring_rest)
+    }
+
+    /// Adds to the engine's load what acts on joint `i`.
+    ///
+    /// A torque on the link works on `q = theta + delta`, so on both degrees of freedom.
+    fn add(&self, engine: &Engine, efforts: &Efforts, i: usize, load: &mut Load) {
+        let deflection = self.deflection.map_or(0.0, |d| engine.q()[d]);
+        let link = efforts.link[i] + self.spring(engine.q()[self.motor] + deflection);
+        load.effort[self.motor] = efforts.motor[i] + link - dry_shift(efforts, i);
+        load.dry[self.motor] = (0.5 * (efforts.dry_forward[i] + efforts.dry_backward[i])).max(0.0);
+        load.damping[self.motor] = efforts.viscous[i].max(0.0);
+        let Some(d) = self.deflection else { return };
+        load.effort[d] = link;
+        match self.transmission.stiffness {
+            // Without free play the damping is the engine's, which takes it implicitly.
+            Some(stiffness) if self.transmission.gap <= 0.0 => {
+                load.effort[d] -= stiffness * deflection;
+                load.damping[d] = self.transmission.damping;
+            }
+            Some(_) => load.effort[d] += self.transmission.contact(deflection, engine.qd()[d]),
+            None => {}
+        }
+    }
+}
+
+/// Half of what the level of dry friction is higher in the positive direction (N m or N).
+///
+/// With the mean of both levels as dry friction, a torque of this size against the positive
+/// direction makes the two levels, at rest as well as in motion.
+fn dry_shift(efforts: &Efforts, i: usize) -> f64 {
+    0.5 * (efforts.dry_forward[i] - efforts.dry_backward[i])
+}
+
+impl Transmission {
+    /// Torque on the link from an elastic transmission with free play (N m or N):
+    ///
+    /// ```text
+    /// outside the gap: -k (delta -+ gap/2) - d delta_dot, never pulling;  inside: 0
+    /// ```
+    fn contact(&self, deflection: f64, velocity: f64) -> f64 {
+        let half = 0.5 * self.gap;
+        let pressed = deflection - deflection.clamp(-half, half);
+        if pressed.abs() <= 0.0 {
+            return 0.0;
+        }
+        let torque = -self.stiffness.unwrap_or(0.0) * pressed - self.damping * velocity;
+        if pressed > 0.0 { torque.min(0.0) } else { torque.max(0.0) }
+    }
+}

@@ -1,0 +1,50 @@
+use robot::MachineFault;
+
+/// What keeps an arm from being simulated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulatorError {
+    /// The engine takes no such tree of bodies.
+    #[error("robot {robot}: its links cannot be put together as a tree of bodies")]
+    NoTree {
+        /// Name of the robot.
+        robot: String,
+    },
+    /// A motor that is not fixed to its link has no inertia to move.
+    #[error(
+        "joint {joint}: its rotor inertia is {inertia} kg m^2, a motor with backlash or elasticity needs a positive one: give rotor_inertia_kg_m2 in robot.toml"
+    )]
+    NoRotorInertia {
+        /// The joint.
+        joint: String,
+        /// Its rotor inertia (kg m² or kg).
+        inertia: f64,
+    },
+    /// Nothing moves with the joint.
+    #[error(
+        "joint {joint}: neither its links nor its rotor have an inertia about its axis, a positive one was expected"
+    )]
+    NoInertia {
+        /// The joint.
+        joint: String,
+    },
+    /// A spring that is applied step by step would ring faster than the steps.
+    #[error(
+        "joint {joint}: a stiffness of {stiffness:.4} N m/rad rings at {frequency_hz:.0} Hz, too fast for steps of {step_ms} ms: soften it or set engine.step_ms to at most {longest_step_ms:.4}"
+    )]
+    SpringTooStiff {
+        /// The joint.
+        joint: String,
+        /// Sum of the springs at the joint (N m/rad or N/m).
+        stiffness: f64,
+        /// Frequency of their resonance (Hz).
+        frequency_hz: f64,
+        /// Step of the engine (ms).
+        step_ms: f64,
+        /// Longest step that would do (ms).
+        longest_step_ms: f64,
+    },
+    /// A joint did what no joint may.
+    #[error("the simulation ended early: {0}")]
+    Fault(#[from] MachineFault),
+}

@@ -1,0 +1,26 @@
+//! The truth side: an articulated arm on rapier into which effects are put, seen through its
+//! sensors.
+//!
+//! ```text
+//! M(q) qdd + C(q, qd) qd + g(q) + effects = tau
+//! ```
+//!
+//! The equations of motion are rapier's: nothing here uses the project's own dynamics, so that
+//! what explains a log and what made it check each other.
+
+mod arm;
+pub mod effects;
+mod engine;
+mod error;
+mod inject;
+mod plant;
+mod sensors;
+mod simulator;
+mod truth;
+
+pub use error::SimulatorError;
+pub use inject::{Efforts, Inject, Moment};
+pub use plant::{Plant, Transmission};
+pub use sensors::{EffortSource, JointSensor, PositionSide, Sensors, VelocitySource};
+pub use simulator::{Simulator, Stepping};
+pub use truth::Truth;

@@ -1,0 +1,147 @@
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, Normal};
+use robot::Reading;
+
+/// Where position is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PositionSide {
+    /// At the motor, before the transmission.
+    #[default]
+    Motor,
+    /// At the link, behind it.
+    Link,
+}
+
+/// What the log's effort is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum EffortSource {
+    /// What the controller asked for.
+    #[default]
+    Commanded,
+    /// Torque of the motor, as from its current.
+    Motor,
+    /// Torque behind the transmission, as from a joint torque sensor.
+    Link,
+}
+
+/// How velocity comes to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum VelocitySource {
+    /// As it is, without error.
+    Ideal,
+    /// Difference of measured positions, through a first-order low pass (Hz).
+    FilteredDifference {
+        /// Corner frequency (Hz).
+        cutoff_hz: f64,
+    },
+}
+
+/// Sensors of one joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointSensor {
+    /// Step of the position reading (rad or m), zero for none.
+    pub resolution: f64,
+    /// Standard deviation of the position reading (rad or m).
+    pub position_noise: f64,
+    /// Standard deviation of the effort reading (N m or N).
+    pub effort_noise: f64,
+}
+
+/// The sensors of an arm. Every draw comes from their seed.
+#[derive(Debug, Clone)]
+pub struct Sensors {
+    side: PositionSide,
+    effort: EffortSource,
+    velocity: VelocitySource,
+    joints: Vec<JointSensor>,
+    seed: u64,
+    random: ChaCha8Rng,
+    /// Last measured position of each joint, once there is one.
+    last: Option<Vec<f64>>,
+    filtered: Vec<f64>,
+}
+
+impl Sensors {
+    /// Sensors of every joint in the order of the robot.
+    pub fn new(
+        side: PositionSide,
+        effort: EffortSource,
+        velocity: VelocitySource,
+        joints: Vec<JointSensor>,
+        seed: u64,
+    ) -> Self {
+        let filtered = vec![0.0; joints.len()];
+        let random = ChaCha8Rng::seed_from_u64(seed);
+        Self { side, effort, velocity, joints, seed, random, last: None, filtered }
+    }
+
+    /// Sensors without error.
+    pub fn perfect(joint_count: usize) -> Self {
+        let joint = JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
+        Self::new(
+            PositionSide::Link,
+            EffortSource::Motor,
+            VelocitySource::Ideal,
+            vec![joint; joint_count],
+            0,
+        )
+    }
+
+    pub(crate) fn position_side(&self) -> PositionSide {
+        self.side
+    }
+
+    pub(crate) fn effort_source(&self) -> EffortSource {
+        self.effort
+    }
+
+    /// Forgets what was measured and starts the draws anew.
+    pub(crate) fn start(&mut self) {
+        self.random = ChaCha8Rng::seed_from_u64(self.seed);
+        self.last = None;
+        self.filtered.fill(0.0);
+    }
+
+    /// Turns true positions and velocities into what the sensors say, one period after the
+    /// last look.
+    ///
+    /// ```text
+    /// q_measured = resolution round((q + noise) / resolution)
+    /// qd_measured: first-order low pass of the difference of q_measured
+    /// ```
+    pub(crate) fn look(&mut self, reading: &mut Reading, period_s: f64) {
+        for (q, sensor) in reading.q.iter_mut().zip(&self.joints) {
+            *q += draw(&mut self.random, sensor.position_noise);
+            if sensor.resolution > 0.0 {
+                *q = sensor.resolution * (*q / sensor.resolution).round();
+            }
+        }
+        if let VelocitySource::FilteredDifference { cutoff_hz } = self.velocity {
+            let kept = (-std::f64::consts::TAU * cutoff_hz * period_s).exp();
+            if let Some(last) = &self.last {
+                for (i, filtered) in self.filtered.iter_mut().enumerate() {
+                    let difference = (reading.q[i] - last[i]) / period_s;
+                    *filtered = kept * *filtered + (1.0 - kept) * difference;
+                }
+            }
+            reading.qd.copy_from_slice(&self.filtered);
+        }
+        self.last = Some(reading.q.clone());
+    }
+
+    /// Adds the noise of the effort readings.
+    pub(crate) fn add_effort_noise(&mut self, effort: &mut [f64]) {
+        for (tau, sensor) in effort.iter_mut().zip(&self.joints) {
+            *tau += draw(&mut self.random, sensor.effort_noise);
+        }
+    }
+}
+
+/// One draw from a normal distribution about zero; a deviation of zero draws nothing.
+fn draw(random: &mut ChaCha8Rng, deviation: f64) -> f64 {
+    if deviation <= 0.0 {
+        return 0.0;
+    }
+    Normal::new(0.0, deviation).map_or(0.0, |n| n.sample(random))
+}

@@ -1,0 +1,332 @@
+use robot::{Machine, MachineFault, Reading, Robot};
+
+use crate::arm::Arm;
+use crate::inject::{Efforts, Inject, Moment};
+use crate::sensors::{EffortSource, PositionSide, Sensors};
+use crate::{Plant, SimulatorError};
+
+/// Speed at which a joint counts as run away (rad/s or m/s): ten times what arms reach.
+const RUNAWAY_SPEED: f64 = 200.0;
+
+/// Largest `omega dt` of a spring that is applied step by step: its frequency is then off by
+/// less than 0.2 % `((omega dt)^2 / 24)`.
+const LARGEST_PHASE_STEP: f64 = 0.2;
+
+/// How the engine is stepped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stepping {
+    /// Length of the engine's step (s).
+    pub step_s: f64,
+    /// Steps for which a command is held.
+    pub steps_per_period: usize,
+    /// Whether joints stop at their limits.
+    pub stops: bool,
+}
+
+/// A simulated arm: rapier moves it, effects change it, sensors look at it.
+///
+/// ```text
+/// M(q) qdd + C(q, qd) qd + g(q) + effects = tau
+/// ```
+///
+/// A command is held for one period of the controller (zero-order hold), the engine takes many
+/// steps in it.
+pub struct Simulator {
+    joints: Vec<Joint>,
+    arm: Arm,
+    effects: Vec<Box<dyn Inject>>,
+    sensors: Sensors,
+    steps_per_period: usize,
+    steps: u64,
+    needs_load: bool,
+    command: Option<Vec<f64>>,
+    tau: Vec<f64>,
+    efforts: Efforts,
+    motor_torque: Vec<f64>,
+    effort_at_read: Vec<f64>,
+}
+
+/// What the simulator itself keeps of a joint.
+#[derive(Debug, Clone)]
+struct Joint {
+    name: String,
+    turns: bool,
+    torque_gain: f64,
+    torque_offset: f64,
+    dry_forward: f64,
+    dry_backward: f64,
+    viscous: f64,
+}
+
+impl Simulator {
+    /// Builds a simulated arm; effects act in the order given.
+    ///
+    /// # Errors
+    ///
+    /// [`SimulatorError`] when the arm with its effects cannot be simulated: a joint without
+    /// inertia, or a spring too stiff for the step.
+    pub fn new(
+        robot: &Robot,
+        mut effects: Vec<Box<dyn Inject>>,
+        sensors: Sensors,
+        stepping: Stepping,
+    ) -> Result<Self, SimulatorError> {
+        let mut plant = Plant::new(robot.clone());
+        for effect in &mut effects {
+            effect.on_build(&mut plant);
+        }
+        if !stepping.stops {
+            for i in 0..plant.robot.joint_count() {
+                if let Some(link) = plant.robot.link_mut(i) {
+                    link.joint.limits.position = None;
+                }
+            }
+        }
+        check_motors(&plant)?;
+        let mut arm = Arm::new(&plant, stepping.step_s)
+            .ok_or_else(|| SimulatorError::NoTree { robot: robot.name().to_owned() })?;
+        let joints: Vec<Joint> = plant.robot.links().iter().map(Joint::of).collect();
+        let mut springs: Vec<(usize, f64)> = effects.iter().flat_map(|e| e.springs()).collect();
+        let elastic = plant.transmissions.iter().enumerate();
+        springs.extend(elastic.filter_map(|(i, t)| Some((i, t.stiffness?))));
+        check_inertias(&joints, &arm.inverse_inertia(), &springs, stepping.step_s)?;
+        let count = joints.len();
+        let needs_load =
+            effects.iter().any(|e| e.needs_load()) || sensors.effort_source() == EffortSource::Link;
+        Ok(Self {
+            joints,
+            arm,
+            needs_load,
+            effects,
+            sensors,
+            steps_per_period: stepping.steps_per_period.max(1),
+            steps: 0,
+            command: None,
+            tau: vec![0.0; count],
+            efforts: Efforts::none(count),
+            motor_torque: vec![0.0; count],
+            effort_at_read: vec![0.0; count],
+        })
+    }
+
+    /// Puts the arm at rest at `q` (rad or m) and its clock to zero.
+    pub fn start(&mut self, q: &[f64]) {
+        self.start_moving(q, &vec![0.0; q.len()]);
+    }
+
+    /// Puts the arm into a state of positions (rad or m) and velocities (rad/s or m/s), its
+    /// clock to zero.
+    pub fn start_moving(&mut self, q: &[f64], qd: &[f64]) {
+        self.arm.set_state(q, qd);
+        self.steps = 0;
+        self.command = None;
+        for effect in &mut self.effects {
+            effect.on_start(q);
+        }
+        self.sensors.start();
+    }
+
+    /// Time since the start (s).
+    pub fn time_s(&self) -> f64 {
+        self.steps as f64 * self.arm.step_s()
+    }
+
+    /// Positions of the links as they are (rad or m), not as a sensor sees them.
+    pub fn q_true(&self) -> &[f64] {
+        self.arm.q()
+    }
+
+    /// Velocities of the links as they are (rad/s or m/s).
+    pub fn qd_true(&self) -> &[f64] {
+        self.arm.qd()
+    }
+
+    /// Positions of the motors as they are, seen at the joint (rad or m).
+    pub fn motor_q_true(&self) -> &[f64] {
+        self.arm.motor_q()
+    }
+
+    /// Torque of the motors in the last step (N m or N).
+    pub fn motor_torque_true(&self) -> &[f64] {
+        &self.motor_torque
+    }
+
+    /// The row of the log for the last [`read`](Machine::read), once its command has been
+    /// [given](Machine::actuate): positions and velocities as read, effort of that instant.
+    pub fn record(&mut self, read: &Reading, row: &mut Reading) {
+        row.clone_from(read);
+        row.effort.clone_from(&self.effort_at_read);
+        self.sensors.add_effort_noise(&mut row.effort);
+        for effect in &mut self.effects {
+            effect.on_record(row);
+        }
+    }
+
+    /// One step of the engine under the torque asked for (N m or N), the mean over the step.
+    fn step(&mut self) -> Result<(), MachineFault> {
+        let moment = Moment {
+            time_s: self.steps as f64 * self.arm.step_s(),
+            step_s: self.arm.step_s(),
+            motor_q: self.arm.motor_q(),
+            motor_qd: self.arm.motor_qd(),
+            q: self.arm.q(),
+            qd: self.arm.qd(),
+            load: self.arm.transmitted(),
+        };
+        for effect in &mut self.effects {
+            effect.on_command(&moment, &mut self.tau);
+        }
+        for (i, joint) in self.joints.iter().enumerate() {
+            self.tau[i] = (self.tau[i] - joint.torque_offset) / joint.torque_gain;
+            joint.start(&mut self.efforts, i, self.tau[i]);
+        }
+        self.efforts.pushes.clear();
+        self.motor_torque.copy_from_slice(&self.tau);
+        for effect in &mut self.effects {
+            effect.on_substep(&moment, &mut self.efforts);
+        }
+        self.arm.step(&self.efforts);
+        self.steps += 1;
+        if self.needs_load {
+            self.arm.measure_load(&self.efforts);
+        }
+        self.check()
+    }
+
+    fn check(&self) -> Result<(), MachineFault> {
+        for (i, joint) in self.joints.iter().enumerate() {
+            let (q, speed) = (self.arm.q()[i], self.arm.qd()[i]);
+            if q.is_finite() && speed.abs() <= RUNAWAY_SPEED {
+                continue;
+            }
+            let unit = if joint.turns { "rad/s" } else { "m/s" };
+            return Err(MachineFault {
+                time_s: self.time_s(),
+                joint: joint.name.clone(),
+                found: format!("its speed is {speed:.3e} {unit}, at most {RUNAWAY_SPEED} {unit} was expected"),
+                advice: "lower the gains or the torques, give the joint's motor its rotor inertia, or shorten the engine's step".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Effort that the log shows for the instant of the last read (N m or N).
+    fn sample_effort(&mut self, command: &[f64]) {
+        let source = self.sensors.effort_source();
+        for (i, joint) in self.joints.iter().enumerate() {
+            let reported = |tau: f64| joint.torque_gain * tau + joint.torque_offset;
+            self.effort_at_read[i] = match source {
+                EffortSource::Commanded => command[i],
+                EffortSource::Motor => reported(self.motor_torque[i]),
+                EffortSource::Link => reported(self.arm.transmitted()[i]),
+            };
+        }
+    }
+}
+
+impl Machine for Simulator {
+    fn joint_count(&self) -> usize {
+        self.joints.len()
+    }
+
+    fn period_s(&self) -> f64 {
+        self.steps_per_period as f64 * self.arm.step_s()
+    }
+
+    fn read(&mut self, reading: &mut Reading) -> Result<(), MachineFault> {
+        reading.time_s = self.time_s();
+        let (q, qd) = match self.sensors.position_side() {
+            PositionSide::Motor => (self.arm.motor_q(), self.arm.motor_qd()),
+            PositionSide::Link => (self.arm.q(), self.arm.qd()),
+        };
+        reading.q.clear();
+        reading.q.extend_from_slice(q);
+        reading.qd.clear();
+        reading.qd.extend_from_slice(qd);
+        reading.effort.clone_from(&self.effort_at_read);
+        for effect in &mut self.effects {
+            effect.on_reading(reading);
+        }
+        let period_s = self.period_s();
+        self.sensors.look(reading, period_s);
+        Ok(())
+    }
+
+    fn actuate(&mut self, effort: &[f64]) -> Result<(), MachineFault> {
+        let before = self.command.take().unwrap_or_else(|| effort.to_vec());
+        for step in 0..self.steps_per_period {
+            // The first step's middle falls on the jump from one command to the next.
+            let old = if step == 0 { 0.5 } else { 0.0 };
+            for (tau, (b, e)) in self.tau.iter_mut().zip(before.iter().zip(effort)) {
+                *tau = old * b + (1.0 - old) * e;
+            }
+            self.step()?;
+            if step == 0 {
+                self.sample_effort(effort);
+            }
+        }
+        self.command = Some(effort.to_vec());
+        Ok(())
+    }
+}
+
+impl Joint {
+    /// What acts on joint `i` before any effect: the motor's torque and the actuator's friction.
+    fn start(&self, efforts: &mut Efforts, i: usize, tau: f64) {
+        efforts.motor[i] = tau;
+        efforts.link[i] = 0.0;
+        efforts.dry_forward[i] = self.dry_forward;
+        efforts.dry_backward[i] = self.dry_backward;
+        efforts.viscous[i] = self.viscous;
+    }
+
+    fn of(link: &robot::Link) -> Self {
+        Self {
+            name: link.joint.name.clone(),
+            turns: link.joint.kind.is_rotation(),
+            torque_gain: link.actuator.torque_gain,
+            torque_offset: link.actuator.torque_offset,
+            dry_forward: link.actuator.coulomb_forward,
+            dry_backward: link.actuator.coulomb_backward,
+            viscous: link.actuator.viscous,
+        }
+    }
+}
+
+/// A motor that is not fixed to its link moves on its own inertia.
+fn check_motors(plant: &Plant) -> Result<(), SimulatorError> {
+    for (link, transmission) in plant.robot.links().iter().zip(&plant.transmissions) {
+        let inertia = link.actuator.rotor_inertia;
+        if !transmission.is_rigid() && inertia <= 0.0 {
+            return Err(SimulatorError::NoRotorInertia { joint: link.joint.name.clone(), inertia });
+        }
+    }
+    Ok(())
+}
+
+fn check_inertias(
+    joints: &[Joint],
+    inverse_inertia: &[f64],
+    springs: &[(usize, f64)],
+    step_s: f64,
+) -> Result<(), SimulatorError> {
+    for (joint, &inverse) in joints.iter().zip(inverse_inertia) {
+        if !(inverse.is_finite() && inverse > 0.0) {
+            return Err(SimulatorError::NoInertia { joint: joint.name.clone() });
+        }
+    }
+    for (i, joint) in joints.iter().enumerate() {
+        let stiffness: f64 = springs.iter().filter(|s| s.0 == i).map(|s| s.1).sum();
+        let omega = (stiffness * inverse_inertia[i]).sqrt();
+        if omega * step_s > LARGEST_PHASE_STEP {
+            return Err(SimulatorError::SpringTooStiff {
+                joint: joint.name.clone(),
+                stiffness,
+                frequency_hz: omega / std::f64::consts::TAU,
+                step_ms: 1e3 * step_s,
+                longest_step_ms: 1e3 * LARGEST_PHASE_STEP / omega,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,126 @@
+//! Arms that are simple enough for a closed form, and a way to run them.
+
+use nalgebra::{Isometry3, Matrix3, Unit, Vector3};
+use robot::{
+    Actuator, Inertia, Joint, JointKind, Limits, Link, Machine, MachineFault, Reading, Robot,
+};
+use simulator::effects::EffectSpec;
+use simulator::{Sensors, Simulator, SimulatorError, Stepping};
+
+pub const GRAVITY: f64 = 9.81;
+
+/// A joint about the horizontal y axis at the origin that carries `mass` (kg) at `distance` (m)
+/// along x, and nothing else: at `q` its gravity torque is `-m g l cos(q)` as `M qdd + g = tau`
+/// counts it, since a positive turn about y lowers x. No rotor.
+pub fn pendulum(mass: f64, distance: f64) -> Robot {
+    let inertia = Inertia {
+        mass,
+        com_in_link: Vector3::new(distance, 0.0, 0.0),
+        about_com: Matrix3::zeros(),
+    };
+    one_joint(JointKind::Continuous, inertia, Actuator::default())
+}
+
+/// A joint about the vertical, so without gravity, with the inertia `inertia` (kg m²) about its
+/// axis and a rotor (kg m²).
+pub fn flywheel(inertia: f64, rotor_inertia: f64) -> Robot {
+    let body = Inertia {
+        mass: 1.0,
+        com_in_link: Vector3::zeros(),
+        about_com: Matrix3::from_diagonal(&Vector3::new(inertia, inertia, inertia)),
+    };
+    let actuator = Actuator { rotor_inertia, ..Actuator::default() };
+    let mut robot = one_joint(JointKind::Continuous, body, actuator);
+    robot.link_mut(0).unwrap().joint.axis_in_joint = Vector3::z_axis();
+    robot
+}
+
+fn one_joint(kind: JointKind, inertia: Inertia, actuator: Actuator) -> Robot {
+    Robot::new(
+        "rig",
+        Vector3::new(0.0, 0.0, -GRAVITY),
+        vec![link("joint", None, kind, inertia, actuator)],
+    )
+    .unwrap()
+}
+
+pub fn link(
+    name: &str,
+    parent: Option<usize>,
+    kind: JointKind,
+    inertia: Inertia,
+    actuator: Actuator,
+) -> Link {
+    let joint = Joint {
+        name: name.to_owned(),
+        kind,
+        parent_from_joint: Isometry3::identity(),
+        axis_in_joint: Unit::new_normalize(Vector3::y()),
+        limits: Limits::default(),
+    };
+    Link { name: format!("{name}_link"), parent, joint, inertia, actuator, merged: Vec::new() }
+}
+
+/// 500 Hz commands in steps of 0.1 ms, no stops.
+pub const STEPPING: Stepping = Stepping { step_s: 1e-4, steps_per_period: 20, stops: false };
+
+/// The effects of a piece of TOML in the shape of a scenario, such as
+/// `[[effect]]` `coulomb_friction = { joint = "joint", level_nm = 1.0 }`.
+pub fn effects(toml: &str) -> Vec<EffectSpec> {
+    #[derive(serde::Deserialize)]
+    struct Effects {
+        effect: Vec<EffectSpec>,
+    }
+    toml::from_str::<Effects>(toml).unwrap().effect
+}
+
+/// A simulator with perfect sensors and the effects of a piece of TOML.
+pub fn simulator(
+    robot: &Robot,
+    toml: &str,
+    stepping: Stepping,
+) -> Result<Simulator, SimulatorError> {
+    let injected = effects(toml).iter().map(|e| e.inject(robot).unwrap()).collect();
+    Simulator::new(robot, injected, Sensors::perfect(robot.joint_count()), stepping)
+}
+
+/// One row of a run: what is true, and what the log says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    pub time_s: f64,
+    pub q_true: Vec<f64>,
+    pub qd_true: Vec<f64>,
+    pub motor_q_true: Vec<f64>,
+    /// Torque of the motors in the last step before this instant.
+    pub motor_torque_true: Vec<f64>,
+    /// The row of the log at this instant.
+    pub logged: Reading,
+}
+
+/// Runs for a time (s) under a torque that follows from what is read.
+pub fn run(
+    simulator: &mut Simulator,
+    duration_s: f64,
+    mut torque: impl FnMut(&Reading) -> Vec<f64>,
+) -> Result<Vec<Row>, MachineFault> {
+    let periods = (duration_s / simulator.period_s()).round() as usize;
+    let mut reading = Reading::zero(simulator.joint_count());
+    let mut logged = reading.clone();
+    let mut rows = Vec::with_capacity(periods);
+    for _ in 0..periods {
+        simulator.read(&mut reading)?;
+        let mut row = Row {
+            time_s: simulator.time_s(),
+            q_true: simulator.q_true().to_vec(),
+            qd_true: simulator.qd_true().to_vec(),
+            motor_q_true: simulator.motor_q_true().to_vec(),
+            motor_torque_true: simulator.motor_torque_true().to_vec(),
+            logged: Reading::default(),
+        };
+        simulator.actuate(&torque(&reading))?;
+        simulator.record(&reading, &mut logged);
+        row.logged = logged.clone();
+        rows.push(row);
+    }
+    Ok(rows)
+}
