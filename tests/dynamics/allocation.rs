@@ -2,7 +2,7 @@
 
 use dynamics::{ColumnSet, Dynamics, Rotors};
 
-use crate::arms::random_tree;
+use checks::arms::random_tree;
 
 #[test]
 fn the_loop_versions_allocate_nothing() {

@@ -4,7 +4,7 @@ use dynamics::{ColumnSet, Dynamics, base_parameters};
 use nalgebra::{DVector, Rotation3, Vector3};
 use robot::Robot;
 
-use crate::arms::{GRAVITY, data, draw, generator, random_tree, wam};
+use checks::arms::{GRAVITY, data, draw, generator, random_tree, wam};
 
 const FRICTION: ColumnSet = ColumnSet { rotor: false, viscous: true, coulomb: true, offset: false };
 const ROTOR: ColumnSet = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };

@@ -4,7 +4,7 @@ use dynamics::{Dynamics, DynamicsError, Rotors};
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use robot::{Inertia, Joint, JointKind, Limits, Robot};
 
-use crate::arms::{GRAVITY, draw, generator, link};
+use checks::arms::{GRAVITY, draw, generator, link};
 
 /// Rounding of some ten operations on numbers up to 100.
 const ROUNDING: f64 = 1e-12;

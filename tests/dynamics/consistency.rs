@@ -4,7 +4,7 @@ use dynamics::{ConsistentFit, ConsistentInertias, DynamicsError, FitOutcome};
 use nalgebra::{DMatrix, DVector, Matrix4};
 use robot::{Inertia, Robot};
 
-use crate::arms::{draw, draw_inertia, generator, random_tree};
+use checks::arms::{draw, draw_inertia, generator, random_tree};
 
 fn parameters(robot: &Robot) -> Vec<f64> {
     robot.links().iter().flat_map(|link| link.inertia.parameters()).collect()

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use robot::{Inertia, Robot};
 use serde::Deserialize;
 
-use crate::arms::{data, workspace_root};
+use checks::arms::{data, workspace_root};
 
 /// Relative to the largest entry of a vector or matrix: both engines round alike, some
 /// hundred operations deep.

@@ -4,7 +4,7 @@ use dynamics::{Dynamics, Rotors};
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
-use crate::arms::{draw, draw_vector, generator, kinetic_energy, potential_energy, random_tree};
+use checks::arms::{draw, draw_vector, generator, kinetic_energy, potential_energy, random_tree};
 
 const SEEDS: std::ops::Range<u64> = 0..10;
 

@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot build its input has failed")]
 
 mod allocation;
-mod arms;
 mod base_parameters;
 mod closed_form;
 mod consistency;

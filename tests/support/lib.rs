@@ -5,5 +5,6 @@
     reason = "a broken helper should stop the test that uses it"
 )]
 
+pub mod arms;
 pub mod recorded;
 pub mod synthetic;

@@ -1,5 +1,4 @@
-use nalgebra::{DVector, Isometry3, Unit, Vector3};
-use rapier3d_f64::math::Matrix;
+use nalgebra::{DVector, Isometry3, SymmetricEigen, Unit, UnitQuaternion, Vector3};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 use rapier3d_f64::prelude::{
     ColliderSet, GenericJoint, JointAxesMask, Multibody, MultibodyJointHandle, PhysicsWorld, Pose,
@@ -318,11 +317,7 @@ impl Engine {
 
 fn rigid_body(body: &Body) -> RigidBodyBuilder {
     let properties = match &body.inertia {
-        Some(inertia) => MassProperties::with_inertia_matrix(
-            vector(&inertia.com_in_link),
-            inertia.mass,
-            Matrix::from_cols_slice(inertia.about_com.as_slice()),
-        ),
+        Some(inertia) => mass_properties(inertia),
         None => MassProperties::new(Vector::ZERO, 0.0, Vector::ZERO),
     };
     RigidBodyBuilder::dynamic()
@@ -330,6 +325,25 @@ fn rigid_body(body: &Body) -> RigidBodyBuilder {
         .linear_damping(0.0)
         .angular_damping(0.0)
         .additional_mass_properties(properties)
+}
+
+/// Mass, centre of mass, principal moments and their frame.
+///
+/// The principal axes are worked out here: those of rapier come from a closed form that loses
+/// the difference of two nearly equal moments, and with it 1 % of the WAM palm's gyroscopic
+/// torque.
+fn mass_properties(inertia: &Inertia) -> MassProperties {
+    let mut eigen = SymmetricEigen::new(inertia.about_com);
+    if eigen.eigenvectors.determinant() < 0.0 {
+        eigen.eigenvectors.neg_mut();
+    }
+    let frame = UnitQuaternion::from_matrix(&eigen.eigenvectors).coords;
+    MassProperties::with_principal_inertia_frame(
+        vector(&inertia.com_in_link),
+        inertia.mass,
+        vector(&eigen.eigenvalues.map(|moment| moment.max(0.0))),
+        Rotation::from_xyzw(frame.x, frame.y, frame.z, frame.w),
+    )
 }
 
 /// Rapier's free axis is the x axis of the joint's frames: turn it onto the body's axis.

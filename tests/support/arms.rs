@@ -7,8 +7,10 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 
+/// Gravity as the arms of these tests feel it (m/s²).
 pub const GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
 
+/// The folder of `Cargo.lock`.
 pub fn workspace_root() -> PathBuf {
     let here = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     here.ancestors().find(|folder| folder.join("Cargo.lock").exists()).unwrap().to_owned()
@@ -31,6 +33,7 @@ pub fn wam() -> Robot {
     Robot::load(&workspace_root().join("robots/wam7/robot.toml")).unwrap().robot
 }
 
+/// A generator of its own for every test.
 pub fn generator(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
@@ -40,6 +43,7 @@ pub fn draw(rng: &mut impl Rng, n: usize, half_range: f64) -> Vec<f64> {
     (0..n).map(|_| rng.random_range(-half_range..half_range)).collect()
 }
 
+/// A vector with entries between -`half_range` and `half_range`.
 pub fn draw_vector(rng: &mut impl Rng, half_range: f64) -> Vector3<f64> {
     Vector3::from_iterator(draw(rng, 3, half_range))
 }
@@ -60,6 +64,7 @@ pub fn draw_inertia(rng: &mut impl Rng) -> Inertia {
     Inertia { mass, com_in_link: com, about_com }
 }
 
+/// A link with a plain actuator.
 pub fn link(name: &str, parent: Option<usize>, joint: Joint, inertia: Inertia) -> Link {
     Link {
         name: name.to_owned(),
