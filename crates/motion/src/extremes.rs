@@ -1,0 +1,96 @@
+use crate::curve::Curve;
+
+/// Where a signal of a joint is largest or smallest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Extreme {
+    /// Time on the curve's own clock (s).
+    pub time_s: f64,
+    pub value: f64,
+}
+
+/// How far and how fast a joint goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Extremes {
+    /// Smallest position (rad or m).
+    pub lowest: Extreme,
+    /// Largest position (rad or m).
+    pub highest: Extreme,
+    /// The velocity of the largest magnitude (rad/s or m/s).
+    pub fastest: Extreme,
+}
+
+/// The extremes of a joint from 0 to `until` (s).
+///
+/// A position is extreme where the velocity changes its sign, a velocity where the
+/// acceleration does; both are exact derivatives, so these times are found to rounding by
+/// halving. A pair of extremes between two instants can escape: with 64 instants in the
+/// shortest period it lies within 0.12 per cent of its neighbours.
+pub(crate) fn extremes(curve: &Curve, joint: usize, until: f64) -> Extremes {
+    let start = curve.at(joint, 0.0);
+    let first = |value| Extreme { time_s: 0.0, value };
+    let mut found =
+        Extremes { lowest: first(start[0]), highest: first(start[0]), fastest: first(start[1]) };
+    let (mut t0, mut before) = (0.0, start);
+    for t1 in curve.instants(until) {
+        let now = curve.at(joint, t1);
+        found.offer(t1, now);
+        for derivative in [1, 2] {
+            if before[derivative] * now[derivative] < 0.0 {
+                let rises = before[derivative] < 0.0;
+                let turn = halve([t0, t1], |t| (curve.at(joint, t)[derivative] < 0.0) == rises);
+                found.offer(turn, curve.at(joint, turn));
+            }
+        }
+        (t0, before) = (t1, now);
+    }
+    found
+}
+
+impl Extremes {
+    fn offer(&mut self, time_s: f64, [q, qd, _]: [f64; 3]) {
+        let here = |value| Extreme { time_s, value };
+        if q < self.lowest.value {
+            self.lowest = here(q);
+        }
+        if q > self.highest.value {
+            self.highest = here(q);
+        }
+        if qd.abs() > self.fastest.value.abs() {
+            self.fastest = here(qd);
+        }
+    }
+}
+
+/// The time up to which `holds`.
+fn halve([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
+    // 50 halvings of a short step exhaust a double.
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        (low, high) = if holds(middle) { (middle, high) } else { (low, middle) };
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::harmonics::{Harmonics, Series, Term};
+
+    #[test]
+    fn extremes_of_two_harmonics_are_those_of_the_closed_form() {
+        // sin(w t) + 0.5 cos(2 w t) = 1/2 + s - s²: from -1.5 at s = -1 to 3/4 at s = 1/2.
+        let hz = 0.37;
+        let terms =
+            vec![Term { hz, sin: 1.0, cos: 0.0 }, Term { hz: 2.0 * hz, sin: 0.0, cos: 0.5 }];
+        let curve = Curve::Harmonics(Harmonics { joints: vec![Series { offset: 0.0, terms }] });
+        let found = extremes(&curve, 0, 10.0);
+        assert!((found.lowest.value + 1.5).abs() < 1e-14, "{found:?}");
+        assert!((found.highest.value - 0.75).abs() < 1e-14, "{found:?}");
+        // w cos (1 - 2 s) is largest where 4 s² - s - 2 = 0.
+        let s = (1.0 - 33_f64.sqrt()) / 8.0;
+        let fastest = TAU * hz * (1.0 - s * s).sqrt() * (1.0 - 2.0 * s);
+        assert!((found.fastest.value.abs() - fastest).abs() < 1e-12, "{found:?}");
+    }
+}

@@ -1,0 +1,25 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::ByJoint;
+use crate::{MotionError, knots::Knots, motion::Part, site::Site};
+
+/// Rest in a posture.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Hold {
+    /// Positions of the joints.
+    #[serde(default, skip_serializing_if = "ByJoint::is_empty")]
+    pub posture_rad: ByJoint,
+    /// Length of the motion (s).
+    pub duration_s: f64,
+}
+
+impl Hold {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+        site.duration(self.duration_s)?;
+        let mut knots = Knots::at_rest(site.posture("posture_rad", &self.posture_rad)?);
+        knots.hold(self.duration_s);
+        site.evenly(knots)
+    }
+}

@@ -1,0 +1,63 @@
+use super::MotionSpec;
+use crate::{
+    MotionError,
+    knots::{Knots, glide_s},
+    motion::Part,
+    site::Site,
+};
+
+/// Speed of a move between two motions, as a share of a joint's velocity limit.
+const SPEED_SHARE: f64 = 0.5;
+/// Its speed at joints without a limit (rad/s or m/s).
+const SPEED: f64 = 1.0;
+/// Its acceleration (rad/s² or m/s²).
+const ACCELERATION: f64 = 2.0;
+/// The shortest move (s).
+const SHORTEST_S: f64 = 0.5;
+
+/// The parts of all motions with the moves between them.
+///
+/// A move is one polynomial of degree five from the last state of a motion to the first of
+/// the next, so that position, velocity and acceleration are continuous. Where both are
+/// the same state there is none.
+pub(super) fn parts(specs: &[MotionSpec], site: &Site) -> Result<Vec<Part>, MotionError> {
+    if specs.is_empty() {
+        let expected = "at least 1 was".to_owned();
+        return Err(MotionError::WrongLength { key: site.key(&[]), found: 0, expected });
+    }
+    let mut parts: Vec<Part> = Vec::new();
+    for (k, spec) in specs.iter().enumerate() {
+        let site = site.within(&k.to_string());
+        let next = spec.parts(&site)?;
+        if let (Some(last), Some(first)) = (parts.last(), next.first())
+            && let Some(knots) = join(&site, last, first)
+        {
+            parts.extend(site.evenly(knots)?);
+        }
+        parts.extend(next);
+    }
+    let duration: f64 = parts.iter().map(|part| part.clock.duration_s()).sum();
+    site.short_enough(&[], duration)?;
+    Ok(parts)
+}
+
+/// Speeds of a move, joint by joint (rad/s or m/s).
+fn speeds(site: &Site) -> Vec<f64> {
+    let speed =
+        |index| site.joint(index).limits.velocity.map_or(SPEED, |limit| SPEED_SHARE * limit);
+    (0..site.robot.joint_count()).map(speed).collect()
+}
+
+/// The move from the end of one part to the start of the next.
+fn join(site: &Site, last: &Part, first: &Part) -> Option<Knots> {
+    let joints = 0..site.robot.joint_count();
+    let ends = joints.clone().map(|j| last.at(j, last.clock.duration_s())).collect::<Vec<_>>();
+    let starts = joints.map(|j| first.at(j, 0.0)).collect::<Vec<_>>();
+    if ends == starts {
+        return None;
+    }
+    let pairs = ends.iter().zip(&starts).zip(speeds(site));
+    let needed = pairs.map(|((end, start), v)| glide_s((end[0] - start[0]).abs(), v, ACCELERATION));
+    let duration_s = needed.fold(SHORTEST_S, f64::max);
+    Some(Knots::new(vec![0.0, duration_s], vec![ends, starts]))
+}
