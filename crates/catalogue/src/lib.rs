@@ -5,11 +5,20 @@
 //! effort = torque_gain (M qdd + C qd + g + sum of effects) + torque_offset
 //! ```
 //!
-//! `effects` holds the model side of every entry; a truth side may be injected
+//! `q` and `effort` are what a log reports. An equation says what its effect adds to the
+//! right side, for a log whose effort is what was asked of the drive; `tau` in it is the
+//! torque of everything else. What resists a positive motion is positive.
+//!
+//! `effects` holds the model side of an entry; a truth side may be injected
 //! elsewhere under the same name.
 
+mod drive;
 mod entry;
+mod friction;
 mod kind;
+mod load;
+mod sensing;
+mod transmission;
 
 pub use entry::{Entry, Parameter};
 pub use kind::{EffectKind, UnknownEffect};

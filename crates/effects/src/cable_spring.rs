@@ -1,4 +1,4 @@
-use catalogue::EffectKind;
+use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
@@ -14,6 +14,12 @@ pub(crate) struct CableSpring;
 impl Explain for CableSpring {
     fn kind(&self) -> EffectKind {
         EffectKind::CableSpring
+    }
+
+    /// Stiffness and rest: the cubic term and the loop are left out.
+    fn parameters(&self) -> &'static [Parameter] {
+        let all = self.kind().entry().parameters;
+        all.get(..2).unwrap_or(all)
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -1,4 +1,4 @@
-use catalogue::EffectKind;
+use catalogue::{EffectKind, Parameter};
 use robot::Robot;
 
 use crate::{Frame, Motion, Place, Scale};
@@ -35,6 +35,11 @@ pub trait Explain: Sync {
     /// The effect.
     fn kind(&self) -> EffectKind;
 
+    /// Those of its parameters that it finds.
+    fn parameters(&self) -> &'static [Parameter] {
+        self.kind().entry().parameters
+    }
+
     /// Where it could act in this robot.
     fn places(&self, robot: &Robot) -> Vec<Place>;
 
@@ -58,22 +63,6 @@ pub trait Explain: Sync {
 
     /// The parameters that a user reads, from the robot before and after.
     fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
-}
-
-/// The model side of `kind`.
-pub fn model(kind: EffectKind) -> &'static dyn Explain {
-    match kind {
-        EffectKind::ViscousFriction => &crate::viscous_friction::ViscousFriction,
-        EffectKind::CoulombFriction => &crate::coulomb_friction::CoulombFriction,
-        EffectKind::AsymmetricFriction => &crate::asymmetric_friction::AsymmetricFriction,
-        EffectKind::TorqueOffset => &crate::torque_offset::TorqueOffset,
-        EffectKind::RotorInertia => &crate::rotor_inertia::RotorInertia,
-        EffectKind::InertialParameters => &crate::inertial_parameters::InertialParameters,
-        EffectKind::Payload => &crate::payload::Payload,
-        EffectKind::CableSpring => &crate::cable_spring::CableSpring,
-        EffectKind::GravityDirection => &crate::gravity_direction::GravityDirection,
-        EffectKind::TorqueConstant => &crate::torque_constant::TorqueConstant,
-    }
 }
 
 /// No bounds on any of `count` weights.

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::{Column, Explain, Frame, Motion, Quantity, Scale, model};
+use crate::{Column, Explain, Frame, MODELLED, Motion, Quantity, Scale, model};
 
 /// Where an effect acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -15,6 +15,8 @@ pub enum Place {
 }
 
 /// An effect at a place: one thing that could be wrong.
+///
+/// An effect without a model has no columns and changes no robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Hypothesis {
     /// The effect.
@@ -23,48 +25,50 @@ pub struct Hypothesis {
     pub place: Place,
 }
 
-/// Everything in the catalogue that could be wrong with this robot.
+/// Every effect with a model at every place where it could act in this robot.
 pub fn hypotheses(robot: &Robot) -> Vec<Hypothesis> {
     let at = |kind| {
-        let places = model(kind).places(robot);
+        let places = model(kind).map(|m| m.places(robot)).unwrap_or_default();
         places.into_iter().map(move |place| Hypothesis { kind, place })
     };
-    EffectKind::ALL.into_iter().flat_map(at).collect()
+    MODELLED.into_iter().flat_map(at).collect()
 }
 
 impl Hypothesis {
-    fn model(self) -> &'static dyn Explain {
-        model(self.kind)
+    fn model(self) -> Option<&'static dyn Explain> {
+        model(self.kind).ok()
     }
 
     /// See [`Explain::columns`].
     pub fn columns(self, motion: &Motion) -> Vec<Column> {
-        self.model().columns(self.place, motion)
+        self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default()
     }
 
     /// See [`Explain::prior`].
     pub fn prior(self, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        self.model().prior(self.place, robot, scale)
+        self.model().map(|m| m.prior(self.place, robot, scale)).unwrap_or_default()
     }
 
     /// See [`Explain::bounds`].
     pub fn bounds(self, robot: &Robot) -> Vec<(f64, f64)> {
-        self.model().bounds(self.place, robot)
+        self.model().map(|m| m.bounds(self.place, robot)).unwrap_or_default()
     }
 
     /// See [`Explain::admissible`].
     pub fn admissible(self, robot: &Robot, weights: &[f64]) -> bool {
-        self.model().admissible(self.place, robot, weights)
+        self.model().is_some_and(|m| m.admissible(self.place, robot, weights))
     }
 
     /// See [`Explain::extend`].
     pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame) {
-        self.model().extend(self.place, robot, weights, frame);
+        if let Some(model) = self.model() {
+            model.extend(self.place, robot, weights, frame);
+        }
     }
 
     /// See [`Explain::quantities`].
     pub fn quantities(self, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        self.model().quantities(self.place, nominal, extended)
+        self.model().map(|m| m.quantities(self.place, nominal, extended)).unwrap_or_default()
     }
 
     /// Whether `self` and `other` are two names for changes of the same numbers,

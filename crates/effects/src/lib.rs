@@ -1,11 +1,12 @@
-//! The model side of every effect: the columns that explain it in a log, what its
+//! The model side of the effects: the columns that explain it in a log, what its
 //! weights mean, and its place in the robot's description.
 //!
 //! ```text
 //! effort - nominal effort = sum over hypotheses of columns(motion) weights + noise
 //! ```
 //!
-//! One file an effect, under the name it has in `catalogue`; [`model`] finds it.
+//! One file an effect, under the name it has in `catalogue`; [`model`] finds it, or
+//! says what an effect without one would need.
 
 mod asymmetric_friction;
 mod cable_spring;
@@ -14,6 +15,7 @@ mod explain;
 mod gravity_direction;
 mod hypothesis;
 mod inertial_parameters;
+mod model;
 mod motion;
 mod payload;
 mod rotor_inertia;
@@ -22,7 +24,8 @@ mod torque_constant;
 mod torque_offset;
 mod viscous_friction;
 
-pub use explain::{Column, Explain, Part, Quantity, model};
+pub use explain::{Column, Explain, Part, Quantity};
 pub use hypothesis::{Hypothesis, Place, hypotheses};
+pub use model::{MODELLED, model};
 pub use motion::{Frame, Motion};
 pub use scale::Scale;

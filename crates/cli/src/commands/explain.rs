@@ -1,5 +1,5 @@
 use anstyle::Style;
-use catalogue::{EffectKind, Entry};
+use catalogue::{EffectKind, Entry, Parameter};
 
 use crate::Outcome;
 use crate::error::CliError;
@@ -15,7 +15,7 @@ pub struct Arguments {
 /// Prints what is known about one effect, or the list of all.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let text = match &arguments.effect {
-        Some(name) => explanation(&find(name)?.entry()),
+        Some(name) => explanation(find(name)?.entry()),
         None => list(),
     };
     print(&text)?;
@@ -45,31 +45,85 @@ fn is_near(typed: &str, name: &str) -> bool {
 fn list() -> String {
     let rows = EffectKind::ALL.map(|kind| {
         let entry = kind.entry();
-        vec![kind.name().to_owned(), entry.equation.to_owned()]
+        let named = if effects::model(kind).is_ok() { "yes" } else { "no" };
+        vec![kind.name().to_owned(), named.to_owned(), entry.equation.to_owned()]
     });
-    table(&["effect", "adds to the torque"], rows)
+    table(&["effect", "diagnosed", "adds to the torque"], rows)
 }
 
 fn explanation(entry: &Entry) -> String {
     let bold = Style::new().bold();
     let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.words(), entry.kind.name());
     let mut line = |name: &str, value: &str| {
-        text.push_str(&format!("  {name:<16}{value}\n"));
+        text.push_str(&format!("  {name:<19}{value}\n"));
     };
     line("adds", entry.equation);
     for parameter in entry.parameters {
-        let unit = match (report::unit(parameter.unit), report::unit(parameter.unit_prismatic)) {
-            (rotation, translation) if rotation == translation => rotation,
-            (rotation, translation) => format!("{rotation}, or {translation}"),
-        };
-        let unit = if unit.is_empty() { unit } else { format!(" ({unit})") };
-        line(parameter.name, &format!("{}{unit}", parameter.meaning));
+        line(parameter.name, &meaning(parameter));
     }
     line("shows as", entry.signature);
     line("needs", entry.needs);
     let rivals: Vec<&str> = entry.confused_with.iter().map(|k| k.words()).collect();
     line("confused with", &rivals.join(", "));
     line("told apart by", entry.told_apart_by);
+    line("diagnosed", &diagnosed(entry));
     line("source", entry.source);
     text
+}
+
+/// What a parameter is, its unit, and its range on an arm of known size.
+fn meaning(parameter: &Parameter) -> String {
+    let unit = report::unit(parameter.unit);
+    let units = match report::unit(parameter.unit_prismatic) {
+        same if same == unit => unit.clone(),
+        prismatic if unit.is_empty() => format!("on a slide {prismatic}"),
+        prismatic => format!("{unit}, or {prismatic}"),
+    };
+    let units = if units.is_empty() { units } else { format!(" ({units})") };
+    let (low, high) = parameter.typical;
+    let [low, high] = [low, high].map(|end| (end * 1e4).round() / 1e4);
+    format!("{}{units}: {low} to {high} on an arm like the WAM", parameter.meaning)
+}
+
+/// Whether the diagnosis can name the effect, with what, or why not.
+fn diagnosed(entry: &Entry) -> String {
+    match effects::model(entry.kind) {
+        Ok(model) if model.parameters().len() == entry.parameters.len() => "yes".to_owned(),
+        Ok(model) => {
+            let found: Vec<&str> = model.parameters().iter().map(|p| p.name).collect();
+            format!("yes, {} only", found.join(" and "))
+        }
+        Err(reason) => {
+            format!(
+                "no: {reason}\n{:21}what it leaves has no name, or a wrong one of the above",
+                ""
+            )
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_effect_says_what_it_is_made_of_and_whether_it_is_diagnosed() {
+        for kind in EffectKind::ALL {
+            let text = explanation(kind.entry());
+            for parameter in kind.entry().parameters {
+                assert!(text.contains(&meaning(parameter)), "{} in\n{text}", parameter.name);
+            }
+            let answer = effects::model(kind).map_or_else(|reason| reason, |_| "yes");
+            assert!(text.contains(answer), "{answer} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn a_range_stands_beside_its_unit_and_a_partial_diagnosis_says_what_it_finds() {
+        let spring = EffectKind::CableSpring.entry();
+        let expected = "torque per unit of displacement (N·m/rad, or N/m): \
+                        0.1 to 2 on an arm like the WAM";
+        assert_eq!(spring.parameters.first().map(meaning).as_deref(), Some(expected));
+        assert_eq!(diagnosed(spring), "yes, stiffness and rest only");
+    }
 }

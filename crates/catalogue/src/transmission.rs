@@ -1,0 +1,93 @@
+//! Transmission: what lies between motor and link.
+
+use crate::EffectKind::{
+    ActuatorDelay, ActuatorLag, Backlash, CoulombFriction, DifferentialCoupling,
+    InertialParameters, JointElasticity, PreslidingFriction, RotorInertia, StribeckFriction,
+    TorqueRipple,
+};
+use crate::Entry;
+use crate::entry::{POSITION, TORQUE, always, parameter};
+
+pub(crate) const BACKLASH: Entry = Entry {
+    kind: Backlash,
+    name: "backlash",
+    words: "backlash",
+    equation: "no torque while |theta - q| < gap / 2, theta the position of the motor",
+    parameters: &[parameter("gap", POSITION, "play from one end to the other", (0.0002, 0.003))],
+    signature: "where the load changes sign, the motor moves by the gap without the link",
+    needs: "motion in which the torque carried changes sign",
+    confused_with: &[CoulombFriction, StribeckFriction, PreslidingFriction, JointElasticity],
+    told_apart_by: "reversals without load, and under a gravity load that keeps the gap closed",
+    source: "Nordin & Gutman 2002",
+};
+
+pub(crate) const JOINT_ELASTICITY: Entry = Entry {
+    kind: JointElasticity,
+    name: "joint_elasticity",
+    words: "joint elasticity",
+    equation: "stiffness (theta - q) + damping (thetad - qd) at the link, theta the motor's",
+    parameters: &[
+        parameter("stiffness", ["N m/rad", "N/m"], "torque per unit of twist", (320.0, 5.9e4)),
+        parameter(
+            "damping",
+            ["N m s/rad", "N s/m"],
+            "torque per unit of the speed of twist",
+            (0.06, 30.0),
+        ),
+    ],
+    signature: "an antiresonance and a resonance; motor and link part with the torque",
+    needs: "motion up to the resonance, or a second encoder at the link",
+    confused_with: &[PreslidingFriction, Backlash, TorqueRipple, ActuatorLag, ActuatorDelay],
+    told_apart_by: "a chirp from 1 to 60 Hz, with and without a payload: resonances move",
+    source: "Spong 1987",
+};
+
+pub(crate) const ROTOR_INERTIA: Entry = Entry {
+    kind: RotorInertia,
+    name: "rotor_inertia",
+    words: "rotor inertia",
+    equation: "rotor_inertia qdd",
+    parameters: &[parameter(
+        "inertia",
+        ["kg m^2", "kg"],
+        "inertia of rotor and gear seen at the joint",
+        (0.035, 0.21),
+    )],
+    signature: "the residual follows the joint's own acceleration, whatever the pose",
+    needs: "acceleration in poses with different mass matrix",
+    confused_with: &[InertialParameters],
+    told_apart_by: "the same acceleration with the arm stretched and folded",
+    source: "Featherstone 2008",
+};
+
+pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
+    kind: DifferentialCoupling,
+    name: "differential_coupling",
+    words: "differential coupling",
+    equation: "T^T (level_sum, level_difference) sign(T (qd_a, qd_b)), T = (1 ratio; 1 -ratio)",
+    parameters: &[
+        parameter(
+            "ratio",
+            always("1"),
+            "turn of a motor by joint b over that by joint a",
+            (0.5, 1.0),
+        ),
+        parameter(
+            "level_sum",
+            TORQUE,
+            "friction of the motor that turns with the sum, at joint a",
+            (0.15, 1.3),
+        ),
+        parameter(
+            "level_difference",
+            TORQUE,
+            "friction of the motor that turns with the difference, at joint a",
+            (0.15, 1.3),
+        ),
+    ],
+    signature: "friction at one joint of a pair changes when the other begins to move",
+    needs: "both joints of a differential pair in motion, together and alone",
+    confused_with: &[CoulombFriction],
+    told_apart_by: "each joint alone, then both so that one motor turns and one rests",
+    source: "virtual work over the differential",
+};
