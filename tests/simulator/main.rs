@@ -1,5 +1,24 @@
 //! The simulated arm against closed forms and other programs.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+mod asymmetric_friction;
+mod backlash;
+mod cable_spring;
 mod coulomb_friction;
+mod differential_coupling;
+mod engine;
+mod external_disturbance;
+mod friction_temperature_drift;
+mod gravity_direction;
+mod inertial_parameters;
+mod joint_elasticity;
+mod load_dependent_friction;
+mod mujoco;
+mod payload;
+mod position_dependent_friction;
+mod presliding_friction;
 mod rig;
+mod rotor_inertia;
+mod stribeck_friction;
+mod truth;
+mod viscous_friction;

@@ -124,3 +124,22 @@ pub fn run(
     }
     Ok(rows)
 }
+
+/// The same with every step of the engine in the rows.
+pub const FINE: Stepping = Stepping { steps_per_period: 1, ..STEPPING };
+
+/// Times (s) at which a value of the rows passes zero upwards, to a fraction of a row.
+pub fn crossings(rows: &[Row], value: impl Fn(&Row) -> f64) -> Vec<f64> {
+    let pass = |w: &[Row]| {
+        let (a, b) = (value(&w[0]), value(&w[1]));
+        let share = a / (a - b);
+        (a < 0.0 && b >= 0.0).then(|| w[0].time_s + share * (w[1].time_s - w[0].time_s))
+    };
+    rows.windows(2).filter_map(pass).collect()
+}
+
+/// Mean time (s) from one of the times to the next.
+pub fn period(times: &[f64]) -> f64 {
+    assert!(times.len() > 3, "{times:?}");
+    (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64
+}

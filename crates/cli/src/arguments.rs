@@ -1,6 +1,6 @@
 use clap::{Parser, Subcommand};
 
-use crate::commands::{diagnose, explain, log_info, robot_check};
+use crate::commands::{diagnose, explain, log_info, replay, robot_check, simulate};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -29,6 +29,17 @@ The output folder holds
   diagnosis.json  the whole answer for programs
   extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it";
 
+const SIMULATE_EXAMPLES: &str = "\
+Examples:
+  plumbline simulate scenarios/effects/coulomb_friction.toml --out out
+  plumbline simulate scenarios/hidden.toml --out out --seed 7
+  plumbline simulate scenarios/hidden.toml --out out --set sensors.log_rate_hz=250.0
+
+The output folder holds
+  NAME.parquet   the log of each run
+  scenario.toml  the scenario with everything it extends
+  truth.json     what was put in: for scoring, never for a diagnosis";
+
 /// Shows what a simulation gets wrong in a recorded log, names the cause, extends the
 /// model and measures the gain.
 #[derive(Debug, Parser)]
@@ -53,6 +64,14 @@ pub enum Command {
     Log(LogCommand),
     /// Explains an effect by its name; lists all effects without one
     Explain(explain::Arguments),
+    /// Simulates the runs of a scenario: logs, and apart from them what was put in
+    #[command(after_help = format!("{SIMULATE_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Simulate(simulate::Arguments),
+    /// Compares logs with a simulation: motion under their torque, torque along their motion
+    #[command(after_help = EXIT_CODES)]
+    Replay(replay::Arguments),
+    /// Prints the JSON schema of scenario files
+    Schema,
 }
 
 /// Commands on a robot description.

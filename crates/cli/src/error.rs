@@ -3,9 +3,11 @@ use std::path::{Path, PathBuf};
 
 use anstyle::{AnsiColor, Style};
 use diagnosis::DiagnosisError;
+use document::{Coloring, DocumentError};
 use logs::LogError;
 use report::ReportError;
 use robot::RobotError;
+use simulator::SimulatorError;
 
 /// Why a command did not run to its end.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +24,20 @@ pub enum CliError {
     /// The report cannot be made or written.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A scenario cannot be read.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// A scenario cannot be simulated.
+    #[error(transparent)]
+    Simulator(#[from] SimulatorError),
+    /// The output folder cannot be made.
+    #[error("{}: {reason}, a folder to write into was expected", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What was found.
+        reason: String,
+    },
     /// The robot with the findings is none that can be described.
     #[error("the extended model cannot be written: {0}")]
     Extended(RobotError),
@@ -56,7 +72,8 @@ impl CliError {
     /// 2 for usage, 3 for data that cannot be used.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::UnknownEffect { .. } | Self::Output(_) => 2,
+            Self::UnknownEffect { .. } | Self::Output(_) | Self::Folder { .. } => 2,
+            Self::Document(_) | Self::Simulator(_) => 3,
             Self::Report(ReportError::Unreadable { .. }) => 3,
             Self::Report(_) | Self::Diagnosis(DiagnosisError::Setting { .. }) => 2,
             Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => match log {
@@ -102,6 +119,10 @@ impl CliError {
 
     /// Prints the error, and advice where there is any, on the standard error.
     pub fn print(&self) {
+        if let Self::Document(error) | Self::Simulator(SimulatorError::Scenario(error)) = self {
+            anstream::eprintln!("{}", error.render(Coloring::Ansi));
+            return;
+        }
         let red: Style = AnsiColor::Red.on_default().bold();
         let cyan: Style = AnsiColor::Cyan.on_default().bold();
         anstream::eprintln!("{red}error:{red:#} {self}");

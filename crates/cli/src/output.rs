@@ -55,3 +55,15 @@ pub fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> St
 pub fn shown(path: &Path) -> String {
     path.display().to_string()
 }
+
+/// The output folder, made before the work so that none is lost.
+///
+/// # Errors
+///
+/// [`CliError::Folder`].
+pub fn create_folder(folder: &Path) -> Result<(), CliError> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let reason = if folder.is_file() { "it is a file".to_owned() } else { error.to_string() };
+        CliError::Folder { path: folder.to_owned(), reason }
+    })
+}

@@ -154,7 +154,7 @@ impl Arm {
                 }
                 None => {
                     let m = joint.motor;
-                    efforts.motor[i] - dry_shift(efforts, i) + self.constraint[m]
+                    motor_effort(efforts, i) + self.constraint[m]
                         - self.load.damping[m] * self.engine.qd()[m]
                         - joint.rotor_inertia * qdd[m]
                 }
@@ -208,7 +208,7 @@ impl Drive {
     fn add(&self, engine: &Engine, efforts: &Efforts, i: usize, load: &mut Load) {
         let deflection = self.deflection.map_or(0.0, |d| engine.q()[d]);
         let link = efforts.link[i] + self.spring(engine.q()[self.motor] + deflection);
-        load.effort[self.motor] = efforts.motor[i] + link - dry_shift(efforts, i);
+        load.effort[self.motor] = motor_effort(efforts, i) + link;
         load.dry[self.motor] = (0.5 * (efforts.dry_forward[i] + efforts.dry_backward[i])).max(0.0);
         load.damping[self.motor] = efforts.viscous[i].max(0.0);
         let Some(d) = self.deflection else { return };
@@ -225,12 +225,13 @@ impl Drive {
     }
 }
 
-/// Half of what the level of dry friction is higher in the positive direction (N m or N).
+/// What turns motor `i`, apart from the engine's own friction (N m or N).
 ///
-/// With the mean of both levels as dry friction, a torque of this size against the positive
-/// direction makes the two levels, at rest as well as in motion.
-fn dry_shift(efforts: &Efforts, i: usize) -> f64 {
-    0.5 * (efforts.dry_forward[i] - efforts.dry_backward[i])
+/// That friction has the mean of both levels; half of what the forward one is higher, as a torque
+/// against the positive direction, makes the two of it, at rest as well as in motion.
+fn motor_effort(efforts: &Efforts, i: usize) -> f64 {
+    let shift = 0.5 * (efforts.dry_forward[i] - efforts.dry_backward[i]);
+    efforts.motor[i] + efforts.bristles[i] - shift
 }
 
 impl Transmission {

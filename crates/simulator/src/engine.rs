@@ -1,4 +1,4 @@
-use nalgebra::{DVector, Isometry3, SymmetricEigen, Unit, UnitQuaternion, Vector3};
+use nalgebra::{DVector, Isometry3, Rotation3, SymmetricEigen, Unit, UnitQuaternion, Vector3};
 use rapier3d_f64::parry::mass_properties::MassProperties;
 use rapier3d_f64::prelude::{
     ColliderSet, GenericJoint, JointAxesMask, Multibody, MultibodyJointHandle, PhysicsWorld, Pose,
@@ -337,7 +337,8 @@ fn mass_properties(inertia: &Inertia) -> MassProperties {
     if eigen.eigenvectors.determinant() < 0.0 {
         eigen.eigenvectors.neg_mut();
     }
-    let frame = UnitQuaternion::from_matrix(&eigen.eigenvectors).coords;
+    let axes = Rotation3::from_matrix_unchecked(eigen.eigenvectors);
+    let frame = UnitQuaternion::from_rotation_matrix(&axes).coords;
     MassProperties::with_principal_inertia_frame(
         vector(&inertia.com_in_link),
         inertia.mass,

@@ -1,3 +1,5 @@
+use document::DocumentError;
+use logs::LogError;
 use robot::MachineFault;
 
 /// What keeps an arm from being simulated.
@@ -44,7 +46,55 @@ pub enum SimulatorError {
         /// Longest step that would do (ms).
         longest_step_ms: f64,
     },
+    /// A value of the scenario cannot be meant.
+    #[error(transparent)]
+    Scenario(#[from] DocumentError),
+    /// A log cannot be read or written.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// A record is shorter than the window it is to be replayed in.
+    #[error(
+        "run {run}: {found_s:.3} s are left of it, at least a window of {window_s} s was expected"
+    )]
+    TooShort {
+        /// Name of the run.
+        run: String,
+        /// What is left of it once it is filtered (s).
+        found_s: f64,
+        /// The window (s).
+        window_s: f64,
+    },
+    /// An effect cannot act on the robot.
+    #[error("effect {effect}, {key}: {found}")]
+    Effect {
+        /// Name of the effect.
+        effect: String,
+        /// Key of the value at fault.
+        key: String,
+        /// What was found and what was expected.
+        found: String,
+    },
+    /// No effect could be drawn.
+    #[error(
+        "hidden effects: none of {tried} draws gave a torque between {least} and {largest} of its joint's, the last was {last}"
+    )]
+    NothingDrawn {
+        /// Number of draws.
+        tried: usize,
+        /// Least share of the joint's torque.
+        least: f64,
+        /// Largest share.
+        largest: f64,
+        /// The last draw and what it gave.
+        last: String,
+    },
     /// A joint did what no joint may.
-    #[error("the simulation ended early: {0}")]
-    Fault(#[from] MachineFault),
+    #[error("run {run} ended early: {fault}")]
+    Fault {
+        /// Name of the run.
+        run: String,
+        /// What happened.
+        #[source]
+        fault: MachineFault,
+    },
 }

@@ -40,6 +40,9 @@ pub struct Efforts {
     pub dry_backward: Vec<f64>,
     /// Viscous friction at the motor (N m s/rad or N s/m).
     pub viscous: Vec<f64>,
+    /// Friction torque on the motor that an effect works out itself, as from the deflection of
+    /// bristles, positive in the positive direction (N m or N).
+    pub bristles: Vec<f64>,
     /// Forces on links.
     pub(crate) pushes: Vec<Push>,
 }
@@ -53,7 +56,8 @@ impl Efforts {
             link: zeros.clone(),
             dry_forward: zeros.clone(),
             dry_backward: zeros.clone(),
-            viscous: zeros,
+            viscous: zeros.clone(),
+            bristles: zeros,
             pushes: Vec::new(),
         }
     }
@@ -62,6 +66,14 @@ impl Efforts {
     pub fn add_dry(&mut self, joint: usize, level: f64) {
         self.dry_forward[joint] += level;
         self.dry_backward[joint] += level;
+    }
+
+    /// Scales all friction of a joint that stands here.
+    pub fn scale_friction(&mut self, joint: usize, factor: f64) {
+        let Self { dry_forward, dry_backward, viscous, bristles, .. } = self;
+        for friction in [dry_forward, dry_backward, viscous, bristles] {
+            friction[joint] *= factor;
+        }
     }
 
     /// Adds a force (N, in the frame of the base) on a link at a point of it (m, in its frame).

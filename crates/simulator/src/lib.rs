@@ -9,11 +9,16 @@
 //! what explains a log and what made it check each other.
 
 mod arm;
+mod delay_line;
+mod draw;
 pub mod effects;
 mod engine;
 mod error;
 mod inject;
 mod plant;
+mod replay;
+mod run;
+pub mod scenario;
 mod sensors;
 mod simulator;
 mod truth;
@@ -21,6 +26,8 @@ mod truth;
 pub use error::SimulatorError;
 pub use inject::{Efforts, Inject, Moment};
 pub use plant::{Plant, Transmission};
+pub use replay::{ForwardReplay, MotionReplay, replay_motion, replay_torque};
+pub use run::{Simulation, simulate, write};
 pub use sensors::{EffortSource, JointSensor, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};
 pub use truth::Truth;

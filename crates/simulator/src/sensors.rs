@@ -2,9 +2,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use robot::Reading;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Where position is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum PositionSide {
     /// At the motor, before the transmission.
     #[default]
@@ -14,7 +17,8 @@ pub enum PositionSide {
 }
 
 /// What the log's effort is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum EffortSource {
     /// What the controller asked for.
     #[default]
@@ -26,7 +30,8 @@ pub enum EffortSource {
 }
 
 /// How velocity comes to be.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum VelocitySource {
     /// As it is, without error.
     Ideal,

@@ -278,6 +278,7 @@ impl Joint {
         efforts.dry_forward[i] = self.dry_forward;
         efforts.dry_backward[i] = self.dry_backward;
         efforts.viscous[i] = self.viscous;
+        efforts.bristles[i] = 0.0;
     }
 
     fn of(link: &robot::Link) -> Self {

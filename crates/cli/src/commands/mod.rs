@@ -3,4 +3,7 @@
 pub mod diagnose;
 pub mod explain;
 pub mod log_info;
+pub mod replay;
 pub mod robot_check;
+pub mod schema;
+pub mod simulate;

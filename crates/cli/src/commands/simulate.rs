@@ -1,0 +1,96 @@
+use std::path::{Path, PathBuf};
+
+use diagnosis::Progress;
+use document::Document;
+use logs::Run;
+use simulator::scenario::Scenario;
+
+use crate::Outcome;
+use crate::error::CliError;
+use crate::output::{create_folder, print, shown, table};
+use crate::progress::Bar;
+
+/// Arguments of `simulate`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The scenario (TOML)
+    scenario: PathBuf,
+    /// Folder for the logs, scenario.toml and truth.json
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Seed of every random draw, instead of the scenario's
+    #[arg(long)]
+    seed: Option<u64>,
+    /// A value instead of the scenario's, such as effect.0.coulomb_friction.level_nm=0.6
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Write the logs as CSV instead of Parquet
+    #[arg(long)]
+    csv: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Simulates every run of a scenario and writes the logs and, apart from them, the truth.
+pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    let mut document = Document::read(&arguments.scenario)?;
+    for assignment in &arguments.set {
+        document.set(assignment)?;
+    }
+    if let Some(seed) = arguments.seed {
+        document.set(&format!("seed={seed}"))?;
+    }
+    let scenario = Scenario::from_document(&document)?;
+    create_folder(&arguments.out)?;
+    let bar = Bar::new();
+    let seconds: f64 = scenario.runs().iter().map(|run| run.motion.duration_s()).sum();
+    if !arguments.quiet {
+        bar.stage("simulating (seconds of motion)", seconds as usize);
+    }
+    let simulation = simulator::simulate(&scenario, &|| {
+        if !arguments.quiet {
+            bar.step();
+        }
+    });
+    bar.finish();
+    let simulation = simulation?;
+    simulator::write(&arguments.out, &scenario, &simulation, arguments.csv)?;
+    if !arguments.quiet {
+        print(&summary(arguments, &scenario, &simulation.runs))?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// What was written. Says nothing of the effects: whoever diagnoses the logs has not seen them.
+fn summary(arguments: &Arguments, scenario: &Scenario, runs: &[Run]) -> String {
+    let extension = if arguments.csv { "csv" } else { "parquet" };
+    let rows = runs.iter().map(|run| {
+        let duration = run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
+        let file = arguments.out.join(format!("{}.{extension}", run.name));
+        vec![run.name.clone(), run.time.len().to_string(), format!("{duration:.1}"), shown(&file)]
+    });
+    let runs = table(&["run", ">rows", ">seconds", "log"], rows);
+    let truth = shown(&arguments.out.join("truth.json"));
+    let logs: Vec<String> =
+        runs_files(arguments, scenario, extension).iter().map(|p| shown(p)).collect();
+    format!(
+        "{runs}\nWhat was put in is in {truth} alone.\nTo find it: plumbline diagnose --robot {} --log {} --out {}\n",
+        shown(&near(scenario.robot_file())),
+        logs.join(" "),
+        shown(&arguments.out.join("diagnosis"))
+    )
+}
+
+/// The file as seen from here, without detours.
+fn near(file: &Path) -> PathBuf {
+    let whole = file.canonicalize().unwrap_or_else(|_| file.to_owned());
+    let here = std::env::current_dir().and_then(|here| here.canonicalize());
+    let inside = here.ok().and_then(|here| whole.strip_prefix(here).ok().map(Path::to_owned));
+    inside.unwrap_or(whole)
+}
+
+fn runs_files(arguments: &Arguments, scenario: &Scenario, extension: &str) -> Vec<PathBuf> {
+    let file = |name: &str| arguments.out.join(format!("{name}.{extension}"));
+    scenario.runs().iter().map(|run| file(&run.name)).collect()
+}

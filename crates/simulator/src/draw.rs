@@ -1,0 +1,194 @@
+use catalogue::EffectKind;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use crate::effects::{EffectSpec, Surroundings};
+use crate::run::{Following, Row, follow, mixed, simulator};
+use crate::scenario::{HiddenSpec, Scenario, ScenarioRun};
+use crate::{EffortSource, PositionSide, Sensors, SimulatorError, VelocitySource};
+
+/// Longest part of the first run that sizes are measured on (s).
+const MEASURED_S: f64 = 10.0;
+
+/// Draws of one effect before giving up.
+const TRIES: usize = 40;
+
+/// Corrections of a size: the torque of most effects is in proportion to it, a few need more.
+const CORRECTIONS: usize = 6;
+
+/// How close to the size asked for is close enough.
+const TOLERANCE: f64 = 0.1;
+
+/// The effects that a scenario hides: kind, joint and size drawn from its seed.
+///
+/// A size is drawn log-uniformly as a share of torque,
+///
+/// ```text
+/// share = max over joints of rms(tau - tau_without) / rms(tau_without)
+/// ```
+///
+/// and the effect's parameter is then corrected until the simulated share is within a tenth of
+/// it. An effect that cannot have the size at the joint drawn is drawn again.
+///
+/// # Errors
+///
+/// [`SimulatorError::NothingDrawn`] after many draws, or what keeps the arm without hidden
+/// effects from being simulated.
+pub(crate) fn draw_hidden(scenario: &Scenario) -> Result<Vec<EffectSpec>, SimulatorError> {
+    let Some(hidden) = scenario.hidden() else { return Ok(Vec::new()) };
+    let seed = hidden.seed.unwrap_or_else(|| mixed(scenario.seed(), u64::MAX));
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let count = random.random_range(hidden.count[0]..=hidden.count[1]);
+    let all = EffectKind::ALL.to_vec();
+    let kinds = if hidden.from.is_empty() { &all } else { &hidden.from };
+    let bench = Bench::new(scenario)?;
+    let mut drawn: Vec<EffectSpec> = Vec::with_capacity(count);
+    for _ in 0..count {
+        drawn.push(bench.draw(hidden, kinds, &drawn, &mut random)?);
+    }
+    Ok(drawn)
+}
+
+/// A short run in which sizes are measured, without noise.
+struct Bench<'a> {
+    scenario: &'a Scenario,
+    run: ScenarioRun,
+    nominal: Vec<Row>,
+    /// Root mean square of each joint's torque.
+    torque_rms: Vec<f64>,
+}
+
+impl<'a> Bench<'a> {
+    fn new(scenario: &'a Scenario) -> Result<Self, SimulatorError> {
+        let run = scenario.runs()[0].clone();
+        let mut bench = Self { scenario, run, nominal: Vec::new(), torque_rms: Vec::new() };
+        bench.nominal = bench.rows(&[])?;
+        let joints = scenario.robot().joint_count();
+        bench.torque_rms =
+            (0..joints).map(|j| rms(bench.nominal.iter().map(|r| r.reading.effort[j]))).collect();
+        Ok(bench)
+    }
+
+    /// The run with the scenario's effects and more.
+    fn rows(&self, more: &[EffectSpec]) -> Result<Vec<Row>, SimulatorError> {
+        let scenario = self.scenario;
+        let effects = [scenario.effects(), more].concat();
+        let joints = scenario.robot().joint_count();
+        let silent = crate::JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
+        let sensors = Sensors::new(
+            PositionSide::Motor,
+            EffortSource::Commanded,
+            VelocitySource::Ideal,
+            vec![silent; joints],
+            0,
+        );
+        let stepping = scenario.stepping();
+        let mut simulator = simulator(scenario.robot(), &effects, sensors, stepping)?;
+        let (gains, robot) = (scenario.gains(), scenario.robot());
+        let following = Following { gains, robot, run: &self.run, longest_s: MEASURED_S };
+        follow(&mut simulator, &following, &|| {})
+            .map_err(|fault| SimulatorError::Fault { run: self.run.name.clone(), fault })
+    }
+
+    /// Share of torque that an effect adds; `None` if the arm runs away with it.
+    fn share(&self, effect: &EffectSpec) -> Option<f64> {
+        let rows = self.rows(std::slice::from_ref(effect)).ok()?;
+        let of = |j: usize| {
+            let pairs = rows.iter().zip(&self.nominal);
+            let added =
+                pairs.map(|(with, without)| with.reading.effort[j] - without.reading.effort[j]);
+            rms(added) / self.torque_rms[j]
+        };
+        let shares = (0..self.torque_rms.len()).filter(|&j| self.torque_rms[j] > 0.0).map(of);
+        Some(shares.fold(0.0, f64::max))
+    }
+
+    fn draw(
+        &self,
+        hidden: &HiddenSpec,
+        kinds: &[EffectKind],
+        drawn: &[EffectSpec],
+        random: &mut ChaCha8Rng,
+    ) -> Result<EffectSpec, SimulatorError> {
+        let [least, largest] = hidden.torque_share;
+        let mut last = String::new();
+        for _ in 0..TRIES {
+            let kind = kinds[random.random_range(0..kinds.len())];
+            let joint = random.random_range(0..self.torque_rms.len());
+            let goal = least * (largest / least).powf(random.random::<f64>());
+            let seed = random.random::<u64>();
+            let Some((effect, share)) = self.sized(kind, joint, goal, seed) else { continue };
+            last = format!("{kind} at {:.3} of the torque", share);
+            let truth = effect.truth();
+            let taken = drawn.iter().any(|d| {
+                let other = d.truth();
+                (other.effect, other.joint, other.link)
+                    == (truth.effect, truth.joint.clone(), truth.link.clone())
+            });
+            if !taken && (least..=largest).contains(&share) {
+                return Ok(effect);
+            }
+        }
+        Err(SimulatorError::NothingDrawn { tried: TRIES, least, largest, last })
+    }
+
+    /// An effect whose torque has a share near the goal, with the share that it has.
+    fn sized(
+        &self,
+        kind: EffectKind,
+        joint: usize,
+        goal: f64,
+        seed: u64,
+    ) -> Option<(EffectSpec, f64)> {
+        let at = self.surroundings(joint);
+        let mut asked = goal;
+        let mut best: Option<(EffectSpec, f64)> = None;
+        for _ in 0..CORRECTIONS {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let effect = EffectSpec::draw(kind, &at, asked, &mut random)?;
+            let Some(share) = effect.inject(at.robot).ok().and_then(|_| self.share(&effect)) else {
+                asked *= 0.5;
+                continue;
+            };
+            let off = |share: f64| (share / goal).ln().abs();
+            if best.as_ref().is_none_or(|(_, b)| off(share) < off(*b)) {
+                best = Some((effect, share));
+            }
+            if off(share) < TOLERANCE || share <= 0.0 {
+                break;
+            }
+            asked *= (goal / share).clamp(0.05, 20.0);
+        }
+        best
+    }
+
+    fn surroundings(&self, joint: usize) -> Surroundings<'a> {
+        let rows = &self.nominal;
+        let of = |value: &dyn Fn(&Row) -> f64| rms(rows.iter().map(value));
+        let positions = rows.iter().map(|r| r.reference.q[joint]);
+        let period_s =
+            self.scenario.stepping().step_s * self.scenario.stepping().steps_per_period as f64;
+        let rate = rows
+            .windows(2)
+            .map(|w| (w[1].reading.effort[joint] - w[0].reading.effort[joint]) / period_s);
+        Surroundings {
+            robot: self.scenario.robot(),
+            joint,
+            torque_rms: self.torque_rms[joint],
+            speed_rms: of(&|r| r.reference.qd[joint]),
+            acceleration_rms: of(&|r| r.reference.qdd[joint]),
+            range: (
+                positions.clone().fold(f64::INFINITY, f64::min),
+                positions.fold(f64::NEG_INFINITY, f64::max),
+            ),
+            torque_rate_rms: rms(rate),
+        }
+    }
+}
+
+/// Root mean square, zero of nothing.
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = values.fold((0_usize, 0.0), |(n, s), v| (n + 1, s + v * v));
+    (sum / count.max(1) as f64).sqrt()
+}

@@ -1,0 +1,56 @@
+use catalogue::EffectKind;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use robot::{Reading, Robot};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::{Inject, Truth};
+
+/// An encoder whose zero is not the joint's.
+///
+/// ```text
+/// q reported = q + offset
+/// ```
+///
+/// The controller sees it too, so the arm goes elsewhere than it was sent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EncoderOffset {
+    /// The joint.
+    pub joint: String,
+    /// Position reported at true position zero (rad; m for a prismatic joint), -10 to 10.
+    pub offset_rad: f64,
+}
+
+impl Effect for EncoderOffset {
+    const KIND: EffectKind = EffectKind::EncoderOffset;
+
+    fn truth(&self) -> Truth {
+        Truth::at_joint(Self::KIND, &self.joint, &[("offset", self.offset_rad)])
+    }
+
+    fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
+        let joint = joint_of(robot, &self.joint)?;
+        within("offset_rad", self.offset_rad, -10.0, 10.0)?;
+        Ok(Box::new(Injected { joint, offset: self.offset_rad }))
+    }
+
+    /// The torque is off by about `offset d(tau)/dq`.
+    fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
+        let offset = (share * at.torque_rms / at.torque_per_position()).min(10.0);
+        Self { joint: at.joint_name(), offset_rad: if random.random() { offset } else { -offset } }
+    }
+}
+
+struct Injected {
+    joint: usize,
+    offset: f64,
+}
+
+impl Inject for Injected {
+    fn on_reading(&mut self, reading: &mut Reading) {
+        reading.q[self.joint] += self.offset;
+    }
+}

@@ -1,0 +1,89 @@
+use std::f64::consts::TAU;
+
+use catalogue::EffectKind;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::{Efforts, Inject, Moment, Truth};
+
+/// Dry friction that varies with the position of the motor.
+///
+/// ```text
+/// friction = -level (1 + share cos(periods_per_turn q + phase)) sign(qd)
+/// ```
+///
+/// A constraint of the engine, whose level follows the position.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PositionDependentFriction {
+    /// The joint.
+    pub joint: String,
+    /// Mean level over the positions (N m; N for a prismatic joint), 0 to 1000.
+    pub level_nm: f64,
+    /// Amplitude of the variation over the mean (no unit), 0 to 1.
+    pub share: f64,
+    /// Periods in a turn of the joint (rad of phase per metre for a prismatic joint), 0 to 10000.
+    pub periods_per_turn: f64,
+    /// Phase at position zero (rad).
+    #[serde(default)]
+    pub phase_rad: f64,
+}
+
+impl Effect for PositionDependentFriction {
+    const KIND: EffectKind = EffectKind::PositionDependentFriction;
+
+    fn truth(&self) -> Truth {
+        let parameters = [
+            ("level", self.level_nm),
+            ("share", self.share),
+            ("periods_per_turn", self.periods_per_turn),
+            ("phase", self.phase_rad),
+        ];
+        Truth::at_joint(Self::KIND, &self.joint, &parameters)
+    }
+
+    fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
+        let joint = joint_of(robot, &self.joint)?;
+        within("level_nm", self.level_nm, 0.0, 1000.0)?;
+        within("share", self.share, 0.0, 1.0)?;
+        within("periods_per_turn", self.periods_per_turn, 0.0, 10_000.0)?;
+        within("phase_rad", self.phase_rad, -TAU, TAU)?;
+        Ok(Box::new(Injected {
+            joint,
+            level: self.level_nm,
+            share: self.share,
+            periods: self.periods_per_turn,
+            phase: self.phase_rad,
+        }))
+    }
+
+    /// A variation of 10 to 50 per cent with one to ten periods in a turn.
+    fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
+        Self {
+            joint: at.joint_name(),
+            level_nm: share * at.torque_rms,
+            share: random.random_range(0.1..0.5),
+            periods_per_turn: f64::from(random.random_range(1..=10_u8)),
+            phase_rad: random.random_range(0.0..TAU),
+        }
+    }
+}
+
+struct Injected {
+    joint: usize,
+    level: f64,
+    share: f64,
+    periods: f64,
+    phase: f64,
+}
+
+impl Inject for Injected {
+    fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
+        let angle = self.periods * moment.motor_q[self.joint] + self.phase;
+        efforts.add_dry(self.joint, self.level * (1.0 + self.share * angle.cos()));
+    }
+}

@@ -1,0 +1,250 @@
+use std::collections::BTreeMap;
+
+use logs::{Channels, PreparedJoint, PreparedRun, Run};
+use rayon::prelude::*;
+use robot::{Gain, Machine, MachineFault, Reading, Robot, TorqueSource};
+
+use crate::{Sensors, Simulator, SimulatorError, Stepping};
+
+/// Longest step of the engine (s).
+const STEP_S: f64 = 1e-4;
+
+/// Slowest rate of the controller that follows a recorded motion (Hz).
+const CONTROL_HZ: f64 = 500.0;
+
+/// How far a simulation drifts from a record when it is rolled forward for a while.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForwardReplay {
+    /// Time that was rolled forward from each start (s).
+    pub window_s: f64,
+    /// Number of windows, one after the other without overlap.
+    pub windows: usize,
+    /// Windows in which a joint ran away; they count as nothing below.
+    pub runaways: Vec<MachineFault>,
+    /// Root mean square over the windows of `q_simulated - q_measured` at their ends, for each
+    /// joint (rad or m).
+    pub drift_rms: Vec<f64>,
+    /// The simulated motion: positions and velocities of every sample of every window, with the
+    /// measured positions as `<joint>.measured_position`.
+    pub motion: Run,
+}
+
+/// Rolls a robot's simulation forward under the torques of a record, from its states.
+///
+/// ```text
+/// (q, qd)(t_start) = measured,   tau(t) = measured,   drift = q_simulated - q_measured
+/// ```
+///
+/// A torque that was commanded is held from its sample to the next, one that was measured is the
+/// mean of both. Windows are simulated side by side.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when the robot cannot be simulated, or [`SimulatorError::TooShort`] when
+/// no window fits into the record.
+pub fn replay_torque(
+    robot: &Robot,
+    record: &PreparedRun,
+    window_s: f64,
+) -> Result<ForwardReplay, SimulatorError> {
+    let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
+    let count = record.time.len().saturating_sub(1) / samples;
+    if count == 0 {
+        let found_s = record.time.len() as f64 / record.rate_hz;
+        return Err(SimulatorError::TooShort { run: record.name.clone(), found_s, window_s });
+    }
+    let starts: Vec<usize> = (0..count).map(|w| w * samples).collect();
+    let windows: Result<Vec<Window>, SimulatorError> =
+        starts.par_iter().map(|&start| roll(robot, record, start, samples)).collect();
+    let windows = windows?;
+    let (mut squares, mut kept) = (vec![0.0; robot.joint_count()], 0_usize);
+    for (window, start) in windows.iter().zip(&starts) {
+        let (Some((q, _)), None) = (window.states.last(), &window.fault) else { continue };
+        kept += 1;
+        for (i, square) in squares.iter_mut().enumerate() {
+            *square += (q[i] - record.joints[i].q[start + samples]).powi(2);
+        }
+    }
+    Ok(ForwardReplay {
+        window_s: samples as f64 / record.rate_hz,
+        windows: count,
+        drift_rms: squares.iter().map(|s| (s / kept.max(1) as f64).sqrt()).collect(),
+        motion: motion_of(robot, record, &starts, &windows),
+        runaways: windows.into_iter().filter_map(|w| w.fault).collect(),
+    })
+}
+
+/// What one window came to: positions and velocities at every sample after its start.
+struct Window {
+    states: Vec<(Vec<f64>, Vec<f64>)>,
+    fault: Option<MachineFault>,
+}
+
+fn roll(
+    robot: &Robot,
+    record: &PreparedRun,
+    start: usize,
+    samples: usize,
+) -> Result<Window, SimulatorError> {
+    let mut simulator = perfect(robot, record.rate_hz)?;
+    let at =
+        |of: &dyn Fn(&PreparedJoint) -> f64| -> Vec<f64> { record.joints.iter().map(of).collect() };
+    simulator.start_moving(&at(&|j| j.q[start]), &at(&|j| j.qd[start]));
+    let mut window = Window { states: Vec::with_capacity(samples), fault: None };
+    for sample in start..start + samples {
+        let tau = held(robot, record, sample);
+        if let Err(fault) = simulator.actuate(&tau) {
+            window.fault = Some(fault);
+            break;
+        }
+        window.states.push((simulator.q_true().to_vec(), simulator.qd_true().to_vec()));
+    }
+    Ok(window)
+}
+
+/// Torques from one sample to the next.
+fn held(robot: &Robot, record: &PreparedRun, sample: usize) -> Vec<f64> {
+    let of = |(joint, link): (&PreparedJoint, &robot::Link)| match link.actuator.torque_source {
+        TorqueSource::Commanded => joint.effort[sample],
+        _ => 0.5 * (joint.effort[sample] + joint.effort[sample + 1]),
+    };
+    record.joints.iter().zip(robot.links()).map(of).collect()
+}
+
+/// A simulator that holds commands for one sample of a record.
+fn perfect(robot: &Robot, rate_hz: f64) -> Result<Simulator, SimulatorError> {
+    let steps = (1.0 / (rate_hz * STEP_S)).ceil().max(1.0);
+    let stepping = Stepping {
+        step_s: 1.0 / (rate_hz * steps),
+        steps_per_period: steps as usize,
+        stops: false,
+    };
+    Simulator::new(robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping)
+}
+
+fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[Window]) -> Run {
+    let sample = |start: usize, i: usize| start + 1 + i;
+    let places: Vec<(usize, &(Vec<f64>, Vec<f64>))> = windows
+        .iter()
+        .zip(starts)
+        .flat_map(|(w, &s)| w.states.iter().enumerate().map(move |(i, x)| (sample(s, i), x)))
+        .collect();
+    let joint = |(j, name): (usize, &str)| Channels {
+        name: name.to_owned(),
+        position: places.iter().map(|(_, (q, _))| q[j]).collect(),
+        velocity: Some(places.iter().map(|(_, (_, qd))| qd[j]).collect()),
+        effort: places.iter().map(|(k, _)| record.joints[j].effort[*k]).collect(),
+        ..Channels::default()
+    };
+    let measured = |(j, name): (usize, &str)| {
+        let column = places.iter().map(|(k, _)| record.joints[j].q[*k]).collect();
+        (format!("{name}.measured_position"), column)
+    };
+    Run {
+        name: record.name.clone(),
+        source: Default::default(),
+        sha256: String::new(),
+        time: places.iter().map(|(k, _)| record.time[*k]).collect(),
+        joints: robot.joint_names().enumerate().map(joint).collect(),
+        extra: robot.joint_names().enumerate().map(measured).collect::<BTreeMap<_, _>>(),
+    }
+}
+
+/// The torque that a simulation asks for along a recorded motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionReplay {
+    /// Root mean square of `tau_simulated - tau_measured` for each joint (N m or N).
+    pub torque_error_rms: Vec<f64>,
+    /// Root mean square of `q_simulated - q_measured` for each joint (rad or m): what the
+    /// controller could not follow.
+    pub tracking_error_rms: Vec<f64>,
+    /// The simulated log, with the measured torque as `<joint>.measured_effort`.
+    pub log: Run,
+}
+
+/// Lets a robot's simulation follow a recorded motion with
+/// `tau = kp (q_ref - q) + kd (qd_ref - qd)`.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when the robot cannot be simulated or a joint runs away.
+pub fn replay_motion(
+    robot: &Robot,
+    gains: &[Gain],
+    record: &PreparedRun,
+) -> Result<MotionReplay, SimulatorError> {
+    // A controller at the rate of a slow log would not be stable.
+    let turns = (CONTROL_HZ / record.rate_hz).ceil().max(1.0) as usize;
+    let mut simulator = perfect(robot, record.rate_hz * turns as f64)?;
+    let at =
+        |of: &dyn Fn(&PreparedJoint) -> f64| -> Vec<f64> { record.joints.iter().map(of).collect() };
+    simulator.start_moving(&at(&|j| j.q[0]), &at(&|j| j.qd[0]));
+    let mut rows = Vec::with_capacity(record.time.len());
+    let mut reading = Reading::zero(robot.joint_count());
+    for tick in 0..(record.time.len() - 1) * turns {
+        let mut turn = || {
+            simulator.read(&mut reading)?;
+            let (sample, part) = (tick / turns, (tick % turns) as f64 / turns as f64);
+            let joints = record.joints.iter().zip(gains).enumerate();
+            let tau = joints.map(|(i, (joint, gain))| {
+                let [q, qd] = between(joint, sample, part, 1.0 / record.rate_hz);
+                gain.kp * (q - reading.q[i]) + gain.kd * (qd - reading.qd[i])
+            });
+            let tau: Vec<f64> = tau.collect();
+            simulator.actuate(&tau).map(|()| tau)
+        };
+        let fault = |fault| SimulatorError::Fault { run: record.name.clone(), fault };
+        let tau = turn().map_err(fault)?;
+        if tick % turns == 0 {
+            rows.push((reading.clone(), tau));
+        }
+    }
+    Ok(compared(robot, record, &rows))
+}
+
+/// Position and velocity a part of the way from one sample to the next: the cubic that has the
+/// positions and velocities of both.
+fn between(joint: &PreparedJoint, sample: usize, part: f64, interval_s: f64) -> [f64; 2] {
+    let (a, b) = (joint.q[sample], joint.q[sample + 1]);
+    let (va, vb) = (interval_s * joint.qd[sample], interval_s * joint.qd[sample + 1]);
+    let (second, third) = (3.0 * (b - a) - 2.0 * va - vb, 2.0 * (a - b) + va + vb);
+    let q = a + part * (va + part * (second + part * third));
+    let qd = (va + part * (2.0 * second + 3.0 * part * third)) / interval_s;
+    [q, qd]
+}
+
+fn compared(robot: &Robot, record: &PreparedRun, rows: &[(Reading, Vec<f64>)]) -> MotionReplay {
+    let whole = |column: &[f64]| column[..rows.len()].to_vec();
+    let rms = |of: &dyn Fn(usize) -> f64| {
+        let squares = (0..rows.len()).map(|k| of(k).powi(2));
+        (squares.sum::<f64>() / rows.len().max(1) as f64).sqrt()
+    };
+    let joints = 0..robot.joint_count();
+    let torque = |j: usize| rms(&|k| rows[k].1[j] - record.joints[j].effort[k]);
+    let tracking = |j: usize| rms(&|k| rows[k].0.q[j] - record.joints[j].q[k]);
+    let channels = |(j, name): (usize, &str)| Channels {
+        name: name.to_owned(),
+        position: rows.iter().map(|(r, _)| r.q[j]).collect(),
+        velocity: Some(rows.iter().map(|(r, _)| r.qd[j]).collect()),
+        effort: rows.iter().map(|(_, tau)| tau[j]).collect(),
+        desired_position: Some(whole(&record.joints[j].q)),
+        desired_velocity: Some(whole(&record.joints[j].qd)),
+        desired_acceleration: Some(whole(&record.joints[j].qdd)),
+        ..Channels::default()
+    };
+    let measured = |(j, name): (usize, &str)| {
+        (format!("{name}.measured_effort"), whole(&record.joints[j].effort))
+    };
+    MotionReplay {
+        torque_error_rms: joints.clone().map(torque).collect(),
+        tracking_error_rms: joints.map(tracking).collect(),
+        log: Run {
+            name: record.name.clone(),
+            source: Default::default(),
+            sha256: String::new(),
+            time: whole(&record.time),
+            joints: robot.joint_names().enumerate().map(channels).collect(),
+            extra: robot.joint_names().enumerate().map(measured).collect(),
+        },
+    }
+}

@@ -1,0 +1,265 @@
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use logs::{Channels, Run};
+use motion::State;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, Normal};
+use rayon::prelude::*;
+use robot::{Gain, Machine, MachineFault, Reading, Robot};
+use serde::Serialize;
+
+use crate::draw::draw_hidden;
+use crate::effects::EffectSpec;
+use crate::scenario::{Scenario, ScenarioRun, injected};
+use crate::{EffortSource, Inject, Sensors, Simulator, SimulatorError, Stepping, Truth};
+
+/// What a scenario gives: logs that hold no trace of what was put in, and apart from them what
+/// was.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulation {
+    /// One log a run.
+    pub runs: Vec<Run>,
+    /// What was put in.
+    pub truth: Vec<Truth>,
+}
+
+/// Simulates every run of a scenario, side by side on all cores.
+///
+/// What comes out depends on the scenario alone, not on the number of threads: every run draws
+/// from a seed of its own.
+///
+/// `on_second` is called after every second of motion, from any thread.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when the arm cannot be simulated, no effect could be drawn, or a joint ran
+/// away.
+pub fn simulate(
+    scenario: &Scenario,
+    on_second: &(dyn Fn() + Sync),
+) -> Result<Simulation, SimulatorError> {
+    let mut effects = scenario.effects().to_vec();
+    effects.extend(draw_hidden(scenario)?);
+    let truth = effects.iter().map(EffectSpec::truth).collect();
+    let runs = scenario.runs().par_iter().enumerate();
+    let runs = runs.map(|(index, run)| simulate_run(scenario, &effects, index, run, on_second));
+    Ok(Simulation { runs: runs.collect::<Result<_, _>>()?, truth })
+}
+
+/// Writes the logs, the resolved scenario and `truth.json` into a folder.
+///
+/// Every file appears whole or not at all.
+///
+/// # Errors
+///
+/// [`SimulatorError::Log`] when a file cannot be written.
+pub fn write(
+    folder: &Path,
+    scenario: &Scenario,
+    simulation: &Simulation,
+    csv: bool,
+) -> Result<(), SimulatorError> {
+    for run in &simulation.runs {
+        if csv {
+            logs::write_csv(&folder.join(format!("{}.csv", run.name)), run)?;
+        } else {
+            logs::write_parquet(&folder.join(format!("{}.parquet", run.name)), run)?;
+        }
+    }
+    let sealed = Sealed { seed: scenario.seed(), effects: &simulation.truth };
+    let truth = serde_json::to_string_pretty(&sealed).unwrap_or_default() + "\n";
+    for (name, text) in [("scenario.toml", scenario.resolved()), ("truth.json", &truth)] {
+        logs::replace_file(&folder.join(name), |file| {
+            Ok(std::io::Write::write_all(file, text.as_bytes())?)
+        })?;
+    }
+    Ok(())
+}
+
+/// `truth.json`
+#[derive(Serialize)]
+struct Sealed<'a> {
+    seed: u64,
+    effects: &'a [Truth],
+}
+
+fn simulate_run(
+    scenario: &Scenario,
+    effects: &[EffectSpec],
+    index: usize,
+    run: &ScenarioRun,
+    on_second: &(dyn Fn() + Sync),
+) -> Result<Run, SimulatorError> {
+    let seed = mixed(scenario.seed(), index as u64);
+    let sensors = scenario.sensors(seed);
+    let robot = scenario.robot();
+    let mut simulator = simulator(robot, effects, sensors, scenario.stepping())?;
+    let following = Following { gains: scenario.gains(), robot, run, longest_s: f64::INFINITY };
+    let rows = follow(&mut simulator, &following, on_second)
+        .map_err(|fault| SimulatorError::Fault { run: run.name.clone(), fault })?;
+    let spec = &scenario.spec().sensors;
+    let mut clock = LogClock {
+        random: ChaCha8Rng::seed_from_u64(mixed(seed, 1)),
+        jitter_s: 1e-3 * spec.time_jitter_ms,
+        dropped_share: spec.dropped_share,
+        shortest_s: 0.2 * simulator.period_s() * scenario.rows_per_log() as f64,
+    };
+    let mut log = log(&run.name, robot, &clock.thin(rows, scenario.rows_per_log()));
+    if spec.effort == EffortSource::Commanded {
+        log.joints.iter_mut().for_each(|joint| joint.commanded_effort = None);
+    }
+    Ok(log)
+}
+
+/// A simulator with effects that were checked for the robot.
+pub(crate) fn simulator(
+    robot: &Robot,
+    effects: &[EffectSpec],
+    sensors: Sensors,
+    stepping: Stepping,
+) -> Result<Simulator, SimulatorError> {
+    let injected: Vec<Box<dyn Inject>> =
+        injected(effects, robot).map_err(|(index, mistake)| SimulatorError::Effect {
+            effect: effects[index].kind().name().to_owned(),
+            key: mistake.key.to_owned(),
+            found: mistake.found,
+        })?;
+    Simulator::new(robot, injected, sensors, stepping)
+}
+
+/// One row of a log, with the reference that was followed.
+#[derive(Debug, Clone)]
+pub(crate) struct Row {
+    pub reading: Reading,
+    pub command: Vec<f64>,
+    pub reference: State,
+}
+
+/// A motion and the controller that follows it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Following<'a> {
+    pub gains: &'a [Gain],
+    pub robot: &'a Robot,
+    pub run: &'a ScenarioRun,
+    /// Only this much of the motion is followed (s).
+    pub longest_s: f64,
+}
+
+/// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, within the torque limits.
+///
+/// A motion that starts at rest is held at its start for the lead-in, any other starts in motion
+/// at once.
+pub(crate) fn follow(
+    simulator: &mut Simulator,
+    following: &Following<'_>,
+    on_second: &dyn Fn(),
+) -> Result<Vec<Row>, MachineFault> {
+    let Following { gains, robot, run, longest_s } = *following;
+    let period_s = simulator.period_s();
+    let mut reference = run.motion.at(0.0);
+    let at_rest = reference.qd.iter().all(|qd| qd.abs() <= 1e-9);
+    let lead_in = if at_rest { (run.lead_in_s / period_s).round() as usize } else { 0 };
+    simulator.start_moving(&reference.q, &reference.qd);
+    let count = (run.motion.duration_s().min(longest_s) / period_s).round() as usize + 1;
+    let mut reading = Reading::zero(robot.joint_count());
+    let mut command = vec![0.0; robot.joint_count()];
+    let mut rows = Vec::with_capacity(count);
+    for tick in 0..lead_in + count {
+        let time_s = (tick as f64 - lead_in as f64) * period_s;
+        if tick > lead_in {
+            run.motion.sample(time_s, &mut reference);
+        }
+        simulator.read(&mut reading)?;
+        feedback(gains, robot, &reference, &reading, &mut command);
+        simulator.actuate(&command)?;
+        let mut row = Reading::default();
+        simulator.record(&reading, &mut row);
+        if tick >= lead_in {
+            row.time_s = time_s;
+            let (command, reference) = (command.clone(), reference.clone());
+            rows.push(Row { reading: row, command, reference });
+            if (time_s + period_s).floor() > time_s.floor() {
+                on_second();
+            }
+        }
+    }
+    Ok(rows)
+}
+
+fn feedback(
+    gains: &[Gain],
+    robot: &Robot,
+    reference: &State,
+    reading: &Reading,
+    command: &mut [f64],
+) {
+    for (i, (gain, link)) in gains.iter().zip(robot.links()).enumerate() {
+        let limit = link.joint.limits.effort.unwrap_or(f64::INFINITY);
+        let tau =
+            gain.kp * (reference.q[i] - reading.q[i]) + gain.kd * (reference.qd[i] - reading.qd[i]);
+        command[i] = tau.clamp(-limit, limit);
+    }
+}
+
+/// What the clock of the log does to its rows.
+struct LogClock {
+    random: ChaCha8Rng,
+    jitter_s: f64,
+    dropped_share: f64,
+    /// Least time between two stamps (s).
+    shortest_s: f64,
+}
+
+impl LogClock {
+    /// Keeps every `every`-th row, loses some of them and shakes their stamps.
+    fn thin(&mut self, rows: Vec<Row>, every: usize) -> Vec<Row> {
+        let mut kept: Vec<Row> = Vec::with_capacity(rows.len() / every + 1);
+        let jitter = Normal::new(0.0, self.jitter_s).ok().filter(|_| self.jitter_s > 0.0);
+        for mut row in rows.into_iter().step_by(every) {
+            if self.dropped_share > 0.0 && self.random.random::<f64>() < self.dropped_share {
+                continue;
+            }
+            row.reading.time_s += jitter.map_or(0.0, |j| j.sample(&mut self.random));
+            if let Some(last) = kept.last() {
+                row.reading.time_s = row.reading.time_s.max(last.reading.time_s + self.shortest_s);
+            }
+            kept.push(row);
+        }
+        kept
+    }
+}
+
+/// The log: what sensors and controller say, nothing else.
+fn log(name: &str, robot: &Robot, rows: &[Row]) -> Run {
+    let column = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+    let joint = |(i, name): (usize, &str)| Channels {
+        name: name.to_owned(),
+        position: column(&|r| r.reading.q[i]),
+        effort: column(&|r| r.reading.effort[i]),
+        velocity: Some(column(&|r| r.reading.qd[i])),
+        acceleration: None,
+        desired_position: Some(column(&|r| r.reference.q[i])),
+        desired_velocity: Some(column(&|r| r.reference.qd[i])),
+        desired_acceleration: Some(column(&|r| r.reference.qdd[i])),
+        commanded_effort: Some(column(&|r| r.command[i])),
+    };
+    Run {
+        name: name.to_owned(),
+        source: Default::default(),
+        sha256: String::new(),
+        time: column(&|r| r.reading.time_s),
+        joints: robot.joint_names().enumerate().map(joint).collect(),
+        extra: BTreeMap::new(),
+    }
+}
+
+/// A seed of its own for every part of a whole (Steele, Lea & Flood 2014).
+pub(crate) fn mixed(seed: u64, part: u64) -> u64 {
+    let mut z = seed.wrapping_add(part.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

@@ -1,0 +1,360 @@
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use document::{Document, DocumentError, KeyPath};
+use motion::{Motion, MotionError};
+use robot::{Gain, Loaded, Robot};
+
+use super::files::resolved;
+use super::{HiddenSpec, ScenarioSpec};
+use crate::effects::{EffectSpec, chain_rank};
+use crate::{Inject, JointSensor, Sensors, SimulatorError, Stepping};
+
+/// A scenario whose every value can be meant: ready to run.
+#[derive(Debug, Clone)]
+pub struct Scenario {
+    spec: ScenarioSpec,
+    robot: Robot,
+    robot_file: PathBuf,
+    resolved: String,
+    gains: Vec<Gain>,
+    stepping: Stepping,
+    rows_per_log: usize,
+    runs: Vec<ScenarioRun>,
+}
+
+/// One run of a scenario.
+#[derive(Debug, Clone)]
+pub struct ScenarioRun {
+    /// Name of the log's file, without extension.
+    pub name: String,
+    /// The motion that is followed.
+    pub motion: Motion,
+    /// Time that the arm is held before the log begins (s).
+    pub lead_in_s: f64,
+}
+
+impl Scenario {
+    /// Reads a scenario from a document.
+    ///
+    /// # Errors
+    ///
+    /// [`SimulatorError::Scenario`], at the value at fault; [`SimulatorError`] for a robot or a
+    /// log that it names and that cannot be used.
+    pub fn from_document(document: &Document) -> Result<Self, SimulatorError> {
+        let spec: ScenarioSpec = document.parse()?;
+        let robot_key = KeyPath::root().key("robot");
+        let robot_file = document.directory_of(&robot_key).join(&spec.robot);
+        let loaded = Robot::load(&robot_file).map_err(|e| {
+            document.mistake(&robot_key, format!("the robot cannot be used: {e}"), None)
+        })?;
+        let check = Checker { document, spec: &spec, loaded: &loaded };
+        let stepping = check.stepping()?;
+        let gains = check.gains()?;
+        check.sensors()?;
+        check.effects()?;
+        check.hidden()?;
+        let rows_per_log = check.rows_per_log()?;
+        let runs = check.runs()?;
+        let resolved = resolved(document, &spec);
+        Ok(Self {
+            robot: loaded.robot,
+            robot_file,
+            resolved,
+            gains,
+            stepping,
+            rows_per_log,
+            runs,
+            spec,
+        })
+    }
+
+    /// The robot without effects.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// Where the robot was read.
+    pub fn robot_file(&self) -> &Path {
+        &self.robot_file
+    }
+
+    /// The scenario as one text that extends nothing.
+    pub fn resolved(&self) -> &str {
+        &self.resolved
+    }
+
+    /// Its runs.
+    pub fn runs(&self) -> &[ScenarioRun] {
+        &self.runs
+    }
+
+    /// Seed of every draw.
+    pub fn seed(&self) -> u64 {
+        self.spec.seed
+    }
+
+    /// Effects that it states.
+    pub fn effects(&self) -> &[EffectSpec] {
+        &self.spec.effect
+    }
+
+    /// Effects that are to be drawn.
+    pub fn hidden(&self) -> Option<&HiddenSpec> {
+        self.spec.hidden.as_ref()
+    }
+
+    pub(crate) fn spec(&self) -> &ScenarioSpec {
+        &self.spec
+    }
+
+    pub(crate) fn gains(&self) -> &[Gain] {
+        &self.gains
+    }
+
+    pub(crate) fn stepping(&self) -> Stepping {
+        self.stepping
+    }
+
+    /// Periods of the controller for one row of the log.
+    pub(crate) fn rows_per_log(&self) -> usize {
+        self.rows_per_log
+    }
+
+    /// The sensors of a run, with a seed of its own.
+    pub(crate) fn sensors(&self, seed: u64) -> Sensors {
+        let s = &self.spec.sensors;
+        let of = |map: &BTreeMap<String, f64>, name: &str| map.get(name).copied().unwrap_or(0.0);
+        let joint = |name: &str| JointSensor {
+            resolution: of(&s.position_resolution_rad, name),
+            position_noise: of(&s.position_noise_rad, name),
+            effort_noise: of(&s.effort_noise_nm, name),
+        };
+        let joints = self.robot.joint_names().map(joint).collect();
+        Sensors::new(s.position, s.effort, s.velocity, joints, seed)
+    }
+}
+
+/// Effects ready to act, in the order of the chain from command to reading.
+///
+/// # Errors
+///
+/// The index of the first effect that cannot act on the robot, with its mistake.
+pub(crate) fn injected(
+    effects: &[EffectSpec],
+    robot: &Robot,
+) -> Result<Vec<Box<dyn Inject>>, (usize, crate::effects::Mistake)> {
+    let mut ranked = Vec::with_capacity(effects.len());
+    for (index, effect) in effects.iter().enumerate() {
+        let inject = effect.inject(robot).map_err(|mistake| (index, mistake))?;
+        ranked.push((chain_rank(effect.kind()), inject));
+    }
+    ranked.sort_by_key(|(rank, _)| *rank);
+    Ok(ranked.into_iter().map(|(_, inject)| inject).collect())
+}
+
+struct Checker<'a> {
+    document: &'a Document,
+    spec: &'a ScenarioSpec,
+    loaded: &'a Loaded,
+}
+
+impl Checker<'_> {
+    fn mistake(&self, path: &KeyPath, message: String) -> DocumentError {
+        self.document.mistake(path, message, None)
+    }
+
+    /// Refuses a number outside of `low..=high`.
+    fn within(&self, path: &KeyPath, value: f64, low: f64, high: f64) -> Result<(), DocumentError> {
+        if value.is_finite() && (low..=high).contains(&value) {
+            return Ok(());
+        }
+        let message = format!("{value}, a number from {low} to {high} was expected");
+        Err(self.mistake(path, message))
+    }
+
+    fn stepping(&self) -> Result<Stepping, DocumentError> {
+        let engine = KeyPath::root().key("engine").key("step_ms");
+        let control = KeyPath::root().key("control").key("rate_hz");
+        self.within(&engine, self.spec.engine.step_ms, 0.001, 5.0)?;
+        let rate = self.control_rate_hz();
+        self.within(&control, rate, 1.0, 20_000.0)?;
+        let step_s = 1e-3 * self.spec.engine.step_ms;
+        let steps = 1.0 / (rate * step_s);
+        if steps < 0.5 || (steps - steps.round()).abs() > 1e-6 {
+            let message = format!(
+                "{} ms goes {steps:.4} times into the {} ms of a period of control at {rate} Hz, a whole number was expected",
+                self.spec.engine.step_ms,
+                1e3 / rate
+            );
+            return Err(self.mistake(&engine, message));
+        }
+        Ok(Stepping {
+            step_s,
+            steps_per_period: steps.round() as usize,
+            stops: self.spec.engine.joint_stops,
+        })
+    }
+
+    fn control_rate_hz(&self) -> f64 {
+        self.spec.control.rate_hz.or(self.loaded.control.rate_hz).unwrap_or(500.0)
+    }
+
+    fn gains(&self) -> Result<Vec<Gain>, DocumentError> {
+        let control = KeyPath::root().key("control");
+        let settings = &self.loaded.control;
+        let mut gains: Vec<Option<Gain>> = match &self.spec.control.gains {
+            None => settings.gains.clone(),
+            Some(name) => match settings.gain_sets.get(name) {
+                Some(set) => set.iter().copied().map(Some).collect(),
+                None => {
+                    let names: Vec<&str> = settings.gain_sets.keys().map(String::as_str).collect();
+                    let path = control.key("gains");
+                    return Err(self.document.unknown_name(&path, "set of gains", name, &names));
+                }
+            },
+        };
+        gains.resize(self.loaded.robot.joint_count(), None);
+        for (key, map) in [
+            ("kp_nm_per_rad", &self.spec.control.kp_nm_per_rad),
+            ("kd_nm_s_per_rad", &self.spec.control.kd_nm_s_per_rad),
+        ] {
+            self.by_joint(&control.key(key), map, 1e6)?;
+            for (name, &value) in map {
+                let Some(joint) = self.loaded.robot.joint_index(name) else { continue };
+                let gain = gains[joint].get_or_insert(Gain { kp: 0.0, kd: 0.0 });
+                if key == "kp_nm_per_rad" { gain.kp = value } else { gain.kd = value }
+            }
+        }
+        let missing = gains.iter().position(Option::is_none);
+        if let Some(name) = missing.and_then(|i| self.loaded.robot.joint_names().nth(i)) {
+            let message = format!(
+                "joint {name} has no gains, neither in robot.toml nor here: give control.gains or kp_nm_per_rad and kd_nm_s_per_rad"
+            );
+            return Err(self.mistake(&control, message));
+        }
+        Ok(gains.into_iter().flatten().collect())
+    }
+
+    /// Refuses joints that the robot does not have, and values outside of `0..=high`.
+    fn by_joint(
+        &self,
+        path: &KeyPath,
+        map: &BTreeMap<String, f64>,
+        high: f64,
+    ) -> Result<(), DocumentError> {
+        let names: Vec<&str> = self.loaded.robot.joint_names().collect();
+        for (name, &value) in map {
+            let path = path.key(name.clone());
+            if !names.contains(&name.as_str()) {
+                return Err(self.document.unknown_name(&path, "joint", name, &names));
+            }
+            self.within(&path, value, 0.0, high)?;
+        }
+        Ok(())
+    }
+
+    fn sensors(&self) -> Result<(), DocumentError> {
+        let path = KeyPath::root().key("sensors");
+        let s = &self.spec.sensors;
+        self.by_joint(&path.key("position_resolution_rad"), &s.position_resolution_rad, 0.1)?;
+        self.by_joint(&path.key("position_noise_rad"), &s.position_noise_rad, 0.1)?;
+        self.by_joint(&path.key("effort_noise_nm"), &s.effort_noise_nm, 1000.0)?;
+        self.within(&path.key("dropped_share"), s.dropped_share, 0.0, 0.5)?;
+        if let crate::VelocitySource::FilteredDifference { cutoff_hz } = s.velocity {
+            self.within(&path.key("velocity"), cutoff_hz, 0.1, 0.5 * self.control_rate_hz())?;
+        }
+        let period_ms = 1e3 / s.log_rate_hz.unwrap_or(self.control_rate_hz());
+        self.within(&path.key("time_jitter_ms"), s.time_jitter_ms, 0.0, 0.2 * period_ms)
+    }
+
+    fn rows_per_log(&self) -> Result<usize, DocumentError> {
+        let rate = self.control_rate_hz();
+        let Some(log_rate) = self.spec.sensors.log_rate_hz else { return Ok(1) };
+        let path = KeyPath::root().key("sensors").key("log_rate_hz");
+        self.within(&path, log_rate, 0.1, rate)?;
+        let rows = rate / log_rate;
+        if (rows - rows.round()).abs() > 1e-9 * rows {
+            let message = format!(
+                "{log_rate} Hz, a whole part of the controller's {rate} Hz was expected, such as {} Hz",
+                rate / rows.round()
+            );
+            return Err(self.mistake(&path, message));
+        }
+        Ok(rows.round() as usize)
+    }
+
+    fn effects(&self) -> Result<(), DocumentError> {
+        let Err((index, mistake)) = injected(&self.spec.effect, &self.loaded.robot) else {
+            return Ok(());
+        };
+        let name = self.spec.effect[index].kind().name();
+        let mut path = KeyPath::root().key("effect").index(index).key(name);
+        for key in mistake.key.split('.') {
+            path = path.key(key);
+        }
+        Err(self.mistake(&path, mistake.found))
+    }
+
+    fn hidden(&self) -> Result<(), DocumentError> {
+        let Some(hidden) = &self.spec.hidden else { return Ok(()) };
+        let path = KeyPath::root().key("hidden");
+        let [low, high] = hidden.count;
+        if low > high || high > 20 {
+            let message =
+                format!("[{low}, {high}], the least and the largest number up to 20 were expected");
+            return Err(self.mistake(&path.key("count"), message));
+        }
+        let [least, largest] = hidden.torque_share;
+        if !(least > 0.0 && least <= largest && largest <= 1.0) {
+            let message = format!(
+                "[{least}, {largest}], the least and the largest share above 0 up to 1 were expected"
+            );
+            return Err(self.mistake(&path.key("torque_share"), message));
+        }
+        Ok(())
+    }
+
+    fn runs(&self) -> Result<Vec<ScenarioRun>, SimulatorError> {
+        let path = KeyPath::root().key("run");
+        let mut names = BTreeSet::new();
+        if self.spec.run.is_empty() {
+            return Err(self.mistake(&path, "no run, at least one was expected".into()).into());
+        }
+        let mut runs = Vec::with_capacity(self.spec.run.len());
+        for (i, run) in self.spec.run.iter().enumerate() {
+            let path = path.index(i);
+            if !is_file_stem(&run.name) {
+                let message = format!(
+                    "{:?}, a name of letters, digits, - and _ was expected: the log's file is called so",
+                    run.name
+                );
+                return Err(self.mistake(&path.key("name"), message).into());
+            }
+            if !names.insert(&run.name) {
+                let message = format!("there are two runs called {}", run.name);
+                return Err(self.mistake(&path.key("name"), message).into());
+            }
+            self.within(&path.key("lead_in_s"), run.lead_in_s, 0.0, 600.0)?;
+            let path = path.key("motion");
+            let folder = self.document.directory_of(&path);
+            let motion = run
+                .motion
+                .build(&self.loaded.robot, folder)
+                .map_err(|error| self.motion_mistake(&path, &error))?;
+            runs.push(ScenarioRun { name: run.name.clone(), motion, lead_in_s: run.lead_in_s });
+        }
+        Ok(runs)
+    }
+
+    fn motion_mistake(&self, path: &KeyPath, error: &MotionError) -> DocumentError {
+        let inside: KeyPath = error.key().parse().unwrap_or_else(|_| KeyPath::root());
+        let segments = path.segments().iter().chain(inside.segments()).cloned();
+        self.mistake(&segments.collect(), error.to_string())
+    }
+}
+
+fn is_file_stem(name: &str) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    !name.is_empty() && name.len() <= 100 && name.chars().all(plain)
+}

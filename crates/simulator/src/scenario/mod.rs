@@ -1,0 +1,9 @@
+//! Scenario files: what they may say, and how they are checked.
+
+mod check;
+mod files;
+mod spec;
+
+pub(crate) use check::injected;
+pub use check::{Scenario, ScenarioRun};
+pub use spec::{ControlSpec, EngineSpec, HiddenSpec, RunSpec, ScenarioSpec, SensorSpec};

@@ -1,0 +1,91 @@
+use robot::{JointKind, Robot};
+
+use crate::rig::{Row, STEPPING, flywheel, link, run, simulator};
+
+const RATIO: f64 = 0.6;
+const SUM: f64 = 0.5;
+const DIFFERENCE: f64 = 0.3;
+const FRICTION: &str = "[[effect]]\n\
+    differential_coupling = { joint_a = 'a', joint_b = 'b', ratio = 0.6, level_sum_nm = 0.5, \
+    level_difference_nm = 0.3 }";
+/// With its rotor, of either wheel (kg m²).
+const INERTIA: f64 = 0.5;
+
+/// Two wheels that have nothing to do with each other but the motors that drive them.
+fn wheels() -> Robot {
+    let one = flywheel(INERTIA - 0.1, 0.1).links()[0].clone();
+    let wheel = |name: &str| {
+        let mut link =
+            link(name, None, JointKind::Continuous, one.inertia.clone(), one.actuator.clone());
+        link.joint.axis_in_joint = one.joint.axis_in_joint;
+        link
+    };
+    Robot::new("wheels", nalgebra::Vector3::zeros(), vec![wheel("a"), wheel("b")]).unwrap()
+}
+
+fn spin(qd: [f64; 2], duration_s: f64) -> Vec<Row> {
+    let mut wheels = simulator(&wheels(), FRICTION, STEPPING).unwrap();
+    wheels.start_moving(&[0.0, 0.0], &qd);
+    run(&mut wheels, duration_s, |_| vec![0.0, 0.0]).unwrap()
+}
+
+/// With joint a alone both motors resist it; once joint b turns them the other way round, the
+/// motor of the difference drives it:
+///
+/// ```text
+/// a alone:          I qdd_a = -(sum + difference),  I qdd_b = -ratio (sum - difference)
+/// ratio qd_b > qd_a: I qdd_a = -(sum - difference),  I qdd_b = -ratio (sum + difference)
+/// ```
+#[test]
+fn oracle_motion_of_joint_b_changes_the_friction_of_joint_a() {
+    for (qd, on_a, on_b) in [
+        ([3.0, 0.0], SUM + DIFFERENCE, SUM - DIFFERENCE),
+        ([0.5, 8.0], SUM - DIFFERENCE, SUM + DIFFERENCE),
+        ([0.5, -8.0], DIFFERENCE - SUM, -SUM - DIFFERENCE),
+        ([-3.0, 0.1], -SUM - DIFFERENCE, DIFFERENCE - SUM),
+    ] {
+        let rows = spin(qd, 0.3);
+        let (early, late) = (&rows[10], &rows[140]);
+        let torque = |i: usize| {
+            INERTIA * (early.qd_true[i] - late.qd_true[i]) / (late.time_s - early.time_s)
+        };
+        assert!((torque(0) / on_a - 1.0).abs() < 1e-6, "{qd:?}: {} on a", torque(0));
+        assert!((torque(1) / (RATIO * on_b) - 1.0).abs() < 1e-6, "{qd:?}: {} on b", torque(1));
+    }
+}
+
+/// Loaded with 0.9 of what both motors hold at joint a, it gives by micro-radians and stays; it
+/// breaks away at `sum + difference`.
+#[test]
+fn oracle_a_loaded_joint_sticks_for_good_and_breaks_away_at_both_levels() {
+    let held = SUM + DIFFERENCE;
+    let mut wheels = simulator(&wheels(), FRICTION, STEPPING).unwrap();
+    wheels.start(&[0.0, 0.0]);
+    let torque = |t: f64| held * if t < 8.0 { 0.9 } else { 0.9 + 0.1 * (t - 8.0) };
+    let rows = run(&mut wheels, 10.0, |r| vec![torque(r.time_s), 0.0]).unwrap();
+    let (soon, late) = (&rows[500], &rows[3999]);
+    assert!(soon.q_true[0] < 1e-5, "{}", soon.q_true[0]);
+    for i in 0..2 {
+        assert!((late.q_true[i] - soon.q_true[i]).abs() < 1e-12, "joint {i} creeps");
+    }
+    let moving = rows.iter().find(|r| r.qd_true[0] > 1e-4).unwrap();
+    assert!((moving.time_s - 9.0).abs() < 0.01, "{}", moving.time_s);
+}
+
+/// All energy goes into the work of the two motors' friction, `sum |w_sum| + difference
+/// |w_difference|` a second, and then both wheels rest.
+#[test]
+fn oracle_friction_at_the_motors_does_the_work_of_the_energy() {
+    let rows = spin([2.0, 5.0], 12.0);
+    let energy = 0.5 * INERTIA * (4.0 + 25.0);
+    let work: f64 = rows
+        .windows(2)
+        .map(|w| {
+            let [a, b] = [0, 1].map(|i| w[1].q_true[i] - w[0].q_true[i]);
+            SUM * (a + RATIO * b).abs() + DIFFERENCE * (a - RATIO * b).abs()
+        })
+        .sum();
+    assert!((work / energy - 1.0).abs() < 1e-3, "{work} J of {energy} J");
+    let last = rows.last().unwrap();
+    assert!(last.qd_true.iter().all(|qd| qd.abs() < 1e-9), "{:?}", last.qd_true);
+}
