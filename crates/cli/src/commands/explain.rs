@@ -66,7 +66,7 @@ fn explanation(entry: &Entry) -> String {
     let rivals: Vec<&str> = entry.confused_with.iter().map(|k| k.words()).collect();
     line("confused with", &rivals.join(", "));
     line("told apart by", entry.told_apart_by);
-    line("diagnosed", "yes");
+    line("diagnosed", &diagnosed(entry));
     line("source", entry.source);
     text
 }
