@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests may stop")]
 
 mod derivatives;
+mod excitation;
 mod figures;
 mod limits;
 mod mistakes;

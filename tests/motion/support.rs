@@ -77,7 +77,7 @@ pub fn every_kind(seed: u64) -> Vec<(&'static str, String)> {
         ("logarithmic chirp", chirp("logarithmic", rad, hz)),
         ("waypoints passed", waypoints("pass", rad)),
         ("waypoints with stops", waypoints("stop", rad)),
-        ("rhythm", rhythm("circle", "zx", 0.05 + 0.1 * share)),
+        ("rhythm", rhythm("circle", "zx", 0.05 + 0.07 * share)),
         (
             "sequence",
             format!(
