@@ -146,6 +146,16 @@ fn a_mistake_on_the_command_line_is_underlined_there() {
 }
 
 #[test]
+fn a_mistake_within_a_value_of_the_command_line_has_its_exact_place() {
+    let mut document = Document::from_text("friction.toml", "duration_s = 5.0").unwrap();
+    for (text, underlined) in [("mas_kg = 1", "mas_kg"), ("mass_kg = true", "true")] {
+        document.set(&format!("effect=[{{ payload = {{ {text} }} }}]")).unwrap();
+        let error = document.parse::<Scenario>().unwrap_err();
+        assert_eq!(error.place().unwrap().text(), underlined, "{error}");
+    }
+}
+
+#[test]
 fn a_mistake_of_meaning_is_rendered_like_one_of_type() {
     let text = "[[effect]]\ncoulomb_friction = { joint = \"elbwo\", level_nm = -1 }";
     let document = Document::from_text("friction.toml", text).unwrap();

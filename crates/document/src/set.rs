@@ -57,7 +57,7 @@ fn equals_sign(text: &str) -> Option<usize> {
         match quote {
             None if c == '=' => return Some(at),
             None if c == '"' || c == '\'' => quote = Some(c),
-            Some(open) if c == open => quote = None,
+            Some(open) if c == open && !escaped => quote = None,
             _ => {}
         }
         escaped = quote == Some('"') && c == '\\' && !escaped;
@@ -149,6 +149,7 @@ mod tests {
         assert_eq!(after(&format!("{path}=2"), path).1, "2");
         assert_eq!(after("joint.\"a.b\".x=2", "joint.\"a.b\".x").1, "2");
         assert_eq!(after("joint.'a=b'.x=2", "joint.\"a=b\".x").1, "2");
+        assert_eq!(after(r#"joint."\"=".x=2"#, r#"joint."\"=".x"#).1, "2");
         let (document, value) = after("new.table.key=2", "new.table.key");
         assert_eq!(value, "2");
         assert!(document.to_toml().contains("[new.table]\nkey = 2\n"));
