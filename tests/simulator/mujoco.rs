@@ -4,6 +4,7 @@
 //! computed again.
 
 use std::process::Command;
+use std::sync::OnceLock;
 
 use checks::arms::{wam, workspace_root};
 use nalgebra::{Matrix3, Vector3};
@@ -49,17 +50,23 @@ struct Body {
 }
 
 /// MuJoCo's own trajectories where it is installed, those of the golden file otherwise.
-fn golden() -> Golden {
-    let folder = workspace_root().join("tests/golden");
-    let live = Command::new("python3").arg(folder.join("make_mujoco.py")).arg("--stdout").output();
-    let text = match live {
-        Ok(output) if output.status.success() => String::from_utf8(output.stdout).unwrap(),
-        _ => {
+fn golden() -> &'static Golden {
+    static GOLDEN: OnceLock<Golden> = OnceLock::new();
+    GOLDEN.get_or_init(|| {
+        let folder = workspace_root().join("tests/golden");
+        let python = |arguments: &[&str]| Command::new("python3").args(arguments).output();
+        let installed = python(&["-c", "import mujoco, numpy"]).is_ok_and(|o| o.status.success());
+        let text = if installed {
+            let script = folder.join("make_mujoco.py");
+            let output = python(&[script.to_str().unwrap(), "--stdout"]).unwrap();
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+            String::from_utf8(output.stdout).unwrap()
+        } else {
             println!("MuJoCo is not installed (pip install mujoco numpy): the golden file is used");
             std::fs::read_to_string(folder.join("mujoco_wam7.json")).unwrap()
-        }
-    };
-    serde_json::from_str(&text).unwrap()
+        };
+        serde_json::from_str(&text).unwrap()
+    })
 }
 
 fn robot_of(case: &Case) -> Robot {
@@ -124,7 +131,7 @@ fn oracle_the_wam_moves_as_in_mujoco() {
     println!("{} {}", golden.program, golden.version);
     for (name, case) in &golden.cases {
         let bound = if name == "plain" || name == "viscous" { 1e-4 } else { 5e-4 };
-        let (position, velocity) = largest_difference(&golden, case, 1e-4);
+        let (position, velocity) = largest_difference(golden, case, 1e-4);
         println!("{name}: {position:.1e} rad, {velocity:.1e} rad/s");
         assert!(position < bound, "{name}: {position:.2e} rad");
     }
@@ -136,8 +143,8 @@ fn oracle_the_wam_moves_as_in_mujoco() {
 fn oracle_the_difference_from_mujoco_falls_with_the_step() {
     let golden = golden();
     let case = &golden.cases["plain"];
-    let coarse = largest_difference(&golden, case, 1e-3).0;
-    let fine = largest_difference(&golden, case, 1e-4).0;
+    let coarse = largest_difference(golden, case, 1e-3).0;
+    let fine = largest_difference(golden, case, 1e-4).0;
     println!("{coarse:.2e} rad at 1 ms, {fine:.2e} rad at 0.1 ms");
     assert!((5.0..20.0).contains(&(coarse / fine)), "{coarse:.2e} and {fine:.2e}");
 }

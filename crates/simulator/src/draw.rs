@@ -6,7 +6,7 @@ use rand_chacha::rand_core::SeedableRng;
 use crate::effects::{EffectSpec, Surroundings};
 use crate::run::{Following, Row, follow, mixed, simulator};
 use crate::scenario::{HiddenSpec, Scenario, ScenarioRun};
-use crate::{EffortSource, PositionSide, Sensors, SimulatorError, VelocitySource};
+use crate::{JointSensor, Sensors, SimulatorError};
 
 /// Longest part of the first run that sizes are measured on (s).
 const MEASURED_S: f64 = 10.0;
@@ -25,10 +25,11 @@ const TOLERANCE: f64 = 0.1;
 /// A size is drawn log-uniformly as a share of torque,
 ///
 /// ```text
-/// share = max over joints of rms(tau - tau_without) / rms(tau_without)
+/// share = rms(tau - tau_without) / rms(tau_without)
 /// ```
 ///
-/// and the effect's parameter is then corrected until the simulated share is within a tenth of
+/// at the effect's joint, or over all joints together for an effect of a link or of the whole
+/// arm. The effect's parameter is then corrected until the simulated share is within a tenth of
 /// it. An effect that cannot have the size at the joint drawn is drawn again.
 ///
 /// # Errors
@@ -75,14 +76,10 @@ impl<'a> Bench<'a> {
         let scenario = self.scenario;
         let effects = [scenario.effects(), more].concat();
         let joints = scenario.robot().joint_count();
-        let silent = crate::JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
-        let sensors = Sensors::new(
-            PositionSide::Motor,
-            EffortSource::Commanded,
-            VelocitySource::Ideal,
-            vec![silent; joints],
-            0,
-        );
+        let silent = JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
+        let seen = &scenario.spec().sensors;
+        let silent = vec![silent; joints];
+        let sensors = Sensors::new(seen.position, seen.effort, seen.velocity, silent, 0);
         let stepping = scenario.stepping();
         let mut simulator = simulator(scenario.robot(), &effects, sensors, stepping)?;
         let (gains, robot) = (scenario.gains(), scenario.robot());
@@ -94,14 +91,17 @@ impl<'a> Bench<'a> {
     /// Share of torque that an effect adds; `None` if the arm runs away with it.
     fn share(&self, effect: &EffectSpec) -> Option<f64> {
         let rows = self.rows(std::slice::from_ref(effect)).ok()?;
-        let of = |j: usize| {
+        let added = |j: usize| {
             let pairs = rows.iter().zip(&self.nominal);
-            let added =
-                pairs.map(|(with, without)| with.reading.effort[j] - without.reading.effort[j]);
-            rms(added) / self.torque_rms[j]
+            rms(pairs.map(|(with, without)| with.reading.effort[j] - without.reading.effort[j]))
         };
-        let shares = (0..self.torque_rms.len()).filter(|&j| self.torque_rms[j] > 0.0).map(of);
-        Some(shares.fold(0.0, f64::max))
+        let robot = self.scenario.robot();
+        let own = effect.truth().joint.and_then(|name| robot.joint_index(&name));
+        let joints = own.map_or(0..robot.joint_count(), |j| j..j + 1);
+        let square = |sum: f64, value: f64| sum + value * value;
+        let added = joints.clone().map(added).fold(0.0, square);
+        let torque = joints.map(|j| self.torque_rms[j]).fold(0.0, square);
+        Some((added / torque).sqrt()).filter(|share| share.is_finite())
     }
 
     fn draw(
