@@ -92,3 +92,29 @@ fn oracle_a_cable_that_pulls_on_one_side_leaves_the_other_alone() {
         }
     }
 }
+
+/// Thrown into the loop of one side, up to `a` with `I v² / 2 = k a² / 2 + h a - h² / (2 k)`, a
+/// wheel comes back with `2 h a - 3 h² / k` less: on the way back the cable is slack from
+/// `x = h / k` on.
+#[test]
+fn oracle_a_cable_of_one_side_keeps_the_area_of_its_loop_and_then_lets_go() {
+    let (k, h) = (8.0, 0.4);
+    let depth = ((h * h + 2.0 * k * (0.5 * INERTIA + h * h / (2.0 * k))).sqrt() - h) / k;
+    let lost = 2.0 * h * depth - 3.0 * h * h / k;
+    let speed = (1.0 - 2.0 * lost / INERTIA).sqrt();
+    for (pulls, sign) in [("above", 1.0), ("below", -1.0)] {
+        let cable = format!(
+            "stiffness_nm_per_rad = {k}, rest_rad = {}, hysteresis_nm = {h}, pulls = '{pulls}'",
+            sign * 0.2
+        );
+        let rows = wheel(&cable, 0.0, sign, 2.0);
+        let deepest = rows.iter().map(|r| sign * r.q_true[0]).fold(0.0, f64::max) - 0.2;
+        assert!((deepest - depth).abs() < 1e-4, "{deepest} rad, not {depth} rad");
+        let thrown = rows.iter().filter(|r| r.time_s > 1.0 && sign * r.q_true[0] < 0.2 + h / k);
+        for row in thrown {
+            let back = -sign * row.qd_true[0];
+            assert!((back - speed).abs() < 5e-4, "{back} rad/s, not {speed} rad/s");
+        }
+        assert!(sign * rows.last().unwrap().q_true[0] < 0.0);
+    }
+}

@@ -13,6 +13,7 @@ mod gravity_direction;
 mod inertial_parameters;
 mod joint_elasticity;
 mod load_dependent_friction;
+mod mistakes;
 mod mujoco;
 mod payload;
 mod position_dependent_friction;

@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use checks::arms::{base_from_links, potential_energy, wam};
-use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 use robot::{Actuator, Inertia, JointKind, Machine, Robot};
 
 use crate::rig::{FINE, GRAVITY, flywheel, link, simulator};
@@ -87,5 +87,22 @@ fn oracle_a_payload_adds_its_inertia_about_the_joint() {
         let a = acceleration(&flywheel(0.4, 0.1), &effects, &[0.0], &[1.0])[0];
         let inertia = 0.5 + mass * lever * lever + own;
         assert!((a * inertia - 1.0).abs() < 1e-9, "{} kg m², not {inertia}", 1.0 / a);
+    }
+}
+
+/// About the axis halfway between x and y: `(xx + yy) / 2 + xy`, and so on.
+#[test]
+fn oracle_a_stated_inertia_is_read_as_xx_yy_zz_xy_xz_yz() {
+    let effects = "[[effect]]\npayload = { link = 'joint_link', mass_kg = 2, com_m = [0, 0, 0], inertia_kg_m2 = [1, 1.2, 0.9, 0.1, -0.2, 0.3] }";
+    let halfway = [
+        (Vector3::new(1.0, 1.0, 0.0), 1.1 + 0.1),
+        (Vector3::new(1.0, 0.0, 1.0), 0.95 - 0.2),
+        (Vector3::new(0.0, 1.0, 1.0), 1.05 + 0.3),
+    ];
+    for (axis, own) in halfway {
+        let mut wheel = flywheel(0.4, 0.1);
+        wheel.link_mut(0).unwrap().joint.axis_in_joint = Unit::new_normalize(axis);
+        let a = acceleration(&wheel, effects, &[0.0], &[1.0])[0];
+        assert!((a * (0.5 + own) - 1.0).abs() < 1e-9, "{} kg m² about {axis}", 1.0 / a);
     }
 }
