@@ -6,6 +6,7 @@ mod backlash;
 mod cable_spring;
 mod coulomb_friction;
 mod differential_coupling;
+mod draws;
 mod engine;
 mod external_disturbance;
 mod friction_temperature_drift;
