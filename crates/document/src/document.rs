@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use crate::names::unknown;
 use crate::node::{Node, Value};
 use crate::place::{Origin, Source};
-use crate::{DocumentError, KeyPath, Place, Segment, read, set};
+use crate::{DocumentError, KeyPath, Segment, read, set};
 
 /// A TOML document, every value of which knows the file, line and column it comes from.
 ///
@@ -66,12 +66,11 @@ impl Document {
         let mut root = read::parse(&source)?;
         match read::take_extends(&mut root) {
             None => Ok(Self { root }),
-            Some(extends) => Err(DocumentError::Mistake {
-                place: Box::new(extends.key_place()),
-                path: KeyPath::root().key(read::EXTENDS),
-                message: "only a file can extend files".to_owned(),
-                help: None,
-            }),
+            Some(extends) => {
+                let path = KeyPath::root().key(read::EXTENDS);
+                let message = "only a file can extend files";
+                Err(DocumentError::at(extends.key_place(), path, message, None))
+            }
         }
     }
 
@@ -117,7 +116,7 @@ impl Document {
         help: Option<String>,
     ) -> DocumentError {
         let place = self.root.nearest(path.segments()).place();
-        mistake_at(place, path, message.into(), help)
+        DocumentError::at(place, path.clone(), &message.into(), help)
     }
 
     /// The mistake that `found` at `path` is none of the names that were `expected`.
@@ -138,7 +137,7 @@ impl Document {
         let is_value = matches!(&node.value, Value::String(text) if text == found);
         let is_key = matches!(path.segments().last(), Some(Segment::Key(key)) if key == found);
         let place = if is_key && !is_value { node.key_place() } else { node.place() };
-        mistake_at(place, path, message, Some(help))
+        DocumentError::at(place, path.clone(), &message, Some(help))
     }
 
     /// The folder that a path written at `path` is relative to: that of the file the value
@@ -158,15 +157,6 @@ impl Document {
             other => other.to_string(),
         }
     }
-}
-
-fn mistake_at(
-    place: Place,
-    path: &KeyPath,
-    message: String,
-    help: Option<String>,
-) -> DocumentError {
-    DocumentError::Mistake { place: Box::new(place), path: path.clone(), message, help }
 }
 
 #[cfg(test)]

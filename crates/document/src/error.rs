@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
 
-use crate::place::Origin;
+use crate::place::{Origin, printable};
 use crate::{KeyPath, Place};
 
 /// How an assignment is given on the command line.
@@ -54,6 +54,11 @@ pub enum Coloring {
 }
 
 impl DocumentError {
+    /// A mistake with a sentence in one line, in which nothing controls the terminal.
+    pub(crate) fn at(place: Place, path: KeyPath, message: &str, help: Option<String>) -> Self {
+        Self::Mistake { place: Box::new(place), path, message: printable(message), help }
+    }
+
     /// The mistake as a compiler shows it: the lines of the file, the value underlined.
     ///
     /// ```text
@@ -90,7 +95,8 @@ impl DocumentError {
         if let Some(help) = help {
             group = group.element(Level::HELP.message(wrapped(&normalize_untrusted_str(help))));
         }
-        renderer.render(&[group])
+        // The renderer shows the other control characters, these it lets through.
+        renderer.render(&[group]).replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
     }
 
     /// Where in a text the mistake is, if it is in one.

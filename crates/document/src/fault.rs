@@ -47,8 +47,7 @@ impl Fault {
             Part::Key => node.key_place(),
             Part::Value => node.place(),
         };
-        let (message, help) = (self.message, self.help);
-        DocumentError::Mistake { place: Box::new(place), path, message, help }
+        DocumentError::at(place, path, &self.message, self.help)
     }
 
     pub(crate) fn expected(expected: &str, found: &str) -> Self {

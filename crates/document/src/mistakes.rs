@@ -257,4 +257,11 @@ fn control_characters_of_a_file_do_not_reach_the_terminal() {
         assert!(!shown.contains('\u{1b}'), "{shown:?}");
         assert!(error.render(Coloring::Ansi).contains('\u{1b}'));
     }
+    let mut document = Document::from_text("a", "").unwrap();
+    document.set("seed='\u{9b}'").unwrap();
+    let escape = "\u{1b}[31m\u{9b}".to_owned();
+    let error = document.mistake(&KeyPath::root().key("seed"), &escape, Some(escape.clone()));
+    for shown in [error.to_string(), error.render(Coloring::Plain)] {
+        assert!(!shown.contains(['\u{1b}', '\u{9b}']), "{shown:?}");
+    }
 }

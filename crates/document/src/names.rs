@@ -1,5 +1,3 @@
-use crate::place::printable;
-
 /// The candidate that `found` is most likely a misspelling of.
 ///
 /// A candidate is near when at most a third of its letters are wrong, missing or exchanged
@@ -44,7 +42,6 @@ pub(crate) fn one_of(names: &[&str]) -> String {
 pub(crate) fn unknown(what: &str, found: &str, expected: &[&str]) -> (String, String) {
     let hint = suggest(found, expected.iter().copied());
     let hint = hint.map_or_else(String::new, |name| format!(", did you mean `{name}`?"));
-    let found = printable(found);
     (format!("unknown {what} `{found}`{hint}"), format!("expected {}", one_of(expected)))
 }
 

@@ -28,11 +28,8 @@ pub(crate) fn read(path: &Path) -> Result<Node, DocumentError> {
 
 /// The document in a text, `extends` among its keys.
 pub(crate) fn parse(source: &Arc<Source>) -> Result<Node, DocumentError> {
-    Node::document(source).map_err(|(span, message)| DocumentError::Mistake {
-        place: Box::new(Place::new(source, span)),
-        path: KeyPath::root(),
-        message,
-        help: None,
+    Node::document(source).map_err(|(span, message)| {
+        DocumentError::at(Place::new(source, span), KeyPath::root(), &message, None)
     })
 }
 
@@ -119,12 +116,8 @@ struct Base {
 
 impl Base {
     fn refused(&self, file: &Path, reason: &str) -> DocumentError {
-        DocumentError::Mistake {
-            place: Box::new(self.place.clone()),
-            path: self.path.clone(),
-            message: format!("{} cannot be extended: {reason}", file.display()),
-            help: None,
-        }
+        let message = format!("{} cannot be extended: {reason}", file.display());
+        DocumentError::at(self.place.clone(), self.path.clone(), &message, None)
     }
 }
 
@@ -143,7 +136,7 @@ fn base(node: Node, path: KeyPath) -> Result<Base, DocumentError> {
     let message = format!("expected the name of a file, found {}", node.described());
     match node.value {
         Value::String(name) if !name.is_empty() => Ok(Base { name, place, path }),
-        _ => Err(DocumentError::Mistake { place: Box::new(place), path, message, help: None }),
+        _ => Err(DocumentError::at(place, path, &message, None)),
     }
 }
 

@@ -19,8 +19,7 @@ pub(crate) fn set(root: &mut Node, assignment: &str) -> Result<(), DocumentError
 }
 
 fn mistake(source: &Arc<Source>, (span, message): Wrong) -> DocumentError {
-    let place = Box::new(Place::new(source, span));
-    DocumentError::Mistake { place, path: KeyPath::root(), message, help: None }
+    DocumentError::at(Place::new(source, span), KeyPath::root(), &message, None)
 }
 
 fn parsed(source: &Arc<Source>) -> Result<(Vec<Step>, Node), Wrong> {
