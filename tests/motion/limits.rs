@@ -47,6 +47,20 @@ fn a_sine_that_just_passes_a_limit_is_refused_with_joint_time_and_value() {
 }
 
 #[test]
+fn both_ends_of_a_range_are_limits() {
+    let ramp = |to: f64| {
+        let toml = format!("[ramp]\nto_rad = {{ j2_shoulder_pitch = {to} }}\nduration_s = 5.0\n");
+        build(&wam(), &toml)
+    };
+    for (inside, outside) in [(2.0, 2.001), (-2.0, -2.001)] {
+        assert!(ramp(inside).is_ok());
+        let error = ramp(outside).unwrap_err();
+        let MotionError::LimitExceeded { time_s, found, .. } = error else { panic!("{error}") };
+        assert!((time_s - 5.0).abs() < 1e-9 && (found - outside).abs() < 1e-12, "{time_s} {found}");
+    }
+}
+
+#[test]
 fn a_sweep_faster_than_a_joint_is_refused_as_a_velocity() {
     let toml = "[sweep]\nspeeds_rad_per_s = [0.5, 2.6]\nacceleration_rad_per_s2 = 20.0\n";
     let error = build(&wam(), toml).unwrap_err();

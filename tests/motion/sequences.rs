@@ -49,6 +49,17 @@ fn a_motion_that_begins_where_the_last_one_ends_follows_at_once() {
 }
 
 #[test]
+fn a_move_between_two_motions_takes_half_the_speed_of_the_slowest_joint() {
+    let hold = |q: f64| {
+        format!("{{ hold = {{ posture_rad = {{ j1_base_yaw = {q} }}, duration_s = 1.0 }} }}")
+    };
+    let motion = build(&wam(), &format!("sequence = [{}, {}]", hold(-2.0), hold(2.0))).unwrap();
+    // 10 u^3 - 15 u^4 + 6 u^5 over 4 rad peaks at 15/8 of 4 rad in its time: at 1.25 rad/s.
+    assert!((motion.duration_s() - (2.0 + 1.875 * 4.0 / 1.25)).abs() < 1e-12);
+    assert!((motion.at(4.0).qd[0] - 1.25).abs() < 1e-12);
+}
+
+#[test]
 fn a_sweep_passes_its_range_at_each_of_its_speeds_and_rests_where_it_turns() {
     let toml = "[sweep]\nspeeds_rad_per_s = [0.25, 1.0]\njoints = [\"j1_base_yaw\"]\n\
                 range_rad = { j1_base_yaw = [-1.0, 1.0] }\ndwell_s = 0.5\n";
