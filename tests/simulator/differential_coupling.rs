@@ -1,6 +1,6 @@
 use robot::{JointKind, Robot};
 
-use crate::rig::{Row, STEPPING, flywheel, link, run, simulator};
+use crate::rig::{Row, STEPPING, effects, flywheel, link, run, simulator};
 
 const RATIO: f64 = 0.6;
 const SUM: f64 = 0.5;
@@ -54,22 +54,29 @@ fn oracle_motion_of_joint_b_changes_the_friction_of_joint_a() {
     }
 }
 
-/// Loaded with 0.9 of what both motors hold at joint a, it gives by micro-radians and stays; it
-/// breaks away at `sum + difference`.
+/// Motor torques `f` are the load `f_sum + f_difference` on a and `ratio (f_sum - f_difference)` on
+/// b: without a load on b both motors carry the same, and the weaker one breaks away alone when a
+/// is loaded with twice its level. A load of both levels breaks both away. Up to then the joints
+/// give by micro-radians and stay.
 #[test]
-fn oracle_a_loaded_joint_sticks_for_good_and_breaks_away_at_both_levels() {
-    let held = SUM + DIFFERENCE;
-    let mut wheels = simulator(&wheels(), FRICTION, STEPPING).unwrap();
-    wheels.start(&[0.0, 0.0]);
-    let torque = |t: f64| held * if t < 8.0 { 0.9 } else { 0.9 + 0.1 * (t - 8.0) };
-    let rows = run(&mut wheels, 10.0, |r| vec![torque(r.time_s), 0.0]).unwrap();
-    let (soon, late) = (&rows[500], &rows[3999]);
-    assert!(soon.q_true[0] < 1e-5, "{}", soon.q_true[0]);
-    for i in 0..2 {
-        assert!((late.q_true[i] - soon.q_true[i]).abs() < 1e-12, "joint {i} creeps");
+fn oracle_loaded_joints_stick_for_good_and_break_away_at_the_level_of_a_motor() {
+    for load in [[2.0 * DIFFERENCE, 0.0], [SUM + DIFFERENCE, RATIO * (SUM - DIFFERENCE)]] {
+        let mut wheels = simulator(&wheels(), FRICTION, STEPPING).unwrap();
+        wheels.start(&[0.0, 0.0]);
+        let share = |t: f64| if t < 8.0 { 0.9 } else { 0.9 + 0.1 * (t - 8.0) };
+        let torque = |t: f64| load.map(|l| l * share(t)).to_vec();
+        let rows = run(&mut wheels, 9.5, |r| torque(r.time_s)).unwrap();
+        let (soon, late) = (&rows[500], &rows[3999]);
+        assert!((1e-7..1e-5).contains(&soon.q_true[0]), "{}", soon.q_true[0]);
+        for i in 0..2 {
+            assert!((late.q_true[i] - soon.q_true[i]).abs() < 1e-12, "joint {i} creeps");
+        }
+        let moving = rows[4000..].iter().find(|r| r.qd_true[0] > 2e-6).unwrap();
+        assert!((moving.time_s - 9.0).abs() < 0.02, "{}", moving.time_s);
+        let [a, b] = [0, 1].map(|i| rows.last().unwrap().qd_true[i]);
+        let sum = (a + RATIO * b).abs() / a;
+        assert!(if load[1] > 0.0 { sum > 1.0 } else { sum < 1e-3 }, "{a} and {b} rad/s");
     }
-    let moving = rows.iter().find(|r| r.qd_true[0] > 1e-4).unwrap();
-    assert!((moving.time_s - 9.0).abs() < 0.01, "{}", moving.time_s);
 }
 
 /// All energy goes into the work of the two motors' friction, `sum |w_sum| + difference
@@ -88,4 +95,23 @@ fn oracle_friction_at_the_motors_does_the_work_of_the_energy() {
     assert!((work / energy - 1.0).abs() < 1e-3, "{work} J of {energy} J");
     let last = rows.last().unwrap();
     assert!(last.qd_true.iter().all(|qd| qd.abs() < 1e-9), "{:?}", last.qd_true);
+}
+
+#[test]
+fn a_pair_of_one_joint_or_without_rotors_is_refused() {
+    let refusal = |effect: &str, robot: &Robot| {
+        let mistake = effects(effect)[0].inject(robot).err().unwrap();
+        format!("{}: {}", mistake.key, mistake.found)
+    };
+    assert_eq!(
+        refusal(&FRICTION.replace("'b'", "'a'"), &wheels()),
+        "joint_b: a, another joint than joint_a was expected"
+    );
+    let mut bare = wheels();
+    bare.link_mut(0).unwrap().actuator.rotor_inertia = 0.0;
+    assert_eq!(
+        refusal(FRICTION, &bare),
+        "joint_a: a, whose rotor inertia is 0 kg m^2, a positive one was expected: \
+         give rotor_inertia_kg_m2 in robot.toml"
+    );
 }

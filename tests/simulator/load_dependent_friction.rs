@@ -41,3 +41,17 @@ fn oracle_the_load_of_a_wheel_is_its_inertia_without_the_rotors() {
     let expected = tau / (rotor + (1.0 - COEFFICIENT) * inertia);
     assert!((braking / expected - 1.0).abs() < 1e-6, "{braking}, not {expected}");
 }
+
+/// Load, bristles and readings of an earlier run are gone.
+#[test]
+fn a_simulator_that_is_started_again_repeats_its_run_bitwise() {
+    let bristles = "[[effect]]\npresliding_friction = { joint = 'joint', \
+        stiffness_nm_per_rad = 1000.0, damping_nm_s_per_rad = 1.0, level_nm = 0.3 }";
+    let effects = format!("{FRICTION}\n{bristles}");
+    let mut arm = simulator(&pendulum(1.0, 0.2), &effects, STEPPING).unwrap();
+    let mut once = || {
+        arm.start(&[0.3]);
+        run(&mut arm, 1.0, |r| vec![4.0 * r.time_s - 2.0]).unwrap()
+    };
+    assert_eq!(once(), once());
+}

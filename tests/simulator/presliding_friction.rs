@@ -30,14 +30,11 @@ fn oracle_the_loop_below_the_level_is_closed_and_free_of_the_rate() {
         let cycle = &rows[2 * rows.len() / 3..];
         let positions = || cycle.iter().map(|r| r.q_true[0]);
         let found = positions().fold(f64::MIN, f64::max) - positions().fold(f64::MAX, f64::min);
-        println!("width {}", found / width - 1.0);
         assert!((found / width - 1.0).abs() < 2e-3, "{hz} Hz: width {found}, not {width}");
         let work = |w: &[Row]| torque(w[0].time_s) * (w[1].q_true[0] - w[0].q_true[0]);
         let found: f64 = cycle.windows(2).map(work).sum();
-        println!("area {}", found / area - 1.0);
         assert!((found / area - 1.0).abs() < 2e-3, "{hz} Hz: area {found}, not {area}");
         let gap = (cycle[cycle.len() - 1].q_true[0] - cycle[0].q_true[0]).abs();
-        println!("gap {}", gap / width);
         assert!(gap < 0.02 * width, "{hz} Hz: the loop is open by {gap}");
     }
 }

@@ -1,4 +1,4 @@
-use crate::rig::{STEPPING, flywheel, run, simulator};
+use crate::rig::{STEPPING, effects, flywheel, run, simulator};
 
 const INERTIA: f64 = 0.5;
 const FRICTION: &str = "[[effect]]\n\
@@ -47,4 +47,12 @@ fn oracle_the_wheel_breaks_away_at_the_higher_level_each_time() {
         let moving = ramp.iter().find(|r| r.qd_true[0] > 1e-5).unwrap();
         assert!((moving.time_s - start_s - 2.0).abs() < 0.011, "{}", moving.time_s);
     }
+}
+
+#[test]
+fn a_breakaway_below_the_coulomb_level_is_refused() {
+    let effect = FRICTION.replace("breakaway_nm = 1.0", "breakaway_nm = 0.5");
+    let mistake = effects(&effect)[0].inject(&flywheel(1.0, 0.0)).err().unwrap();
+    assert_eq!(mistake.key, "breakaway_nm");
+    assert_eq!(mistake.found, "0.5, a number from 0.6 to 1000 was expected");
 }

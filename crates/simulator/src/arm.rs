@@ -120,6 +120,7 @@ impl Arm {
             velocity[joint.motor] = qd[i];
         }
         self.engine.set_state(&at.effort, &velocity);
+        self.transmitted.fill(0.0);
         self.observe();
     }
 

@@ -37,7 +37,7 @@ pub struct Simulator {
     effects: Vec<Box<dyn Inject>>,
     sensors: Sensors,
     steps_per_period: usize,
-    steps: u64,
+    steps: i64,
     needs_load: bool,
     command: Option<Vec<f64>>,
     tau: Vec<f64>,
@@ -120,10 +120,17 @@ impl Simulator {
         self.arm.set_state(q, qd);
         self.steps = 0;
         self.command = None;
+        self.motor_torque.fill(0.0);
+        self.effort_at_read.fill(0.0);
         for effect in &mut self.effects {
             effect.on_start(q);
         }
         self.sensors.start();
+    }
+
+    /// Sets the clock to as many periods before time zero.
+    pub(crate) fn count_down(&mut self, periods: usize) {
+        self.steps = -((periods * self.steps_per_period) as i64);
     }
 
     /// Time since the start (s).

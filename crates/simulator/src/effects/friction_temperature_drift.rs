@@ -49,15 +49,16 @@ impl Effect for FrictionTemperatureDrift {
         Ok(Box::new(Injected { joints, share: self.share, time_constant: self.time_constant_s }))
     }
 
-    /// The share follows from the friction that the robot has without effects.
+    /// The share follows from the friction that the robot has without effects, if it has any.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
         let friction = at.robot.links().get(at.joint).map_or(0.0, |link| {
             let dry = 0.5 * (link.actuator.coulomb_forward + link.actuator.coulomb_backward);
             dry + link.actuator.viscous * at.speed_rms
         });
+        let lost = if friction > 0.0 { share * at.torque_rms / friction } else { share };
         Self {
             joint: Some(at.joint_name()),
-            share: (share * at.torque_rms / friction).min(MAX_SHARE),
+            share: lost.min(MAX_SHARE),
             time_constant_s: random.random_range(600.0..2400.0),
         }
     }
@@ -71,7 +72,7 @@ struct Injected {
 
 impl Inject for Injected {
     fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
-        let left = 1.0 + self.share * (-moment.time_s / self.time_constant).exp_m1();
+        let left = 1.0 + self.share * (-moment.time_s.max(0.0) / self.time_constant).exp_m1();
         for &joint in &self.joints {
             efforts.scale_friction(joint, left);
         }
