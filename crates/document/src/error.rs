@@ -137,3 +137,17 @@ fn wrapped(text: &str) -> String {
 fn subject(path: &KeyPath) -> String {
     if path.segments().is_empty() { String::new() } else { format!("{path}: ") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_help_is_broken_between_words() {
+        let words = "expected `viscous_friction` or ".repeat(12);
+        let lines = wrapped(&words);
+        assert!(lines.lines().count() > 3 && lines.lines().all(|line| line.len() <= 88), "{lines}");
+        assert_eq!(lines.replace('\n', " "), words);
+        assert_eq!(wrapped("short"), "short");
+    }
+}
