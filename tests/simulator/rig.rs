@@ -1,6 +1,6 @@
 //! Arms that are simple enough for a closed form, and a way to run them.
 
-use nalgebra::{Isometry3, Matrix3, Unit, Vector3};
+use nalgebra::{Complex, Isometry3, Matrix3, Unit, Vector3};
 use robot::{
     Actuator, Inertia, Joint, JointKind, Limits, Link, Machine, MachineFault, Reading, Robot,
 };
@@ -80,8 +80,18 @@ pub fn simulator(
     toml: &str,
     stepping: Stepping,
 ) -> Result<Simulator, SimulatorError> {
+    sensing(robot, toml, stepping, Sensors::perfect(robot.joint_count()))
+}
+
+/// The same with other sensors.
+pub fn sensing(
+    robot: &Robot,
+    toml: &str,
+    stepping: Stepping,
+    sensors: Sensors,
+) -> Result<Simulator, SimulatorError> {
     let injected = effects(toml).iter().map(|e| e.inject(robot).unwrap()).collect();
-    Simulator::new(robot, injected, Sensors::perfect(robot.joint_count()), stepping)
+    Simulator::new(robot, injected, sensors, stepping)
 }
 
 /// One row of a run: what is true, and what the log says.
@@ -142,4 +152,27 @@ pub fn crossings(rows: &[Row], value: impl Fn(&Row) -> f64) -> Vec<f64> {
 pub fn period(times: &[f64]) -> f64 {
     assert!(times.len() > 3, "{times:?}");
     (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64
+}
+
+/// Times (s) and torques (N m) that move a wheel of some inertia (kg m²), from the motion alone:
+///
+/// ```text
+/// tau(k) = inertia (q(k+1) - 2 q(k) + q(k-1)) / dt²
+/// ```
+///
+/// which a leapfrog makes exact where every step is a row.
+pub fn acting(rows: &[Row], inertia: f64) -> Vec<(f64, f64)> {
+    let torque = |w: &[Row]| {
+        let (dt, q) = (w[1].time_s - w[0].time_s, [0, 1, 2].map(|k| w[k].motor_q_true[0]));
+        (w[1].time_s, inertia * (q[2] - 2.0 * q[1] + q[0]) / (dt * dt))
+    };
+    rows.windows(3).map(torque).collect()
+}
+
+/// Projection of samples (time in s, value) on cosine and sine: `a` of `a sin(w t)` as `-i a`.
+/// The samples span whole periods and are evenly spaced.
+pub fn phasor(samples: &[(f64, f64)], frequency_hz: f64) -> Complex<f64> {
+    let omega = std::f64::consts::TAU * frequency_hz;
+    let turned = samples.iter().map(|&(t, value)| Complex::from_polar(value, -omega * t));
+    turned.sum::<Complex<f64>>() * (2.0 / samples.len() as f64)
 }

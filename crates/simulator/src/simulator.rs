@@ -163,10 +163,10 @@ impl Simulator {
     pub fn record(&mut self, read: &Reading, row: &mut Reading) {
         row.clone_from(read);
         row.effort.clone_from(&self.effort_at_read);
-        self.sensors.add_effort_noise(&mut row.effort);
         for effect in &mut self.effects {
             effect.on_record(row);
         }
+        self.sensors.add_effort_noise(&mut row.effort);
     }
 
     /// One step of the engine under the torque asked for (N m or N), the mean over the step.

@@ -16,8 +16,9 @@ use crate::{Inject, Truth};
 /// skew < 0: position and velocity logged at t are those of t + skew
 /// ```
 ///
-/// Between rows the signals are taken as linear. The controller does not see it, and before the
-/// first row its values are held.
+/// Between rows the signals are taken as linear, and before the first row its values are held. The
+/// noise of the effort comes on top; positions are late as measured, so that those of a broken
+/// number of rows have less noise and lie between counts. The controller does not see any of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeSkew {
