@@ -1,6 +1,7 @@
 //! The diagnosis on logs whose cause is known, and on recorded ones.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a broken fixture should stop the test")]
 
+mod blind;
 mod clean;
 mod extended;
 mod false_alarms;

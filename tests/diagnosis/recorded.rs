@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use catalogue::EffectKind;
+use checks::arms::wam;
 use checks::recorded::folder;
-use checks::synthetic::wam;
 use diagnosis::{Diagnosis, Settings, Silent, Verdict, diagnose};
 use logs::{ReadOptions, Run, read_run};
 use robot::Robot;

@@ -9,12 +9,18 @@ use logs::{Channels, Run};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use robot::Robot;
+use robot::{Robot, TorqueSource};
 
 /// The WAM as it is described in the project.
 pub fn wam() -> Robot {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../robots/wam7/robot.toml");
-    Robot::load(&path).expect("robots/wam7 is part of the project").robot
+    let mut robot = Robot::load(&path).expect("robots/wam7 is part of the project").robot;
+    // The efforts made here belong to the time of their samples, those of a command do not.
+    for i in 0..robot.joint_count() {
+        robot.link_mut(i).expect("a link of the robot").actuator.torque_source =
+            TorqueSource::Measured;
+    }
+    robot
 }
 
 /// Standard deviations of white noise, per joint.

@@ -4,6 +4,7 @@ use robot::Robot;
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extent::inadequate;
+use crate::held::centre_commands;
 use crate::progress::Progress;
 use crate::result::{Diagnosis, RunSummary};
 use crate::settings::Settings;
@@ -49,7 +50,8 @@ pub fn diagnose(
     settings.check()?;
     progress.stage("preparing the logs", 2);
     let (runs, mut warnings) = distinct(robot, runs)?;
-    let prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
+    let mut prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
+    centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
     progress.step();
     let inadequate = inadequate(robot, &prepared);

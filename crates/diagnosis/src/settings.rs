@@ -5,6 +5,8 @@ use crate::DiagnosisError;
 pub struct Settings {
     /// Cut-off of the low-pass filter (Hz); chosen from the data when none is given.
     pub cutoff_hz: Option<f64>,
+    /// Rate at which commanded efforts are renewed (Hz); the log's own where none is given.
+    pub control_rate_hz: Option<f64>,
     /// Expected share of false causes among the findings.
     pub false_discovery_rate: f64,
     /// Seed of every random draw.
@@ -19,6 +21,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             cutoff_hz: None,
+            control_rate_hz: None,
             false_discovery_rate: 0.05,
             seed: 0,
             sign_flips: 1999,

@@ -69,6 +69,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let runs = read_runs(arguments, &loaded.robot)?;
     let settings = Settings {
         cutoff_hz: arguments.cutoff_hz,
+        control_rate_hz: loaded.control.rate_hz,
         false_discovery_rate: arguments.fdr,
         seed: arguments.seed,
         ..Settings::default()
