@@ -4,7 +4,7 @@ use robot::Inertia;
 use crate::rig::{effects, flywheel};
 
 /// What cannot be meant, the key at which it stands and a part of what is said about it.
-const MISTAKES: [(&str, &str, &str); 14] = [
+const MISTAKES: [(&str, &str, &str); 24] = [
     ("backlash = { joint = 'elbow', gap_rad = 0.01 }", "joint", "its joints are joint"),
     ("backlash = { joint = 'joint', gap_rad = -0.01 }", "gap_rad", "-0.01, a number from 0 to 0.5"),
     (
@@ -44,6 +44,28 @@ const MISTAKES: [(&str, &str, &str); 14] = [
         "hysteresis_nm",
         "1 without a stiffness, 0 was expected",
     ),
+    (
+        "torque_ripple = { joint = 'joint', amplitude_nm = 0.3, periods_per_turn = 0 }",
+        "periods_per_turn",
+        "0, a number from 0.1 to 100000 was expected",
+    ),
+    ("torque_constant = { joint = 'joint', gain = 0 }", "gain", "0, a number from 0.1 to 10"),
+    ("torque_offset = { joint = 'joint', offset_nm = inf }", "offset_nm", "inf, a number"),
+    (
+        "actuator_lag = { joint = 'joint', time_constant_ms = -1 }",
+        "time_constant_ms",
+        "-1, a number from 0 to 1000 was expected",
+    ),
+    ("actuator_delay = { joint = 'joint', delay_ms = nan }", "delay_ms", "NaN, a number"),
+    (
+        "torque_saturation = { joint = 'joint', limit_nm = 0 }",
+        "limit_nm",
+        "0, a number from 0.000001",
+    ),
+    ("encoder_offset = { joint = 'joint', offset_rad = 360 }", "offset_rad", "360, a number"),
+    ("transmission_ratio = { joint = 'joint', ratio = -1 }", "ratio", "-1, a number from 0.1"),
+    ("time_skew = { joint = 'elbow', skew_ms = 1 }", "joint", "its joints are joint"),
+    ("time_skew = { skew_ms = -2000 }", "skew_ms", "-2000, a number from -1000 to 1000"),
     (
         "external_disturbance.periodic = { joint = 'joint', amplitude_nm = 1, frequency_hz = 0 }",
         "periodic.frequency_hz",

@@ -31,6 +31,8 @@ fn contract_the_model_side_reads_the_truth_off_the_changed_robot() {
             "inertial_parameters = {{ link = '{link}', mass_kg = 0.9, com_m = [0.01, -0.02, 0.1] }}"
         ),
         "gravity_direction = { tilt_x_rad = 0.03, tilt_y_rad = -0.02 }".to_owned(),
+        "torque_constant = { joint = 'j4_elbow_pitch', gain = 0.93 }".to_owned(),
+        "torque_offset = { joint = 'j4_elbow_pitch', offset_nm = -0.2 }".to_owned(),
     ];
     let down = [[0.0, 0.0, -9.81], [-9.81, 0.0, 0.0], [3.0, -4.0, 8.0], [9.0, 2.0, -3.0]];
     for gravity in down {
