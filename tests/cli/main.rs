@@ -6,3 +6,5 @@ mod bad_input;
 mod commands;
 mod diagnose;
 mod program;
+mod replay;
+mod simulate;

@@ -9,6 +9,12 @@ Exit codes:
   2  usage: arguments, or an output folder that cannot be written
   3  unusable data: a robot, a log or a column map";
 
+const SIMULATION_EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  2  usage: arguments, or an output folder that cannot be made
+  3  a scenario, a robot or a log that cannot be used, or a joint that ran away";
+
 const EXAMPLES: &str = "\
 Examples:
   plumbline log info run_1.csv --robot robot.urdf
@@ -33,12 +39,26 @@ const SIMULATE_EXAMPLES: &str = "\
 Examples:
   plumbline simulate scenarios/effects/coulomb_friction.toml --out out
   plumbline simulate scenarios/hidden.toml --out out --seed 7
-  plumbline simulate scenarios/hidden.toml --out out --set sensors.log_rate_hz=250.0
+  plumbline simulate scenarios/hidden.toml --out out --set sensors.log_rate_hz=250
 
 The output folder holds
-  NAME.parquet   the log of each run
-  scenario.toml  the scenario with everything it extends
-  truth.json     what was put in: for scoring, never for a diagnosis";
+  NAME.parquet   the log of each run, which tells nothing of what was put in
+  scenario.toml  the scenario with all that it extends, --set and --seed: run again it gives
+                 the same logs
+  truth.json     what was put in: for scoring, never for a diagnosis
+
+plumbline explain lists the effects, plumbline schema prints what a scenario may say.";
+
+const REPLAY_EXAMPLES: &str = "\
+Examples:
+  plumbline replay --robot robot.toml --log run_1.parquet --out replay
+  plumbline replay --robot out/extended.toml --log run_1.parquet --out replay --window-ms 100
+
+The output folder holds for each run
+  NAME_forward_50ms.parquet  the motion simulated under the torque of the log, for each length
+                             of time, beside <joint>.measured_position
+  NAME_motion.parquet        the torque simulated along the motion of the log, beside
+                             <joint>.measured_effort, if the robot.toml has gains";
 
 /// Shows what a simulation gets wrong in a recorded log, names the cause, extends the
 /// model and measures the gain.
@@ -65,10 +85,10 @@ pub enum Command {
     /// Explains an effect by its name; lists all effects without one
     Explain(explain::Arguments),
     /// Simulates the runs of a scenario: logs, and apart from them what was put in
-    #[command(after_help = format!("{SIMULATE_EXAMPLES}\n\n{EXIT_CODES}"))]
+    #[command(after_help = format!("{SIMULATE_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Simulate(simulate::Arguments),
-    /// Compares logs with a simulation: motion under their torque, torque along their motion
-    #[command(after_help = EXIT_CODES)]
+    /// Compares a simulation with logs: motion under their torque, torque along their motion
+    #[command(after_help = format!("{REPLAY_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Replay(replay::Arguments),
     /// Prints the JSON schema of scenario files
     Schema,

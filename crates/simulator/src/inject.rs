@@ -6,7 +6,7 @@ use crate::engine::Push;
 /// Where the arm is when an effect is asked for its torque.
 #[derive(Debug, Clone, Copy)]
 pub struct Moment<'a> {
-    /// Time since the start (s).
+    /// Time since the start of the log (s), below zero while the arm is held before it.
     pub time_s: f64,
     /// Length of the engine's step (s).
     pub step_s: f64,

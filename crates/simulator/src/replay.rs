@@ -19,11 +19,11 @@ pub struct ForwardReplay {
     pub window_s: f64,
     /// Number of windows, one after the other without overlap.
     pub windows: usize,
-    /// Windows in which a joint ran away; they count as nothing below.
+    /// Windows in which a joint ran away; they are left out of the drift.
     pub runaways: Vec<MachineFault>,
     /// Root mean square over the windows of `q_simulated - q_measured` at their ends, for each
-    /// joint (rad or m).
-    pub drift_rms: Vec<f64>,
+    /// joint (rad or m); `None` when a joint ran away in every window.
+    pub drift_rms: Option<Vec<f64>>,
     /// The simulated motion: positions and velocities of every sample of every window, with the
     /// measured positions as `<joint>.measured_position`.
     pub motion: Run,
@@ -59,7 +59,7 @@ pub fn replay_torque(
     let windows = windows?;
     let (mut squares, mut kept) = (vec![0.0; robot.joint_count()], 0_usize);
     for (window, start) in windows.iter().zip(&starts) {
-        let (Some((q, _)), None) = (window.states.last(), &window.fault) else { continue };
+        let (Some(State { q, .. }), None) = (window.states.last(), &window.fault) else { continue };
         kept += 1;
         for (i, square) in squares.iter_mut().enumerate() {
             *square += (q[i] - record.joints[i].q[start + samples]).powi(2);
@@ -68,7 +68,7 @@ pub fn replay_torque(
     Ok(ForwardReplay {
         window_s: samples as f64 / record.rate_hz,
         windows: count,
-        drift_rms: squares.iter().map(|s| (s / kept.max(1) as f64).sqrt()).collect(),
+        drift_rms: (kept > 0).then(|| squares.iter().map(|s| (s / kept as f64).sqrt()).collect()),
         motion: motion_of(robot, record, &starts, &windows),
         runaways: windows.into_iter().filter_map(|w| w.fault).collect(),
     })
@@ -76,8 +76,13 @@ pub fn replay_torque(
 
 /// What one window came to: positions and velocities at every sample after its start.
 struct Window {
-    states: Vec<(Vec<f64>, Vec<f64>)>,
+    states: Vec<State>,
     fault: Option<MachineFault>,
+}
+
+struct State {
+    q: Vec<f64>,
+    qd: Vec<f64>,
 }
 
 fn roll(
@@ -97,7 +102,8 @@ fn roll(
             window.fault = Some(fault);
             break;
         }
-        window.states.push((simulator.q_true().to_vec(), simulator.qd_true().to_vec()));
+        let (q, qd) = (simulator.q_true().to_vec(), simulator.qd_true().to_vec());
+        window.states.push(State { q, qd });
     }
     Ok(window)
 }
@@ -124,15 +130,15 @@ fn perfect(robot: &Robot, rate_hz: f64) -> Result<Simulator, SimulatorError> {
 
 fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[Window]) -> Run {
     let sample = |start: usize, i: usize| start + 1 + i;
-    let places: Vec<(usize, &(Vec<f64>, Vec<f64>))> = windows
+    let places: Vec<(usize, &State)> = windows
         .iter()
         .zip(starts)
         .flat_map(|(w, &s)| w.states.iter().enumerate().map(move |(i, x)| (sample(s, i), x)))
         .collect();
     let joint = |(j, name): (usize, &str)| Channels {
         name: name.to_owned(),
-        position: places.iter().map(|(_, (q, _))| q[j]).collect(),
-        velocity: Some(places.iter().map(|(_, (_, qd))| qd[j]).collect()),
+        position: places.iter().map(|(_, at)| at.q[j]).collect(),
+        velocity: Some(places.iter().map(|(_, at)| at.qd[j]).collect()),
         effort: places.iter().map(|(k, _)| record.joints[j].effort[*k]).collect(),
         ..Channels::default()
     };
@@ -165,6 +171,9 @@ pub struct MotionReplay {
 /// Lets a robot's simulation follow a recorded motion with
 /// `tau = kp (q_ref - q) + kd (qd_ref - qd)`.
 ///
+/// It starts behind the record by `effort / kp`, as one that has been following it, so that the
+/// first torque is not a step from zero.
+///
 /// # Errors
 ///
 /// [`SimulatorError`] when the robot cannot be simulated or a joint runs away.
@@ -178,7 +187,11 @@ pub fn replay_motion(
     let mut simulator = perfect(robot, record.rate_hz * turns as f64)?;
     let at =
         |of: &dyn Fn(&PreparedJoint) -> f64| -> Vec<f64> { record.joints.iter().map(of).collect() };
-    simulator.start_moving(&at(&|j| j.q[0]), &at(&|j| j.qd[0]));
+    let behind = |(joint, gain): (&PreparedJoint, &Gain)| {
+        joint.q[0] - if gain.kp > 0.0 { joint.effort[0] / gain.kp } else { 0.0 }
+    };
+    let start: Vec<f64> = record.joints.iter().zip(gains).map(behind).collect();
+    simulator.start_moving(&start, &at(&|j| j.qd[0]));
     let mut rows = Vec::with_capacity(record.time.len());
     let mut reading = Reading::zero(robot.joint_count());
     for tick in 0..(record.time.len() - 1) * turns {

@@ -1,7 +1,8 @@
 use std::collections::BTreeMap;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-use logs::{Channels, Run};
+use logs::{Channels, LogError, Run};
 use motion::State;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -24,6 +25,25 @@ pub struct Simulation {
     pub runs: Vec<Run>,
     /// What was put in.
     pub truth: Vec<Truth>,
+}
+
+/// How logs are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LogFormat {
+    /// Parquet, one `f64` column a signal.
+    Parquet,
+    /// Text, one row a line.
+    Csv,
+}
+
+impl LogFormat {
+    /// How the names of such files end.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Parquet => "parquet",
+            Self::Csv => "csv",
+        }
+    }
 }
 
 /// Simulates every run of a scenario, side by side on all cores.
@@ -51,7 +71,8 @@ pub fn simulate(
 
 /// Writes the logs, the resolved scenario and `truth.json` into a folder.
 ///
-/// Every file appears whole or not at all.
+/// Every file appears whole or not at all. `truth.json` is the last to appear, and one of before
+/// is the first to go: where there is one, it is that of the logs beside it.
 ///
 /// # Errors
 ///
@@ -60,21 +81,27 @@ pub fn write(
     folder: &Path,
     scenario: &Scenario,
     simulation: &Simulation,
-    csv: bool,
+    format: LogFormat,
 ) -> Result<(), SimulatorError> {
-    for run in &simulation.runs {
-        if csv {
-            logs::write_csv(&folder.join(format!("{}.csv", run.name)), run)?;
-        } else {
-            logs::write_parquet(&folder.join(format!("{}.parquet", run.name)), run)?;
-        }
-    }
     let sealed = Sealed { seed: scenario.seed(), effects: &simulation.truth };
     let truth = serde_json::to_string_pretty(&sealed).unwrap_or_default() + "\n";
-    for (name, text) in [("scenario.toml", scenario.resolved()), ("truth.json", &truth)] {
-        logs::replace_file(&folder.join(name), |file| {
-            Ok(std::io::Write::write_all(file, text.as_bytes())?)
-        })?;
+    let truth_file = folder.join("truth.json");
+    match std::fs::remove_file(&truth_file) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            return Err(LogError::Unwritable { path: truth_file, reason: error.to_string() }.into());
+        }
+        _ => {}
+    }
+    for run in &simulation.runs {
+        let path = folder.join(format!("{}.{}", run.name, format.extension()));
+        match format {
+            LogFormat::Parquet => logs::write_parquet(&path, run)?,
+            LogFormat::Csv => logs::write_csv(&path, run)?,
+        }
+    }
+    let scenario_file = folder.join("scenario.toml");
+    for (path, text) in [(&scenario_file, scenario.resolved()), (&truth_file, &truth)] {
+        logs::replace_file(path, |file| Ok(file.write_all(text.as_bytes())?))?;
     }
     Ok(())
 }
@@ -150,8 +177,8 @@ pub(crate) struct Following<'a> {
 
 /// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, within the torque limits.
 ///
-/// A motion that starts at rest is held at its start for the lead-in, any other starts in motion
-/// at once.
+/// A motion that starts at rest is held at its start for the lead-in, before time zero; any other
+/// starts in motion at once.
 pub(crate) fn follow(
     simulator: &mut Simulator,
     following: &Following<'_>,
@@ -163,6 +190,7 @@ pub(crate) fn follow(
     let at_rest = reference.qd.iter().all(|qd| qd.abs() <= 1e-9);
     let lead_in = if at_rest { (run.lead_in_s / period_s).round() as usize } else { 0 };
     simulator.start_moving(&reference.q, &reference.qd);
+    simulator.count_down(lead_in);
     let count = (run.motion.duration_s().min(longest_s) / period_s).round() as usize + 1;
     let mut reading = Reading::zero(robot.joint_count());
     let mut command = vec![0.0; robot.joint_count()];

@@ -207,10 +207,12 @@ impl Simulator {
                 continue;
             }
             let unit = if joint.turns { "rad/s" } else { "m/s" };
+            let readable = speed.abs() < 1e6;
+            let speed = if readable { format!("{speed:.1}") } else { format!("{speed:.1e}") };
             return Err(MachineFault {
                 time_s: self.time_s(),
                 joint: joint.name.clone(),
-                found: format!("its speed is {speed:.3e} {unit}, at most {RUNAWAY_SPEED} {unit} was expected"),
+                found: format!("its speed is {speed} {unit}, at most {RUNAWAY_SPEED} {unit} was expected"),
                 advice: "lower the gains or the torques, give the joint's motor its rotor inertia, or shorten the engine's step".to_owned(),
             });
         }

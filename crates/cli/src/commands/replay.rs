@@ -1,8 +1,10 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use logs::{ColumnMap, PrepareSettings, PreparedRun, ReadOptions, Run};
+use logs::{
+    ColumnMap, LogError, LogWarning, PrepareSettings, Prepared, PreparedRun, ReadOptions, Run,
+};
 use robot::{Gain, Loaded, Robot};
-use simulator::{ForwardReplay, MotionReplay};
+use simulator::{ForwardReplay, MotionReplay, SimulatorError};
 
 use crate::Outcome;
 use crate::error::CliError;
@@ -20,8 +22,8 @@ pub struct Arguments {
     /// Folder for the simulated motion and torque of every run
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Lengths of time that the simulation is rolled forward
-    #[arg(long, value_name = "MS", value_delimiter = ',', default_values_t = [50.0, 200.0, 1000.0])]
+    /// Lengths of time that the simulation is rolled forward, with commas between them
+    #[arg(long, value_name = "MS", value_delimiter = ',', default_values_t = [50.0, 200.0, 1000.0], value_parser = positive, allow_negative_numbers = true)]
     window_ms: Vec<f64>,
     /// Names and units of columns that are called otherwise (TOML)
     #[arg(long, value_name = "FILE")]
@@ -41,68 +43,117 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         arguments.logs.iter().map(|p| logs::read_run(p, &loaded.robot, &options)).collect();
     let prepared = logs::prepare(&runs?, &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
-    for record in &prepared.runs {
-        replay(arguments, &loaded, record)?;
+    let replays: Result<Vec<Replay>, _> =
+        prepared.runs.iter().map(|record| Replay::of(arguments, &loaded, record)).collect();
+    for (index, (record, replay)) in prepared.runs.iter().zip(&replays?).enumerate() {
+        let namesakes = prepared.runs[..index].iter().filter(|r| r.name == record.name).count();
+        let ending = if namesakes == 0 { String::new() } else { format!("_{}", namesakes + 1) };
+        let name = record.name.replace(' ', "_") + &ending;
+        replay.write(&arguments.out, &name)?;
+        print(&text(&loaded.robot, &name, record, replay))?;
     }
-    print(&format!("simulated motion and torque {}\n", shown(&arguments.out)))?;
+    print(&closing(arguments, &prepared))?;
     Ok(Outcome::Good)
 }
 
-fn replay(arguments: &Arguments, loaded: &Loaded, record: &PreparedRun) -> Result<(), CliError> {
-    let robot = &loaded.robot;
-    let stem = record.name.replace(' ', "_");
-    let mut forward = Vec::new();
-    for &window_ms in &arguments.window_ms {
-        let replay = simulator::replay_torque(robot, record, 1e-3 * window_ms)?;
-        let file = arguments.out.join(format!("{stem}_forward_{window_ms}ms.parquet"));
-        logs::write_parquet(&file, &replay.motion)?;
-        forward.push(replay);
-    }
-    let gains: Option<Vec<Gain>> = loaded.control.gains.iter().copied().collect();
-    let motion = match gains.filter(|g| g.len() == robot.joint_count()) {
-        Some(gains) => Some(simulator::replay_motion(robot, &gains, record)?),
-        None => None,
-    };
-    if let Some(motion) = &motion {
-        logs::write_parquet(&arguments.out.join(format!("{stem}_motion.parquet")), &motion.log)?;
-    }
-    print(&text(robot, record, &forward, motion.as_ref()))
+/// What was simulated of one record.
+struct Replay {
+    forward: Vec<ForwardReplay>,
+    /// Where the robot has gains to follow a motion with.
+    motion: Option<MotionReplay>,
 }
 
-fn text(
-    robot: &Robot,
-    record: &PreparedRun,
-    forward: &[ForwardReplay],
-    motion: Option<&MotionReplay>,
-) -> String {
+impl Replay {
+    fn of(
+        arguments: &Arguments,
+        loaded: &Loaded,
+        record: &PreparedRun,
+    ) -> Result<Self, SimulatorError> {
+        let robot = &loaded.robot;
+        let windows = arguments.window_ms.iter();
+        let forward = windows.map(|ms| simulator::replay_torque(robot, record, 1e-3 * ms));
+        let forward = forward.collect::<Result<_, _>>()?;
+        let gains: Option<Vec<Gain>> = loaded.control.gains.iter().copied().collect();
+        let gains = gains.filter(|g| g.len() == robot.joint_count());
+        let motion = gains.map(|gains| simulator::replay_motion(robot, &gains, record));
+        Ok(Self { forward, motion: motion.transpose()? })
+    }
+
+    fn write(&self, folder: &Path, name: &str) -> Result<(), LogError> {
+        for forward in &self.forward {
+            let window_ms = milliseconds(forward);
+            let file = folder.join(format!("{name}_forward_{window_ms}ms.parquet"));
+            logs::write_parquet(&file, &forward.motion)?;
+        }
+        match &self.motion {
+            Some(motion) => {
+                logs::write_parquet(&folder.join(format!("{name}_motion.parquet")), &motion.log)
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Length of the windows (ms), which is a whole number of samples.
+fn milliseconds(forward: &ForwardReplay) -> String {
+    ((1e6 * forward.window_s).round() / 1e3).to_string()
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|&v: &f64| v > 0.0 && v.is_finite());
+    number.ok_or_else(|| "a positive number was expected".to_owned())
+}
+
+const NO_GAINS: &str =
+    " no torque along the measured motion: that takes kp_nm_per_rad and kd_nm_s_per_rad of every
+ joint in a robot.toml
+";
+
+/// What the columns mean, what was done to their clocks, and where the files are.
+fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
+    let mut text = String::from(
+        "ms      drift after so long under the measured torque: simulated minus measured position,\n        \
+         RMS over all such windows of the log (rad or m)\n\
+         torque  simulated minus measured along the measured motion, RMS, beside the RMS of the\n        \
+         measured (N·m or N)\n",
+    );
+    use LogWarning as W;
+    let of_clocks = |w: &&W| matches!(w, W::Resampled { .. } | W::Split { .. });
+    for warning in prepared.warnings.iter().filter(of_clocks) {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    text + &format!("\nsimulated motion and torque {}\n", shown(&arguments.out))
+}
+
+fn text(robot: &Robot, name: &str, record: &PreparedRun, replay: &Replay) -> String {
+    let Replay { forward, motion } = replay;
     let mut header = vec!["joint".to_owned()];
-    header.extend(forward.iter().map(|f| format!(">{:.0} ms", 1e3 * f.window_s)));
-    header.extend(motion.iter().flat_map(|_| [">torque".to_owned(), ">of".to_owned()]));
-    let rows = robot.joint_names().enumerate().map(|(j, name)| {
-        let mut row = vec![name.to_owned()];
-        row.extend(forward.iter().map(|f| format!("{:.3e}", f.drift_rms[j])));
+    header.extend(forward.iter().map(|f| format!(">{} ms", milliseconds(f))));
+    header.extend(motion.iter().flat_map(|_| [">torque".to_owned(), ">measured".to_owned()]));
+    let rows = robot.joint_names().enumerate().map(|(j, joint)| {
+        let mut row = vec![joint.to_owned()];
+        let drift = |f: &ForwardReplay| f.drift_rms.as_ref().map(|d| format!("{:.2e}", d[j]));
+        row.extend(forward.iter().map(|f| drift(f).unwrap_or_else(|| "-".to_owned())));
         if let Some(motion) = motion {
             let squares = record.joints[j].effort.iter().map(|tau| tau * tau);
             let rms = (squares.sum::<f64>() / record.time.len() as f64).sqrt();
-            row.push(format!("{:.3}", motion.torque_error_rms[j]));
-            row.push(format!("{rms:.3}"));
+            row.push(report::significant(motion.torque_error_rms[j], 3));
+            row.push(report::significant(rms, 3));
         }
         row
     });
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let mut text = format!("{}\n{}", record.name, table(&header, rows));
-    text.push_str(" ms: drift of the simulated from the measured position after so long under the measured torque, RMS (rad or m)\n");
-    text.push_str(match motion {
-        Some(_) => " torque: simulated minus measured along the measured motion, RMS, of the measured RMS (N m or N)\n",
-        None => " the robot has no gains for every joint, so its simulation cannot follow the measured motion\n",
-    });
+    let mut text = format!("{name}\n{}", table(&header, rows));
+    if motion.is_none() {
+        text.push_str(NO_GAINS);
+    }
     for replay in forward.iter().filter(|f| !f.runaways.is_empty()) {
-        let fault = &replay.runaways[0];
         text.push_str(&format!(
-            " {} of {} windows of {:.0} ms ran away and are left out, the first: {fault}\n",
+            " a joint ran away in {} of {} windows of {} ms, which are left out; the first:\n  {}\n",
             replay.runaways.len(),
             replay.windows,
-            1e3 * replay.window_s
+            milliseconds(replay),
+            replay.runaways[0]
         ));
     }
     text + "\n"

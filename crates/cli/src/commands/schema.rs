@@ -1,4 +1,4 @@
-use schemars::schema_for;
+use schemars::{json_schema, schema_for};
 use simulator::scenario::ScenarioSpec;
 
 use crate::Outcome;
@@ -6,7 +6,21 @@ use crate::error::CliError;
 use crate::output::print_json;
 
 /// Prints the JSON schema of scenario files, which editors complete and check keys with.
+///
+/// It is that of one file, which may extend others and leave to them what a scenario needs.
 pub fn run() -> Result<Outcome, CliError> {
-    print_json(&schema_for!(ScenarioSpec))?;
+    let mut schema = schema_for!(ScenarioSpec);
+    schema.remove("required");
+    let file = json_schema!({ "type": "string" });
+    let extends = json_schema!({
+        "description": "A file that this one extends, or several of which later ones count more, \
+                        relative to this file. Tables are merged key by key, anything else is \
+                        replaced, lists of tables as a whole.",
+        "anyOf": [file, { "type": "array", "items": file }]
+    });
+    if let Some(properties) = schema.get_mut("properties").and_then(|p| p.as_object_mut()) {
+        properties.insert("extends".to_owned(), extends.into());
+    }
+    print_json(&schema)?;
     Ok(Outcome::Good)
 }

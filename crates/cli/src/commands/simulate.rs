@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 use diagnosis::Progress;
 use document::Document;
 use logs::Run;
+use simulator::LogFormat;
 use simulator::scenario::Scenario;
 
 use crate::Outcome;
@@ -19,9 +20,10 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Seed of every random draw, instead of the scenario's
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(0..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// A value instead of the scenario's, such as effect.0.coulomb_friction.level_nm=0.6
+    /// A value instead of the scenario's, such as effect.0.coulomb_friction.level_nm=0.6; may be
+    /// given more than once
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Write the logs as CSV instead of Parquet
@@ -30,6 +32,17 @@ pub struct Arguments {
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
+}
+
+impl Arguments {
+    fn format(&self) -> LogFormat {
+        if self.csv { LogFormat::Csv } else { LogFormat::Parquet }
+    }
+
+    /// Where the log of a run is written.
+    fn log(&self, run: &str) -> PathBuf {
+        self.out.join(format!("{run}.{}", self.format().extension()))
+    }
 }
 
 /// Simulates every run of a scenario and writes the logs and, apart from them, the truth.
@@ -55,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     });
     bar.finish();
     let simulation = simulation?;
-    simulator::write(&arguments.out, &scenario, &simulation, arguments.csv)?;
+    simulator::write(&arguments.out, &scenario, &simulation, arguments.format())?;
     if !arguments.quiet {
         print(&summary(arguments, &scenario, &simulation.runs))?;
     }
@@ -64,18 +77,17 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
 
 /// What was written. Says nothing of the effects: whoever diagnoses the logs has not seen them.
 fn summary(arguments: &Arguments, scenario: &Scenario, runs: &[Run]) -> String {
-    let extension = if arguments.csv { "csv" } else { "parquet" };
     let rows = runs.iter().map(|run| {
         let duration = run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
-        let file = arguments.out.join(format!("{}.{extension}", run.name));
-        vec![run.name.clone(), run.time.len().to_string(), format!("{duration:.1}"), shown(&file)]
+        let file = shown(&arguments.log(&run.name));
+        vec![run.name.clone(), run.time.len().to_string(), format!("{duration:.1}"), file]
     });
     let runs = table(&["run", ">rows", ">seconds", "log"], rows);
     let truth = shown(&arguments.out.join("truth.json"));
     let logs: Vec<String> =
-        runs_files(arguments, scenario, extension).iter().map(|p| shown(p)).collect();
+        scenario.runs().iter().map(|run| shown(&arguments.log(&run.name))).collect();
     format!(
-        "{runs}\nWhat was put in is in {truth} alone.\nTo find it: plumbline diagnose --robot {} --log {} --out {}\n",
+        "{runs}\nWhat was put in stands in {truth}, for scoring only. To diagnose the logs:\n  plumbline diagnose --robot {} --log {} --out {}\n",
         shown(&near(scenario.robot_file())),
         logs.join(" "),
         shown(&arguments.out.join("diagnosis"))
@@ -88,9 +100,4 @@ fn near(file: &Path) -> PathBuf {
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     let inside = here.ok().and_then(|here| whole.strip_prefix(here).ok().map(Path::to_owned));
     inside.unwrap_or(whole)
-}
-
-fn runs_files(arguments: &Arguments, scenario: &Scenario, extension: &str) -> Vec<PathBuf> {
-    let file = |name: &str| arguments.out.join(format!("{name}.{extension}"));
-    scenario.runs().iter().map(|run| file(&run.name)).collect()
 }

@@ -262,10 +262,11 @@ impl Checker<'_> {
         self.by_joint(&path.key("effort_noise_nm"), &s.effort_noise_nm, 1000.0)?;
         self.within(&path.key("dropped_share"), s.dropped_share, 0.0, 0.5)?;
         if let crate::VelocitySource::FilteredDifference { cutoff_hz } = s.velocity {
-            self.within(&path.key("velocity"), cutoff_hz, 0.1, 0.5 * self.control_rate_hz())?;
+            let path = path.key("velocity").key("filtered_difference").key("cutoff_hz");
+            self.within(&path, cutoff_hz, 0.1, 0.5 * self.control_rate_hz())?;
         }
-        let period_ms = 1e3 / s.log_rate_hz.unwrap_or(self.control_rate_hz());
-        self.within(&path.key("time_jitter_ms"), s.time_jitter_ms, 0.0, 0.2 * period_ms)
+        let fifth_ms = 200.0 / s.log_rate_hz.unwrap_or(self.control_rate_hz());
+        self.within(&path.key("time_jitter_ms"), s.time_jitter_ms, 0.0, fifth_ms)
     }
 
     fn rows_per_log(&self) -> Result<usize, DocumentError> {

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use catalogue::EffectKind;
 use motion::MotionSpec;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use crate::effects::EffectSpec;
@@ -14,6 +14,7 @@ use crate::{EffortSource, PositionSide, VelocitySource};
 /// At a prismatic joint `nm` stands for N, `rad` for m and `kg_m2` for kg.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Plumbline scenario")]
 pub struct ScenarioSpec {
     /// The robot's `robot.toml` or URDF, relative to this file.
     pub robot: PathBuf,
@@ -126,7 +127,7 @@ pub struct HiddenSpec {
     pub count: [usize; 2],
     /// The effects to draw from; all of them where it is left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(with = "Vec<String>")]
+    #[schemars(schema_with = "kinds_of_effects")]
     pub from: Vec<EffectKind>,
     /// Seed of the draw; the scenario's where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -135,6 +136,11 @@ pub struct HiddenSpec {
     /// the joint's torque.
     #[serde(default = "usual_share")]
     pub torque_share: [f64; 2],
+}
+
+fn kinds_of_effects(_: &mut SchemaGenerator) -> Schema {
+    let names = EffectKind::ALL.map(EffectKind::name);
+    json_schema!({ "type": "array", "items": { "type": "string", "enum": names } })
 }
 
 fn usual_share() -> [f64; 2] {
