@@ -26,7 +26,7 @@ fn whatever_is_drawn_can_be_put_in_and_is_drawn_again_from_the_same_seed() {
         };
         for (at, share) in [(moving, 0.01), (moving, 0.2), (moving, 3.0), (still, 0.1)] {
             for kind in EffectKind::ALL {
-                let draw = || EffectSpec::draw(kind, &at, share, &mut generator(7)).unwrap();
+                let draw = || EffectSpec::draw(kind, &at, share, &mut generator(7));
                 let effect = draw();
                 assert_eq!(effect.kind(), kind);
                 assert_eq!(effect, draw(), "{kind}");

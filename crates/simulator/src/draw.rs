@@ -146,7 +146,7 @@ impl<'a> Bench<'a> {
         let mut best: Option<(EffectSpec, f64)> = None;
         for _ in 0..CORRECTIONS {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
-            let effect = EffectSpec::draw(kind, &at, asked, &mut random)?;
+            let effect = EffectSpec::draw(kind, &at, asked, &mut random);
             let Some(share) = effect.inject(at.robot).ok().and_then(|_| self.share(&effect)) else {
                 asked *= 0.5;
                 continue;

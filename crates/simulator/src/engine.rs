@@ -331,7 +331,7 @@ fn rigid_body(body: &Body) -> RigidBodyBuilder {
 ///
 /// The principal axes are worked out here: those of rapier come from a closed form that loses
 /// the difference of two nearly equal moments, and with it 1 % of the WAM palm's gyroscopic
-/// torque.
+/// torque; of tensors below 1e-4 kg m² it also loses the products of inertia.
 fn mass_properties(inertia: &Inertia) -> MassProperties {
     let mut eigen = SymmetricEigen::new(inertia.about_com);
     if eigen.eigenvectors.determinant() < 0.0 {

@@ -111,7 +111,8 @@ pub trait Inject: Send {
     /// sees it too.
     fn on_reading(&mut self, _reading: &mut Reading) {}
 
-    /// Changes a row on its way into the log, behind the controller's back.
+    /// Changes a row on its way into the log, behind the controller's back. The noise of the
+    /// effort comes after.
     fn on_record(&mut self, _row: &mut Reading) {}
 
     /// Whether [`Moment::load`] is to be filled, which costs a product with the mass matrix.

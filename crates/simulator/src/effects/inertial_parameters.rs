@@ -26,6 +26,13 @@ pub struct InertialParameters {
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
+/// Least mass that is drawn, of the nominal mass: a link that weighs nothing is no mistake that
+/// anyone makes.
+const LEAST_DRAWN: f64 = 0.2;
+
+/// Longest way by which a drawn centre of mass is off (m).
+const FARTHEST_DRAWN_M: f64 = 0.15;
+
 impl Effect for InertialParameters {
     const KIND: EffectKind = EffectKind::InertialParameters;
 
@@ -58,8 +65,8 @@ impl Effect for InertialParameters {
         let nominal =
             at.robot.links().get(at.joint).map_or_else(Inertia::zero, |l| l.inertia.clone());
         let factor = if random.random_bool(0.5) { 1.0 + share } else { 1.0 / (1.0 + share) };
-        let mass = (nominal.mass * factor).clamp(1e-6, 1000.0);
-        let shift = (share * at.torque_rms / (at.fall() * mass)).min(1.0);
+        let mass = (nominal.mass * factor).clamp(LEAST_DRAWN * nominal.mass, 1000.0);
+        let shift = (share * at.torque_rms / (at.fall() * mass)).min(FARTHEST_DRAWN_M);
         let com: Vector3<f64> = nominal.com_in_link + direction(random) * shift;
         Self { link: at.link_name(), mass_kg: mass, com_m: com.into(), inertia_kg_m2: None }
     }

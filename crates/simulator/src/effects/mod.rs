@@ -18,6 +18,7 @@ mod payload;
 mod position_dependent_friction;
 mod presliding_friction;
 mod rotor_inertia;
+mod spec;
 mod stribeck_friction;
 mod time_skew;
 mod torque_constant;
@@ -32,8 +33,6 @@ use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, UnitSphere};
 use robot::Robot;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 pub use actuator_delay::ActuatorDelay;
 pub use actuator_lag::ActuatorLag;
@@ -53,6 +52,7 @@ pub use payload::Payload;
 pub use position_dependent_friction::PositionDependentFriction;
 pub use presliding_friction::PreslidingFriction;
 pub use rotor_inertia::RotorInertia;
+pub use spec::EffectSpec;
 pub use stribeck_friction::StribeckFriction;
 pub use time_skew::TimeSkew;
 pub use torque_constant::TorqueConstant;
@@ -146,189 +146,6 @@ pub trait Effect: Sized {
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self;
 }
 
-/// Any effect, as `[[effect]]` of a scenario states it: one key, the effect's name.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EffectSpec {
-    /// Torque against the motion in proportion to velocity.
-    ViscousFriction(ViscousFriction),
-    /// Torque of constant size against the motion.
-    CoulombFriction(CoulombFriction),
-    /// Dry friction with one level for each direction.
-    AsymmetricFriction(AsymmetricFriction),
-    /// Dry friction that is larger at rest.
-    StribeckFriction(StribeckFriction),
-    /// Dry friction that gives like a spring before it slides.
-    PreslidingFriction(PreslidingFriction),
-    /// Dry friction that grows with the torque carried.
-    LoadDependentFriction(LoadDependentFriction),
-    /// Dry friction that varies with position.
-    PositionDependentFriction(PositionDependentFriction),
-    /// Friction that falls while the drive warms up.
-    FrictionTemperatureDrift(FrictionTemperatureDrift),
-    /// Free play between motor and link.
-    Backlash(Backlash),
-    /// A spring with damping between motor and link.
-    JointElasticity(JointElasticity),
-    /// Inertia of the motor beyond the description.
-    RotorInertia(RotorInertia),
-    /// Dry friction at the two motors of a differential.
-    DifferentialCoupling(DifferentialCoupling),
-    /// A body fixed to a link.
-    Payload(Payload),
-    /// What a link truly weighs.
-    InertialParameters(InertialParameters),
-    /// A base that does not stand as described.
-    GravityDirection(GravityDirection),
-    /// A hose or cable that pulls at a joint.
-    CableSpring(CableSpring),
-    /// Torque of the motor that its angle decides.
-    TorqueRipple(TorqueRipple),
-    /// Effort in a wrong unit of torque.
-    TorqueConstant(TorqueConstant),
-    /// A constant in the reported effort.
-    TorqueOffset(TorqueOffset),
-    /// Torque that follows its command as through a filter.
-    ActuatorLag(ActuatorLag),
-    /// Torque that comes a fixed time after its command.
-    ActuatorDelay(ActuatorDelay),
-    /// A drive that gives no more than its limit.
-    TorqueSaturation(TorqueSaturation),
-    /// An encoder whose zero is not the joint's.
-    EncoderOffset(EncoderOffset),
-    /// A gear ratio that is not the one the drive was told.
-    TransmissionRatio(TransmissionRatio),
-    /// Effort and position of different instants in one row.
-    TimeSkew(TimeSkew),
-    /// A torque or force from the world around.
-    ExternalDisturbance(ExternalDisturbance),
-}
-
-/// Calls a function of [`Effect`] on whichever effect it is.
-macro_rules! each {
-    ($spec:expr, $effect:ident => $call:expr) => {
-        match $spec {
-            EffectSpec::ViscousFriction($effect) => $call,
-            EffectSpec::CoulombFriction($effect) => $call,
-            EffectSpec::AsymmetricFriction($effect) => $call,
-            EffectSpec::StribeckFriction($effect) => $call,
-            EffectSpec::PreslidingFriction($effect) => $call,
-            EffectSpec::LoadDependentFriction($effect) => $call,
-            EffectSpec::PositionDependentFriction($effect) => $call,
-            EffectSpec::FrictionTemperatureDrift($effect) => $call,
-            EffectSpec::Backlash($effect) => $call,
-            EffectSpec::JointElasticity($effect) => $call,
-            EffectSpec::RotorInertia($effect) => $call,
-            EffectSpec::DifferentialCoupling($effect) => $call,
-            EffectSpec::Payload($effect) => $call,
-            EffectSpec::InertialParameters($effect) => $call,
-            EffectSpec::GravityDirection($effect) => $call,
-            EffectSpec::CableSpring($effect) => $call,
-            EffectSpec::TorqueRipple($effect) => $call,
-            EffectSpec::TorqueConstant($effect) => $call,
-            EffectSpec::TorqueOffset($effect) => $call,
-            EffectSpec::ActuatorLag($effect) => $call,
-            EffectSpec::ActuatorDelay($effect) => $call,
-            EffectSpec::TorqueSaturation($effect) => $call,
-            EffectSpec::EncoderOffset($effect) => $call,
-            EffectSpec::TransmissionRatio($effect) => $call,
-            EffectSpec::TimeSkew($effect) => $call,
-            EffectSpec::ExternalDisturbance($effect) => $call,
-        }
-    };
-}
-
-impl EffectSpec {
-    /// Its name.
-    pub fn kind(&self) -> EffectKind {
-        each!(self, effect => kind_of(effect))
-    }
-
-    /// Where it acts, and its parameters under the catalogue's names.
-    pub fn truth(&self) -> Truth {
-        each!(self, effect => effect.truth())
-    }
-
-    /// The effect ready to act on a robot; see [`Effect::inject`].
-    ///
-    /// # Errors
-    ///
-    /// [`Mistake`], the first found: a joint that the robot does not have, or a value that no arm
-    /// has.
-    pub fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
-        each!(self, effect => effect.inject(robot))
-    }
-
-    /// An effect of a kind, drawn; see [`Effect::draw`].
-    pub fn draw(
-        kind: EffectKind,
-        at: &Surroundings<'_>,
-        share: f64,
-        random: &mut ChaCha8Rng,
-    ) -> Option<Self> {
-        match kind {
-            EffectKind::ViscousFriction => {
-                Some(Self::ViscousFriction(Effect::draw(at, share, random)))
-            }
-            EffectKind::CoulombFriction => {
-                Some(Self::CoulombFriction(Effect::draw(at, share, random)))
-            }
-            EffectKind::AsymmetricFriction => {
-                Some(Self::AsymmetricFriction(Effect::draw(at, share, random)))
-            }
-            EffectKind::StribeckFriction => {
-                Some(Self::StribeckFriction(Effect::draw(at, share, random)))
-            }
-            EffectKind::PreslidingFriction => {
-                Some(Self::PreslidingFriction(Effect::draw(at, share, random)))
-            }
-            EffectKind::LoadDependentFriction => {
-                Some(Self::LoadDependentFriction(Effect::draw(at, share, random)))
-            }
-            EffectKind::PositionDependentFriction => {
-                Some(Self::PositionDependentFriction(Effect::draw(at, share, random)))
-            }
-            EffectKind::FrictionTemperatureDrift => {
-                Some(Self::FrictionTemperatureDrift(Effect::draw(at, share, random)))
-            }
-            EffectKind::Backlash => Some(Self::Backlash(Effect::draw(at, share, random))),
-            EffectKind::JointElasticity => {
-                Some(Self::JointElasticity(Effect::draw(at, share, random)))
-            }
-            EffectKind::RotorInertia => Some(Self::RotorInertia(Effect::draw(at, share, random))),
-            EffectKind::DifferentialCoupling => {
-                Some(Self::DifferentialCoupling(Effect::draw(at, share, random)))
-            }
-            EffectKind::Payload => Some(Self::Payload(Effect::draw(at, share, random))),
-            EffectKind::InertialParameters => {
-                Some(Self::InertialParameters(Effect::draw(at, share, random)))
-            }
-            EffectKind::GravityDirection => {
-                Some(Self::GravityDirection(Effect::draw(at, share, random)))
-            }
-            EffectKind::CableSpring => Some(Self::CableSpring(Effect::draw(at, share, random))),
-            EffectKind::TorqueRipple => Some(Self::TorqueRipple(Effect::draw(at, share, random))),
-            EffectKind::TorqueConstant => {
-                Some(Self::TorqueConstant(Effect::draw(at, share, random)))
-            }
-            EffectKind::TorqueOffset => Some(Self::TorqueOffset(Effect::draw(at, share, random))),
-            EffectKind::ActuatorLag => Some(Self::ActuatorLag(Effect::draw(at, share, random))),
-            EffectKind::ActuatorDelay => Some(Self::ActuatorDelay(Effect::draw(at, share, random))),
-            EffectKind::TorqueSaturation => {
-                Some(Self::TorqueSaturation(Effect::draw(at, share, random)))
-            }
-            EffectKind::EncoderOffset => Some(Self::EncoderOffset(Effect::draw(at, share, random))),
-            EffectKind::TransmissionRatio => {
-                Some(Self::TransmissionRatio(Effect::draw(at, share, random)))
-            }
-            EffectKind::TimeSkew => Some(Self::TimeSkew(Effect::draw(at, share, random))),
-            EffectKind::ExternalDisturbance => {
-                Some(Self::ExternalDisturbance(Effect::draw(at, share, random)))
-            }
-        }
-    }
-}
-
 /// Place of an effect in the chain from command to motion: its hooks run in this order.
 ///
 /// Commands are limited, held back and lagged before they become torque; what scales friction
@@ -344,10 +161,6 @@ pub(crate) fn chain_rank(kind: EffectKind) -> usize {
         K::FrictionTemperatureDrift => 6,
         _ => 5,
     }
-}
-
-fn kind_of<E: Effect>(_: &E) -> EffectKind {
-    E::KIND
 }
 
 /// The index of a joint that a scenario names.
