@@ -1,5 +1,5 @@
 //! The simulated arm against closed forms and other programs.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on fails")]
 
 mod actuator_delay;
 mod actuator_lag;
@@ -15,6 +15,7 @@ mod engine;
 mod external_disturbance;
 mod friction_temperature_drift;
 mod gravity_direction;
+mod hidden;
 mod inertial_parameters;
 mod joint_elasticity;
 mod load_dependent_friction;
@@ -23,8 +24,11 @@ mod mujoco;
 mod payload;
 mod position_dependent_friction;
 mod presliding_friction;
+mod replay;
 mod rig;
 mod rotor_inertia;
+mod scenario;
+mod sealed;
 mod sensors;
 mod stribeck_friction;
 mod time_skew;

@@ -3,6 +3,7 @@
 # Needs: pip install mujoco==4.0.0 numpy. About two minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
+rm -rf "target/criterion/one second of the WAM"
 cargo bench -q -p simulator --bench speed >/dev/null 2>&1
 python3 - <<'PYTHON'
 import json

@@ -50,8 +50,7 @@ pub fn replay_torque(
     let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
     let count = record.time.len().saturating_sub(1) / samples;
     if count == 0 {
-        let found_s = record.time.len() as f64 / record.rate_hz;
-        return Err(SimulatorError::TooShort { run: record.name.clone(), found_s, window_s });
+        return Err(too_short(record, window_s));
     }
     let starts: Vec<usize> = (0..count).map(|w| w * samples).collect();
     let windows: Result<Vec<Window>, SimulatorError> =
@@ -72,6 +71,11 @@ pub fn replay_torque(
         motion: motion_of(robot, record, &starts, &windows),
         runaways: windows.into_iter().filter_map(|w| w.fault).collect(),
     })
+}
+
+fn too_short(record: &PreparedRun, window_s: f64) -> SimulatorError {
+    let found_s = record.time.len().saturating_sub(1) as f64 / record.rate_hz;
+    SimulatorError::TooShort { run: record.name.clone(), found_s, window_s }
 }
 
 /// What one window came to: positions and velocities at every sample after its start.
@@ -168,42 +172,45 @@ pub struct MotionReplay {
     pub log: Run,
 }
 
-/// Lets a robot's simulation follow a recorded motion with
-/// `tau = kp (q_ref - q) + kd (qd_ref - qd)`.
+/// Lets a robot's simulation follow a recorded motion, from its first state, with
 ///
-/// It starts behind the record by `effort / kp`, as one that has been following it, so that the
-/// first torque is not a step from zero.
+/// ```text
+/// tau_simulated = tau_measured + kp (q_measured - q) + kd (qd_measured - qd)
+/// ```
+///
+/// What is fed back is what the measured torque lacks to move the simulation along the measured
+/// motion: the torque error. Feedback alone would add to it what the controller cannot follow.
+/// An error that changes faster than the controller answers does not show.
 ///
 /// # Errors
 ///
-/// [`SimulatorError`] when the robot cannot be simulated or a joint runs away.
+/// [`SimulatorError`] when the robot cannot be simulated or a joint runs away, or
+/// [`SimulatorError::TooShort`] when the record has no two samples.
 pub fn replay_motion(
     robot: &Robot,
     gains: &[Gain],
     record: &PreparedRun,
 ) -> Result<MotionReplay, SimulatorError> {
+    if record.time.len() < 2 {
+        return Err(too_short(record, 1.0 / record.rate_hz));
+    }
     // A controller at the rate of a slow log would not be stable.
     let turns = (CONTROL_HZ / record.rate_hz).ceil().max(1.0) as usize;
     let mut simulator = perfect(robot, record.rate_hz * turns as f64)?;
     let at =
         |of: &dyn Fn(&PreparedJoint) -> f64| -> Vec<f64> { record.joints.iter().map(of).collect() };
-    let behind = |(joint, gain): (&PreparedJoint, &Gain)| {
-        joint.q[0] - if gain.kp > 0.0 { joint.effort[0] / gain.kp } else { 0.0 }
-    };
-    let start: Vec<f64> = record.joints.iter().zip(gains).map(behind).collect();
-    simulator.start_moving(&start, &at(&|j| j.qd[0]));
+    simulator.start_moving(&at(&|j| j.q[0]), &at(&|j| j.qd[0]));
     let mut rows = Vec::with_capacity(record.time.len());
     let mut reading = Reading::zero(robot.joint_count());
     for tick in 0..(record.time.len() - 1) * turns {
         let mut turn = || {
             simulator.read(&mut reading)?;
             let (sample, part) = (tick / turns, (tick % turns) as f64 / turns as f64);
-            let joints = record.joints.iter().zip(gains).enumerate();
-            let tau = joints.map(|(i, (joint, gain))| {
+            let mut tau = held(robot, record, sample);
+            for (i, (joint, gain)) in record.joints.iter().zip(gains).enumerate() {
                 let [q, qd] = between(joint, sample, part, 1.0 / record.rate_hz);
-                gain.kp * (q - reading.q[i]) + gain.kd * (qd - reading.qd[i])
-            });
-            let tau: Vec<f64> = tau.collect();
+                tau[i] += gain.kp * (q - reading.q[i]) + gain.kd * (qd - reading.qd[i]);
+            }
             simulator.actuate(&tau).map(|()| tau)
         };
         let fault = |fault| SimulatorError::Fault { run: record.name.clone(), fault };
