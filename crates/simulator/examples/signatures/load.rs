@@ -73,18 +73,18 @@ pub fn gravity_direction(record: &Record, effect: &GravityDirection) -> Panel {
 /// The sliding part turns round at the ends of the way.
 pub fn cable(record: &Record, effect: &CableSpring) -> Panel {
     let joint = record.joint(&effect.joint);
-    let (k, loop_) = (effect.stiffness_nm_per_rad, effect.hysteresis_nm);
+    let (k, half) = (effect.stiffness_nm_per_rad, effect.hysteresis_nm);
     let spring = |q: f64| {
         let x = q - effect.rest_rad;
         k * x + effect.cubic_nm_per_rad3 * x.powi(3)
     };
     let (low, high) = range(record.with.joints[joint].position.iter().copied());
-    let up = |q: f64| spring(q) + (k * (q - low) - loop_).min(loop_);
-    let down = |q: f64| spring(q) - (k * (high - q) - loop_).min(loop_);
+    let up = |q: f64| spring(q) + (k * (q - low) - half).min(half);
+    let down = |q: f64| spring(q) - (k * (high - q) - half).min(half);
     let at = steps(low, high, 100);
     Panel {
         name: "cable spring",
-        note: format!("{k} N·m/rad, loop of ±{loop_} N·m"),
+        note: format!("{k} N·m/rad, loop of ±{half} N·m"),
         expected: vec![curve(&at, up), curve(&at, down)],
         ..over_position(record, joint, &record.robot)
     }
