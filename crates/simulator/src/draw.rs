@@ -14,8 +14,8 @@ const MEASURED_S: f64 = 10.0;
 /// Draws of one effect before giving up.
 const TRIES: usize = 40;
 
-/// Corrections of a size: the torque of most effects is in proportion to it, a few need more.
-const CORRECTIONS: usize = 6;
+/// Sizes tried for one effect: the torque of most is in proportion, that of a few all but a step.
+const CORRECTIONS: usize = 8;
 
 /// How close to the size asked for is close enough.
 const TOLERANCE: f64 = 0.1;
@@ -142,23 +142,23 @@ impl<'a> Bench<'a> {
         seed: u64,
     ) -> Option<(EffectSpec, f64)> {
         let at = self.surroundings(joint);
-        let mut asked = goal;
+        let (mut asked, mut bracket) = (goal, Bracket::default());
         let mut best: Option<(EffectSpec, f64)> = None;
+        let off = |share: f64| (share / goal).ln().abs();
         for _ in 0..CORRECTIONS {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             let effect = EffectSpec::draw(kind, &at, asked, &mut random);
-            let Some(share) = effect.inject(at.robot).ok().and_then(|_| self.share(&effect)) else {
-                asked *= 0.5;
-                continue;
-            };
-            let off = |share: f64| (share / goal).ln().abs();
-            if best.as_ref().is_none_or(|(_, b)| off(share) < off(*b)) {
+            let share = effect.inject(at.robot).ok().and_then(|_| self.share(&effect));
+            // An arm that runs away has more than enough.
+            let share = share.unwrap_or(f64::INFINITY);
+            if share.is_finite() && best.as_ref().is_none_or(|(_, b)| off(share) < off(*b)) {
                 best = Some((effect, share));
             }
-            if off(share) < TOLERANCE || share <= 0.0 {
+            let hopeless = share <= 0.0 && asked >= 1.0;
+            if off(share) < TOLERANCE || hopeless {
                 break;
             }
-            asked *= (goal / share).clamp(0.05, 20.0);
+            asked = bracket.next(asked, goal / share);
         }
         best
     }
@@ -184,6 +184,34 @@ impl<'a> Bench<'a> {
             ),
             torque_rate_rms: rms(rate),
         }
+    }
+}
+
+/// Sizes between which the one looked for lies, if the torque grows with it.
+struct Bracket {
+    too_small: f64,
+    too_large: f64,
+}
+
+impl Default for Bracket {
+    fn default() -> Self {
+        Self { too_small: 0.0, too_large: f64::INFINITY }
+    }
+}
+
+impl Bracket {
+    /// The size to try after `asked`, whose torque was to be `factor` times as large.
+    fn next(&mut self, asked: f64, factor: f64) -> f64 {
+        if factor > 1.0 {
+            self.too_small = asked;
+        } else {
+            self.too_large = asked;
+        }
+        let proportional = asked * factor.clamp(0.2, 5.0);
+        if self.too_small < proportional && proportional < self.too_large {
+            return proportional;
+        }
+        (self.too_small * self.too_large).sqrt()
     }
 }
 

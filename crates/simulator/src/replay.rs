@@ -209,14 +209,16 @@ pub fn replay_motion(
             let mut tau = held(robot, record, sample);
             for (i, (joint, gain)) in record.joints.iter().zip(gains).enumerate() {
                 let [q, qd] = between(joint, sample, part, 1.0 / record.rate_hz);
-                tau[i] += gain.kp * (q - reading.q[i]) + gain.kd * (qd - reading.qd[i]);
+                let feedback = gain.kp * (q - reading.q[i]) + gain.kd * (qd - reading.qd[i]);
+                tau[i] += feedback;
+                reading.effort[i] = feedback;
             }
-            simulator.actuate(&tau).map(|()| tau)
+            simulator.actuate(&tau)
         };
         let fault = |fault| SimulatorError::Fault { run: record.name.clone(), fault };
-        let tau = turn().map_err(fault)?;
+        turn().map_err(fault)?;
         if tick % turns == 0 {
-            rows.push((reading.clone(), tau));
+            rows.push(reading.clone());
         }
     }
     Ok(compared(robot, record, &rows))
@@ -233,20 +235,25 @@ fn between(joint: &PreparedJoint, sample: usize, part: f64, interval_s: f64) -> 
     [q, qd]
 }
 
-fn compared(robot: &Robot, record: &PreparedRun, rows: &[(Reading, Vec<f64>)]) -> MotionReplay {
+/// What rows of simulated motion, with what was fed back as their effort, say about a record.
+fn compared(robot: &Robot, record: &PreparedRun, rows: &[Reading]) -> MotionReplay {
     let whole = |column: &[f64]| column[..rows.len()].to_vec();
     let rms = |of: &dyn Fn(usize) -> f64| {
         let squares = (0..rows.len()).map(|k| of(k).powi(2));
         (squares.sum::<f64>() / rows.len().max(1) as f64).sqrt()
     };
     let joints = 0..robot.joint_count();
-    let torque = |j: usize| rms(&|k| rows[k].1[j] - record.joints[j].effort[k]);
-    let tracking = |j: usize| rms(&|k| rows[k].0.q[j] - record.joints[j].q[k]);
+    let torque = |j: usize| rms(&|k| rows[k].effort[j]);
+    let tracking = |j: usize| rms(&|k| rows[k].q[j] - record.joints[j].q[k]);
     let channels = |(j, name): (usize, &str)| Channels {
         name: name.to_owned(),
-        position: rows.iter().map(|(r, _)| r.q[j]).collect(),
-        velocity: Some(rows.iter().map(|(r, _)| r.qd[j]).collect()),
-        effort: rows.iter().map(|(_, tau)| tau[j]).collect(),
+        position: rows.iter().map(|r| r.q[j]).collect(),
+        velocity: Some(rows.iter().map(|r| r.qd[j]).collect()),
+        effort: rows
+            .iter()
+            .zip(&record.joints[j].effort)
+            .map(|(r, tau)| tau + r.effort[j])
+            .collect(),
         desired_position: Some(whole(&record.joints[j].q)),
         desired_velocity: Some(whole(&record.joints[j].qd)),
         desired_acceleration: Some(whole(&record.joints[j].qdd)),
