@@ -1,0 +1,129 @@
+use std::ops::Range;
+
+use logs::Prepared;
+
+/// Samples of the motion and torque of every joint, run after run.
+///
+/// All signals are row-major: sample by sample, one entry a joint, in the order of the robot.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Samples {
+    joints: usize,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    qdd: Vec<f64>,
+    tau: Vec<f64>,
+    runs: Vec<RunSpan>,
+}
+
+/// Which samples a run holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunSpan {
+    /// Name of the run.
+    pub name: String,
+    /// Indices of its samples.
+    pub samples: Range<usize>,
+    /// Samples per second (Hz).
+    pub rate_hz: f64,
+}
+
+/// The state of the arm in one sample, one entry a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State<'a> {
+    /// Position (rad or m).
+    pub q: &'a [f64],
+    /// Velocity (rad/s or m/s).
+    pub qd: &'a [f64],
+    /// Acceleration (rad/s² or m/s²).
+    pub qdd: &'a [f64],
+}
+
+impl Samples {
+    /// The samples of prepared runs.
+    pub fn new(prepared: &Prepared) -> Self {
+        let joints = prepared.runs.first().map_or(0, |run| run.joints.len());
+        let mut samples = Self { joints, ..Self::default() };
+        for run in &prepared.runs {
+            let start = samples.len();
+            for t in 0..run.time.len() {
+                for joint in &run.joints {
+                    samples.q.push(joint.q[t]);
+                    samples.qd.push(joint.qd[t]);
+                    samples.qdd.push(joint.qdd[t]);
+                    samples.tau.push(joint.effort[t]);
+                }
+            }
+            let span = start..samples.len();
+            let run = RunSpan { name: run.name.clone(), samples: span, rate_hz: run.rate_hz };
+            samples.runs.push(run);
+        }
+        samples
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.q.len().checked_div(self.joints).unwrap_or(0)
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.joints
+    }
+
+    /// The runs, one after the other.
+    pub fn runs(&self) -> &[RunSpan] {
+        &self.runs
+    }
+
+    /// The state in sample `index`.
+    ///
+    /// # Panics
+    ///
+    /// When there is no such sample.
+    pub fn state(&self, index: usize) -> State<'_> {
+        let at = index * self.joints..(index + 1) * self.joints;
+        State { q: &self.q[at.clone()], qd: &self.qd[at.clone()], qdd: &self.qdd[at] }
+    }
+
+    /// The effort of every joint in sample `index` (N m or N).
+    ///
+    /// # Panics
+    ///
+    /// When there is no such sample.
+    pub fn tau(&self, index: usize) -> &[f64] {
+        &self.tau[index * self.joints..(index + 1) * self.joints]
+    }
+
+    /// At most `points` samples, evenly spread over all: sample `floor(i n / points)` of `n`
+    /// for `i` from 0. Their spacing in time is the coarser for it, so runs lose their rate's
+    /// meaning as a clock, not their order.
+    pub fn thinned(&self, points: usize) -> Self {
+        let n = self.len();
+        if points >= n {
+            return self.clone();
+        }
+        let chosen: Vec<usize> = (0..points).map(|i| i * n / points).collect();
+        let pick = |signal: &[f64]| -> Vec<f64> {
+            let rows = chosen.iter().map(|&i| &signal[i * self.joints..(i + 1) * self.joints]);
+            rows.flatten().copied().collect()
+        };
+        let runs = self.runs.iter().map(|run| {
+            let first = chosen.partition_point(|&i| i < run.samples.start);
+            let end = chosen.partition_point(|&i| i < run.samples.end);
+            let share = (end - first) as f64 / run.samples.len().max(1) as f64;
+            RunSpan { name: run.name.clone(), samples: first..end, rate_hz: run.rate_hz * share }
+        });
+        Self {
+            joints: self.joints,
+            q: pick(&self.q),
+            qd: pick(&self.qd),
+            qdd: pick(&self.qdd),
+            tau: pick(&self.tau),
+            runs: runs.collect(),
+        }
+    }
+}
