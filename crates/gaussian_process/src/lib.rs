@@ -13,8 +13,12 @@ mod inducing;
 mod kernel;
 mod kernel_sum;
 mod likelihood;
+mod linear_evidence;
+mod maximise;
 mod packed;
 mod sweep;
 
 pub use error::GpError;
 pub use kernel::GaussianKernel;
+pub use linear_evidence::{LinearEvidence, LinearPosterior, WhiteSums};
+pub use maximise::{Maximum, Objective, SearchEnd, Watch, maximise};
