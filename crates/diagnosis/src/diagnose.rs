@@ -1,10 +1,9 @@
-use logs::{PrepareSettings, Run, duplicate_of, prepare};
+use logs::{PrepareSettings, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
 
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extent::inadequate;
-use crate::held::centre_commands;
 use crate::progress::Progress;
 use crate::result::{Diagnosis, RunSummary};
 use crate::settings::Settings;

@@ -1,17 +1,6 @@
 use effects::{Frame, Scale};
-use logs::{Prepared, PreparedJoint};
+use logs::{Prepared, PreparedJoint, rest_speeds};
 use robot::{Joint, Robot};
-
-/// Least and largest speed that counts as rest, as shares of the largest speed in the logs.
-const REST_SHARES: [f64; 2] = [2e-4, 1e-2];
-
-/// Share of the samples that a joint which rests now and then is at rest.
-const RESTING: f64 = 0.05;
-
-/// Speed that counts as rest, in the speed below which those samples are. Of a joint that
-/// rests a quarter of the time they are a fifth of the resting ones, slower than a quarter
-/// of the noise's standard deviation: four standard deviations are sixteen times that.
-const REST_OF_NOISE: f64 = 16.0;
 
 /// Range of motion below which a joint counts as unmoved, as a share of its limits' span
 /// or of a full turn.
@@ -19,20 +8,12 @@ const UNMOVED_SHARE: f64 = 0.02;
 
 /// What the columns of all runs are made in.
 pub(crate) fn frame(prepared: &Prepared) -> Frame {
-    let joints = joints(prepared);
-    let rest = |j| {
-        let mut speeds: Vec<f64> = signal(prepared, j, |p| &p.qd_wide).map(f64::abs).collect();
-        speeds.sort_by(f64::total_cmp);
-        let largest = speeds.last().copied().unwrap_or(0.0);
-        let noise = speeds.get((RESTING * speeds.len() as f64) as usize).copied().unwrap_or(0.0);
-        let [low, high] = REST_SHARES.map(|share| share * largest);
-        (REST_OF_NOISE * noise).clamp(low, high).max(f64::MIN_POSITIVE)
-    };
     let centre = |j| {
         let (low, high) = span(prepared, j);
         0.5 * (low + high)
     };
-    Frame { rest_speed: (0..joints).map(rest).collect(), centre: (0..joints).map(centre).collect() }
+    let rest_speed = rest_speeds(prepared);
+    Frame { centre: (0..rest_speed.len()).map(centre).collect(), rest_speed }
 }
 
 /// How large things are in the logs.

@@ -27,5 +27,5 @@ mod viscous_friction;
 pub use explain::{Column, Explain, Part, Quantity};
 pub use hypothesis::{Hypothesis, Place, hypotheses};
 pub use model::{MODELLED, model};
-pub use motion::{Frame, Motion};
+pub use motion::{Frame, Motion, drive_torque};
 pub use scale::Scale;

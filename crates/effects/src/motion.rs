@@ -1,6 +1,6 @@
 use dynamics::{Dynamics, PARAMETERS_PER_LINK};
 use nalgebra::{UnitVector3, Vector3};
-use robot::Robot;
+use robot::{Actuator, Robot};
 
 /// The motion of one run and what the nominal robot makes of it.
 ///
@@ -129,17 +129,27 @@ impl Motion {
         for (i, link) in robot.links().iter().enumerate() {
             let a = &link.actuator;
             for (t, torque) in self.torque[i].iter_mut().enumerate() {
-                let direction = self.direction[i][t];
-                let level = if direction > 0.0 { a.coulomb_forward } else { a.coulomb_backward };
-                *torque += a.rotor_inertia * self.qdd[i][t]
-                    + a.viscous * self.qd[i][t]
-                    + level * direction
-                    + a.spring_stiffness * (self.q[i][t] - a.spring_rest);
+                let state = [self.q[i][t], self.qd[i][t], self.qdd[i][t]];
+                *torque += drive_torque(a, state, self.direction[i][t]);
             }
             let reported = |torque: &f64| a.torque_gain * torque + a.torque_offset;
             self.effort[i] = self.torque[i].iter().map(reported).collect();
         }
     }
+}
+
+/// Torque that a joint's drive needs beside the rigid bodies (N·m or N), in the state
+/// `q, qd, qdd` and with `direction` of motion in [-1, 1]:
+///
+/// ```text
+/// rotor_inertia qdd + viscous qd + coulomb(direction) + stiffness (q - rest)
+/// ```
+pub fn drive_torque(drive: &Actuator, [q, qd, qdd]: [f64; 3], direction: f64) -> f64 {
+    let level = if direction > 0.0 { drive.coulomb_forward } else { drive.coulomb_backward };
+    drive.rotor_inertia * qdd
+        + drive.viscous * qd
+        + level * direction
+        + drive.spring_stiffness * (q - drive.spring_rest)
 }
 
 /// Two horizontal axes, unit vectors orthogonal to gravity and to each other.

@@ -1,5 +1,6 @@
-use logs::PreparedRun;
 use robot::{Robot, TorqueSource};
+
+use crate::PreparedRun;
 
 /// Brings commanded efforts to the time of their samples.
 ///
@@ -13,11 +14,7 @@ use robot::{Robot, TorqueSource};
 /// Without this, half a period of delay passes for friction: 1 ms at 500 Hz takes 1.5 % off the
 /// viscous friction of a joint that moves under gravity. Without a rate the log is taken to hold
 /// every command.
-pub(crate) fn centre_commands(
-    robot: &Robot,
-    runs: &mut [PreparedRun],
-    control_rate_hz: Option<f64>,
-) {
+pub fn centre_commands(robot: &Robot, runs: &mut [PreparedRun], control_rate_hz: Option<f64>) {
     for run in runs {
         let share = 0.5 * (run.rate_hz / control_rate_hz.unwrap_or(run.rate_hz)).min(1.0);
         for (link, joint) in robot.links().iter().zip(&mut run.joints) {
