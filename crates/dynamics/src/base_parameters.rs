@@ -1,5 +1,3 @@
-use faer::Mat;
-use faer::prelude::SolveLstsq;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
@@ -104,12 +102,12 @@ fn preference(columns: &[Column]) -> Vec<usize> {
 }
 
 /// The regressor over twice as many states as there are columns.
-fn stacked(robot: &Robot, set: ColumnSet, width: usize) -> Mat<f64> {
+fn stacked(robot: &Robot, set: ColumnSet, width: usize) -> DMatrix<f64> {
     let dynamics = Dynamics::new(robot);
     let (n, mut ws) = (dynamics.joint_count(), dynamics.workspace());
     let states = 2 * width;
     let mut rows = vec![0.0; n * width];
-    let mut w = Mat::zeros(states * n, width);
+    let mut w = DMatrix::zeros(states * n, width);
     let mut number = uniform();
     let mut draw = |half_range: f64| -> Vec<f64> {
         (0..n).map(|_| half_range * (2.0 * number() - 1.0)).collect()
@@ -138,17 +136,15 @@ fn uniform() -> impl FnMut() -> f64 {
 
 /// `R` of `W diag(1 / scales) = Q R`, and the scales: of every column, the norm of the
 /// longest one of its kind. The columns of `R` have the inner products of the scaled `W`.
-fn scaled_triangle(w: &Mat<f64>, columns: &[Column]) -> (DMatrix<f64>, Vec<f64>) {
+fn scaled_triangle(w: &DMatrix<f64>, columns: &[Column]) -> (DMatrix<f64>, Vec<f64>) {
     let longest = |kind: usize| {
         let alike = (0..columns.len()).filter(|&c| self::kind(&columns[c]) == kind);
-        let norm = alike.map(|c| w.col(c).norm_l2()).fold(0.0, f64::max);
+        let norm = alike.map(|c| w.column(c).norm()).fold(0.0, f64::max);
         if norm > 0.0 { norm } else { 1.0 }
     };
     let scales: Vec<f64> = columns.iter().map(|column| longest(kind(column))).collect();
-    let scaled = Mat::from_fn(w.nrows(), w.ncols(), |i, c| w[(i, c)] / scales[c]);
-    let qr = scaled.qr();
-    let r = qr.thin_R();
-    (DMatrix::from_fn(r.nrows(), r.ncols(), |i, c| r[(i, c)]), scales)
+    let scaled = DMatrix::from_fn(w.nrows(), w.ncols(), |i, c| w[(i, c)] / scales[c]);
+    (scaled.qr().r(), scales)
 }
 
 /// Columns of one kind share their unit.
@@ -196,9 +192,13 @@ fn mapping(
     dependent: &[usize],
 ) -> DMatrix<f64> {
     let pick = |indices: &[usize]| {
-        Mat::from_fn(triangle.nrows(), indices.len(), |i, c| triangle[(i, indices[c])])
+        DMatrix::from_fn(triangle.nrows(), indices.len(), |i, c| triangle[(i, indices[c])])
     };
-    let solution = pick(independent).qr().solve_lstsq(pick(dependent));
+    let (q, r) = pick(independent).qr().unpack();
+    let mut solution = q.transpose() * pick(dependent);
+    let solved = r.solve_upper_triangular_mut(&mut solution);
+    // The columns kept are independent by construction, so that no diagonal entry vanishes.
+    assert!(solved, "independent columns");
     DMatrix::from_fn(independent.len(), dependent.len(), |i, d| {
         let share = solution[(i, d)];
         let unscaled = share * scales[dependent[d]] / scales[independent[i]];

@@ -51,6 +51,17 @@ impl ColumnSet {
     /// Every family.
     pub const ALL: Self = Self { rotor: true, viscous: true, coulomb: true, offset: true };
 
+    /// The families that appear among `columns`.
+    pub fn of(columns: &[Column]) -> Self {
+        let any = |is: fn(&Column) -> bool| columns.iter().any(is);
+        Self {
+            rotor: any(|c| matches!(c, Column::Rotor { .. })),
+            viscous: any(|c| matches!(c, Column::Viscous { .. })),
+            coulomb: any(|c| matches!(c, Column::Coulomb { .. })),
+            offset: any(|c| matches!(c, Column::Offset { .. })),
+        }
+    }
+
     /// The columns for `joints` joints, in order: inertial link by link, then rotor,
     /// viscous, Coulomb and offset joint by joint.
     pub fn columns(self, joints: usize) -> Vec<Column> {
