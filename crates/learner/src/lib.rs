@@ -7,9 +7,49 @@
 //! for joint `k`: rigid bodies (`f = 0`), a Gaussian process (`beta = 0`), and the ways of
 //! having both that Nguyen-Tuong & Peters 2010 compare.
 
+mod block_sums;
+mod described;
 mod error;
+mod exact;
+mod inducing;
+mod inputs;
+mod joint_kernel;
+mod kernels;
+mod memory;
+mod model;
+mod model_file;
+mod model_kind;
+#[cfg(test)]
+mod planar;
+mod prior;
+mod progress;
 mod regression;
+mod rigid_body_fit;
+mod robot_torque;
 mod samples;
+mod saved;
+mod score;
+mod settings;
+mod spread;
+mod torque_model;
+mod training;
+mod undetermined;
+mod weighting;
 
 pub use error::LearnerError;
+pub use inputs::Inputs;
+pub use model::{Mean, Model, Process};
+pub use model_kind::ModelKind;
+pub use prior::GaussianPrior;
+pub use progress::{Progress, Silent};
+pub use regression::{Regression, Stretch};
+pub use rigid_body_fit::{ConsistentRigidBodies, RigidBodyFit};
+pub use robot_torque::RobotTorque;
 pub use samples::{RunSpan, Samples, State};
+pub use score::Score;
+pub use settings::{PriorSpread, TrainSettings};
+pub use spread::Spread;
+pub use torque_model::{TorqueModel, Workspace};
+pub use training::{Fitted, JointFit, Training};
+pub use undetermined::Direction;
+pub use weighting::{JointNoise, Weighting};

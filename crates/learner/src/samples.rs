@@ -2,6 +2,8 @@ use std::ops::Range;
 
 use logs::Prepared;
 
+use crate::{LearnerError, Stretch};
+
 /// Samples of the motion and torque of every joint, run after run.
 ///
 /// All signals are row-major: sample by sample, one entry a joint, in the order of the robot.
@@ -59,6 +61,12 @@ impl Samples {
         samples
     }
 
+    /// States without torques, `[q, qd, qdd]` row-major, as one run without a name or rate.
+    pub(crate) fn of_states(joints: usize, [q, qd, qdd]: [Vec<f64>; 3]) -> Self {
+        let tau = vec![0.0; q.len()];
+        Self { joints, q, qd, qdd, tau, runs: Vec::new() }
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.q.len().checked_div(self.joints).unwrap_or(0)
@@ -89,6 +97,11 @@ impl Samples {
         State { q: &self.q[at.clone()], qd: &self.qd[at.clone()], qdd: &self.qdd[at] }
     }
 
+    /// All samples, one run after the other.
+    pub fn stretch(&self) -> Stretch<'_> {
+        Stretch { q: &self.q, qd: &self.qd, qdd: &self.qdd, tau: &self.tau }
+    }
+
     /// The effort of every joint in sample `index` (N m or N).
     ///
     /// # Panics
@@ -99,14 +112,18 @@ impl Samples {
     }
 
     /// At most `points` samples, evenly spread over all: sample `floor(i n / points)` of `n`
-    /// for `i` from 0. Their spacing in time is the coarser for it, so runs lose their rate's
-    /// meaning as a clock, not their order.
+    /// for `i` from 0. The rate of every run falls accordingly.
     pub fn thinned(&self, points: usize) -> Self {
         let n = self.len();
         if points >= n {
             return self.clone();
         }
-        let chosen: Vec<usize> = (0..points).map(|i| i * n / points).collect();
+        self.picked((0..points).map(|i| i * n / points))
+    }
+
+    /// The samples `chosen`, in ascending order.
+    pub(crate) fn picked(&self, chosen: impl Iterator<Item = usize>) -> Self {
+        let chosen: Vec<usize> = chosen.collect();
         let pick = |signal: &[f64]| -> Vec<f64> {
             let rows = chosen.iter().map(|&i| &signal[i * self.joints..(i + 1) * self.joints]);
             rows.flatten().copied().collect()
@@ -125,5 +142,22 @@ impl Samples {
             tau: pick(&self.tau),
             runs: runs.collect(),
         }
+    }
+
+    /// Refuses samples with an entry that is not finite.
+    ///
+    /// # Errors
+    ///
+    /// [`LearnerError::BadSample`].
+    pub fn check(&self) -> Result<(), LearnerError> {
+        let signals = [("q", &self.q), ("qd", &self.qd), ("qdd", &self.qdd), ("tau", &self.tau)];
+        for (signal, values) in signals {
+            if let Some(at) = values.iter().position(|v| !v.is_finite()) {
+                let (sample, joint) = (at / self.joints.max(1), at % self.joints.max(1));
+                let value = values[at];
+                return Err(LearnerError::BadSample { signal, sample, joint, value });
+            }
+        }
+        Ok(())
     }
 }

@@ -1,0 +1,45 @@
+use dynamics::Column;
+use robot::Robot;
+
+/// The parameter of `column` as the robot is described.
+pub(crate) fn described(robot: &Robot, column: Column) -> f64 {
+    let actuator = |joint: usize| &robot.links()[joint].actuator;
+    match column {
+        Column::Inertial { link, parameter } => robot.links()[link].inertia.parameters()[parameter],
+        Column::Rotor { joint } => actuator(joint).rotor_inertia,
+        Column::Viscous { joint } => actuator(joint).viscous,
+        Column::Coulomb { joint } => {
+            0.5 * (actuator(joint).coulomb_forward + actuator(joint).coulomb_backward)
+        }
+        Column::Offset { joint } => {
+            let a = actuator(joint);
+            a.torque_offset + 0.5 * (a.coulomb_forward - a.coulomb_backward)
+        }
+    }
+}
+
+/// By how much the parameter of `column` may differ from its description before the two have
+/// nothing in common: the bounds that the pseudo-inertia `[S h; h' m]` sets,
+///
+/// ```text
+/// m for the mass,   sqrt(m tr S) for first moments,   tr S for second moments
+/// ```
+///
+/// the rotor's inertia for the rotor, and the unit (SI) for friction, offsets and whatever is
+/// described as zero.
+pub(crate) fn size(robot: &Robot, column: Column) -> f64 {
+    let size = match column {
+        Column::Inertial { link, parameter } => {
+            let [mass, _, _, _, xx, _, yy, _, _, zz] = robot.links()[link].inertia.parameters();
+            let spread = 0.5 * (xx + yy + zz);
+            match parameter {
+                0 => mass,
+                1..=3 => (mass * spread).max(0.0).sqrt(),
+                _ => spread,
+            }
+        }
+        Column::Rotor { .. } => described(robot, column),
+        Column::Viscous { .. } | Column::Coulomb { .. } | Column::Offset { .. } => 1.0,
+    };
+    if size > 0.0 { size } else { 1.0 }
+}

@@ -1,0 +1,23 @@
+use std::ops::ControlFlow;
+
+/// Told what a training is doing; may end its searches.
+pub trait Progress: Sync {
+    /// A new stage, in words.
+    fn stage(&self, words: &str);
+
+    /// One more evaluation of the likelihood, and the best value so far. `Break` ends this
+    /// search and those that follow, each with the best it has.
+    fn evaluation(&self, evaluations: usize, best: f64) -> ControlFlow<()>;
+}
+
+/// Tells nobody, and never ends a search.
+#[derive(Debug, Clone, Copy)]
+pub struct Silent;
+
+impl Progress for Silent {
+    fn stage(&self, _: &str) {}
+
+    fn evaluation(&self, _: usize, _: f64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}

@@ -1,0 +1,248 @@
+use std::collections::BTreeMap;
+
+use dynamics::{ColumnSet, Dynamics};
+use faer::Mat;
+use gaussian_process::LearnedKernel;
+use robot::Robot;
+
+use crate::{
+    Inputs, LearnerError, Mean, Model, ModelKind, Progress, RigidBodyFit, RobotTorque, Samples,
+    TorqueModel, TrainSettings, kernels, memory,
+};
+
+/// A model and how it came about.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// The model.
+    pub model: Model,
+    /// What was found for every joint; empty for a model that has nothing to find.
+    pub joints: Vec<JointFit>,
+    /// Log marginal likelihood of all joints together, where there is one.
+    pub log_likelihood: Option<f64>,
+}
+
+/// What the training of one joint found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct JointFit {
+    /// `log p(y_k)` under the model.
+    pub log_likelihood: Option<f64>,
+    /// Search for the Gaussian kernel, on the points that it was searched with.
+    pub kernel: Option<LearnedKernel>,
+    /// Weight of the Gaussian kernel beside the rigid-body kernel (equation 9).
+    pub lambda: Option<f64>,
+    /// Root mean square of the errors that the cross-validation made with every weight (N m
+    /// or N), in the order of the settings.
+    pub held_out: Vec<f64>,
+}
+
+/// What models are trained on and share.
+pub struct Training<'a> {
+    pub(crate) robot: &'a Robot,
+    pub(crate) settings: &'a TrainSettings,
+    pub(crate) progress: &'a dyn Progress,
+    /// Every sample.
+    pub(crate) all: &'a Samples,
+    /// Those that exact processes are conditioned on.
+    pub(crate) few: Samples,
+    pub(crate) inputs: Inputs,
+    /// Inputs of `few`, row-major.
+    pub(crate) points: Vec<f64>,
+    rest_speed: Vec<f64>,
+    regression: Option<&'a RigidBodyFit>,
+    named: Option<&'a Robot>,
+    kernels: BTreeMap<&'static str, Vec<LearnedKernel>>,
+}
+
+impl<'a> Training<'a> {
+    /// Prepares the training on `samples` of `robot`, whose joints count as at rest below
+    /// `rest_speed` (rad/s or m/s, one entry a joint).
+    ///
+    /// # Errors
+    ///
+    /// [`LearnerError`] for settings, samples or a robot that do not go together, and when
+    /// exact processes of that many points would not fit into memory.
+    pub fn new(
+        robot: &'a Robot,
+        samples: &'a Samples,
+        rest_speed: Vec<f64>,
+        settings: &'a TrainSettings,
+        progress: &'a dyn Progress,
+    ) -> Result<Self, LearnerError> {
+        settings.check()?;
+        if samples.is_empty() {
+            return Err(LearnerError::NoSamples);
+        }
+        let (expected, got) = (robot.joint_count(), samples.joints());
+        if expected != got {
+            return Err(LearnerError::WrongJoints { expected, got });
+        }
+        samples.check()?;
+        memory::check(settings.points.min(samples.len()), expected)?;
+        let few = samples.thinned(settings.points);
+        let inputs = Inputs::new(&few, settings.direction_speeds.clone());
+        let points = inputs.points(&few);
+        let (regression, named, kernels) = (None, None, BTreeMap::new());
+        let all = samples;
+        Ok(Self {
+            robot,
+            settings,
+            progress,
+            all,
+            few,
+            inputs,
+            points,
+            rest_speed,
+            regression,
+            named,
+            kernels,
+        })
+    }
+
+    /// Gives the rigid-body parameters that models with a rigid-body mean start from.
+    #[must_use]
+    pub fn with_regression(mut self, regression: &'a RigidBodyFit) -> Self {
+        self.regression = Some(regression);
+        self
+    }
+
+    /// Gives the robot extended by named effects.
+    #[must_use]
+    pub fn with_named(mut self, named: &'a Robot) -> Self {
+        self.named = Some(named);
+        self
+    }
+
+    /// Number of points that exact processes are conditioned on.
+    pub fn points(&self) -> usize {
+        self.few.len()
+    }
+
+    /// Trains a model.
+    ///
+    /// # Errors
+    ///
+    /// [`LearnerError::Missing`] when the model needs a regression or named effects that were
+    /// not given, and what the Gaussian process refuses.
+    pub fn fit(&mut self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+        match kind {
+            ModelKind::Cad | ModelKind::Named => self.described(kind),
+            ModelKind::Rbd => self.rigid_bodies(),
+            ModelKind::Gp | ModelKind::GpRbd | ModelKind::NamedGp => self.about_fixed_mean(kind),
+            ModelKind::GpRbdPrior => self.with_prior(),
+            ModelKind::GpRbdShared => self.with_shared_prior(),
+            ModelKind::RbdKernel => self.rigid_body_kernel(),
+            ModelKind::RbdKernelJoint => self.rigid_body_kernel_jointly(),
+            ModelKind::GpInducing | ModelKind::GpRbdInducing | ModelKind::NamedGpInducing => {
+                self.by_inducing_points(kind)
+            }
+        }
+    }
+
+    /// A description of the robot as a model; its noise is what it leaves of the points.
+    fn described(&self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+        let mean = self.mean(kind)?;
+        let n = self.few.len() as f64;
+        let left = self.left(&mean);
+        let noise = left.iter().map(|r| r.iter().map(|r| r * r).sum::<f64>() / n).collect();
+        let model = Model::new(kind, self.robot, mean, noise);
+        Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
+    }
+
+    fn rigid_bodies(&self) -> Result<Fitted, LearnerError> {
+        let kind = ModelKind::Rbd;
+        let fit = self.regression(kind)?;
+        let noise = fit.noise.iter().map(|noise| noise.standard_deviation.powi(2)).collect();
+        let mut model = Model::new(kind, self.robot, self.mean(kind)?, noise);
+        let width = fit.covariance.nrows();
+        let covariance = Mat::from_fn(width, width, |i, j| fit.covariance[(i, j)]);
+        model.weights = vec![covariance; self.robot.joint_count()];
+        Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
+    }
+
+    pub(crate) fn regression(&self, kind: ModelKind) -> Result<&'a RigidBodyFit, LearnerError> {
+        let what = "the regression of the rigid-body parameters";
+        self.regression.ok_or(LearnerError::Missing { model: kind.name(), what })
+    }
+
+    /// The columns of the rigid-body part.
+    pub(crate) fn columns(&self) -> ColumnSet {
+        self.regression.map_or(ColumnSet::INERTIAL, |fit| ColumnSet::of(&fit.columns))
+    }
+
+    /// What stands before the process of a model.
+    pub(crate) fn mean(&self, kind: ModelKind) -> Result<Mean, LearnerError> {
+        let described = |robot: &Robot| {
+            Mean::Robot(Box::new(RobotTorque::new(robot.clone(), self.rest_speed.clone())))
+        };
+        Ok(match kind {
+            ModelKind::Gp
+            | ModelKind::GpInducing
+            | ModelKind::RbdKernel
+            | ModelKind::RbdKernelJoint => Mean::Zero,
+            ModelKind::Cad => described(self.robot),
+            ModelKind::Named | ModelKind::NamedGp | ModelKind::NamedGpInducing => {
+                let what = "the robot with its named effects (extended.toml)";
+                let missing = LearnerError::Missing { model: kind.name(), what };
+                described(self.named.ok_or(missing)?)
+            }
+            ModelKind::Rbd
+            | ModelKind::GpRbd
+            | ModelKind::GpRbdPrior
+            | ModelKind::GpRbdShared
+            | ModelKind::GpRbdInducing => {
+                let fit = self.regression(kind)?;
+                let beta = vec![fit.parameters.clone(); self.robot.joint_count()];
+                Mean::Columns { set: self.columns(), beta }
+            }
+        })
+    }
+
+    /// What `mean` leaves of the torque of the points, one row a joint.
+    pub(crate) fn left(&self, mean: &Mean) -> Vec<Vec<f64>> {
+        left(self.robot, mean, &self.few)
+    }
+
+    /// The kernels of all joints for what the mean of `kind` leaves; searched for once.
+    pub(crate) fn kernels(&mut self, kind: ModelKind) -> Result<Vec<LearnedKernel>, LearnerError> {
+        let mean = self.mean(kind)?;
+        let name = match &mean {
+            Mean::Zero => "zero",
+            Mean::Columns { .. } => "rigid bodies",
+            Mean::Robot(_) => "named effects",
+        };
+        if let Some(known) = self.kernels.get(name) {
+            return Ok(known.clone());
+        }
+        let targets = self.left(&mean);
+        let search = &self.settings.search;
+        let width = self.inputs.width();
+        let found = kernels::search(search, &self.points, width, &targets, self.progress)?;
+        Ok(self.kernels.entry(name).or_insert(found).clone())
+    }
+}
+
+/// What `mean` leaves of the torque of `samples`, one row a joint.
+pub(crate) fn left(robot: &Robot, mean: &Mean, samples: &Samples) -> Vec<Vec<f64>> {
+    let joints = robot.joint_count();
+    let model = Model::new(ModelKind::Cad, robot, mean.clone(), vec![0.0; joints]);
+    let expected = model.torque(samples);
+    let measured = (0..samples.len()).flat_map(|i| samples.tau(i));
+    let left: Vec<f64> = measured.zip(&expected).map(|(tau, e)| tau - e).collect();
+    (0..joints).map(|k| left.iter().skip(k).step_by(joints).copied().collect()).collect()
+}
+
+/// Rows of the regressor with the columns of `set`, row-major, one matrix a joint.
+pub(crate) fn features(robot: &Robot, set: ColumnSet, samples: &Samples) -> Vec<Vec<f64>> {
+    let joints = robot.joint_count();
+    let dynamics = Dynamics::new(robot);
+    let (mut ws, width) = (dynamics.workspace(), set.columns(joints).len());
+    let mut rows = vec![0.0; joints * width];
+    let mut features = vec![Vec::with_capacity(samples.len() * width); joints];
+    for i in 0..samples.len() {
+        let state = samples.state(i);
+        dynamics.columns_into(&mut ws, [state.q, state.qd, state.qdd], set, &mut rows);
+        let rows = rows.chunks_exact(width);
+        features.iter_mut().zip(rows).for_each(|(f, row)| f.extend_from_slice(row));
+    }
+    features
+}

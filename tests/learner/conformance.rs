@@ -1,0 +1,259 @@
+//! What every model of the torque promises, asked of each.
+
+use std::sync::OnceLock;
+
+use gaussian_process::KernelSearch;
+use learner::{
+    Fitted, LearnerError, Model, ModelKind, Regression, Samples, Score, Silent, State, TorqueModel,
+    TrainSettings, Training,
+};
+use logs::rest_speeds;
+use robot::Robot;
+
+use crate::arm;
+
+const TRAINED: usize = 150;
+
+/// Every model, trained on one run of the planar arm; the "named" robot has viscous friction.
+fn fit_all() -> Vec<Fitted> {
+    let robot = arm::robot();
+    let prepared = arm::run(1.0, 400, 1.0);
+    let samples = Samples::new(&prepared);
+    let search = KernelSearch { starts: 1, start_points: 60, iterations: 25 };
+    let settings =
+        TrainSettings { points: TRAINED, inducing_points: 60, search, ..TrainSettings::default() };
+    let mut regression = Regression::new(&robot, dynamics::ColumnSet::INERTIAL);
+    regression.add(samples.stretch()).unwrap();
+    let fit = regression.fit(None).unwrap();
+    let named = named();
+    let rest = rest_speeds(&prepared);
+    let mut training = Training::new(&robot, &samples, rest, &settings, &Silent)
+        .unwrap()
+        .with_regression(&fit)
+        .with_named(&named);
+    ModelKind::ALL.into_iter().map(|kind| training.fit(kind).unwrap()).collect()
+}
+
+fn named() -> Robot {
+    let mut robot = arm::robot();
+    for j in 0..2 {
+        robot.link_mut(j).unwrap().actuator.viscous = 0.4;
+    }
+    robot
+}
+
+fn all() -> &'static [Fitted] {
+    static ALL: OnceLock<Vec<Fitted>> = OnceLock::new();
+    ALL.get_or_init(fit_all)
+}
+
+fn test_samples() -> Samples {
+    Samples::new(&arm::run(2.0, 120, 1.0))
+}
+
+/// A state like those of training, and one that is far from all of them.
+const NEAR: State = State { q: &[0.3, -0.4], qd: &[0.5, -0.2], qdd: &[1.0, 0.4] };
+const FAR: State = State { q: &[400.0, -300.0], qd: &[900.0, -800.0], qdd: &[5e3, 4e3] };
+
+fn torque(model: &Model, state: State) -> Vec<f64> {
+    let mut tau = vec![0.0; 2];
+    model.torque_into(&mut model.workspace(), state, &mut tau);
+    tau
+}
+
+fn variance(model: &Model, state: State) -> Vec<f64> {
+    let mut variance = vec![0.0; 2];
+    model.variance_into(&mut model.workspace(), state, &mut variance);
+    variance
+}
+
+#[test]
+fn every_model_predicts_better_than_the_mean_torque_and_knows_its_error() {
+    let test = test_samples();
+    for fitted in all() {
+        let score = Score::of(&fitted.model, &test);
+        for k in 0..2 {
+            let what = format!("{} joint {k}: {score:?}", fitted.model.kind);
+            assert!(score.nmse[k] < 0.5, "{what}");
+            // Of the right order: these searches end early, and the test run goes elsewhere.
+            assert!(score.coverage[k] > 0.3, "{what}");
+        }
+    }
+}
+
+#[test]
+fn a_batch_is_the_single_queries_bit_by_bit() {
+    let test = test_samples();
+    for Fitted { model, .. } in all() {
+        let (together, spread) = (model.torque(&test), model.variance(&test));
+        for i in 0..test.len() {
+            assert_eq!(torque(model, test.state(i)), together[2 * i..2 * i + 2], "{}", model.kind);
+            assert_eq!(variance(model, test.state(i)), spread[2 * i..2 * i + 2], "{}", model.kind);
+        }
+    }
+}
+
+#[test]
+fn training_does_not_depend_on_the_number_of_threads() {
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let (one, three) = (pool(1).install(fit_all), pool(3).install(fit_all));
+    for (a, b) in one.iter().zip(&three) {
+        assert_eq!(torque(&a.model, NEAR), torque(&b.model, NEAR), "{}", a.model.kind);
+        assert_eq!(variance(&a.model, NEAR), variance(&b.model, NEAR), "{}", a.model.kind);
+        assert_eq!(a.joints, b.joints, "{}", a.model.kind);
+    }
+}
+
+#[test]
+fn a_query_allocates_nothing() {
+    for Fitted { model, .. } in all() {
+        let (mut ws, mut tau) = (model.workspace(), vec![0.0; 2]);
+        let count = allocation_counter::measure(|| {
+            model.torque_into(&mut ws, NEAR, &mut tau);
+            model.variance_into(&mut ws, NEAR, &mut tau);
+        });
+        assert_eq!(count.count_total, 0, "{}", model.kind);
+    }
+}
+
+#[test]
+fn far_from_the_data_the_mean_is_left_and_the_prior_variance() {
+    for Fitted { model, .. } in all() {
+        let Some(process) = &model.process else { continue };
+        let mut bare = model.clone();
+        bare.process = None;
+        assert_eq!(torque(model, FAR), torque(&bare, FAR), "{}", model.kind);
+        let (found, linear) = (variance(model, FAR), variance(&bare, FAR));
+        for k in 0..2 {
+            let expected = process.sum.kernels()[k].signal_variance + linear[k];
+            assert!((found[k] / expected - 1.0).abs() < 1e-12, "{} joint {k}", model.kind);
+        }
+    }
+}
+
+#[test]
+fn near_the_data_the_variance_falls_well_below_the_prior() {
+    for Fitted { model, .. } in all() {
+        let Some(process) = &model.process else { continue };
+        let found = variance(model, NEAR);
+        for (k, kernel) in process.sum.kernels().iter().enumerate() {
+            let noise = model.noise_variance[k];
+            let latent = found[k] - noise;
+            assert!(
+                latent >= 0.0 && latent < 0.2 * kernel.signal_variance + noise,
+                "{}",
+                model.kind
+            );
+        }
+    }
+}
+
+#[test]
+fn a_model_that_is_saved_and_read_again_predicts_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let (robot, test) = (arm::robot(), test_samples());
+    for Fitted { model, .. } in all() {
+        let path = folder.path().join(format!("{}.parquet", model.kind));
+        model.save(&path).unwrap();
+        let read = Model::load(&path, &robot).unwrap().with_variance().unwrap();
+        assert_eq!(read.words(), model.words());
+        assert_eq!(read.torque(&test), model.torque(&test), "{}", model.kind);
+        let pairs = read.variance(&test).into_iter().zip(model.variance(&test));
+        for (found, expected) in pairs {
+            assert!((found / expected - 1.0).abs() < 1e-9, "{}: {found} {expected}", model.kind);
+        }
+    }
+}
+
+#[test]
+fn a_file_that_is_no_model_of_this_robot_is_refused_in_one_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.parquet");
+    let model = &all().iter().find(|f| f.model.kind == ModelKind::GpRbdPrior).unwrap().model;
+    model.save(&path).unwrap();
+    let refused = |path: &std::path::Path, robot: &Robot| match Model::load(path, robot) {
+        Ok(_) => panic!("{} was read", path.display()),
+        Err(error) => error,
+    };
+    let other = refused(&path, &checks::arms::wam());
+    assert!(matches!(other, LearnerError::OtherRobot { .. }), "{other}");
+    let bytes = std::fs::read(&path).unwrap();
+    for cut in [0, 3, 100, bytes.len() / 2, bytes.len() - 1] {
+        let short = folder.path().join("short.parquet");
+        std::fs::write(&short, &bytes[..cut]).unwrap();
+        let error = refused(&short, &arm::robot());
+        assert!(matches!(error, LearnerError::NotAModel { .. }), "{cut}: {error}");
+    }
+    let absent = refused(&folder.path().join("absent.parquet"), &arm::robot());
+    assert!(absent.to_string().contains("absent.parquet"), "{absent}");
+}
+
+#[test]
+fn a_damaged_model_never_ends_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, robot) = (folder.path().join("model.parquet"), arm::robot());
+    let model = &all().iter().find(|f| f.model.kind == ModelKind::GpInducing).unwrap().model;
+    model.save(&path).unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    for k in 0..200 {
+        let mut damaged = bytes.clone();
+        let at = (k * 7919 + 13) % damaged.len();
+        damaged[at] ^= 0x55;
+        std::fs::write(&path, &damaged).unwrap();
+        // Numbers may be wrong; what is not whole is an error, not a panic.
+        drop(Model::load(&path, &robot));
+    }
+}
+
+#[test]
+fn the_prior_on_the_parameters_is_the_kernel_of_the_columns() {
+    // Rigid bodies describe this log, so the prior's and the kernel's way agree with them.
+    let robot = arm::robot();
+    let prepared = arm::run(1.0, 300, 0.0);
+    let samples = Samples::new(&prepared);
+    let mut regression = Regression::new(&robot, dynamics::ColumnSet::INERTIAL);
+    regression.add(samples.stretch()).unwrap();
+    let fit = regression.fit(None).unwrap();
+    let search = KernelSearch { starts: 1, start_points: 60, iterations: 25 };
+    let settings = TrainSettings { points: 100, search, ..TrainSettings::default() };
+    let mut training = Training::new(&robot, &samples, rest_speeds(&prepared), &settings, &Silent)
+        .unwrap()
+        .with_regression(&fit);
+    let test = Samples::new(&arm::run(2.0, 120, 0.0));
+    let kinds = [ModelKind::Rbd, ModelKind::GpRbd, ModelKind::GpRbdPrior, ModelKind::GpRbdShared];
+    for kind in kinds.into_iter().chain([ModelKind::RbdKernel, ModelKind::RbdKernelJoint]) {
+        let score = Score::of(&training.fit(kind).unwrap().model, &test);
+        assert!(score.nmse.iter().all(|nmse| *nmse < 1e-3), "{kind}: {score:?}");
+    }
+    let gp = Score::of(&training.fit(ModelKind::Gp).unwrap().model, &test);
+    let rbd = Score::of(&training.fit(ModelKind::Rbd).unwrap().model, &test);
+    assert!(rbd.nmse.iter().zip(&gp.nmse).all(|(r, g)| *r < 0.2 * g), "{rbd:?} {gp:?}");
+}
+
+#[test]
+fn what_cannot_be_trained_is_refused_by_name() {
+    let robot = arm::robot();
+    let prepared = arm::run(1.0, 50, 1.0);
+    let samples = Samples::new(&prepared);
+    let rest = rest_speeds(&prepared);
+    let settings = TrainSettings { points: 20, ..TrainSettings::default() };
+    let mut bare = Training::new(&robot, &samples, rest.clone(), &settings, &Silent).unwrap();
+    for kind in ModelKind::ALL {
+        if kind.needs_regression() || kind.needs_named() {
+            let refused = bare.fit(kind).unwrap_err();
+            assert!(matches!(refused, LearnerError::Missing { .. }), "{kind}: {refused}");
+        }
+    }
+    let none = TrainSettings { points: 0, ..TrainSettings::default() };
+    let zero = Training::new(&robot, &samples, rest.clone(), &none, &Silent).err().unwrap();
+    assert!(matches!(zero, LearnerError::Setting { name: "points", .. }), "{zero}");
+    let wam = checks::arms::wam();
+    let other = Training::new(&wam, &samples, rest.clone(), &settings, &Silent).err().unwrap();
+    assert!(matches!(other, LearnerError::WrongJoints { expected: 7, got: 2 }), "{other}");
+    let mut broken = prepared.clone();
+    broken.runs[0].joints[1].qdd[17] = f64::NAN;
+    let nan = Samples::new(&broken);
+    let refused = Training::new(&robot, &nan, rest, &settings, &Silent).err().unwrap();
+    let expected = "qdd of joint 1 in sample 17 is NaN, which no sensor reports";
+    assert_eq!(refused.to_string(), expected);
+}
