@@ -257,3 +257,34 @@ fn what_cannot_be_trained_is_refused_by_name() {
     let expected = "qdd of joint 1 in sample 17 is NaN, which no sensor reports";
     assert_eq!(refused.to_string(), expected);
 }
+
+/// Every model that can be trained without a regression or named effects.
+fn bare_kinds() -> impl Iterator<Item = ModelKind> {
+    ModelKind::ALL.into_iter().filter(|kind| !kind.needs_regression() && !kind.needs_named())
+}
+
+#[test]
+fn logs_that_tell_nothing_still_train() {
+    let robot = arm::robot();
+    let search = KernelSearch { starts: 1, start_points: 20, iterations: 10 };
+    let settings =
+        TrainSettings { points: 30, inducing_points: 10, search, ..TrainSettings::default() };
+    let mut still = arm::run(1.0, 40, 1.0);
+    for joint in &mut still.runs[0].joints {
+        for signal in [&mut joint.q, &mut joint.qd, &mut joint.qdd, &mut joint.qd_wide] {
+            signal.fill(0.0);
+        }
+    }
+    let mut silent = arm::run(1.0, 40, 1.0);
+    silent.runs[0].joints.iter_mut().for_each(|joint| joint.effort.fill(0.0));
+    for prepared in [still, silent, arm::run(1.0, 1, 1.0), arm::run(1.0, 2, 1.0)] {
+        let samples = Samples::new(&prepared);
+        let rest = rest_speeds(&prepared);
+        let mut training = Training::new(&robot, &samples, rest, &settings, &Silent).unwrap();
+        for kind in bare_kinds() {
+            let fitted = training.fit(kind).unwrap_or_else(|e| panic!("{kind}: {e}"));
+            assert!(torque(&fitted.model, NEAR).iter().all(|t| t.is_finite()), "{kind}");
+            assert!(variance(&fitted.model, NEAR).iter().all(|v| *v >= 0.0), "{kind}");
+        }
+    }
+}

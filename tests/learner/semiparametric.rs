@@ -1,7 +1,8 @@
 //! Mean, variance and the three ways of having a linear part, against other programs.
 
 use gaussian_process::{
-    GaussianKernel, Inverse, KernelSum, Likelihood, Linear, LinearPosterior, Residual,
+    GaussianKernel, Inverse, KernelSearch, KernelSum, Likelihood, Linear, LinearPosterior,
+    Residual, SearchEnd,
 };
 
 use crate::golden::{Golden, golden};
@@ -180,4 +181,67 @@ fn oracle_held_out_errors_are_those_of_refitting_without_the_stretch() {
     }
     let expected = square / 60.0;
     assert!((found / expected - 1.0).abs() < 1e-8, "{found} instead of {expected}");
+}
+
+#[test]
+fn oracle_the_posterior_passes_through_targets_without_noise() {
+    let g = golden();
+    let likelihood = Likelihood::new(&g.points.concat(), g.length_scales.len()).unwrap();
+    let inverse = likelihood.condition(&kernel(&g, 1.0), 1e-10).unwrap();
+    let residual = Residual::new(&inverse, &g.targets, Linear::NONE).unwrap();
+    let mut at_points = golden();
+    at_points.queries = g.points;
+    at_points.semiparametric.query_features = vec![Vec::new(); g.targets.len()];
+    check(&predicted(&at_points, 1.0, &[], &residual.alpha), &g.targets, 1e-6);
+}
+
+/// Optimum of the same likelihood within the same bounds by SciPy 1.17.1 (L-BFGS-B from the
+/// first of the starts, `ftol=1e-13, gtol=1e-7`; likelihood by NumPy), and of its nonzero terms:
+/// logarithms of signal variance, of length scales 1, 4 and 8, and of the noise variance.
+const SCIPY_OPTIMUM: f64 = 4.072_206_300_957_795;
+const SCIPY_AT: [(usize, f64); 5] =
+    [(0, 1.5816), (1, 0.9634), (4, 1.3939), (8, 1.0762), (22, -5.067)];
+
+#[test]
+fn oracle_the_search_ends_where_that_of_scipy_does() {
+    let g = golden();
+    let all = KernelSearch { starts: 1, start_points: 60, iterations: 500 };
+    let width = g.length_scales.len();
+    let on = |_, _| std::ops::ControlFlow::Continue(());
+    let found = all.run(&g.points.concat(), width, &g.targets, &on).unwrap();
+    assert_eq!(found.end, SearchEnd::Converged);
+    assert!((found.log_likelihood - SCIPY_OPTIMUM).abs() < 1e-5, "{found:?}");
+    let at = |i: usize| match i {
+        0 => found.kernel.signal_variance.ln(),
+        i if i == width + 1 => found.noise_variance.ln(),
+        i => found.kernel.length_scales[i - 1].ln(),
+    };
+    for (i, expected) in SCIPY_AT {
+        assert!((at(i) - expected).abs() < 5e-3, "{i}: {} instead of {expected}", at(i));
+    }
+}
+
+#[test]
+fn inputs_that_tell_nothing_are_no_reason_to_stop() {
+    let on = |_, _| std::ops::ControlFlow::Continue(());
+    let search = KernelSearch { starts: 2, start_points: 20, iterations: 50 };
+    let x: Vec<f64> = (0..40).map(|i| f64::from(i % 20) * 0.1).collect();
+    let wave: Vec<f64> = x.iter().map(|x| x.sin()).collect();
+    // Every point twice, constant targets, targets of zero, a constant input, one point.
+    for (inputs, targets) in [
+        (x.clone(), wave.clone()),
+        (x.clone(), vec![3.0; 40]),
+        (x.clone(), vec![0.0; 40]),
+        (vec![0.5; 40], wave),
+        (vec![0.5], vec![2.0]),
+    ] {
+        let found = search.run(&inputs, 1, &targets, &on).unwrap();
+        let likelihood = Likelihood::new(&inputs, 1).unwrap();
+        let inverse = likelihood.condition(&found.kernel, found.noise_variance).unwrap();
+        let residual = Residual::new(&inverse, &targets, Linear::NONE).unwrap();
+        assert!(residual.alpha.iter().all(|a| a.is_finite()), "{found:?}");
+    }
+    assert!(search.run(&[], 1, &[], &on).is_err());
+    assert!(search.run(&[f64::NAN, 1.0], 1, &[0.0, 1.0], &on).is_err());
+    assert!(search.run(&[0.0, 1.0], 1, &[0.0, f64::NAN], &on).is_err());
 }

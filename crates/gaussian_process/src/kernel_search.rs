@@ -16,6 +16,9 @@ const NOISE: (f64, f64) = (1e-6, 10.0);
 /// the searches start from: smooth with some noise, rough with little, very smooth with much.
 const STARTS: [(f64, f64); 3] = [(1.0, 1e-2), (0.4, 1e-3), (2.5, 1e-1)];
 
+/// Mean square of the targets that is none.
+const SILENT: f64 = 1e-200;
+
 /// How hyperparameters are searched for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KernelSearch {
@@ -75,14 +78,16 @@ impl KernelSearch {
         check("targets", targets, targets.len())?;
         let subset = thinned(inputs, width, targets, self.start_points);
         let power = targets.iter().map(|y| y * y).sum::<f64>() / targets.len().max(1) as f64;
-        let bounds = bounds(width, power.max(f64::MIN_POSITIVE));
+        // Targets that are all zero have no scale of their own.
+        let power = if power > SILENT { power } else { 1.0 };
+        let bounds = bounds(width, power);
         let mut few = Climb::new(&subset.0, width, &subset.1)?;
         let mut tops: Vec<Maximum> = Vec::new();
         for (length, noise) in STARTS.into_iter().take(self.starts.max(1)) {
             let length = (length * (width as f64).sqrt()).ln();
             let mut theta = vec![length; width + 2];
             theta[0] = bounds[0].0.midpoint(bounds[0].1);
-            theta[width + 1] = (noise * power.max(f64::MIN_POSITIVE)).ln();
+            theta[width + 1] = (noise * power).ln();
             tops.push(few.maximise(&theta, &bounds, self.iterations, watch)?);
         }
         let starts = tops.iter().map(|t| t.value).collect();

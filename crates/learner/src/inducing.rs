@@ -22,7 +22,9 @@ impl Training<'_> {
         self.progress.stage(&format!("inducing points of {kind}"));
         let of_all: Vec<GaussianKernel> = kernels.iter().map(|k| k.kernel.clone()).collect();
         let points = self.shared_points(&of_all)?;
-        let learners = kernels.iter().map(|k| Inducing::new(&points, &k.kernel, k.noise_variance));
+        let per_point = self.all.len() as f64 / self.few.len() as f64;
+        let learners =
+            kernels.iter().map(|k| Inducing::new(&points, &k.kernel, per_point * k.noise_variance));
         let mut learners = learners.collect::<Result<Vec<_>, _>>()?;
         self.progress.stage(&format!("summing {} samples for {kind}", self.all.len()));
         for start in (0..self.all.len()).step_by(BLOCK) {
@@ -36,22 +38,16 @@ impl Training<'_> {
         let posteriors =
             learners.into_iter().map(Inducing::finish).collect::<Result<Vec<_>, _>>()?;
         let alpha: Vec<Vec<f64>> = posteriors.iter().map(|p| p.alpha.clone()).collect();
-        let joints: Vec<JointFit> = posteriors
+        let joints: Vec<JointFit> = kernels
             .iter()
-            .zip(&kernels)
-            .map(|(posterior, found)| JointFit {
-                log_likelihood: Some(posterior.log_likelihood),
-                kernel: Some(found.clone()),
-                ..JointFit::default()
-            })
+            .map(|found| JointFit { kernel: Some(found.clone()), ..JointFit::default() })
             .collect();
-        let log_likelihood = joints.iter().map(|joint| joint.log_likelihood).sum();
         let sum = KernelSum::new(&points, self.inputs.width(), &of_all, &alpha)?;
         let noise = kernels.iter().map(|k| k.noise_variance).collect();
         let mut model = Model::new(kind, self.robot, mean, noise);
         let spread = Some(Spread::Inducing(posteriors));
         model.process = Some(Process { inputs: self.inputs.clone(), sum, spread });
-        Ok(Fitted { model, joints, log_likelihood })
+        Ok(Fitted { model, joints, log_likelihood: None })
     }
 
     fn shared_points(&self, kernels: &[GaussianKernel]) -> Result<Vec<f64>, LearnerError> {

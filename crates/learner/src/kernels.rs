@@ -8,6 +8,9 @@ use crate::{LearnerError, Progress};
 /// a factor of a million each way, which is as good as a weight held and a weight free.
 const REACH: f64 = 14.0;
 
+/// Square of targets that are none.
+const SILENT: f64 = 1e-200;
+
 /// Iterations for a linear part, whose evaluations cost little.
 const ITERATIONS: usize = 500;
 
@@ -49,7 +52,8 @@ pub(crate) fn rigid_body_kernel(
 ) -> Result<RigidBodyKernel, LearnerError> {
     let sums = WhiteSums::new(features, width, targets)?;
     let n = targets.len().max(1) as f64;
-    let power = (sums.square / n).max(f64::MIN_POSITIVE);
+    // Targets that are all zero have no scale of their own.
+    let power = if sums.square > SILENT { sums.square / n } else { 1.0 };
     let seen: Vec<usize> = (0..width).filter(|&j| sums.gram[(j, j)] > 0.0).collect();
     // Every column starts with the same share of the power.
     let start = seen.iter().map(|&j| power / (seen.len() as f64 * sums.gram[(j, j)] / n));
