@@ -5,6 +5,7 @@ mod arm;
 mod bad_input;
 mod commands;
 mod diagnose;
+mod learn;
 mod program;
 mod replay;
 mod simulate;

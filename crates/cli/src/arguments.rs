@@ -1,6 +1,6 @@
 use clap::{Parser, Subcommand};
 
-use crate::commands::{diagnose, explain, log_info, replay, robot_check, simulate};
+use crate::commands::{diagnose, explain, learn, log_info, replay, robot_check, simulate};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -14,6 +14,12 @@ Exit codes:
   0  done
   2  usage: arguments, or an output folder that cannot be made
   3  a scenario, a robot or a log that cannot be used, or a joint that ran away";
+
+const LEARN_EXIT_CODES: &str = "\
+Exit codes:
+  0  done, if only as far as Ctrl-C let it
+  2  usage: arguments, or an output folder that cannot be made
+  3  unusable data: a robot, a log or a column map";
 
 const EXAMPLES: &str = "\
 Examples:
@@ -48,6 +54,20 @@ The output folder holds
   truth.json     what was put in: for scoring, never for a diagnosis
 
 plumbline explain lists the effects, plumbline schema prints what a scenario may say.";
+
+const LEARN_EXAMPLES: &str = "\
+Examples:
+  plumbline learn --robot robot.toml --train run_1.csv run_2.csv --test run_3.csv --out out
+  plumbline learn --robot robot.urdf --train run_1.csv --test run_3.csv --models gp-rbd --out out
+  plumbline learn --robot robot.toml --benchmark --out out
+
+The output folder holds
+  learning.json         errors, times, hyperparameters and how their searches ended
+  figure.svg            the errors by joint and model
+  models/NAME.parquet   the models
+
+Ctrl-C ends the searches: every model is finished with what was found until then. Pressed
+again it ends the program.";
 
 const REPLAY_EXAMPLES: &str = "\
 Examples:
@@ -87,6 +107,9 @@ pub enum Command {
     /// Simulates the runs of a scenario: logs, and apart from them what was put in
     #[command(after_help = format!("{SIMULATE_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Simulate(simulate::Arguments),
+    /// Learns models of the torque from logs and compares them on others
+    #[command(after_help = format!("{LEARN_EXAMPLES}\n\n{LEARN_EXIT_CODES}"))]
+    Learn(learn::Arguments),
     /// Compares a simulation with logs: motion under their torque, torque along their motion
     #[command(after_help = format!("{REPLAY_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Replay(replay::Arguments),

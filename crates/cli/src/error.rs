@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use anstyle::{AnsiColor, Style};
 use diagnosis::DiagnosisError;
 use document::{Coloring, DocumentError};
+use learner::LearnerError;
 use logs::LogError;
 use report::ReportError;
 use robot::RobotError;
@@ -30,6 +31,33 @@ pub enum CliError {
     /// A scenario cannot be simulated.
     #[error(transparent)]
     Simulator(#[from] SimulatorError),
+    /// A model cannot be learned.
+    #[error(transparent)]
+    Learner(#[from] LearnerError),
+    /// A model would be tested on what it was trained on.
+    #[error(
+        "{test}: it is the recording that {training} holds, a test needs a log that took no part in the training"
+    )]
+    TestedOnTraining {
+        /// The log of the test.
+        test: String,
+        /// The log of the training or of the regression.
+        training: String,
+    },
+    /// The robot with named effects is another one.
+    #[error("{}: its joints are not those of {expected}", path.display())]
+    OtherRobot {
+        /// The file.
+        path: PathBuf,
+        /// Name of the robot.
+        expected: String,
+    },
+    /// Ctrl-C cannot be listened to.
+    #[error("Ctrl-C cannot be listened to: {reason}")]
+    Signal {
+        /// What the operating system said.
+        reason: String,
+    },
     /// The output folder cannot be made.
     #[error("{}: {reason}, a folder to write into was expected", path.display())]
     Folder {
@@ -72,7 +100,17 @@ impl CliError {
     /// 2 for usage, 3 for data that cannot be used.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::UnknownEffect { .. } | Self::Output(_) | Self::Folder { .. } => 2,
+            Self::UnknownEffect { .. }
+            | Self::Output(_)
+            | Self::Folder { .. }
+            | Self::TestedOnTraining { .. }
+            | Self::Signal { .. } => 2,
+            Self::Learner(error) => match error {
+                LearnerError::Setting { .. }
+                | LearnerError::Missing { .. }
+                | LearnerError::Memory { .. } => 2,
+                _ => 3,
+            },
             Self::Document(_) | Self::Simulator(_) => 3,
             Self::Report(ReportError::Unreadable { .. }) => 3,
             Self::Report(_) | Self::Diagnosis(DiagnosisError::Setting { .. }) => 2,
@@ -80,7 +118,11 @@ impl CliError {
                 LogError::CutoffOutOfRange { .. } => 2,
                 _ => 3,
             },
-            Self::Robot(_) | Self::Extended(_) | Self::Diagnosis(_) | Self::NoJoints { .. } => 3,
+            Self::Robot(_)
+            | Self::Extended(_)
+            | Self::Diagnosis(_)
+            | Self::NoJoints { .. }
+            | Self::OtherRobot { .. } => 3,
         }
     }
 
@@ -88,6 +130,12 @@ impl CliError {
     fn help(&self) -> Option<&'static str> {
         let log = match self {
             Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => log,
+            Self::Learner(LearnerError::Missing { model, .. }) if model.starts_with("named") => {
+                return Some("plumbline diagnose writes extended.toml; give it with --named");
+            }
+            Self::Learner(LearnerError::Memory { .. }) => {
+                return Some("--points N, or a model -inducing, which takes all samples");
+            }
             Self::UnknownEffect { .. } => return Some("plumbline explain lists every effect"),
             Self::NoJoints { .. } => {
                 return Some(

@@ -3,6 +3,7 @@
 mod arguments;
 mod commands;
 mod error;
+mod input;
 mod output;
 mod progress;
 
@@ -11,7 +12,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
-use crate::commands::{diagnose, explain, log_info, replay, robot_check, schema, simulate};
+use crate::commands::{diagnose, explain, learn, log_info, replay, robot_check, schema, simulate};
 use crate::error::CliError;
 
 /// How a command that ran to its end turned out.
@@ -41,6 +42,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Robot(RobotCommand::Check(arguments)) => robot_check::run(arguments),
         Command::Log(LogCommand::Info(arguments)) => log_info::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
+        Command::Learn(arguments) => learn::run(arguments),
         Command::Replay(arguments) => replay::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Schema => schema::run(),

@@ -47,3 +47,28 @@ impl diagnosis::Progress for Bar {
         self.bar.inc(1);
     }
 }
+
+/// A line on the standard error that says what is being done, after a second of work; never
+/// where that is not a terminal.
+pub struct Line(Bar);
+
+impl Line {
+    /// A line that has not appeared yet.
+    pub fn new() -> Self {
+        let bar = Bar::new();
+        let style = ProgressStyle::with_template("{elapsed:>4} {wide_msg}");
+        bar.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+        Self(bar)
+    }
+
+    /// Shows these words.
+    pub fn say(&self, words: &str) {
+        self.0.appear_when_due();
+        self.0.bar.set_message(words.to_owned());
+    }
+
+    /// Takes the line away.
+    pub fn finish(&self) {
+        self.0.finish();
+    }
+}

@@ -30,7 +30,8 @@ pub fn sha256_of(path: &Path) -> Result<String, ReportError> {
     Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// Writes several files into `folder`, which is made when it is not there.
+/// Writes several files into `folder`, which is made when it is not there, as are the folders
+/// inside it that their names speak of.
 ///
 /// All of them are written under temporary names first, and renamed only when every one
 /// is complete: a failure on the way leaves the folder as it was.
@@ -44,9 +45,7 @@ pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), Report
     }
     let is_new = !folder.exists();
     fs::create_dir_all(folder).map_err(|e| unwritable(folder, &e))?;
-    let written: Result<Vec<NamedTempFile>, ReportError> =
-        files.iter().map(|(name, bytes)| temporary(&folder.join(name), bytes)).collect();
-    let written = written.inspect_err(|_| {
+    let written = temporaries(folder, files).inspect_err(|_| {
         if is_new {
             // Only removes the folder when nothing else has been put there.
             let _ = fs::remove_dir(folder);
@@ -59,14 +58,27 @@ pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), Report
     Ok(())
 }
 
-fn temporary(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, ReportError> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+/// The files under temporary names in `folder`, and the folders that they will move to.
+fn temporaries(folder: &Path, files: &[(&str, &[u8])]) -> Result<Vec<NamedTempFile>, ReportError> {
+    let written: Result<Vec<_>, _> =
+        files.iter().map(|(name, bytes)| temporary(folder, name, bytes)).collect();
+    let written = written?;
+    for (name, _) in files {
+        let path = folder.join(name);
+        let parent = path.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(|e| unwritable(parent, &e))?;
+    }
+    Ok(written)
+}
+
+fn temporary(folder: &Path, name: &str, bytes: &[u8]) -> Result<NamedTempFile, ReportError> {
+    let refused = |e: std::io::Error| unwritable(&folder.join(name), &e);
     let mut file = tempfile::Builder::new()
         .prefix(".plumbline-")
         .permissions(readable_by_others())
         .tempfile_in(folder)
-        .map_err(|e| unwritable(path, &e))?;
-    file.write_all(bytes).and_then(|()| file.flush()).map_err(|e| unwritable(path, &e))?;
+        .map_err(refused)?;
+    file.write_all(bytes).and_then(|()| file.flush()).map_err(refused)?;
     Ok(file)
 }
 
@@ -99,9 +111,17 @@ mod tests {
     fn a_failure_leaves_the_folder_as_it_was() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("a"), "old").unwrap();
-        let files: [(&str, &[u8]); 2] = [("a", b"new"), ("no/such/folder", b"x")];
+        let files: [(&str, &[u8]); 2] = [("a", b"new"), ("a/is/no/folder", b"x")];
         assert!(write_folder(folder.path(), &files).is_err());
         assert_eq!(fs::read_to_string(folder.path().join("a")).unwrap(), "old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn folders_inside_are_made() {
+        let folder = tempfile::tempdir().unwrap();
+        write_folder(folder.path(), &[("models/a", b"x"), ("models/b", b"y")]).unwrap();
+        assert_eq!(fs::read(folder.path().join("models/b")).unwrap(), b"y");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

@@ -15,10 +15,26 @@ use crate::{Provenance, Report, ReportError};
 /// [`ReportError::Format`].
 pub fn json(report: &Report) -> Result<String, ReportError> {
     let document = Document::new(report.diagnosis, report.provenance);
-    let mut text = serde_json::to_string_pretty(&document)
+    pretty(&document)
+}
+
+/// A value as JSON on lines, the last one ended.
+pub(crate) fn pretty(value: &impl Serialize) -> Result<String, ReportError> {
+    let mut text = serde_json::to_string_pretty(value)
         .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
     text.push('\n');
     Ok(text)
+}
+
+/// A value as JSON, with the name of its schema at the top.
+pub(crate) fn with_schema(schema: &str, value: &impl Serialize) -> Result<String, ReportError> {
+    #[derive(Serialize)]
+    struct Named<'a, T> {
+        schema: &'a str,
+        #[serde(flatten)]
+        value: &'a T,
+    }
+    pretty(&Named { schema, value })
 }
 
 /// [`Diagnosis`] as it is written: parameters by name, provenance at the end.

@@ -1,7 +1,9 @@
-//! A diagnosis for people and for programs: a page, a figure, a text for the terminal, JSON.
+//! What was found, for people and for programs: a page, a figure, a text for the terminal, JSON.
 //!
 //! ```text
-//! Report { diagnosis, traces, robot, provenance } -> json(), html(), figure(), text()
+//! Report { diagnosis, traces, robot, provenance }      -> json(), html(), figure(), text()
+//! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
+//! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! ```
 //!
 //! None of them holds a date or a random number: the same input gives the same
@@ -15,6 +17,7 @@ mod figures;
 mod files;
 mod html;
 mod json;
+mod learning;
 mod numbers;
 mod places;
 mod poster;
@@ -31,6 +34,10 @@ pub use error::ReportError;
 pub use files::{sha256_of, write_folder};
 pub use html::html;
 pub use json::json;
+pub use learning::{
+    ComparedJoint, Comparison, Curve, DataSet, KernelRow, LEARNING_SCHEMA, Maker, ModelRow,
+    PredictionTimes, TIMES_SCHEMA, TimePoint,
+};
 pub use numbers::{interval, percent, significant, unit};
 pub use poster::figure;
 pub use provenance::{FileHash, Provenance};

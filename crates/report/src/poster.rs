@@ -220,29 +220,13 @@ fn changes(finding: &Finding) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use quick_xml::Reader;
-    use quick_xml::events::Event;
-
-    use crate::sample;
-
-    /// The text between the tags of a well-formed document.
-    fn text_of(xml: &str) -> String {
-        let mut reader = Reader::from_str(xml);
-        let mut text = String::new();
-        loop {
-            match reader.read_event().unwrap() {
-                Event::Eof => return text,
-                Event::Text(piece) => text.push_str(&piece.decode().unwrap()),
-                _ => {}
-            }
-        }
-    }
+    use crate::sample::{self, text_of_xml};
 
     #[test]
     fn the_figure_is_xml_that_stands_alone_and_names_the_joint_and_its_cause() {
         let sample = sample::arm();
         let svg = super::figure(&sample.report()).unwrap();
-        let text = text_of(&svg);
+        let text = text_of_xml(&svg);
         for expected in ["arm: partly explained", "shoulder", "Coulomb friction", "2.00 N·m"] {
             assert!(text.contains(expected), "{expected} is missing in {text}");
         }
@@ -257,7 +241,7 @@ mod tests {
         sample.diagnosis.joints[0].name = "<b>&".into();
         sample.traces.clear();
         let svg = super::figure(&sample.report()).unwrap();
-        text_of(&svg);
+        text_of_xml(&svg);
         assert!(!svg.contains("<b>") && !svg.contains("aria-label=\"Torque of"));
     }
 

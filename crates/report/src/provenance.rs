@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-/// Where a diagnosis comes from: enough to repeat it, and no date.
+/// Where a result comes from: enough to repeat it, and no date.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Provenance {
     /// Name of the program.
@@ -11,8 +11,9 @@ pub struct Provenance {
     pub command: Vec<String>,
     /// The files that were read.
     pub files: Vec<FileHash>,
-    /// Seed of the surrogates and half-samples.
-    pub seed: u64,
+    /// Seed of every random draw; none where nothing is drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
 }
 
 /// A file that was read.

@@ -6,6 +6,8 @@ use diagnosis::{
     JointReport, JointTraces, NoiseFloorSource, RuledOut, RunSummary, RunTraces, SCHEMA,
     Unexplained, Verdict,
 };
+use quick_xml::Reader;
+use quick_xml::events::Event;
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 
 use crate::{FileHash, Provenance, Report};
@@ -47,7 +49,7 @@ pub fn arm() -> Sample {
                 path: "arm.urdf".into(),
                 sha256: "ab".repeat(32),
             }],
-            seed: 1,
+            seed: Some(1),
         },
     }
 }
@@ -206,4 +208,17 @@ fn trace(name: &str, joints: &[&str]) -> RunTraces {
         }
     };
     RunTraces { name: name.into(), joints: joints.iter().map(one).collect(), time }
+}
+
+/// The text between the tags of a well-formed document.
+pub fn text_of_xml(xml: &str) -> String {
+    let mut reader = Reader::from_str(xml);
+    let mut text = String::new();
+    loop {
+        match reader.read_event().unwrap() {
+            Event::Eof => return text,
+            Event::Text(piece) => text.push_str(&piece.decode().unwrap()),
+            _ => {}
+        }
+    }
 }

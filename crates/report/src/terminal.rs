@@ -9,10 +9,10 @@ use crate::tables::{name_beside_joint, sizes, words_for_floor};
 use crate::wrap::{packed, wrapped};
 
 /// Columns of the terminal that the text fills.
-const WIDTH: usize = 100;
+pub(crate) const WIDTH: usize = 100;
 
-const BOLD: Style = Style::new().bold();
-const FAINT: Style = Style::new().dimmed();
+pub(crate) const BOLD: Style = Style::new().bold();
+pub(crate) const FAINT: Style = Style::new().dimmed();
 
 /// The verdict as text for a terminal of 100 columns, with colours as escape codes that
 /// `anstream` removes where they are not wanted.
@@ -83,7 +83,8 @@ fn legend(out: &mut String, report: &Report) {
     }
 }
 
-fn entry(out: &mut String, word: &str, meaning: &str) {
+/// A word of a table and what it means.
+pub(crate) fn entry(out: &mut String, word: &str, meaning: &str) {
     out.push_str(&format!("{FAINT}{word:<18} {meaning}{FAINT:#}\n"));
 }
 
@@ -190,7 +191,8 @@ fn motions(out: &mut String, findings: &[Finding]) {
     }
 }
 
-fn warnings(out: &mut String, warnings: &[String]) {
+/// Warnings, each in sentences of its own.
+pub(crate) fn warnings(out: &mut String, warnings: &[String]) {
     if !warnings.is_empty() {
         out.push('\n');
     }
@@ -200,6 +202,16 @@ fn warnings(out: &mut String, warnings: &[String]) {
             let lead = if i == 0 { "warning:" } else { "        " };
             out.push_str(&format!("{style}{lead}{style:#} {line}\n"));
         }
+    }
+}
+
+/// Sentences below a table, wrapped.
+pub(crate) fn notes(out: &mut String, notes: &[String]) {
+    if !notes.is_empty() {
+        out.push('\n');
+    }
+    for line in notes.iter().flat_map(|note| wrapped(note, WIDTH)) {
+        out.push_str(&format!("{line}\n"));
     }
 }
 
@@ -217,6 +229,14 @@ fn style_of(verdict: Verdict) -> Style {
         Verdict::Unexplained => AnsiColor::Red.on_default(),
         Verdict::DataInadequate => FAINT,
     }
+}
+
+/// A text without its colours.
+#[cfg(test)]
+pub(crate) fn without_escapes(text: &str) -> String {
+    let mut pieces = text.split('\u{1b}');
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces.fold(first, |out, piece| out + piece.split_once('m').map_or("", |(_, rest)| rest))
 }
 
 #[cfg(test)]
@@ -272,11 +292,5 @@ warning: elbow: quantised in steps of 0.01 N m
         let block = "shoulder           data inadequate\n    the reason in a sentence\n  Coulomb";
         let elbow = plain.find("\nelbow ");
         assert!(elbow.is_some() && plain.find(block) > elbow, "{plain}");
-    }
-
-    fn without_escapes(text: &str) -> String {
-        let mut pieces = text.split('\u{1b}');
-        let first = pieces.next().unwrap_or_default().to_owned();
-        pieces.fold(first, |out, piece| out + piece.split_once('m').map_or("", |(_, rest)| rest))
     }
 }

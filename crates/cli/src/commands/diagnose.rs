@@ -1,12 +1,12 @@
 use std::path::{Path, PathBuf};
 
 use diagnosis::{Diagnosis, Progress, Settings, Silent, Verdict};
-use logs::{ColumnMap, ReadOptions, Run};
-use report::{FileHash, Provenance, Report, ReportError};
+use report::{Report, ReportError};
 use robot::{Loaded, Robot};
 
 use crate::Outcome;
 use crate::error::CliError;
+use crate::input::{ColumnArguments, hashes_of, positive, provenance, share};
 use crate::output::{print, shown};
 use crate::progress::Bar;
 
@@ -25,12 +25,8 @@ pub struct Arguments {
     /// Folder for report.html, figure.svg, diagnosis.json and extended.toml
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Names and units of columns that are called otherwise (TOML)
-    #[arg(long, value_name = "FILE")]
-    map: Option<PathBuf>,
-    /// The effort is read from the columns `<joint>.COLUMN`
-    #[arg(long, value_name = "COLUMN", default_value = "effort")]
-    effort: String,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// Cut-off of the low-pass filter; chosen from the data when it is left out
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     cutoff_hz: Option<f64>,
@@ -48,25 +44,13 @@ pub struct Arguments {
     quiet: bool,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    number(text, |v| v > 0.0 && v.is_finite(), "a positive number was expected")
-}
-
-fn share(text: &str) -> Result<f64, String> {
-    number(text, |v| v > 0.0 && v < 1.0, "a number between 0 and 1 was expected")
-}
-
-fn number(text: &str, fits: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|&v| fits(v)).ok_or_else(|| expected.to_owned())
-}
-
 /// Diagnoses the logs, writes the output folder and prints the verdict.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if arguments.out.exists() && !arguments.out.is_dir() {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
     let loaded = Robot::load(&arguments.robot)?;
-    let runs = read_runs(arguments, &loaded.robot)?;
+    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
     let settings = Settings {
         cutoff_hz: arguments.cutoff_hz,
         control_rate_hz: loaded.control.rate_hz,
@@ -80,7 +64,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     bar.finish();
     let outcome = outcome?;
 
-    let provenance = provenance(arguments, &loaded, &runs)?;
+    let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map.as_deref())?;
+    provenance.files.extend(hashes_of(&runs));
+    provenance.seed = Some(arguments.seed);
     let report = Report {
         diagnosis: &outcome.diagnosis,
         traces: &outcome.traces,
@@ -104,44 +90,6 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     Ok(match outcome.diagnosis.verdict {
         Verdict::Consistent | Verdict::Explained => Outcome::Good,
         Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => Outcome::Gap,
-    })
-}
-
-fn read_runs(arguments: &Arguments, robot: &Robot) -> Result<Vec<Run>, CliError> {
-    let map = arguments.map.as_deref().map(ColumnMap::load).transpose()?;
-    let options = ReadOptions { map: map.as_ref(), effort: &arguments.effort };
-    let runs: Result<Vec<Run>, _> =
-        arguments.logs.iter().map(|path| logs::read_run(path, robot, &options)).collect();
-    Ok(runs?)
-}
-
-fn provenance(
-    arguments: &Arguments,
-    loaded: &Loaded,
-    runs: &[Run],
-) -> Result<Provenance, CliError> {
-    let hash = |role, path: &Path| -> Result<FileHash, ReportError> {
-        Ok(FileHash { role, path: shown(path), sha256: report::sha256_of(path)? })
-    };
-    let mut files = vec![hash("robot", &arguments.robot)?];
-    if loaded.urdf_path != arguments.robot {
-        files.push(hash("urdf", &loaded.urdf_path)?);
-    }
-    if let Some(map) = &arguments.map {
-        files.push(hash("map", map)?);
-    }
-    files.extend(runs.iter().map(|run| FileHash {
-        role: "log",
-        path: shown(&run.source),
-        sha256: run.sha256.clone(),
-    }));
-    let given = std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned());
-    Ok(Provenance {
-        program: "plumbline",
-        version: env!("CARGO_PKG_VERSION"),
-        command: std::iter::once("plumbline".to_owned()).chain(given).collect(),
-        files,
-        seed: arguments.seed,
     })
 }
 

@@ -2,6 +2,7 @@
 
 pub mod diagnose;
 pub mod explain;
+pub mod learn;
 pub mod log_info;
 pub mod replay;
 pub mod robot_check;

@@ -1,13 +1,12 @@
 use std::path::{Path, PathBuf};
 
-use logs::{
-    ColumnMap, LogError, LogWarning, PrepareSettings, Prepared, PreparedRun, ReadOptions, Run,
-};
+use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
 use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError};
 
 use crate::Outcome;
 use crate::error::CliError;
+use crate::input::{ColumnArguments, positive};
 use crate::output::{create_folder, print, shown, table};
 
 /// Arguments of `replay`.
@@ -25,23 +24,16 @@ pub struct Arguments {
     /// Lengths of time that the simulation is rolled forward, with commas between them
     #[arg(long, value_name = "MS", value_delimiter = ',', default_values_t = [50.0, 200.0, 1000.0], value_parser = positive, allow_negative_numbers = true)]
     window_ms: Vec<f64>,
-    /// Names and units of columns that are called otherwise (TOML)
-    #[arg(long, value_name = "FILE")]
-    map: Option<PathBuf>,
-    /// The effort is read from the columns `<joint>.COLUMN`
-    #[arg(long, value_name = "COLUMN", default_value = "effort")]
-    effort: String,
+    #[command(flatten)]
+    columns: ColumnArguments,
 }
 
 /// Rolls the simulation forward under recorded torque, lets it follow the recorded motion, and
 /// says how far both are from the record.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = Robot::load(&arguments.robot)?;
-    let map = arguments.map.as_deref().map(ColumnMap::load).transpose()?;
-    let options = ReadOptions { map: map.as_ref(), effort: &arguments.effort };
-    let runs: Result<Vec<Run>, _> =
-        arguments.logs.iter().map(|p| logs::read_run(p, &loaded.robot, &options)).collect();
-    let prepared = logs::prepare(&runs?, &PrepareSettings::default())?;
+    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
+    let prepared = logs::prepare(&runs, &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =
         prepared.runs.iter().map(|record| Replay::of(arguments, &loaded, record)).collect();
@@ -97,11 +89,6 @@ impl Replay {
 /// Length of the windows (ms), which is a whole number of samples.
 fn milliseconds(forward: &ForwardReplay) -> String {
     ((1e6 * forward.window_s).round() / 1e3).to_string()
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|&v: &f64| v > 0.0 && v.is_finite());
-    number.ok_or_else(|| "a positive number was expected".to_owned())
 }
 
 const NO_GAINS: &str =

@@ -1,0 +1,195 @@
+use std::hint::black_box;
+
+use dynamics::ColumnSet;
+use gaussian_process::{GaussianKernel, KernelSum};
+use learner::{Inputs, LearnerError, Mean, Model, ModelKind, Process, Samples, TorqueModel};
+use logs::{Prepared, PreparedJoint, PreparedRun};
+use report::{Curve, Maker, PredictionTimes, TimePoint};
+use robot::{Loaded, Robot};
+
+use super::regressor_kernel::RegressorKernel;
+use super::timing::{median_query_us, median_us};
+use super::watch::Watch;
+use super::{Arguments, peers};
+use crate::Outcome;
+use crate::error::CliError;
+use crate::input::provenance;
+use crate::output::{print, shown};
+
+/// Numbers of training points.
+const POINTS: [usize; 6] = [100, 300, 1000, 3000, 10_000, 30_000];
+
+/// States that predictions are asked for.
+const STATES: usize = 1000;
+
+/// Models of made-up points that are timed, by the name of their curve.
+const MODELS: [ModelKind; 4] =
+    [ModelKind::Rbd, ModelKind::Gp, ModelKind::GpRbd, ModelKind::RbdKernel];
+
+/// Times one prediction against the number of training points, as in figure 1 of Nguyen-Tuong
+/// & Peters 2010, for models of made-up points, beside other programs where there are any.
+pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outcome, CliError> {
+    let robot = &loaded.robot;
+    let mut remarks = Vec::new();
+    let mut curves = curves(robot, watch)?;
+    if robot.joint_count() == peers::JOINTS {
+        watch.begin("scikit-learn and NumPy");
+        match peers::measure(&POINTS) {
+            Ok(found) => curves.extend(found),
+            Err(why) => remarks.push(why),
+        }
+    } else {
+        remarks.push(format!("no peers: they are timed for {} joints only", peers::JOINTS));
+    }
+    watch.finish();
+    if watch.is_stopped() {
+        remarks.push("stopped: what was measured until then".to_owned());
+    }
+    let times = PredictionTimes {
+        robot: robot.name().to_owned(),
+        joints: robot.joint_count(),
+        machine: machine(),
+        curves,
+        remarks,
+        provenance: provenance(&arguments.robot, loaded, None)?,
+    };
+    let json = times.json()?;
+    if let Some(out) = &arguments.out {
+        let figure = times.figure()?;
+        let files =
+            [("prediction_times.json", json.as_bytes()), ("figure1.svg", figure.as_bytes())];
+        report::write_folder(out, &files)?;
+    }
+    match (arguments.quiet, arguments.json) {
+        (_, true) => print(&json)?,
+        (true, false) => {}
+        (false, false) => print(&text(arguments, &times))?,
+    }
+    Ok(Outcome::Good)
+}
+
+fn text(arguments: &Arguments, times: &PredictionTimes) -> String {
+    let mut text = times.text();
+    if let Some(out) = &arguments.out {
+        text.push_str(&format!("\nfigure         {}\n", shown(&out.join("figure1.svg"))));
+    }
+    text
+}
+
+/// Our own curves, as far as they are not stopped.
+fn curves(robot: &Robot, watch: &Watch) -> Result<Vec<Curve>, CliError> {
+    let curve =
+        |name: &str| Curve { name: name.to_owned(), maker: Maker::Plumbline, points: Vec::new() };
+    let mut curves: Vec<Curve> = MODELS.iter().map(|kind| curve(kind.name())).collect();
+    let mut as_written = curve("rbd-kernel as in eq. 10");
+    let states = made_up(robot, STATES);
+    for n in POINTS {
+        for (kind, curve) in MODELS.into_iter().zip(&mut curves) {
+            if watch.is_stopped() {
+                break;
+            }
+            watch.begin(&format!("{kind}: {n} points"));
+            let microseconds = median_query_us(&model(robot, kind, n)?, &states);
+            curve.points.push(TimePoint { n, microseconds });
+        }
+        if !watch.is_stopped() {
+            watch.begin(&format!("{}: {n} points", as_written.name));
+            let microseconds = equation_10_us(robot, n, &states)?;
+            as_written.points.push(TimePoint { n, microseconds });
+        }
+    }
+    curves.push(as_written);
+    Ok(curves)
+}
+
+/// A model of `n` made-up points. The rigid-body kernel sums up to a mean, so it is one.
+fn model(robot: &Robot, kind: ModelKind, n: usize) -> Result<Model, LearnerError> {
+    let joints = robot.joint_count();
+    let beta: Vec<f64> = robot.links().iter().flat_map(|l| l.inertia.parameters()).collect();
+    let mean = match kind {
+        ModelKind::Gp => Mean::Zero,
+        _ => Mean::Columns { set: ColumnSet::INERTIAL, beta: vec![beta; joints] },
+    };
+    let mut model = Model::new(kind, robot, mean, vec![1.0; joints]);
+    if kind != ModelKind::Rbd {
+        model.process = Some(process(robot, n)?);
+    }
+    Ok(model)
+}
+
+/// A process over `n` made-up points.
+fn process(robot: &Robot, n: usize) -> Result<Process, LearnerError> {
+    let joints = robot.joint_count();
+    let samples = made_up(robot, n);
+    let inputs = Inputs::new(&samples, Vec::new());
+    let width = inputs.width();
+    let kernel = |joint: usize| GaussianKernel {
+        signal_variance: 1.0,
+        length_scales: (0..width).map(|d| 2.0 + 3.0 * spread(joint, d)).collect(),
+    };
+    let kernels: Vec<GaussianKernel> = (0..joints).map(kernel).collect();
+    let sum = KernelSum::new(&inputs.points(&samples), width, &kernels, &weights(joints, n))?;
+    Ok(Process { inputs, sum, spread: None })
+}
+
+/// Weights of every point for every joint.
+fn weights(joints: usize, n: usize) -> Vec<Vec<f64>> {
+    let of = |joint: usize| (0..n).map(|i| 2.0 * spread(i, joint) - 1.0).collect();
+    (0..joints).map(of).collect()
+}
+
+/// Median time of one prediction by equation 10 as it is written (us).
+fn equation_10_us(robot: &Robot, n: usize, states: &Samples) -> Result<f64, LearnerError> {
+    let model = model(robot, ModelKind::Gp, n)?;
+    let mut kernel = RegressorKernel::new(robot, &made_up(robot, n));
+    let alpha = weights(robot.joint_count(), n);
+    let (mut ws, mut tau) = (model.workspace(), vec![0.0; robot.joint_count()]);
+    Ok(median_us(|index| {
+        let state = states.state(index % states.len());
+        model.torque_into(&mut ws, state, &mut tau);
+        kernel.add_torque(state, &alpha, &mut tau);
+        black_box(&mut tau);
+    }))
+}
+
+/// `n` states between -2 and 2, without torque.
+fn made_up(robot: &Robot, n: usize) -> Samples {
+    let signal = |d: usize| (0..n).map(|i| 4.0 * spread(i, d) - 2.0).collect::<Vec<f64>>();
+    let joints = (0..robot.joint_count()).map(|j| PreparedJoint {
+        q: signal(3 * j),
+        qd: signal(3 * j + 1),
+        qdd: signal(3 * j + 2),
+        qd_wide: Vec::new(),
+        effort: vec![0.0; n],
+    });
+    let run = PreparedRun {
+        name: "made up".to_owned(),
+        rate_hz: 1.0,
+        time: (0..n).map(|i| i as f64).collect(),
+        joints: joints.collect(),
+    };
+    Samples::new(&Prepared {
+        runs: vec![run],
+        cutoff_hz: f64::INFINITY,
+        cutoff_reason: String::new(),
+        warnings: Vec::new(),
+    })
+}
+
+/// A number from 0 to 1, spread evenly over `i` in another way for every `d`.
+fn spread(i: usize, d: usize) -> f64 {
+    let golden = 0.618_033_988_749_894_9;
+    ((i + 1) as f64 * golden * (d + 1) as f64).fract()
+}
+
+/// The processor and how many of its threads there are.
+fn machine() -> String {
+    let cpus = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = cpus.lines().find(|line| line.starts_with("model name"));
+    let model = model.and_then(|line| line.split_once(": ")).map(|(_, name)| name);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "{}, {threads} threads; one prediction runs on one",
+        model.unwrap_or(std::env::consts::ARCH)
+    )
+}

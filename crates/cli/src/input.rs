@@ -1,0 +1,79 @@
+use std::path::{Path, PathBuf};
+
+use logs::{ColumnMap, ReadOptions, Run};
+use report::{FileHash, Provenance, ReportError};
+use robot::{Loaded, Robot};
+
+use crate::error::CliError;
+use crate::output::shown;
+
+/// How the columns of logs are called.
+#[derive(Debug, clap::Args)]
+pub struct ColumnArguments {
+    /// Names and units of columns that are called otherwise (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// The effort is read from the columns `<joint>.COLUMN`
+    #[arg(long, value_name = "COLUMN", default_value = "effort")]
+    pub effort: String,
+}
+
+impl ColumnArguments {
+    /// The runs of some files.
+    pub fn read_runs(&self, paths: &[PathBuf], robot: &Robot) -> Result<Vec<Run>, CliError> {
+        let map = self.map.as_deref().map(ColumnMap::load).transpose()?;
+        let options = ReadOptions { map: map.as_ref(), effort: &self.effort };
+        let runs: Result<Vec<Run>, _> =
+            paths.iter().map(|path| logs::read_run(path, robot, &options)).collect();
+        Ok(runs?)
+    }
+}
+
+/// This program, its command line, and the files that describe the robot and its logs.
+pub fn provenance(
+    robot: &Path,
+    loaded: &Loaded,
+    map: Option<&Path>,
+) -> Result<Provenance, ReportError> {
+    let mut files = vec![hash("robot", robot)?];
+    if loaded.urdf_path != robot {
+        files.push(hash("urdf", &loaded.urdf_path)?);
+    }
+    files.extend(map.map(|map| hash("map", map)).transpose()?);
+    let given = std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned());
+    Ok(Provenance {
+        program: "plumbline",
+        version: env!("CARGO_PKG_VERSION"),
+        command: std::iter::once("plumbline".to_owned()).chain(given).collect(),
+        files,
+        seed: None,
+    })
+}
+
+/// A file that was read.
+pub fn hash(role: &'static str, path: &Path) -> Result<FileHash, ReportError> {
+    Ok(FileHash { role, path: shown(path), sha256: report::sha256_of(path)? })
+}
+
+/// The files of runs, as they were when they were read.
+pub fn hashes_of(runs: &[Run]) -> impl Iterator<Item = FileHash> {
+    runs.iter().map(|run| FileHash {
+        role: "log",
+        path: shown(&run.source),
+        sha256: run.sha256.clone(),
+    })
+}
+
+/// A positive number of an option.
+pub fn positive(text: &str) -> Result<f64, String> {
+    number(text, |v| v > 0.0 && v.is_finite(), "a positive number was expected")
+}
+
+/// A number of an option between 0 and 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    number(text, |v| v > 0.0 && v < 1.0, "a number between 0 and 1 was expected")
+}
+
+fn number(text: &str, fits: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|&v| fits(v)).ok_or_else(|| expected.to_owned())
+}

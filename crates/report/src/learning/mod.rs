@@ -1,0 +1,15 @@
+//! What learned models are worth: their errors side by side, and the time of a prediction.
+
+mod chart;
+mod comparison;
+mod error_chart;
+mod grid;
+mod log_axis;
+#[cfg(test)]
+mod sample;
+mod table;
+mod time_chart;
+mod times;
+
+pub use comparison::{ComparedJoint, Comparison, DataSet, KernelRow, LEARNING_SCHEMA, ModelRow};
+pub use times::{Curve, Maker, PredictionTimes, TIMES_SCHEMA, TimePoint};

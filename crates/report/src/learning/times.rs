@@ -1,0 +1,121 @@
+use serde::Serialize;
+
+use super::grid::{Cell, Column, grid};
+use crate::json::with_schema;
+use crate::numbers::significant;
+use crate::terminal::notes;
+use crate::{Provenance, ReportError};
+
+/// Name and version of the schema of `prediction_times.json`.
+pub const TIMES_SCHEMA: &str = "plumbline.prediction_times/1";
+
+/// Time of one prediction against the number of training points.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PredictionTimes {
+    /// Name of the robot.
+    pub robot: String,
+    /// Joints that one prediction is for.
+    pub joints: usize,
+    /// The machine, in words.
+    pub machine: String,
+    /// What was measured.
+    pub curves: Vec<Curve>,
+    /// What was not, and why; what to know of the numbers.
+    pub remarks: Vec<String>,
+    /// Where it all comes from.
+    pub provenance: Provenance,
+}
+
+/// The times of one model or program.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Curve {
+    /// Its name.
+    pub name: String,
+    /// Whose it is.
+    pub maker: Maker,
+    /// The times, by rising number of points.
+    pub points: Vec<TimePoint>,
+}
+
+/// Whose a model is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Maker {
+    /// This program.
+    Plumbline,
+    /// Another program, run beside it.
+    Peer,
+}
+
+/// A number of training points and the time that a prediction takes with them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TimePoint {
+    /// Training points.
+    pub n: usize,
+    /// Median time of one prediction, all joints (us).
+    pub microseconds: f64,
+}
+
+impl PredictionTimes {
+    /// `prediction_times.json`, in the schema [`TIMES_SCHEMA`].
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Format`].
+    pub fn json(&self) -> Result<String, ReportError> {
+        with_schema(TIMES_SCHEMA, self)
+    }
+
+    /// The times as a table for a terminal, one row a number of points.
+    pub fn text(&self) -> String {
+        let rows = self.numbers();
+        let labels: Vec<String> = rows.iter().map(|n| format!("{n:>6}")).collect();
+        let columns = self.curves.iter().map(|curve| {
+            let cells = rows.iter().map(|&n| {
+                let point = curve.points.iter().find(|point| point.n == n);
+                Cell::plain(point.map_or("-".to_owned(), |p| significant(p.microseconds, 3)))
+            });
+            Column { header: curve.name.clone(), cells: cells.collect() }
+        });
+        let mut out = format!(
+            "Median time of one prediction for the {} joints of {} (us)\n{}\n\n",
+            self.joints, self.robot, self.machine
+        );
+        out.push_str(&grid("points", &labels, &columns.collect::<Vec<_>>()));
+        notes(&mut out, &self.remarks);
+        out
+    }
+
+    /// Every number of points that occurs, rising.
+    fn numbers(&self) -> Vec<usize> {
+        let points = self.curves.iter().flat_map(|curve| &curve.points);
+        let mut numbers: Vec<usize> = points.map(|point| point.n).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::learning::sample;
+    use crate::terminal::without_escapes;
+
+    #[test]
+    fn the_table_has_a_row_a_number_of_points_and_a_dash_where_nothing_was_measured() {
+        let plain = without_escapes(&sample::times().text());
+        assert_eq!(
+            plain,
+            "\
+Median time of one prediction for the 7 joints of arm (us)
+a machine
+
+points   rbd      gp  scikit-learn
+   100  1.10    3.20           830
+ 10000  1.10  900000             -
+
+numpy: not installed
+"
+        );
+    }
+}
