@@ -27,7 +27,7 @@ gungraun::main!(library_benchmark_groups = loops);
 mod counted {
     use std::hint::black_box;
 
-    use gaussian_process::{GaussianKernel, KernelSum};
+    use gaussian_process::{GaussianKernel, KernelSum, Likelihood};
     use gungraun::prelude::*;
     use gungraun::{Callgrind, EventKind};
 
@@ -60,5 +60,22 @@ mod counted {
         (sum, k_star)
     }
 
-    library_benchmark_group!(name = loops, benchmarks = [query, covariances]);
+    /// Room for 240 points of 21 inputs, and their targets.
+    fn likelihood() -> (Likelihood, Vec<f64>) {
+        let inputs: Vec<f64> = (0..240 * 21).map(|i| (i as f64).sin()).collect();
+        let targets = (0..240).map(|i| (0.1 * f64::from(i)).cos()).collect();
+        (Likelihood::new(&inputs, 21).unwrap(), targets)
+    }
+
+    // Assembly, sweep (240³ operations) and gradient.
+    #[library_benchmark(config = limit(2_621_000))]
+    #[bench::with_gradient(likelihood())]
+    fn evaluation((mut likelihood, targets): (Likelihood, Vec<f64>)) -> [f64; 23] {
+        let kernel = GaussianKernel { signal_variance: 1.0, length_scales: vec![3.0; 21] };
+        let mut gradient = [0.0; 23];
+        likelihood.evaluate(black_box(&targets), &kernel, 1e-2, &mut gradient).unwrap();
+        gradient
+    }
+
+    library_benchmark_group!(name = loops, benchmarks = [query, covariances, evaluation]);
 }

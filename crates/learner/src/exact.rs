@@ -25,11 +25,18 @@ struct RigidBodyPart {
     kernels: Vec<LearnedKernel>,
 }
 
-/// One joint, settled.
-pub(crate) struct Settled {
+/// One joint and the weights of its linear part.
+pub(crate) struct Weighed {
     pub joint: Joint,
-    pub alpha: Vec<f64>,
+    pub posterior: LinearPosterior,
     pub fit: JointFit,
+}
+
+/// One joint, settled.
+struct Settled {
+    joint: Joint,
+    alpha: Vec<f64>,
+    fit: JointFit,
 }
 
 impl Training<'_> {
@@ -154,19 +161,34 @@ impl Training<'_> {
         part: RigidBodyPart,
         posteriors: &[LinearPosterior],
     ) -> Result<Fitted, LearnerError> {
-        let (mean, _) = self.prior(self.regression(kind)?);
-        let beta = |p: &LinearPosterior| mean.iter().zip(&p.change).map(|(b, c)| b + c).collect();
-        let mean =
-            Mean::Columns { set: self.columns(), beta: posteriors.iter().map(beta).collect() };
-        let settled = part.joints.into_iter().zip(posteriors).zip(part.kernels);
-        let settled = settled.map(|((joint, posterior), found)| {
-            let alpha = joint.residual.alpha(&posterior.change);
+        let (origin, _) = self.prior(self.regression(kind)?);
+        let joints = part.joints.into_iter().zip(posteriors).zip(part.kernels);
+        let joints = joints.map(|((joint, posterior), found)| {
             let log_likelihood = Some(posterior.log_likelihood);
             let fit = JointFit { log_likelihood, kernel: Some(found), ..JointFit::default() };
+            Weighed { joint, posterior: posterior.clone(), fit }
+        });
+        self.weighed(kind, &origin, joints.collect(), part.features)
+    }
+
+    /// The model whose linear part has the weights `origin` and what the data add to them.
+    pub(crate) fn weighed(
+        &self,
+        kind: ModelKind,
+        origin: &[f64],
+        joints: Vec<Weighed>,
+        features: Vec<Vec<f64>>,
+    ) -> Result<Fitted, LearnerError> {
+        let beta = |change: &[f64]| origin.iter().zip(change).map(|(b, c)| b + c).collect();
+        let beta = joints.iter().map(|joint| beta(&joint.posterior.change)).collect();
+        let mean = Mean::Columns { set: self.columns(), beta };
+        let weights = joints.iter().map(|joint| joint.posterior.covariance.clone()).collect();
+        let settled = joints.into_iter().map(|Weighed { joint, posterior, fit }| {
+            let alpha = joint.residual.alpha(&posterior.change);
             Settled { joint, alpha, fit }
         });
-        let mut fitted = self.assemble(kind, mean, settled.collect(), part.features)?;
-        fitted.model.weights = posteriors.iter().map(|p| p.covariance.clone()).collect();
+        let mut fitted = self.assemble(kind, mean, settled.collect(), features)?;
+        fitted.model.weights = weights;
         Ok(fitted)
     }
 
@@ -180,7 +202,7 @@ impl Training<'_> {
         let width = set.columns(self.robot.joint_count()).len();
         let targets = self.left(&Mean::Zero);
         let origin = vec![0.0; width];
-        let (mut settled, mut posteriors) = (Vec::new(), Vec::new());
+        let mut joints = Vec::new();
         for (k, found) in kernels.into_iter().enumerate() {
             self.progress.stage(&format!("rigid-body kernel of joint {}", k + 1));
             let (phi, y) = (&features[k], &targets[k]);
@@ -209,18 +231,13 @@ impl Training<'_> {
                 lambda: Some(lambda),
                 held_out,
             };
-            settled.push(Settled { alpha: joint.residual.alpha(&posterior.change), joint, fit });
-            posteriors.push(posterior);
+            joints.push(Weighed { joint, posterior, fit });
         }
-        let beta = posteriors.iter().map(|p| p.change.clone()).collect();
-        let mean = Mean::Columns { set, beta };
-        let mut fitted = self.assemble(kind, mean, settled, features)?;
-        fitted.model.weights = posteriors.into_iter().map(|p| p.covariance).collect();
-        Ok(fitted)
+        self.weighed(kind, &origin, joints, features)
     }
 
     /// Puts the joints together.
-    pub(crate) fn assemble(
+    fn assemble(
         &self,
         kind: ModelKind,
         mean: Mean,

@@ -2,7 +2,7 @@ use gaussian_process::{
     Covariance, GaussianKernel, LearnedKernel, Likelihood, Linear, Objective, SearchEnd, maximise,
 };
 
-use crate::exact::{Joint, Settled};
+use crate::exact::Weighed;
 use crate::kernels::rigid_body_kernel;
 use crate::training::{Fitted, JointFit, Training, features};
 use crate::{LearnerError, Mean, ModelKind};
@@ -21,25 +21,19 @@ impl Training<'_> {
         let width = set.columns(self.robot.joint_count()).len();
         let features = features(self.robot, set, &self.few);
         let targets = self.left(&Mean::Zero);
-        let (mut settled, mut posteriors) = (Vec::new(), Vec::new());
+        let (mut joints, origin) = (Vec::new(), vec![0.0; width]);
         for (k, (phi, y)) in features.iter().zip(&targets).enumerate() {
             self.progress.stage(&format!("kernels of joint {} together", k + 1));
             let (found, variances) = self.joint_search(phi, width, y)?;
-            let origin = vec![0.0; width];
             let linear = Linear { features: phi, mean: &origin };
             let hyper = (found.kernel.clone(), found.noise_variance);
-            let joint: Joint = self.condition(hyper, y, linear)?;
+            let joint = self.condition(hyper, y, linear)?;
             let posterior = joint.residual.evidence.posterior(&variances)?;
             let log_likelihood = Some(posterior.log_likelihood);
             let fit = JointFit { log_likelihood, kernel: Some(found), ..JointFit::default() };
-            settled.push(Settled { alpha: joint.residual.alpha(&posterior.change), joint, fit });
-            posteriors.push(posterior);
+            joints.push(Weighed { joint, posterior, fit });
         }
-        let beta = posteriors.iter().map(|p| p.change.clone()).collect();
-        let mean = Mean::Columns { set, beta };
-        let mut fitted = self.assemble(kind, mean, settled, features)?;
-        fitted.model.weights = posteriors.into_iter().map(|p| p.covariance).collect();
-        Ok(fitted)
+        self.weighed(kind, &origin, joints, features)
     }
 
     /// The Gaussian kernel with its noise, and the diagonal of `W`, of one joint.

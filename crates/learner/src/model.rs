@@ -1,11 +1,17 @@
+use std::ops::Range;
+
 use dynamics::{ColumnSet, Dynamics};
 use faer::Mat;
 use gaussian_process::KernelSum;
+use rayon::prelude::*;
 use robot::Robot;
 
 use crate::spread::Spread;
-use crate::torque_model::{TorqueModel, Workspace};
-use crate::{Inputs, ModelKind, RobotTorque, State};
+use crate::torque_model::{TorqueModel, Workspace, each};
+use crate::{Inputs, ModelKind, RobotTorque, Samples, State};
+
+/// Queries whose variance is worked out together.
+const BLOCK: usize = 64;
 
 /// A learned model of the torque of every joint:
 ///
@@ -78,6 +84,40 @@ impl Model {
             let state = [state.q, state.qd, state.qdd];
             self.dynamics.columns_into(&mut ws.dynamics, state, *set, &mut ws.rows);
         }
+    }
+
+    /// The variance in the samples `block`, row-major; empty without a process and its spread.
+    fn block_variance(&self, samples: &Samples, block: Range<usize>) -> Vec<f64> {
+        let Some(process) = &self.process else { return Vec::new() };
+        let Some(spread) = &process.spread else { return Vec::new() };
+        let (joints, width, n) = (self.joints(), self.width(), process.sum.len());
+        let mut ws = self.workspace();
+        let (mut x, mut rows) = (Vec::new(), Vec::new());
+        for state in block.clone().map(|i| samples.state(i)) {
+            process.inputs.fill(state, &mut ws.x);
+            self.rows(&mut ws, state);
+            x.push(ws.x.clone());
+            rows.push(ws.rows.clone());
+        }
+        let mut variance = self.noise_variance.repeat(block.len());
+        let mut k_star = vec![0.0; block.len() * n];
+        let mut solved = vec![0.0; block.len() * n];
+        for k in 0..joints {
+            let queries = k_star.par_chunks_exact_mut(n).zip(&x);
+            queries.for_each(|(k_star, x)| process.sum.covariances_into(k, x, k_star));
+            let explained = spread.explain_each(k, &k_star, &mut solved);
+            let prior = process.sum.kernels()[k].signal_variance;
+            for (i, explained) in explained.into_iter().enumerate() {
+                let variance = &mut variance[i * joints + k];
+                *variance += (prior - explained).max(0.0);
+                ws.left.copy_from_slice(&rows[i][k * width..(k + 1) * width]);
+                spread.take_from(k, &solved[i * n..(i + 1) * n], &mut ws.left);
+                if let Some(covariance) = self.weights.get(k) {
+                    *variance += quadratic(covariance, &ws.left);
+                }
+            }
+        }
+        variance
     }
 
     /// Number of columns of the mean.
@@ -160,6 +200,19 @@ impl TorqueModel for Model {
             if let Some(covariance) = self.weights.get(k) {
                 *variance += quadratic(covariance, &ws.left);
             }
+        }
+    }
+
+    /// As in [`TorqueModel::variance`], to rounding: queries are worked through in blocks, so
+    /// that the inverse covariance of a joint is read once for many.
+    fn variance(&self, samples: &Samples) -> Vec<f64> {
+        match &self.process {
+            Some(Process { spread: Some(_), .. }) => {
+                let block = |start: usize| start..(start + BLOCK).min(samples.len());
+                let starts = (0..samples.len()).step_by(BLOCK);
+                starts.flat_map(|start| self.block_variance(samples, block(start))).collect()
+            }
+            _ => each(self, samples, |ws, state, variance| self.variance_into(ws, state, variance)),
         }
     }
 }

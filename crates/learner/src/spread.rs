@@ -33,6 +33,23 @@ impl Spread {
         }
     }
 
+    /// [`explain`](Self::explain) of several queries, `k_star` with one row each; fills the
+    /// rows of `solved` alike. One product of matrices reads `M` once for all of them.
+    pub(crate) fn explain_each(&self, k: usize, k_star: &[f64], solved: &mut [f64]) -> Vec<f64> {
+        match self {
+            Self::Exact { inverse, .. } => {
+                let n = inverse[k].len();
+                let count = k_star.len() / n;
+                let columns = transposed(k_star, n);
+                let product = inverse[k].multiply_columns(&columns, count);
+                solved.copy_from_slice(&transposed(&product, count));
+                let rows = k_star.chunks_exact(n).zip(solved.chunks_exact(n));
+                rows.map(|(k, s)| k.iter().zip(s).map(|(k, s)| k * s).sum()).collect()
+            }
+            Self::Inducing(posterior) => posterior[k].explained_variances(k_star),
+        }
+    }
+
     /// Takes `Phi' solved` of joint `k` from `left`.
     pub(crate) fn take_from(&self, k: usize, solved: &[f64], left: &mut [f64]) {
         let Self::Exact { features, .. } = self else { return };
@@ -41,4 +58,9 @@ impl Spread {
             left.iter_mut().zip(row).for_each(|(left, phi)| *left -= phi * solved);
         }
     }
+}
+
+/// The transpose of a row-major matrix with rows of `width`, row-major.
+fn transposed(matrix: &[f64], width: usize) -> Vec<f64> {
+    (0..width).flat_map(|j| matrix.iter().skip(j).step_by(width).copied()).collect()
 }

@@ -54,13 +54,15 @@ pub trait TorqueModel: Sync {
         each(self, samples, |ws, state, tau| self.torque_into(ws, state, tau))
     }
 
-    /// The variance in every sample, row-major; as [`torque`](Self::torque).
+    /// The variance in every sample, row-major, to rounding that of
+    /// [`variance_into`](Self::variance_into); in parallel, the same for any number of threads.
     fn variance(&self, samples: &Samples) -> Vec<f64> {
         each(self, samples, |ws, state, variance| self.variance_into(ws, state, variance))
     }
 }
 
-fn each<M: TorqueModel + ?Sized>(
+/// What `fill` makes of every sample, row-major.
+pub(crate) fn each<M: TorqueModel + ?Sized>(
     model: &M,
     samples: &Samples,
     fill: impl Fn(&mut Workspace, State, &mut [f64]) + Sync,
