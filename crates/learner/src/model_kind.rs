@@ -8,6 +8,8 @@ pub enum ModelKind {
     Cad,
     /// Rigid bodies with regressed parameters (equation 2 of Nguyen-Tuong & Peters 2010).
     Rbd,
+    /// The same with every link a physical body: the nearest such parameters.
+    RbdConsistent,
     /// A Gaussian process with mean zero (appendix).
     Gp,
     /// A Gaussian process about the regressed rigid bodies (equations 3 and 5).
@@ -34,9 +36,10 @@ pub enum ModelKind {
 
 impl ModelKind {
     /// Every kind, the paper's in its order.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Cad,
         Self::Rbd,
+        Self::RbdConsistent,
         Self::Gp,
         Self::GpRbd,
         Self::GpRbdPrior,
@@ -55,6 +58,7 @@ impl ModelKind {
         match self {
             Self::Cad => "cad",
             Self::Rbd => "rbd",
+            Self::RbdConsistent => "rbd-consistent",
             Self::Gp => "gp",
             Self::GpRbd => "gp-rbd",
             Self::GpRbdPrior => "gp-rbd-prior",
@@ -74,6 +78,7 @@ impl ModelKind {
         match self {
             Self::Cad => "the robot as described",
             Self::Rbd => "rigid bodies, parameters by regression",
+            Self::RbdConsistent => "rigid bodies, physical parameters nearest to the regression",
             Self::Gp => "Gaussian process, mean zero",
             Self::GpRbd => "Gaussian process, mean by rigid bodies",
             Self::GpRbdPrior => "Gaussian process, rigid bodies with a prior, joint by joint",
@@ -99,7 +104,12 @@ impl ModelKind {
     pub fn needs_regression(self) -> bool {
         matches!(
             self,
-            Self::Rbd | Self::GpRbd | Self::GpRbdPrior | Self::GpRbdShared | Self::GpRbdInducing
+            Self::Rbd
+                | Self::RbdConsistent
+                | Self::GpRbd
+                | Self::GpRbdPrior
+                | Self::GpRbdShared
+                | Self::GpRbdInducing
         )
     }
 }

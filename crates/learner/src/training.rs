@@ -10,6 +10,10 @@ use crate::{
     TorqueModel, TrainSettings, kernels, memory,
 };
 
+/// What one unit of divergence from the described inertias weighs beside half a squared
+/// standard error: enough to settle what the log leaves open, little against what it says.
+const PRIOR_WEIGHT: f64 = 1.0;
+
 /// A model and how it came about.
 #[derive(Debug, Clone)]
 pub struct Fitted {
@@ -127,6 +131,7 @@ impl<'a> Training<'a> {
         match kind {
             ModelKind::Cad | ModelKind::Named => self.described(kind),
             ModelKind::Rbd => self.rigid_bodies(),
+            ModelKind::RbdConsistent => self.consistent_rigid_bodies(),
             ModelKind::Gp | ModelKind::GpRbd | ModelKind::NamedGp => self.about_fixed_mean(kind),
             ModelKind::GpRbdPrior => self.with_prior(),
             ModelKind::GpRbdShared => self.with_shared_prior(),
@@ -138,9 +143,13 @@ impl<'a> Training<'a> {
         }
     }
 
-    /// A description of the robot as a model; its noise is what it leaves of the points.
+    /// A description of the robot as a model.
     fn described(&self, kind: ModelKind) -> Result<Fitted, LearnerError> {
-        let mean = self.mean(kind)?;
+        self.alone(kind, self.mean(kind)?)
+    }
+
+    /// A mean as a model; its noise is what it leaves of the points.
+    fn alone(&self, kind: ModelKind, mean: Mean) -> Result<Fitted, LearnerError> {
         let n = self.few.len() as f64;
         let left = self.left(&mean);
         let noise = left.iter().map(|r| r.iter().map(|r| r * r).sum::<f64>() / n).collect();
@@ -157,6 +166,15 @@ impl<'a> Training<'a> {
         let covariance = Mat::from_fn(width, width, |i, j| fit.covariance[(i, j)]);
         model.weights = vec![covariance; self.robot.joint_count()];
         Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
+    }
+
+    /// The links that are physical bodies and nearest to the regression, the robot as described
+    /// in place of what it leaves open; the noise is what they leave of the points.
+    fn consistent_rigid_bodies(&self) -> Result<Fitted, LearnerError> {
+        let kind = ModelKind::RbdConsistent;
+        let found = self.regression(kind)?.consistent(self.robot, PRIOR_WEIGHT)?;
+        let beta = vec![found.parameters; self.robot.joint_count()];
+        self.alone(kind, Mean::Columns { set: self.columns(), beta })
     }
 
     pub(crate) fn regression(&self, kind: ModelKind) -> Result<&'a RigidBodyFit, LearnerError> {
@@ -186,6 +204,7 @@ impl<'a> Training<'a> {
                 described(self.named.ok_or(missing)?)
             }
             ModelKind::Rbd
+            | ModelKind::RbdConsistent
             | ModelKind::GpRbd
             | ModelKind::GpRbdPrior
             | ModelKind::GpRbdShared

@@ -148,11 +148,11 @@ fn worst<'p>(
 
 impl Disagreement {
     pub(crate) fn warning(&self, pieces: &[UniformRun], joint: &str) -> LogWarning {
-        let (run, joint) = (pieces[self.piece].name.clone(), joint.to_owned());
+        let (run, joints) = (pieces[self.piece].name.clone(), vec![joint.to_owned()]);
         let Agreement { lag_s, scale, .. } = self.agreement;
         match self.is_velocity {
-            true => LogWarning::VelocityDisagrees { run, joint, lag_s, scale },
-            false => LogWarning::AccelerationDisagrees { run, joint, lag_s, scale },
+            true => LogWarning::VelocityDisagrees { run, joints, lag_s, scale },
+            false => LogWarning::AccelerationDisagrees { run, joints, lag_s, scale },
         }
     }
 }

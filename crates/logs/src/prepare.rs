@@ -102,7 +102,10 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
     for (joint, channels) in runs[0].joints.iter().enumerate() {
         let in_motion: Vec<bool> = moves.iter().map(|m| m[joint]).collect();
         let found = choose_sources(&mut filtered, &in_motion, joint, cutoff_hz);
-        warnings.extend(found.into_iter().map(|d| d.warning(&pieces, &channels.name)));
+        for warning in found.into_iter().map(|d| d.warning(&pieces, &channels.name)) {
+            let left = warnings.iter_mut().try_fold(warning, |left, known| known.join(left));
+            warnings.extend(left);
+        }
     }
     let ends = pieces.into_iter().zip(filtered).map(|(piece, f)| without_ends(piece, f));
     Ok(Prepared { runs: ends.collect(), cutoff_hz, cutoff_reason, warnings })

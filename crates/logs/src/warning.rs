@@ -21,26 +21,26 @@ pub enum LogWarning {
         of: String,
     },
     /// The measured velocity is not the derivative of the position.
-    #[error("run {run}: the velocity of joint {joint} is {scale:.3} times the derivative of its position and {}; \
-        the derivative of the position is used in all runs", late(*lag_s))]
+    #[error("run {run}: the velocity of {} is {scale:.3} times the derivative of the position and {}; \
+        the derivative of the position is used in all runs", named(joints), late(*lag_s))]
     VelocityDisagrees {
-        /// The run in which it differs most.
+        /// The run in which it differs most, of the first joint.
         run: String,
-        /// The joint.
-        joint: String,
+        /// The joints of which the same is true.
+        joints: Vec<String>,
         /// Lag of the velocity column behind the derivative (s).
         lag_s: f64,
         /// Scale of the velocity column against the derivative.
         scale: f64,
     },
     /// The measured acceleration is not the derivative of the velocity.
-    #[error("run {run}: the acceleration of joint {joint} is {scale:.3} times the derivative of its velocity and {}; \
-        the derivative of the velocity is used in all runs", late(*lag_s))]
+    #[error("run {run}: the acceleration of {} is {scale:.3} times the derivative of the velocity and {}; \
+        the derivative of the velocity is used in all runs", named(joints), late(*lag_s))]
     AccelerationDisagrees {
-        /// The run in which it differs most.
+        /// The run in which it differs most, of the first joint.
         run: String,
-        /// The joint.
-        joint: String,
+        /// The joints of which the same is true.
+        joints: Vec<String>,
         /// Lag of the acceleration column behind the derivative (s).
         lag_s: f64,
         /// Scale of the acceleration column against the derivative.
@@ -82,7 +82,65 @@ pub enum LogWarning {
     },
 }
 
+impl LogWarning {
+    /// Takes the joints of `other` in when it says of them what this says of its own, to what
+    /// is printed; gives `other` back when it does not.
+    pub(crate) fn join(&mut self, other: Self) -> Option<Self> {
+        use LogWarning::{AccelerationDisagrees, VelocityDisagrees};
+        let alike = |a: (f64, f64), b: (f64, f64)| {
+            (a.0 - b.0).abs() < SAME_LAG_S && (a.1 - b.1).abs() < SAME_SCALE
+        };
+        match (self, &other) {
+            (
+                VelocityDisagrees { joints, lag_s, scale, .. },
+                VelocityDisagrees { joints: more, lag_s: lag, scale: by, .. },
+            )
+            | (
+                AccelerationDisagrees { joints, lag_s, scale, .. },
+                AccelerationDisagrees { joints: more, lag_s: lag, scale: by, .. },
+            ) if alike((*lag_s, *scale), (*lag, *by)) => {
+                joints.extend_from_slice(more);
+                None
+            }
+            _ => Some(other),
+        }
+    }
+}
+
+/// Lags (s) and scales that are the same in a warning.
+const SAME_LAG_S: f64 = 5e-5;
+const SAME_SCALE: f64 = 5e-3;
+
+/// Joints in words: `joint a`, `joints a, b and c`.
+fn named(joints: &[String]) -> String {
+    match joints {
+        [] => "no joint".to_owned(),
+        [one] => format!("joint {one}"),
+        [first @ .., last] => format!("joints {} and {last}", first.join(", ")),
+    }
+}
+
 /// A lag in words, such as `6.50 ms late`.
 fn late(lag_s: f64) -> String {
     format!("{:.2} ms {}", 1e3 * lag_s.abs(), if lag_s < 0.0 { "early" } else { "late" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn late_by(joint: &str, lag_s: f64) -> LogWarning {
+        let (run, joints) = ("a".to_owned(), vec![joint.to_owned()]);
+        LogWarning::VelocityDisagrees { run, joints, lag_s, scale: 1.0 }
+    }
+
+    #[test]
+    fn what_is_true_of_several_joints_is_said_once() {
+        let mut first = late_by("j1", 5.62e-3);
+        assert_eq!(first.join(late_by("j2", 5.63e-3)), None);
+        assert_eq!(first.join(late_by("j3", 5.60e-3)), None);
+        assert_eq!(first.join(late_by("j4", 7.0e-3)), Some(late_by("j4", 7.0e-3)));
+        let said = first.to_string();
+        assert!(said.starts_with("run a: the velocity of joints j1, j2 and j3 is 1.000"), "{said}");
+    }
 }

@@ -48,8 +48,9 @@ pub struct Arguments {
     /// Files for the parameters of the rigid bodies; those of --train when left out
     #[arg(long, value_name = "LOG", num_args = 1..)]
     regression: Vec<PathBuf>,
-    /// The models, with commas between them: cad, rbd, gp, gp-rbd, gp-rbd-prior, gp-rbd-shared,
-    /// rbd-kernel, rbd-kernel-joint, named, named-gp, and gp, gp-rbd, named-gp with -inducing
+    /// The models, with commas between them: cad, rbd, rbd-consistent, gp, gp-rbd, gp-rbd-prior,
+    /// gp-rbd-shared, rbd-kernel, rbd-kernel-joint, named, named-gp, and gp, gp-rbd, named-gp
+    /// with -inducing
     #[arg(long, value_name = "MODEL", value_delimiter = ',', default_values_t = MODELS)]
     models: Vec<ModelKind>,
     /// Samples that a Gaussian process learns from, spread evenly over the logs
