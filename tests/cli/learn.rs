@@ -103,7 +103,7 @@ fn a_recording_cannot_be_both_learned_from_and_tested_on() {
 fn what_cannot_be_learned_is_said_before_anything_is_written() {
     let folder = arm::folder(Gap::None);
     let cases: [(&[&str], &str); 5] = [
-        (&["--models", "rbd,gpp"], "gpp is no model, cad, rbd, gp, gp-rbd"),
+        (&["--models", "rbd,gpp"], "gpp is no model, cad, rbd, rbd-consistent, gp"),
         (&["--prior", "share=-1"], "errors, evidence or share= with a positive number"),
         (&["--columns", "all"], "inertial or drives was expected"),
         (&["--points", "0"], "points: 0 was found, at least one expected"),
