@@ -19,7 +19,7 @@ fn fit_all() -> Vec<Fitted> {
     let robot = arm::robot();
     let prepared = arm::run(1.0, 400, 1.0);
     let samples = Samples::new(&prepared);
-    let search = KernelSearch { starts: 1, start_points: 60, iterations: 25 };
+    let search = KernelSearch { starts: 1, start_points: 60, iterations: 200 };
     let settings =
         TrainSettings { points: TRAINED, inducing_points: 60, search, ..TrainSettings::default() };
     let mut regression = Regression::new(&robot, dynamics::ColumnSet::INERTIAL);
@@ -75,8 +75,7 @@ fn every_model_predicts_better_than_the_mean_torque_and_knows_its_error() {
         for k in 0..2 {
             let what = format!("{} joint {k}: {score:?}", fitted.model.kind);
             assert!(score.nmse[k] < 0.5, "{what}");
-            // Of the right order: these searches end early, and the test run goes elsewhere.
-            assert!(score.coverage[k] > 0.3, "{what}");
+            assert!(score.coverage[k] > 0.5, "{what}");
         }
     }
 }
@@ -88,9 +87,12 @@ fn a_batch_is_the_single_queries_torques_bit_by_bit() {
         let (together, spread) = (model.torque(&test), model.variance(&test));
         for i in 0..test.len() {
             assert_eq!(torque(model, test.state(i)), together[2 * i..2 * i + 2], "{}", model.kind);
+            // The variance is what is left of the signal variance: rounding is in its units.
+            let unit = model.process.as_ref().map_or(0.0, |process| {
+                process.sum.kernels().iter().map(|k| k.signal_variance).fold(0.0, f64::max)
+            });
             for (one, all) in variance(model, test.state(i)).iter().zip(&spread[2 * i..]) {
-                // What is left of the signal variance after cancellation, ill-conditioned here.
-                assert!((one / all - 1.0).abs() < 1e-6, "{}: {one} {all}", model.kind);
+                assert!((one - all).abs() <= 1e-10 * unit, "{}: {one} {all} {unit}", model.kind);
             }
         }
     }
