@@ -5,9 +5,9 @@ use std::path::Path;
 use dynamics::{Dynamics, Rotors};
 use nalgebra::{DMatrix, DVector};
 use robot::{Inertia, Robot};
-use serde::Deserialize;
 
 use checks::arms::{data, workspace_root};
+use checks::golden::{Golden, State, golden};
 
 /// Relative to the largest entry of a vector or matrix: both engines round alike, some
 /// hundred operations deep.
@@ -16,34 +16,6 @@ const RELATIVE: f64 = 1e-10;
 /// Where every entry vanishes, as velocities and accelerations do in some of the states:
 /// the rounding of terms of order 10 that cancel (N·m, rad/s²).
 const ABSOLUTE: f64 = 1e-11;
-
-#[derive(Deserialize)]
-struct Golden {
-    gravity: [f64; 3],
-    joints: Vec<String>,
-    rotor_inertia: Vec<f64>,
-    inertial_parameters: Vec<[f64; 10]>,
-    states: Vec<State>,
-}
-
-#[derive(Deserialize)]
-struct State {
-    q: Vec<f64>,
-    qd: Vec<f64>,
-    qdd: Vec<f64>,
-    tau_rigid_body: Vec<f64>,
-    tau_with_rotor: Vec<f64>,
-    mass_matrix: Vec<Vec<f64>>,
-    gravity: Vec<f64>,
-    coriolis: Vec<f64>,
-    qdd_from_tau: Vec<f64>,
-    regressor_row_sums: Vec<f64>,
-}
-
-fn read(name: &str) -> Golden {
-    let path = workspace_root().join(format!("tests/golden/dynamics_{name}.json"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 /// Kinematics of the URDF; gravity and rotors of the golden file.
 fn load(urdf: &Path, golden: &Golden) -> Robot {
@@ -106,7 +78,7 @@ fn agrees(robot: &Robot, golden: &Golden) {
 
 #[test]
 fn the_wam_agrees_with_pinocchio() {
-    let golden = read("wam7");
+    let golden = golden("wam7");
     let robot = load(&workspace_root().join("robots/wam7/robot.urdf"), &golden);
     agrees(&robot, &golden);
     agrees(&with_golden_inertias(robot, &golden), &golden);
@@ -114,7 +86,7 @@ fn the_wam_agrees_with_pinocchio() {
 
 #[test]
 fn the_kinova_gen3_agrees_with_pinocchio() {
-    let golden = read("kinova_gen3");
+    let golden = golden("kinova_gen3");
     let Some(urdf) = data("kinova_gen3/robot.urdf") else { return };
     let robot = load(&urdf, &golden);
     agrees(&robot, &golden);
@@ -123,7 +95,7 @@ fn the_kinova_gen3_agrees_with_pinocchio() {
 
 #[test]
 fn the_kuka_lwr4_agrees_with_pinocchio() {
-    let golden = read("kuka_lwr4");
+    let golden = golden("kuka_lwr4");
     let Some(urdf) = data("kuka_lwr4/robot.urdf") else { return };
     let robot = load(&urdf, &golden);
     agrees(&robot, &golden);

@@ -1,33 +1,12 @@
 //! Parameters from the torques that Pinocchio computed for known bodies.
 
-use checks::arms::{wam, workspace_root};
+use checks::arms::wam;
+use checks::golden::{Golden, State, golden};
 use dynamics::{BaseParameters, ColumnSet, Dynamics};
 use learner::{Regression, Stretch};
 use robot::{Inertia, Robot};
-use serde::Deserialize;
 
 const ROTOR: ColumnSet = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };
-
-#[derive(Deserialize)]
-struct Golden {
-    gravity: [f64; 3],
-    rotor_inertia: Vec<f64>,
-    inertial_parameters: Vec<[f64; 10]>,
-    states: Vec<State>,
-}
-
-#[derive(Deserialize)]
-struct State {
-    q: Vec<f64>,
-    qd: Vec<f64>,
-    qdd: Vec<f64>,
-    tau_with_rotor: Vec<f64>,
-}
-
-fn golden() -> Golden {
-    let path = workspace_root().join("tests/golden/dynamics_wam7.json");
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 /// The WAM described as heavier than it is, with its mass elsewhere.
 fn mistaken(golden: &Golden) -> Robot {
@@ -62,7 +41,7 @@ fn base_of(golden: &Golden, base: &BaseParameters) -> Vec<f64> {
 
 #[test]
 fn base_parameters_of_the_wam_come_back_from_pinocchio_s_torques() {
-    let golden = golden();
+    let golden = golden("wam7");
     let fit = regression(&mistaken(&golden), &golden.states).fit(None).unwrap();
     assert_eq!((fit.rank, fit.undetermined.len()), (48, 0));
     let (found, _) = fit.base_parameters();
@@ -74,14 +53,14 @@ fn base_parameters_of_the_wam_come_back_from_pinocchio_s_torques() {
 
 #[test]
 fn torques_that_were_not_learned_from_are_those_of_pinocchio() {
-    let golden = golden();
+    let golden = golden("wam7");
     let robot = mistaken(&golden);
     let (learned, asked) = golden.states.split_at(16);
     let fit = regression(&robot, learned).fit(None).unwrap();
     let width = fit.columns.len();
     let dynamics = Dynamics::new(&robot);
     let mut y = vec![0.0; 7 * width];
-    for State { q, qd, qdd, tau_with_rotor } in asked {
+    for State { q, qd, qdd, tau_with_rotor, .. } in asked {
         dynamics.columns_into(&mut dynamics.workspace(), [q, qd, qdd], ROTOR, &mut y);
         for (row, expected) in y.chunks_exact(width).zip(tau_with_rotor) {
             let tau: f64 = row.iter().zip(&fit.parameters).map(|(y, p)| y * p).sum();
@@ -92,7 +71,7 @@ fn torques_that_were_not_learned_from_are_those_of_pinocchio() {
 
 #[test]
 fn directions_that_four_states_leave_open_are_told() {
-    let golden = golden();
+    let golden = golden("wam7");
     let fit = regression(&mistaken(&golden), &golden.states[..4]).fit(None).unwrap();
     assert_eq!(fit.rank + fit.undetermined.len(), 48);
     assert!(fit.rank <= 28, "{}", fit.rank);

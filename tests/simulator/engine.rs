@@ -4,10 +4,10 @@
 use checks::arms::{
     data, draw, generator, kinetic_energy, potential_energy, random_tree, wam, workspace_root,
 };
+use checks::golden::State;
 use dynamics::Dynamics;
 use nalgebra::Vector3;
 use robot::{Inertia, Machine, Robot};
-use serde::Deserialize;
 use simulator::{Sensors, Simulator, Stepping};
 
 use crate::rig::run;
@@ -36,25 +36,8 @@ fn relative_error(found: &[f64], expected: &[f64]) -> f64 {
     found.iter().zip(expected).map(|(f, e)| (f - e).abs()).fold(0.0, f64::max) / largest
 }
 
-#[derive(Deserialize)]
-struct Golden {
-    gravity: [f64; 3],
-    rotor_inertia: Vec<f64>,
-    inertial_parameters: Vec<[f64; 10]>,
-    states: Vec<State>,
-}
-
-#[derive(Deserialize)]
-struct State {
-    q: Vec<f64>,
-    qd: Vec<f64>,
-    qdd: Vec<f64>,
-    tau_with_rotor: Vec<f64>,
-}
-
 fn golden(name: &str, urdf: &std::path::Path) -> (Robot, Vec<State>) {
-    let path = workspace_root().join(format!("tests/golden/dynamics_{name}.json"));
-    let golden: Golden = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let golden = checks::golden::golden(name);
     let mut robot = Robot::load(urdf).unwrap().robot.with_gravity(golden.gravity.into());
     for (i, pi) in golden.inertial_parameters.iter().enumerate() {
         let link = robot.link_mut(i).unwrap();

@@ -6,5 +6,6 @@
 )]
 
 pub mod arms;
+pub mod golden;
 pub mod recorded;
 pub mod synthetic;
