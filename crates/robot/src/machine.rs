@@ -66,4 +66,10 @@ pub trait Machine {
     ///
     /// [`MachineFault`] when a joint does what no joint may; the machine has then stopped.
     fn actuate(&mut self, effort: &[f64]) -> Result<(), MachineFault>;
+
+    /// Where the links are at the time of the last [`read`](Self::read), behind the transmission
+    /// (rad or m), where the machine knows: one with encoders at its motors alone does not.
+    fn link_positions(&self) -> Option<&[f64]> {
+        None
+    }
 }

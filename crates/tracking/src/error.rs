@@ -1,0 +1,65 @@
+/// Why a motion cannot be tracked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrackingError {
+    /// Two parts of a run are made for different numbers of joints.
+    #[error("{what} is for {got} joints, {expected} were expected")]
+    JointCount {
+        /// The part that differs from the others.
+        what: &'static str,
+        /// Joints that it is for.
+        got: usize,
+        /// Joints of the machine.
+        expected: usize,
+    },
+    /// A number that nothing can be controlled with.
+    #[error("{quantity} is {found}, {expected} was expected")]
+    OutOfRange {
+        /// The quantity, with its joint and unit.
+        quantity: String,
+        /// Its value.
+        found: f64,
+        /// What was expected, in words.
+        expected: &'static str,
+    },
+    /// Two joints that no two motors can share.
+    #[error("joints {first} and {second} cannot be a differential pair: {because}")]
+    Pair {
+        /// Index of the first joint.
+        first: usize,
+        /// Index of the second joint.
+        second: usize,
+        /// What is wrong with them.
+        because: &'static str,
+    },
+}
+
+/// Refuses a part that is not for `expected` joints.
+pub(crate) fn same_joints(
+    what: &'static str,
+    got: usize,
+    expected: usize,
+) -> Result<(), TrackingError> {
+    if got == expected { Ok(()) } else { Err(TrackingError::JointCount { what, got, expected }) }
+}
+
+/// Refuses a number that is not finite or below zero.
+pub(crate) fn not_negative(
+    quantity: impl FnOnce() -> String,
+    found: f64,
+) -> Result<(), TrackingError> {
+    if found.is_finite() && found >= 0.0 {
+        return Ok(());
+    }
+    let expected = "a finite number of at least 0";
+    Err(TrackingError::OutOfRange { quantity: quantity(), found, expected })
+}
+
+/// Refuses a number that is not finite or not above zero.
+pub(crate) fn positive(quantity: &str, found: f64) -> Result<(), TrackingError> {
+    if found.is_finite() && found > 0.0 {
+        return Ok(());
+    }
+    let expected = "a finite number above 0";
+    Err(TrackingError::OutOfRange { quantity: quantity.to_owned(), found, expected })
+}

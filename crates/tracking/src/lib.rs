@@ -1,0 +1,44 @@
+//! Computed-torque tracking of a motion by any machine, with a feedforward that is predicted
+//! beside the loop.
+//!
+//! ```text
+//! u(t_k) = limit(u_FF(q_ref, qd_ref, qdd_ref) + kp error + kd error_rate),   error = q_ref - q
+//! ```
+//!
+//! The feedback runs in every tick and never waits; of the feedforward the newest prediction is
+//! used. What happens when predictions are late, wrong or stay away is in the crate's README.
+
+mod controller;
+mod error;
+mod feedforward;
+mod latest;
+mod metrics;
+mod model_feedforward;
+mod pace;
+mod predictor;
+mod rows;
+mod run;
+mod settings;
+#[cfg(test)]
+mod testing;
+mod timing;
+mod tip;
+mod torque_limits;
+mod track;
+mod tracking;
+mod trust;
+mod wall;
+mod watch;
+
+pub use controller::{Controller, ErrorRate};
+pub use error::TrackingError;
+pub use feedforward::{Feedforward, NoFeedforward, Prediction};
+pub use metrics::{Distance, JointMetrics, LinkMetrics, Metrics};
+pub use model_feedforward::{GravityFeedforward, ModelFeedforward};
+pub use rows::{Rows, Signal};
+pub use settings::{Ahead, Clock, Settings, VirtualClock, WallClock};
+pub use timing::{Latency, Timing, WallTiming};
+pub use torque_limits::TorqueLimits;
+pub use track::track;
+pub use tracking::{End, Tracking};
+pub use watch::{Event, Level, Tick, Watch};

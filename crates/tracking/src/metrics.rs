@@ -1,0 +1,147 @@
+use nalgebra::{Point3, distance};
+use robot::Robot;
+
+use crate::{Rows, Signal, TrackingError, error::same_joints, tip::tip_in_base};
+
+/// How well a run tracked its motion, and what that took. A run without ticks has zeros.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Metrics {
+    /// Joint by joint, in the order of the robot.
+    pub joints: Vec<JointMetrics>,
+    /// How far a point of the last link was from where it should be, by the joints' readings.
+    pub end_effector: Distance,
+    /// The same by the positions of the links, where the machine knows them.
+    pub end_effector_of_links: Option<Distance>,
+}
+
+/// How well one joint tracked, and what that took.
+///
+/// ```text
+/// error = q_ref - q,   RMS(x) = sqrt(mean over the ticks of x²)
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointMetrics {
+    /// RMS of the error (rad or m).
+    pub rmse: f64,
+    /// RMS of the error in the first ten seconds (rad or m).
+    pub rmse_first_10_s: f64,
+    /// Largest error (rad or m).
+    pub max_error: f64,
+    /// The errors of the link, where the machine knows its position.
+    pub link: Option<LinkMetrics>,
+    /// RMS of the command (N m or N).
+    pub command_rms: f64,
+    /// RMS of the feedback (N m or N): how far it had to work.
+    pub feedback_rms: f64,
+    /// That over the RMS of the command; 0 without a command.
+    pub feedback_share: f64,
+    /// Largest change of the feedforward from one tick to the next (N m or N), what the motion
+    /// itself asks for included.
+    pub jump_max: f64,
+    /// RMS of those changes (N m or N).
+    pub jump_rms: f64,
+    /// The largest over the RMS of the command; 0 without a command.
+    pub jump_share: f64,
+    /// Ticks in which the command was brought within the limits.
+    pub ticks_limited: usize,
+}
+
+/// Errors of a link: `q_ref` minus the position of the link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkMetrics {
+    /// RMS (rad or m).
+    pub rmse: f64,
+    /// RMS in the first ten seconds (rad or m).
+    pub rmse_first_10_s: f64,
+    /// Largest (rad or m).
+    pub max_error: f64,
+}
+
+/// How far a point was from another.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Distance {
+    /// RMS over the ticks (m).
+    pub rms_m: f64,
+    /// Largest (m).
+    pub max_m: f64,
+}
+
+/// The first stretch of a run that is looked at alone (s).
+const FIRST_S: f64 = 10.0;
+
+impl Metrics {
+    /// The metrics of a run of `robot`, and of a point of its last link (m).
+    ///
+    /// # Errors
+    ///
+    /// [`TrackingError::JointCount`] when the run is of another number of joints.
+    pub fn of(
+        rows: &Rows,
+        robot: &Robot,
+        point_in_link: &Point3<f64>,
+    ) -> Result<Self, TrackingError> {
+        same_joints("the run", rows.joints(), robot.joint_count())?;
+        let off = |actual: Signal| {
+            let tip = |signal, tick| tip_in_base(robot, point_in_link, rows.row(tick, signal));
+            let far = |tick| distance(&tip(Signal::QRef, tick), &tip(actual, tick));
+            let far = (0..rows.len()).map(far);
+            Distance { rms_m: rms(far.clone()), max_m: largest(far) }
+        };
+        Ok(Self {
+            joints: (0..rows.joints()).map(|joint| JointMetrics::of(rows, joint)).collect(),
+            end_effector: off(Signal::Q),
+            end_effector_of_links: rows.knows_links().then(|| off(Signal::Link)),
+        })
+    }
+}
+
+impl JointMetrics {
+    fn of(rows: &Rows, joint: usize) -> Self {
+        let signal = |signal| rows.column(signal, joint);
+        let errors = LinkMetrics::of(rows, joint, Signal::Q);
+        let feedforward = signal(Signal::Feedforward);
+        let jumps =
+            feedforward.clone().zip(feedforward.skip(1)).map(|(before, after)| after - before);
+        let (command_rms, feedback_rms) =
+            (rms(signal(Signal::Command)), rms(signal(Signal::Feedback)));
+        let share = |part: f64| if command_rms > 0.0 { part / command_rms } else { 0.0 };
+        let jump_max = largest(jumps.clone());
+        Self {
+            rmse: errors.rmse,
+            rmse_first_10_s: errors.rmse_first_10_s,
+            max_error: errors.max_error,
+            link: rows.knows_links().then(|| LinkMetrics::of(rows, joint, Signal::Link)),
+            command_rms,
+            feedback_rms,
+            feedback_share: share(feedback_rms),
+            jump_max,
+            jump_rms: rms(jumps),
+            jump_share: share(jump_max),
+            ticks_limited: signal(Signal::Limited).filter(|limited| *limited > 0.0).count(),
+        }
+    }
+}
+
+impl LinkMetrics {
+    fn of(rows: &Rows, joint: usize, actual: Signal) -> Self {
+        let (q_ref, q) = (rows.column(Signal::QRef, joint), rows.column(actual, joint));
+        let errors = q_ref.zip(q).map(|(q_ref, q)| q_ref - q);
+        let first = rows.time_s().take_while(|time_s| *time_s < FIRST_S).count();
+        Self {
+            rmse: rms(errors.clone()),
+            rmse_first_10_s: rms(errors.clone().take(first)),
+            max_error: largest(errors),
+        }
+    }
+}
+
+/// Root of the mean square; 0 of nothing.
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), v| (count + 1.0, sum + v * v));
+    if count > 0.0 { f64::sqrt(sum / count) } else { 0.0 }
+}
+
+/// Largest absolute value; 0 of nothing.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most: f64, v| most.max(v.abs()))
+}

@@ -1,0 +1,86 @@
+use learner::{State, TorqueModel, Workspace};
+use motion::Motion;
+
+use crate::{Feedforward, Prediction};
+
+/// The torque that a model expects along the reference.
+///
+/// ```text
+/// tau(t) = model(q_ref, qd_ref, qdd_ref),   all at t + lead_s
+/// ```
+pub struct ModelFeedforward<'a>(Asked<'a>);
+
+/// The torque that a model expects if the arm rested on the reference.
+///
+/// ```text
+/// tau(t) = model(q_ref, 0, 0),   q_ref at t + lead_s
+/// ```
+pub struct GravityFeedforward<'a>(Asked<'a>);
+
+/// A model and what is needed to ask it.
+struct Asked<'a> {
+    model: &'a dyn TorqueModel,
+    workspace: Workspace,
+    state: motion::State,
+    lead_s: f64,
+}
+
+impl<'a> ModelFeedforward<'a> {
+    /// The feedforward of `model`, asked for `lead_s` (s) later than the tick: half a period
+    /// since a command is held for one, and the delay of the motors as far as it is known.
+    pub fn new(model: &'a dyn TorqueModel, lead_s: f64) -> Self {
+        Self(Asked::new(model, lead_s))
+    }
+}
+
+impl<'a> GravityFeedforward<'a> {
+    /// The feedforward of `model` at rest, asked for `lead_s` (s) later than the tick.
+    pub fn new(model: &'a dyn TorqueModel, lead_s: f64) -> Self {
+        Self(Asked::new(model, lead_s))
+    }
+}
+
+impl<'a> Asked<'a> {
+    fn new(model: &'a dyn TorqueModel, lead_s: f64) -> Self {
+        Self { model, workspace: model.workspace(), state: motion::State::default(), lead_s }
+    }
+
+    fn fill(&mut self, prediction: &mut Prediction) {
+        let state = State { q: &self.state.q, qd: &self.state.qd, qdd: &self.state.qdd };
+        self.model.torque_into(&mut self.workspace, state, &mut prediction.tau);
+        prediction.q_lead.fill(0.0);
+        prediction.qd_lead.fill(0.0);
+    }
+}
+
+impl Feedforward for ModelFeedforward<'_> {
+    fn joints(&self) -> usize {
+        self.0.model.joints()
+    }
+
+    fn words(&self) -> String {
+        self.0.model.words()
+    }
+
+    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction) {
+        motion.sample(time_s + self.0.lead_s, &mut self.0.state);
+        self.0.fill(prediction);
+    }
+}
+
+impl Feedforward for GravityFeedforward<'_> {
+    fn joints(&self) -> usize {
+        self.0.model.joints()
+    }
+
+    fn words(&self) -> String {
+        format!("{}, at rest", self.0.model.words())
+    }
+
+    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction) {
+        motion.sample(time_s + self.0.lead_s, &mut self.0.state);
+        self.0.state.qd.fill(0.0);
+        self.0.state.qdd.fill(0.0);
+        self.0.fill(prediction);
+    }
+}

@@ -1,0 +1,31 @@
+use robot::MachineFault;
+
+use crate::{Event, Rows, Timing};
+
+/// A run: what was asked, what was done, and how it ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tracking {
+    /// Time from one tick to the next (s).
+    pub period_s: f64,
+    /// The feedforward, in words.
+    pub feedforward: String,
+    /// Every tick.
+    pub rows: Rows,
+    /// What happened.
+    pub events: Vec<Event>,
+    /// How well the predictions and the ticks kept their time.
+    pub timing: Timing,
+    /// How it ended.
+    pub end: End,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum End {
+    /// With the motion.
+    Complete,
+    /// The machine stopped, or reported what nothing can be controlled by.
+    Fault(MachineFault),
+    /// The watch ended it.
+    Stopped,
+}
