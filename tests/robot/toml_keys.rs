@@ -18,11 +18,12 @@ fn refused(toml: &str) -> String {
 fn every_key_arrives() {
     let loaded = with(
         "gravity_m_per_s2 = [0, 9.81, 0]\ncontrol_rate_hz = 250\nsensing = \"motor\"
-torque_source = \"current\"
+torque_source = \"current\"\ndifferentials = [[\"elbow\", \"shoulder\"]]
 [joint.shoulder]
 rotor_inertia_kg_m2 = 0.1\nviscous_nm_s_per_rad = 0.2\ncoulomb_nm = 0.3
 spring_stiffness_nm_per_rad = 0.4\nspring_rest_rad = 0.5\ntorque_gain = 0.6
-torque_offset_nm = 0.7\ntorque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
+torque_offset_nm = 0.7\nbacklash_rad = 0.01\nelasticity_nm_per_rad = 2000\nactuator_delay_ms = 4
+torque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
 [joint.elbow]
 coulomb_forward_nm = 1\ncoulomb_backward_nm = 2\nsensing = \"link\"\ntorque_source = \"measured\"
 [gains.soft]
@@ -38,10 +39,12 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((a.coulomb_forward, a.coulomb_backward), (0.3, 0.3));
     assert_eq!((a.spring_stiffness, a.spring_rest), (0.4, 0.5));
     assert_eq!((a.torque_gain, a.torque_offset), (0.6, 0.7));
+    assert_eq!((a.backlash, a.elasticity, a.delay_s), (0.01, Some(2000.0), 0.004));
     assert_eq!((a.sensing, a.torque_source), (SensingSide::Motor, TorqueSource::Current));
     assert_eq!(upper.joint.limits.effort, Some(8.0));
     let b = &lower.actuator;
     assert_eq!((b.coulomb_forward, b.coulomb_backward), (1.0, 2.0));
+    assert_eq!((b.backlash, b.elasticity, b.delay_s), (0.0, None, 0.0));
     assert_eq!((b.sensing, b.torque_source), (SensingSide::Link, TorqueSource::Measured));
     assert_eq!(
         (lower.inertia.mass, lower.inertia.com_in_link.as_slice()),
@@ -55,6 +58,7 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!(loaded.control.gains, [Some(Gain { kp: 9.0, kd: 1.0 }), None]);
     let soft = [Gain { kp: 1.0, kd: 3.0 }, Gain { kp: 2.0, kd: 4.0 }];
     assert_eq!(loaded.control.gain_sets["soft"], soft);
+    assert_eq!(loaded.control.differentials, [[1, 0]]);
     assert!(loaded.urdf_path.ends_with("arm.urdf"));
 }
 
@@ -89,8 +93,8 @@ fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
         "robot.toml: line 3, column 1: unknown field `viscous`, expected one of \
          `rotor_inertia_kg_m2`, `viscous_nm_s_per_rad`, `coulomb_nm`, `coulomb_forward_nm`, \
          `coulomb_backward_nm`, `spring_stiffness_nm_per_rad`, `spring_rest_rad`, `torque_gain`, \
-         `torque_offset_nm`, `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, \
-         `kd_nm_s_per_rad`"
+         `torque_offset_nm`, `backlash_rad`, `elasticity_nm_per_rad`, `actuator_delay_ms`, \
+         `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`"
     );
     assert_eq!(
         refused("[joint.elbow]\ntorque_gain = \"one\""),
@@ -120,6 +124,18 @@ fn numbers_out_of_range_are_refused() {
         (
             "[joint.elbow]\ntorque_gain = 0",
             "joint elbow: torque_gain is 0, a finite number above 0",
+        ),
+        (
+            "[joint.elbow]\nbacklash_rad = -0.1",
+            "joint elbow: backlash_rad is -0.1, a finite number not below 0",
+        ),
+        (
+            "[joint.elbow]\nelasticity_nm_per_rad = 0",
+            "joint elbow: elasticity_nm_per_rad is 0, a finite number above 0",
+        ),
+        (
+            "[joint.elbow]\nactuator_delay_ms = inf",
+            "joint elbow: actuator_delay_ms is inf, a finite number not below 0",
         ),
         (
             "[joint.elbow]\ntorque_limit_nm = -inf",
@@ -184,4 +200,24 @@ fn an_inertia_in_the_toml_replaces_the_warnings_of_the_urdf() {
     let loaded = load(&[("robot.toml", &toml), ("arm.urdf", &arm_with(""))]).unwrap();
     let about: Vec<&str> = loaded.warnings.iter().filter_map(|w| w.link()).collect();
     assert_eq!(about, ["lower"]);
+}
+
+#[test]
+fn a_joint_has_one_partner_at_most_in_a_differential_and_not_itself() {
+    assert_eq!(
+        refused("differentials = [[\"elbow\", \"shouldr\"]]"),
+        "robot.toml: differentials: there is no joint shouldr, did you mean shoulder?"
+    );
+    assert_eq!(
+        refused("differentials = [[\"elbow\", \"elbow\"]]"),
+        "robot.toml: joint elbow: differentials pairs it with itself, another joint was \
+         expected"
+    );
+    assert_eq!(
+        refused("differentials = [[\"elbow\", \"shoulder\"], [\"shoulder\", \"elbow\"]]"),
+        "robot.toml: joint shoulder: differentials has it in two pairs, one at most was \
+         expected"
+    );
+    let lonely = refused("differentials = [[\"elbow\"]]");
+    assert!(lonely.starts_with("robot.toml: line 2, column "), "{lonely}");
 }

@@ -50,6 +50,7 @@ fn the_wam_is_what_its_readme_says() {
     assert_eq!((drive.sensing, drive.torque_source), (SensingSide::Motor, TorqueSource::Commanded));
     assert_eq!(loaded.control.rate_hz, Some(500.0));
     assert_eq!(loaded.control.gains[1], Some(Gain { kp: 2500.0, kd: 20.0 }));
+    assert_eq!(loaded.control.differentials, [[1, 2], [4, 5]]);
     let sets: Vec<&str> = loaded.control.gain_sets.keys().map(String::as_str).collect();
     assert_eq!(sets, ["compliant", "low-quarter", "low-tenth", "stiff"]);
 }

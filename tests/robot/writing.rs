@@ -83,6 +83,7 @@ proptest! {
         body in prop::array::uniform9(number()),
         gravity in prop::array::uniform3(number()),
         sides in (0usize..3, 0usize..4),
+        transmission in (0.0..0.5f64, prop::option::of(1e-3..1e9f64), 0.0..1000.0f64),
     ) {
         let original = wam();
         let mut robot = original.robot.clone().with_gravity(Vector3::from(gravity));
@@ -90,6 +91,9 @@ proptest! {
         let a = &mut link.actuator;
         [a.viscous, a.coulomb_forward, a.coulomb_backward, a.spring_stiffness, a.spring_rest, a.torque_offset] = drive;
         [a.rotor_inertia, a.torque_gain, _, _] = positive;
+        a.backlash = transmission.0;
+        a.elasticity = transmission.1;
+        a.delay_s = 1e-3 * transmission.2;
         a.sensing = [SensingSide::Motor, SensingSide::Link, SensingSide::Unknown][sides.0];
         a.torque_source = [TorqueSource::Measured, TorqueSource::Commanded, TorqueSource::Current, TorqueSource::Unknown][sides.1];
         link.joint.limits.effort = Some(positive[2]);

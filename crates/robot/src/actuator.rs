@@ -8,7 +8,7 @@ pub enum SensingSide {
     Motor,
     /// At the link, after the transmission.
     Link,
-    /// Not stated.
+    /// Not stated; where the two sides differ it counts as the motor's.
     #[default]
     Unknown,
 }
@@ -39,6 +39,13 @@ pub enum TorqueSource {
 /// coulomb(qd) = coulomb_forward   for qd > 0
 ///             = -coulomb_backward for qd < 0, 0 at rest
 /// ```
+///
+/// Between motor and link may lie a transmission that gives way, and between command and
+/// torque some time. With `theta` the motor's position seen at the joint,
+///
+/// ```text
+/// |theta - q| <= backlash / 2 + |tau_link| / elasticity,   tau(t) = command(t - delay)
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Actuator {
     /// Inertia of rotor and gear seen at the joint (kg m² or kg).
@@ -57,6 +64,12 @@ pub struct Actuator {
     pub torque_gain: f64,
     /// Effort reported at zero torque (N·m or N).
     pub torque_offset: f64,
+    /// Free play between motor and link, full width (rad or m).
+    pub backlash: f64,
+    /// Stiffness of the transmission (N·m/rad or N/m); `None` for a rigid one.
+    pub elasticity: Option<f64>,
+    /// Time from command to torque (s).
+    pub delay_s: f64,
     /// Where the position is measured.
     pub sensing: SensingSide,
     /// What the log's effort is.
@@ -64,7 +77,7 @@ pub struct Actuator {
 }
 
 impl Default for Actuator {
-    /// An ideal drive: no friction, no rotor, a perfect torque sensor.
+    /// An ideal drive: no friction, no rotor, a rigid transmission, a perfect torque sensor.
     fn default() -> Self {
         Self {
             rotor_inertia: 0.0,
@@ -75,6 +88,9 @@ impl Default for Actuator {
             spring_rest: 0.0,
             torque_gain: 1.0,
             torque_offset: 0.0,
+            backlash: 0.0,
+            elasticity: None,
+            delay_s: 0.0,
             sensing: SensingSide::default(),
             torque_source: TorqueSource::default(),
         }

@@ -18,4 +18,14 @@ pub struct ControlSettings {
     pub gains: Vec<Option<Gain>>,
     /// Named sets of gains, each with one entry per joint.
     pub gain_sets: BTreeMap<String, Vec<Gain>>,
+    /// Pairs of joints, by index, that two motors drive together.
+    ///
+    /// One motor turns with the sum of both joints, the other with their difference. The torque
+    /// limit of such a joint is what both motors give it when the other joint gets nothing, so
+    /// that what a pair may ask for is a diamond:
+    ///
+    /// ```text
+    /// |tau_a| / limit_a + |tau_b| / limit_b <= 1
+    /// ```
+    pub differentials: Vec<[usize; 2]>,
 }

@@ -3,7 +3,9 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::{Actuator, Gain, Inertia, Loaded, RobotError, RobotWarning, SensingSide, TorqueSource};
+use crate::{
+    Actuator, Gain, Inertia, Loaded, Robot, RobotError, RobotWarning, SensingSide, TorqueSource,
+};
 
 /// The keys of `robot.toml`: what a URDF cannot say.
 ///
@@ -23,6 +25,9 @@ pub(crate) struct Description {
     /// What the efforts of a log are, unless a joint says otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_source: Option<TorqueSource>,
+    /// Pairs of joints that two motors drive together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub differentials: Vec<[String; 2]>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joint: BTreeMap<String, JointEntry>,
     /// Named sets of gains.
@@ -56,6 +61,15 @@ pub(crate) struct JointEntry {
     pub torque_gain: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_offset_nm: Option<f64>,
+    /// Free play between motor and link, full width.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub backlash_rad: Option<f64>,
+    /// Stiffness of the transmission; a joint without it is rigid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elasticity_nm_per_rad: Option<f64>,
+    /// Time from command to torque.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub actuator_delay_ms: Option<f64>,
     /// Largest torque; `inf` where the URDF's limit does not hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limit_nm: Option<f64>,
@@ -133,16 +147,36 @@ impl Description {
         }
         self.joint.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))?;
         self.link.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))?;
+        loaded.control.differentials = self.pairs(&loaded.robot)?;
         self.gains.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))
+    }
+
+    /// The pairs of joints by index; no joint stands in them twice.
+    fn pairs(&self, robot: &Robot) -> Result<Vec<[usize; 2]>, RobotError> {
+        let refuse = |name: &str, found, expected| {
+            Err(RobotError::KeysDisagree { thing: format!("joint {name}"), found, expected })
+        };
+        let index = |name: &str| joint_index("differentials", name, robot);
+        let mut pairs: Vec<[usize; 2]> = Vec::new();
+        for [first, second] in &self.differentials {
+            let pair = [index(first)?, index(second)?];
+            if pair[0] == pair[1] {
+                return refuse(first, "differentials pairs it with itself", "another joint");
+            }
+            for (joint, name) in pair.iter().zip([first, second]) {
+                if pairs.as_flattened().contains(joint) {
+                    return refuse(name, "differentials has it in two pairs", "one at most");
+                }
+            }
+            pairs.push(pair);
+        }
+        Ok(pairs)
     }
 }
 
 impl JointEntry {
     fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), RobotError> {
-        let Some(index) = loaded.robot.joint_index(name) else {
-            let known: Vec<&str> = loaded.robot.joint_names().collect();
-            return Err(RobotError::unknown_name("[joint]", "joint", name, &known));
-        };
+        let index = joint_index("[joint]", name, &loaded.robot)?;
         let thing = format!("joint {name}");
         if let Some(gain) = self.gain(&thing)? {
             loaded.control.gains[index] = Some(gain);
@@ -186,11 +220,20 @@ impl JointEntry {
             ("spring_rest_rad", self.spring_rest_rad, Finite, &mut a.spring_rest),
             ("torque_gain", self.torque_gain, Positive, &mut a.torque_gain),
             ("torque_offset_nm", self.torque_offset_nm, Finite, &mut a.torque_offset),
+            ("backlash_rad", self.backlash_rad, NotNegative, &mut a.backlash),
         ] {
             if let Some(value) = value {
                 in_range(thing, key, value, range)?;
                 *field = value;
             }
+        }
+        if let Some(stiffness) = self.elasticity_nm_per_rad {
+            in_range(thing, "elasticity_nm_per_rad", stiffness, Positive)?;
+            a.elasticity = Some(stiffness);
+        }
+        if let Some(delay_ms) = self.actuator_delay_ms {
+            in_range(thing, "actuator_delay_ms", delay_ms, NotNegative)?;
+            a.delay_s = 1e-3 * delay_ms;
         }
         a.sensing = self.sensing.unwrap_or(a.sensing);
         a.torque_source = self.torque_source.unwrap_or(a.torque_source);
@@ -260,6 +303,14 @@ impl LinkEntry {
         link.inertia = inertia;
         Ok(())
     }
+}
+
+/// The joint called `name` at `place`.
+fn joint_index(place: &str, name: &str, robot: &Robot) -> Result<usize, RobotError> {
+    robot.joint_index(name).ok_or_else(|| {
+        let known: Vec<&str> = robot.joint_names().collect();
+        RobotError::unknown_name(place, "joint", name, &known)
+    })
 }
 
 fn moving_link(name: &str, loaded: &Loaded) -> Result<usize, RobotError> {

@@ -123,6 +123,8 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
         a.spring_rest,
         a.torque_gain,
         a.torque_offset,
+        a.backlash,
+        a.delay_s,
     ];
-    finite(&joint, "actuator parameter", drive.iter())
+    finite(&joint, "actuator parameter", drive.iter().chain(&a.elasticity))
 }

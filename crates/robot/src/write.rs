@@ -7,7 +7,8 @@ impl Loaded {
     /// A `robot.toml` that describes `robot`, this one or a changed copy of it.
     ///
     /// Holds what differs from the URDF, and the control settings. Loading it gives
-    /// `robot` again, every number to the last bit. `urdf` is the path of the URDF
+    /// `robot` again, every number to the last bit; only a delay that no number of milliseconds
+    /// is comes back rounded. `urdf` is the path of the URDF
     /// as seen from the folder the text is written to.
     ///
     /// # Errors
@@ -25,10 +26,13 @@ impl Loaded {
 
     fn describe(&self, robot: &Robot, urdf: &str) -> Description {
         let (old, control) = (&self.robot_in_urdf, &self.control);
+        // A pair that names no joint is refused when the description is applied.
+        let joint_name = |i: usize| robot.joint_names().nth(i).unwrap_or_default().to_owned();
         let mut description = Description {
             urdf: urdf.to_owned(),
             gravity_m_per_s2: gravity(robot, old),
             control_rate_hz: control.rate_hz,
+            differentials: control.differentials.iter().map(|p| p.map(joint_name)).collect(),
             ..Description::default()
         };
         for (i, (new, old)) in robot.links().iter().zip(old.links()).enumerate() {
@@ -92,6 +96,9 @@ fn joint_entry(new: &Link, old: &Link, gain: Option<Gain>) -> JointEntry {
         spring_rest_rad: changed(a.spring_rest, b.spring_rest),
         torque_gain: changed(a.torque_gain, b.torque_gain),
         torque_offset_nm: changed(a.torque_offset, b.torque_offset),
+        backlash_rad: changed(a.backlash, b.backlash),
+        elasticity_nm_per_rad: a.elasticity,
+        actuator_delay_ms: changed(a.delay_s, b.delay_s).map(milliseconds),
         torque_limit_nm: changed(
             new.joint.limits.effort.unwrap_or(f64::INFINITY),
             old.joint.limits.effort.unwrap_or(f64::INFINITY),
@@ -117,6 +124,14 @@ fn link_entry(inertia: &Inertia) -> LinkEntry {
             zz: i.m33,
         },
     }
+}
+
+/// The milliseconds that are read as `seconds`. Some seconds have none, to the last bit; what
+/// was read from a file has.
+fn milliseconds(seconds: f64) -> f64 {
+    let near = 1e3 * seconds;
+    let exact = |ms: &f64| (1e-3 * ms).total_cmp(&seconds).is_eq();
+    [near, near.next_down(), near.next_up()].into_iter().find(exact).unwrap_or(near)
 }
 
 /// The new number, where it is not the old one to the last bit.
