@@ -16,17 +16,23 @@ pub(crate) struct Colours {
     pub nominal: &'static str,
     pub extended: &'static str,
     pub ink: &'static str,
+    pub soft: &'static str,
+    pub line: &'static str,
     pub grid: &'static str,
+    pub paper: &'static str,
 }
 
 impl Colours {
     /// Those that the style sheet of the page defines, for light and dark.
-    const OF_PAGE: Self = Self {
+    pub const OF_PAGE: Self = Self {
         measured: "var(--measured)",
         nominal: "var(--nominal)",
         extended: "var(--extended)",
         ink: "var(--ink)",
+        soft: "var(--soft)",
+        line: "var(--line)",
         grid: "var(--grid)",
+        paper: "var(--page)",
     };
 
     /// The page's light ones, for a drawing that stands alone on white.
@@ -35,7 +41,10 @@ impl Colours {
         nominal: "#c8500a",
         extended: "#1668c5",
         ink: "#1f2328",
+        soft: "#59636e",
+        line: "#d1d9e0",
         grid: "#e4e8ec",
+        paper: "#ffffff",
     };
 
     fn of(&self, role: Role) -> &'static str {

@@ -26,10 +26,10 @@ pub enum ReportError {
         /// The path.
         path: PathBuf,
     },
-    /// The result cannot be written as JSON or HTML.
+    /// The result cannot be written in a format.
     #[error("the {format} of the report cannot be made: {reason}")]
     Format {
-        /// `JSON` or `HTML`.
+        /// `JSON`, `HTML` or `SVG`.
         format: &'static str,
         /// What the writer said.
         reason: String,

@@ -149,7 +149,7 @@ fn left(diagnosis: &Diagnosis) -> Vec<Left> {
 }
 
 /// JSON that cannot end the script element that holds it.
-fn inert(json: &str) -> String {
+pub(crate) fn inert(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 

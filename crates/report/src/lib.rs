@@ -4,20 +4,25 @@
 //! Report { diagnosis, traces, robot, provenance }      -> json(), html(), figure(), text()
 //! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
+//! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
 //! ```
 //!
 //! None of them holds a date or a random number: the same input gives the same
 //! bytes.
 
+mod bars;
 mod chart;
 mod decimate;
 mod draw;
 mod error;
 mod figures;
 mod files;
+mod grid;
 mod html;
 mod json;
 mod learning;
+mod linear_axis;
+mod log_axis;
 mod numbers;
 mod places;
 mod poster;
@@ -25,8 +30,10 @@ mod provenance;
 #[cfg(test)]
 mod sample;
 mod sentence;
+mod sheet;
 mod tables;
 mod terminal;
+mod tracking;
 mod wrap;
 
 pub use chart::{Axis, Chart, Role, Series, Shape};
@@ -44,6 +51,10 @@ pub use provenance::{FileHash, Provenance};
 pub use sentence::{bottom_line, verdict_sentence};
 pub use tables::sizes;
 pub use terminal::text;
+pub use tracking::{
+    FirstSeconds, Gains, Sweep, SweptModel, TRACKING_SCHEMA, TrackedModel, TrackingComparison,
+    WallTiming,
+};
 pub use wrap::packed;
 
 /// Everything that a report shows.

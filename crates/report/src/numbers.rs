@@ -30,6 +30,14 @@ pub fn percent(share: f64) -> String {
     }
 }
 
+/// The least and the largest of some shares: `91-96 %`.
+pub(crate) fn percents(shares: &[f64]) -> String {
+    let finite = shares.iter().copied().filter(|share| share.is_finite());
+    let low = finite.clone().reduce(f64::min).map_or("-".to_owned(), percent);
+    let high = finite.reduce(f64::max).map_or("-".to_owned(), percent);
+    if low == high { low } else { format!("{}-{high}", low.trim_end_matches(" %")) }
+}
+
 /// A unit as it is printed: `N m s/rad` becomes `N·m·s/rad`, `kg m^2` `kg·m²`.
 /// The unit of a pure number is nothing.
 pub fn unit(plain: &str) -> String {
@@ -128,5 +136,7 @@ mod tests {
         assert_eq!(percent(1.0), "100 %");
         assert_eq!(percent(-0.31), "-31 %");
         assert_eq!(percent(f64::NAN), "-");
+        assert_eq!(percents(&[0.2, f64::NAN, 0.114]), "11-20 %");
+        assert_eq!((percents(&[0.2]), percents(&[])), ("20 %".into(), "-".into()));
     }
 }

@@ -6,6 +6,7 @@ use crate::figures::worst_of;
 use crate::numbers::value;
 use crate::places::{JointUnits, acting_on, listed};
 use crate::sentence::{short_bottom_line, title};
+use crate::sheet::{Placed, placed};
 use crate::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
 use crate::wrap::{packed, shortened, wrapped};
 use crate::{Report, ReportError};
@@ -61,12 +62,6 @@ struct Poster {
     best: Option<Best>,
 }
 
-/// Something at a height (px).
-struct Placed<T> {
-    y: f64,
-    item: T,
-}
-
 /// The joint that gains most.
 struct Best {
     joint: String,
@@ -108,11 +103,6 @@ impl Poster {
             best: best.and_then(|joint| Best::new(report, joint, (RIGHT, chart), lines)),
         }
     }
-}
-
-fn placed<T>(items: Vec<T>, top: f64, step: f64) -> Vec<Placed<T>> {
-    let at = |(i, item)| Placed { y: top + step * i as f64, item };
-    items.into_iter().enumerate().map(at).collect()
 }
 
 /// The rows of at most [`MOST_JOINTS`] joints, those with the longest bars, in their order;

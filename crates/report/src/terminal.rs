@@ -11,6 +11,9 @@ use crate::wrap::{packed, wrapped};
 /// Columns of the terminal that the text fills.
 pub(crate) const WIDTH: usize = 100;
 
+/// Warnings that [`first_warnings`] shows.
+const MOST_WARNINGS: usize = 6;
+
 pub(crate) const BOLD: Style = Style::new().bold();
 pub(crate) const FAINT: Style = Style::new().dimmed();
 
@@ -202,6 +205,15 @@ pub(crate) fn warnings(out: &mut String, warnings: &[String]) {
             let lead = if i == 0 { "warning:" } else { "        " };
             out.push_str(&format!("{style}{lead}{style:#} {line}\n"));
         }
+    }
+}
+
+/// The first warnings, and how many more there are in the file that holds them all.
+pub(crate) fn first_warnings(out: &mut String, all: &[String], file: &str) {
+    let shown = all.len().min(MOST_WARNINGS);
+    warnings(out, &all[..shown]);
+    if shown < all.len() {
+        out.push_str(&format!("         and {} more in {file}\n", all.len() - shown));
     }
 }
 

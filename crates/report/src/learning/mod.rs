@@ -1,10 +1,7 @@
 //! What learned models are worth: their errors side by side, and the time of a prediction.
 
-mod chart;
 mod comparison;
 mod error_chart;
-mod grid;
-mod log_axis;
 #[cfg(test)]
 mod sample;
 mod table;

@@ -1,14 +1,8 @@
 use super::comparison::{Comparison, DataSet, ModelRow};
-use super::grid::{Cell, Column, grid};
-use crate::numbers::{percent, significant};
-use crate::terminal::{BOLD, WIDTH, entry, notes, warnings};
+use crate::grid::{Cell, Column, DIGITS, grid, marked};
+use crate::numbers::{percents, significant};
+use crate::terminal::{BOLD, WIDTH, entry, first_warnings, notes};
 use crate::wrap::wrapped;
-
-/// Significant digits of every number of the table.
-const DIGITS: usize = 3;
-
-/// Warnings that are shown; the JSON holds them all.
-const MOST_WARNINGS: usize = 6;
 
 /// What stands below the errors, row by row.
 const COSTS: [&str; 6] =
@@ -20,7 +14,9 @@ impl Comparison {
     pub fn text(&self) -> String {
         let names = self.joints.iter().map(|joint| joint.name.as_str());
         let labels: Vec<String> = names.chain(COSTS).map(str::to_owned).collect();
-        let columns: Vec<Column> = self.models.iter().map(|model| self.column(model)).collect();
+        let errors: Vec<Vec<Cell>> = (0..self.joints.len()).map(|i| self.errors(i)).collect();
+        let column = |(place, model)| Self::column(model, errors.iter().map(|row| &row[place]));
+        let columns: Vec<Column> = self.models.iter().enumerate().map(column).collect();
         let mut out = format!("{BOLD}Learned models of {}{BOLD:#}\n\n", self.robot);
         out.push_str(&grid("nMSE", &labels, &columns));
         out.push('\n');
@@ -29,39 +25,28 @@ impl Comparison {
             model.remarks.iter().map(|remark| format!("{}: {remark}", model.name))
         });
         notes(&mut out, &remarks.collect::<Vec<_>>());
-        let shown = self.warnings.len().min(MOST_WARNINGS);
-        warnings(&mut out, &self.warnings[..shown]);
-        if shown < self.warnings.len() {
-            let more = self.warnings.len() - shown;
-            out.push_str(&format!("         and {more} more in learning.json\n"));
-        }
+        first_warnings(&mut out, &self.warnings, "learning.json");
         out
     }
 
-    /// One model: its errors, a star at those that are the least of their joint, and its costs.
-    fn column(&self, model: &ModelRow) -> Column {
-        let errors = (0..self.joints.len()).map(|joint| {
-            let shown = error(model, joint);
-            let is_least = shown != "-" && self.least(joint) == shown;
-            if is_least { Cell::best(shown + "*") } else { Cell::plain(shown + " ") }
-        });
+    /// The errors of all models at a joint, a star at those that are the least.
+    fn errors(&self, joint: usize) -> Vec<Cell> {
+        let errors = self.models.iter().map(|model| model.nmse.get(joint).copied());
+        marked(&errors.map(|error| error.unwrap_or(f64::NAN)).collect::<Vec<_>>())
+    }
+
+    /// One model: its errors and its costs.
+    fn column<'a>(model: &ModelRow, errors: impl Iterator<Item = &'a Cell>) -> Column {
         let costs = [
             String::new(),
             if model.points == 0 { "-".to_owned() } else { model.points.to_string() },
             significant(model.training_s, DIGITS),
             significant(model.prediction_us, DIGITS),
             model.log_likelihood.map_or("-".to_owned(), log_likelihood),
-            model.coverage_95.as_ref().map_or("-".to_owned(), |c| coverage(c)),
+            model.coverage_95.as_ref().map_or("-".to_owned(), |c| percents(c)),
         ];
         let costs = costs.into_iter().map(|cost| Cell::plain(cost + " "));
-        Column { header: format!("{} ", model.name), cells: errors.chain(costs).collect() }
-    }
-
-    /// The least error at a joint, as it is shown.
-    fn least(&self, joint: usize) -> String {
-        let errors = self.models.iter().filter(|m| m.nmse.get(joint).is_some_and(|e| !e.is_nan()));
-        let least = errors.min_by(|a, b| a.nmse[joint].total_cmp(&b.nmse[joint]));
-        least.map_or(String::new(), |model| error(model, joint))
+        Column { header: format!("{} ", model.name), cells: errors.cloned().chain(costs).collect() }
     }
 
     /// What the words of the table mean and what it is made from.
@@ -89,21 +74,9 @@ impl Comparison {
     }
 }
 
-fn error(model: &ModelRow, joint: usize) -> String {
-    model.nmse.get(joint).map_or("-".to_owned(), |&error| significant(error, DIGITS))
-}
-
 /// With one decimal: what counts is a difference of some.
 fn log_likelihood(value: f64) -> String {
     if value.is_finite() { format!("{value:.1}") } else { "-".to_owned() }
-}
-
-/// Least and largest share of a joint.
-fn coverage(by_joint: &[f64]) -> String {
-    let low = by_joint.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = by_joint.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let [low, high] = [low, high].map(percent);
-    if low == high { low } else { format!("{}-{high}", low.trim_end_matches(" %")) }
 }
 
 /// How many samples of what.

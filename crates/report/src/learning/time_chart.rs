@@ -1,13 +1,13 @@
 use askama::Template;
 
-use super::chart::{CHARACTER, COLOURS};
-use super::log_axis::{LogAxis, Tick, rounded};
 use super::times::{Curve, Maker, PredictionTimes};
 use crate::ReportError;
-use crate::draw::Colours;
+use crate::log_axis::{LogAxis, Tick, rounded};
+use crate::sheet::{CHARACTER, COLOURS, Place, Sheet};
 use crate::wrap::shortened;
 
-/// Edges of the curves (px): left, right, upper, lower.
+/// Height of the figure, edges of the curves (px): left, right, upper, lower.
+const HEIGHT: f64 = 480.0;
 const X: [f64; 2] = [78.0, 664.0];
 const Y: [f64; 2] = [92.0, 420.0];
 
@@ -16,9 +16,6 @@ const Y: [f64; 2] = [92.0, 420.0];
 const NAMES: f64 = 716.0;
 const APART: f64 = 16.0;
 const NAME_CHARACTERS: usize = ((876.0 - NAMES) / CHARACTER) as usize;
-
-/// Characters of the title.
-const TITLE_CHARACTERS: usize = 68;
 
 /// Period of a control loop of 1 kHz (us).
 const PERIOD_US: f64 = 1000.0;
@@ -35,9 +32,7 @@ const GREY: &str = "#59636e";
 #[derive(Template)]
 #[template(path = "times.svg")]
 struct Drawing {
-    colours: Colours,
-    title: String,
-    machine: String,
+    sheet: Sheet,
     x: [f64; 2],
     y: [f64; 2],
     x_ticks: Vec<Tick>,
@@ -80,9 +75,7 @@ impl Drawing {
         let title =
             format!("Time of one prediction for the {} joints of {}", times.joints, times.robot);
         Self {
-            colours: Colours::ON_WHITE,
-            title: shortened(&title, TITLE_CHARACTERS),
-            machine: times.machine.clone(),
+            sheet: Sheet::new(&title, &times.machine, Vec::new(), Place::Alone).down_to(HEIGHT),
             x: X,
             y: Y,
             x_ticks: x.map(|axis| axis.ticks()).unwrap_or_default(),

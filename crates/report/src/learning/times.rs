@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use super::grid::{Cell, Column, grid};
+use crate::grid::{Cell, Column, grid};
 use crate::json::with_schema;
 use crate::numbers::significant;
 use crate::terminal::notes;

@@ -1,6 +1,10 @@
 use anstyle::Style;
 
+use crate::numbers::significant;
 use crate::terminal::{BOLD, FAINT, WIDTH};
+
+/// Significant digits of every number of a table.
+pub const DIGITS: usize = 3;
 
 /// A column of a [`grid`].
 pub struct Column {
@@ -29,6 +33,28 @@ impl Cell {
     pub fn best(text: String) -> Self {
         Self { text, style: BOLD }
     }
+
+    /// Whether it stands out.
+    pub fn is_best(&self) -> bool {
+        self.style == BOLD
+    }
+
+    /// Its text where looks tell it from others, without the star and what makes room for it.
+    pub fn value(&self) -> &str {
+        self.text.trim_end_matches(['*', ' '])
+    }
+}
+
+/// Numbers beside each other, a star at those that show the least of them.
+pub fn marked(values: &[f64]) -> Vec<Cell> {
+    let least = values.iter().copied().filter(|v| v.is_finite()).min_by(f64::total_cmp);
+    let least = least.map(|value| significant(value, DIGITS));
+    let cells = values.iter().map(|&value| {
+        let shown = significant(value, DIGITS);
+        let is_least = least.as_ref() == Some(&shown);
+        if is_least { Cell::best(shown + "*") } else { Cell::plain(shown + " ") }
+    });
+    cells.collect()
 }
 
 /// A table with the labels of the rows at the left, as many columns side by side as the
@@ -83,6 +109,15 @@ fn blocks(first: usize, widths: &[usize]) -> Vec<(usize, usize)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_least_number_is_marked_as_it_is_shown() {
+        let texts = |values: &[f64]| -> Vec<String> {
+            marked(values).into_iter().map(|cell| cell.text).collect()
+        };
+        assert_eq!(texts(&[0.02, f64::NAN, 0.0200049, 1.0]), ["0.0200*", "- ", "0.0200*", "1.00 "]);
+        assert_eq!(texts(&[f64::NAN]), ["- "]);
+    }
 
     #[test]
     fn columns_that_do_not_fit_stand_below_under_the_same_labels() {

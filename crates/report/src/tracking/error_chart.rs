@@ -1,0 +1,61 @@
+use super::comparison::TrackingComparison;
+use crate::ReportError;
+use crate::bars::{Bars, JointBars};
+use crate::sheet::Place;
+
+impl TrackingComparison {
+    /// `figure3.svg`: the error of every run at every joint as bars on a logarithmic axis,
+    /// after figure 3 of Nguyen-Tuong & Peters 2010, in a drawing that stands alone.
+    ///
+    /// Shows the first ten models. A run that was stopped has no bars.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Format`].
+    pub fn error_figure(&self) -> Result<String, ReportError> {
+        self.errors_drawn(Place::Alone)
+    }
+
+    pub(crate) fn errors_drawn(&self, place: Place) -> Result<String, ReportError> {
+        let joints = self.joints.iter().enumerate().map(|(i, joint)| JointBars {
+            name: joint.name.clone(),
+            values: self.keyed().map(|(model, _)| 1e3 * model.error(i)).collect(),
+        });
+        let bars = Bars {
+            title: format!("{}: tracking error by joint", self.robot),
+            subtitle: format!("{}; logarithmic, lower is better", self.circumstances()),
+            axis: match self.thousandths() {
+                "mrad" => "RMS error (mrad)",
+                "mm" => "RMS error (mm)",
+                _ => "RMS error (mrad or mm)",
+            },
+            keys: self.keys(),
+            joints: joints.collect(),
+            mark: None,
+        };
+        bars.svg(place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::sample::text_of_xml;
+    use crate::tracking::sample;
+
+    #[test]
+    fn the_figure_shows_whole_runs_in_thousandths_and_stands_alone() {
+        let mut comparison = sample::comparison();
+        comparison.joints[0].name = "<b>&".into();
+        let svg = comparison.error_figure().unwrap();
+        let text = text_of_xml(&svg);
+        for expected in ["arm: tracking error", "none (stopped)", "RMS error (mrad or mm)"] {
+            assert!(text.contains(expected), "{expected} is missing in {text}");
+        }
+        assert!(text.contains("slide, rbd: 4.00") && !text.contains(", none"), "{text}");
+        assert_eq!(svg.matches("http").count(), 1, "only the name space");
+        assert!(!svg.contains("NaN") && !svg.contains("<b>") && !svg.contains("var("));
+        comparison.joints.clear();
+        comparison.models.clear();
+        text_of_xml(&comparison.error_figure().unwrap());
+    }
+}

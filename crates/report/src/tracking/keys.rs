@@ -1,0 +1,55 @@
+use super::comparison::{TrackedModel, TrackingComparison};
+use crate::ComparedJoint;
+use crate::sheet::{COLOURS, Key};
+
+impl ComparedJoint {
+    /// Unit of its position.
+    pub(crate) fn position_unit(&self) -> &'static str {
+        if self.effort_unit == "N" { "m" } else { "rad" }
+    }
+}
+
+impl TrackingComparison {
+    /// The first ten models with their colours, which are the same in every figure.
+    pub(crate) fn keyed(&self) -> impl Iterator<Item = (&TrackedModel, &'static str)> {
+        self.models.iter().zip(COLOURS)
+    }
+
+    /// The colour of a model; grey for one that is not shown.
+    pub(crate) fn colour_of(&self, name: &str) -> &'static str {
+        self.keyed().find(|(model, _)| model.name == name).map_or("#808080", |(_, colour)| colour)
+    }
+
+    /// The models as names of a legend; one whose run was stopped says so.
+    pub(crate) fn keys(&self) -> Vec<Key> {
+        let key = |(model, colour): (&TrackedModel, _)| {
+            let stopped = if model.stopped.is_some() { " (stopped)" } else { "" };
+            Key { name: format!("{}{stopped}", model.name), colour }
+        };
+        self.keyed().map(key).collect()
+    }
+
+    /// Unit of a thousandth of a position, of all joints.
+    pub(crate) fn thousandths(&self) -> &'static str {
+        let slides = self.joints.iter().filter(|joint| joint.position_unit() == "m").count();
+        match slides {
+            0 => "mrad",
+            all if all == self.joints.len() => "mm",
+            _ => "mrad or mm",
+        }
+    }
+
+    /// Motion, time and gains of all runs, in words.
+    pub(crate) fn circumstances(&self) -> String {
+        let time = crate::significant(self.duration_s, 3);
+        format!("{}, {time} s, gains {}, {}", self.motion, self.gains.name, self.clock)
+    }
+}
+
+impl TrackedModel {
+    /// The error at a joint over a run that is whole (rad); not a number otherwise.
+    pub(crate) fn error(&self, joint: usize) -> f64 {
+        let error = self.rmse_rad.get(joint).filter(|_| self.stopped.is_none());
+        error.copied().unwrap_or(f64::NAN)
+    }
+}
