@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::description::Description;
 use crate::urdf::{self, UrdfModel};
-use crate::{ControlSettings, Robot, RobotError, RobotWarning};
+use crate::{ControlSettings, Looks, Robot, RobotError, RobotWarning};
 
-/// Largest description that is read (bytes). Without meshes, a URDF has some 100 kB.
+/// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
 
 /// A robot as its files describe it.
@@ -16,6 +16,8 @@ pub struct Loaded {
     pub robot: Robot,
     /// The robot as the URDF alone describes it.
     pub robot_in_urdf: Robot,
+    /// What the robot looks like, as the URDF says.
+    pub looks: Looks,
     /// The URDF that was read.
     pub urdf_path: PathBuf,
     /// Name of the link that does not move; its frame is the base frame.
@@ -70,12 +72,14 @@ impl Robot {
 }
 
 impl Loaded {
-    fn from_urdf(model: UrdfModel, path: &Path) -> Self {
+    fn from_urdf(mut model: UrdfModel, path: &Path) -> Self {
+        model.warnings.extend(model.looks.find_meshes(path));
         let control =
             ControlSettings { gains: vec![None; model.robot.joint_count()], ..Default::default() };
         Self {
             robot_in_urdf: model.robot.clone(),
             robot: model.robot,
+            looks: model.looks,
             urdf_path: path.to_owned(),
             base_link: model.base_link,
             fixed_to_base: model.fixed_to_base,

@@ -27,6 +27,20 @@ pub enum RobotWarning {
         /// Line of the one that is left out, from 1.
         line: usize,
     },
+    /// A shape of a link cannot be drawn.
+    VisualLeftOut {
+        /// Name of the link in the URDF, before links are merged.
+        link: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// Meshes that the URDF names are not there, or too large; pictures do without them.
+    MeshesNotFound {
+        /// One of them, as the URDF names it.
+        first: String,
+        /// How many there are.
+        count: usize,
+    },
 }
 
 impl RobotWarning {
@@ -34,7 +48,9 @@ impl RobotWarning {
     pub fn link(&self) -> Option<&str> {
         match self {
             Self::Massless { link } | Self::Inertia { link, .. } => Some(link),
-            Self::Repeated { .. } => None,
+            Self::Repeated { .. } | Self::VisualLeftOut { .. } | Self::MeshesNotFound { .. } => {
+                None
+            }
         }
     }
 }
@@ -48,6 +64,13 @@ impl fmt::Display for RobotWarning {
             Self::Repeated { element, child, line } => {
                 write!(f, "{element}: line {line} holds a second <{child}>, the first counts")
             }
+            Self::VisualLeftOut { link, reason } => {
+                write!(f, "link {link}: a <visual> is left out of pictures, {reason}")
+            }
+            Self::MeshesNotFound { first, count } => write!(
+                f,
+                "{count} mesh files are not there or too large, {first} is one: pictures do without"
+            ),
             Self::Inertia { link, defect } => write!(f, "link {link}: {defect}"),
         }
     }

@@ -16,7 +16,7 @@ pub(super) fn origin(joint: &urdf_rs::Joint) -> Result<Isometry3<f64>, RobotErro
 /// ```text
 /// R = Rz(yaw) Ry(pitch) Rx(roll)     turns about the fixed axes x, y, z in that order
 /// ```
-fn pose(origin: &urdf_rs::Pose) -> Isometry3<f64> {
+pub(super) fn pose(origin: &urdf_rs::Pose) -> Isometry3<f64> {
     let ([x, y, z], [roll, pitch, yaw]) = (origin.xyz.0, origin.rpy.0);
     let rotation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
     Isometry3::from_parts(Translation3::new(x, y, z), rotation)

@@ -1,15 +1,17 @@
-//! A URDF read into a [`Robot`], without its shapes.
+//! A URDF read into a [`Robot`] and its [`Looks`].
 
 mod convert;
 mod outline;
 mod tree;
+mod visual;
 
 use nalgebra::{Isometry3, Vector3};
 use urdf_rs::JointType;
 
 use self::outline::{Element, Outline};
 use self::tree::Tree;
-use crate::{Actuator, Inertia, Link, Robot, RobotError, RobotWarning};
+use self::visual::Visuals;
+use crate::{Actuator, Inertia, Link, Looks, Robot, RobotError, RobotWarning};
 
 /// Free fall in a base frame whose z axis points up (m/s²).
 const UPRIGHT_GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
@@ -17,6 +19,8 @@ const UPRIGHT_GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
 /// What a URDF says.
 pub(crate) struct UrdfModel {
     pub robot: Robot,
+    /// Its meshes are named as in the file.
+    pub looks: Looks,
     pub base_link: String,
     pub fixed_to_base: Vec<String>,
     pub warnings: Vec<RobotWarning>,
@@ -42,11 +46,22 @@ pub(crate) fn parse(text: &str) -> Result<UrdfModel, RobotError> {
     }
     let tree = Tree::new(&links, &joints)?;
     let walk = Walk { links: &links, joints: &joints, inertias: &inertias, tree: &tree };
-    let (moving, fixed_to_base) = walk.moving_links()?;
+    let (moving, parts) = walk.moving_links()?;
     let massless = moving.iter().filter(|l| l.inertia.mass <= 0.0);
     warnings.extend(massless.map(|l| RobotWarning::Massless { link: l.name.clone() }));
     let robot = Robot::new(name(&outline)?, UPRIGHT_GRAVITY, moving)?;
-    Ok(UrdfModel { robot, base_link: links[tree.root].name.clone(), fixed_to_base, warnings })
+    let mut visuals = Visuals::read(text);
+    let looks = looks(&mut visuals, &parts, robot.joint_count());
+    warnings.append(&mut visuals.warnings);
+    let base = parts.iter().filter(|part| part.body.is_none()).map(|part| part.link.clone());
+    let fixed_to_base = base.skip(1).collect();
+    Ok(UrdfModel {
+        robot,
+        looks,
+        base_link: links[tree.root].name.clone(),
+        fixed_to_base,
+        warnings,
+    })
 }
 
 /// One link or joint through `urdf-rs`, alone, so that an error has a name and a line.
@@ -84,6 +99,26 @@ struct Walk<'a> {
     tree: &'a Tree,
 }
 
+/// A link of the URDF where the walk found it.
+struct Part {
+    link: String,
+    /// The moving link it belongs to, `None` for the base.
+    body: Option<usize>,
+    /// Its pose in that moving link or in the base.
+    body_from_link: Isometry3<f64>,
+}
+
+/// The shapes of all parts, each in the frame of its body.
+fn looks(visuals: &mut Visuals, parts: &[Part], moving: usize) -> Looks {
+    let mut looks = Looks { base: vec![], links: vec![vec![]; moving] };
+    for part in parts {
+        let mut own = visuals.take(&part.link);
+        own.iter_mut().for_each(|v| v.link_from_shape = part.body_from_link * v.link_from_shape);
+        part.body.map_or(&mut looks.base, |b| &mut looks.links[b]).append(&mut own);
+    }
+    looks
+}
+
 /// A link of the URDF about to be visited.
 struct Visit {
     link: usize,
@@ -96,9 +131,9 @@ struct Visit {
 }
 
 impl Walk<'_> {
-    /// The moving links, depth first in the order of the file, and the links fixed to the base.
-    fn moving_links(&self) -> Result<(Vec<Link>, Vec<String>), RobotError> {
-        let (mut moving, mut fixed_to_base) = (Vec::<Link>::new(), vec![]);
+    /// The moving links, depth first in the order of the file, and what each is made of.
+    fn moving_links(&self) -> Result<(Vec<Link>, Vec<Part>), RobotError> {
+        let (mut moving, mut parts) = (Vec::<Link>::new(), vec![]);
         let base = Isometry3::identity();
         let mut stack =
             vec![Visit { link: self.tree.root, joint: None, body: None, body_from_parent: base }];
@@ -107,17 +142,18 @@ impl Walk<'_> {
             let (body, body_from_link) = match visit.joint.map(|j| &self.joints[j]) {
                 None => (None, Isometry3::identity()),
                 Some(fixed) if fixed.joint_type == JointType::Fixed => {
-                    visit.body.map_or(&mut fixed_to_base, |b| &mut moving[b].merged).push(name);
+                    visit.body.iter().for_each(|&b| moving[b].merged.push(name.clone()));
                     (visit.body, visit.body_from_parent * convert::origin(fixed)?)
                 }
                 Some(joint) => {
-                    moving.push(self.moving_link(joint, name, &visit)?);
+                    moving.push(self.moving_link(joint, name.clone(), &visit)?);
                     (Some(moving.len() - 1), Isometry3::identity())
                 }
             };
             if let (Some(b), Some(own)) = (body, &self.inertias[visit.link]) {
                 add(&mut moving[b].inertia, &own.seen_from(&body_from_link));
             }
+            parts.push(Part { link: name, body, body_from_link });
             stack.extend(self.tree.joints_of[visit.link].iter().rev().map(|&j| Visit {
                 link: self.tree.child[j],
                 joint: Some(j),
@@ -125,7 +161,7 @@ impl Walk<'_> {
                 body_from_parent: body_from_link,
             }));
         }
-        Ok((moving, fixed_to_base))
+        Ok((moving, parts))
     }
 
     fn moving_link(

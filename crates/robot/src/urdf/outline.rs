@@ -211,7 +211,8 @@ impl Scan {
     }
 }
 
-fn attribute(tag: &BytesStart<'_>, name: &str) -> String {
+/// An attribute of a tag, or words that say that there is none.
+pub(super) fn attribute(tag: &BytesStart<'_>, name: &str) -> String {
     let found = tag.try_get_attribute(name).ok().flatten();
     found
         .and_then(|a| a.unescape_value().ok().map(|v| v.into_owned()))

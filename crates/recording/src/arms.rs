@@ -1,0 +1,189 @@
+use nalgebra::{Isometry3, Vector3};
+use rerun::{
+    EntityPath, EntityPathPart, LineStrips3D, RecordingStream, RecordingStreamResult, TimeColumn,
+    Transform3D,
+};
+use robot::{Looks, Visual};
+
+use crate::recorder::TIMELINE;
+use crate::skeleton::Skeleton;
+use crate::{Arm, Role, colour, shapes};
+
+/// Parts of the reach: radius of the drawn path and of the ball at the tip.
+const PATH: f64 = 0.002;
+const BALL: f64 = 0.012;
+
+/// An arm in the picture and the poses that wait to be written.
+#[derive(Debug)]
+pub(crate) struct ArmTrack {
+    /// Entity of every link below that of its parent.
+    links: Vec<EntityPath>,
+    path: EntityPath,
+    time_s: Vec<f64>,
+    /// Per waiting row, the poses of all links.
+    poses: Vec<Vec<Isometry3<f64>>>,
+    /// The tip since the last piece of the path, its end first.
+    piece: Vec<[f32; 3]>,
+}
+
+impl ArmTrack {
+    /// Draws the arm, which does not move yet.
+    pub fn new(
+        stream: &RecordingStream,
+        arm: &Arm<'_>,
+        skeleton: &Skeleton,
+        looks: &Looks,
+    ) -> RecordingStreamResult<Self> {
+        let root = EntityPath::new(vec![part("world"), part("arms"), part(arm.name)]);
+        let mut links: Vec<EntityPath> = vec![];
+        for (name, parent) in skeleton.links.iter().zip(&skeleton.parents) {
+            links
+                .push(parent.map_or(&root, |p| &links[p]).join(&EntityPath::new(vec![part(name)])));
+        }
+        let base = Isometry3::from_parts(Default::default(), skeleton.world_from_base);
+        stream.log_static(root.clone(), &shapes::pose(&base))?;
+        let brush = Brush { stream, skeleton, role: arm.role };
+        for (i, link) in links.iter().enumerate() {
+            let visuals = looks.links.get(i).map_or(&[][..], Vec::as_slice);
+            brush.link(link, visuals, &skeleton.joints_on(Some(i)))?;
+        }
+        if arm.role == Role::Actual {
+            brush.base(&root, &looks.base)?;
+        }
+        let path = EntityPath::new(vec![part("world"), part("paths"), part(arm.name)]);
+        let line = LineStrips3D::update_fields()
+            .with_colors([colour::solid(colour::rgb(arm.role))])
+            .with_radii([(PATH * skeleton.reach_m) as f32]);
+        stream.log_static(path.clone(), &line)?;
+        if let Some(last) = links.get(skeleton.last) {
+            let ball = (BALL * skeleton.reach_m, colour::solid(colour::rgb(arm.role)));
+            shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, ball)?;
+        }
+        Ok(Self { links, path, time_s: vec![], poses: vec![], piece: vec![] })
+    }
+
+    /// Takes the pose at `q`; where it is not known the arm stays and its path is interrupted.
+    pub fn push(
+        &mut self,
+        stream: &RecordingStream,
+        (time_s, q): (f64, &[f64]),
+        skeleton: &Skeleton,
+    ) -> RecordingStreamResult<()> {
+        if !q.iter().all(|q| q.is_finite()) {
+            self.flush_path(stream)?;
+            self.piece.clear();
+            return Ok(());
+        }
+        let poses = skeleton.parent_from_child(q);
+        self.piece.push(shapes::point(&skeleton.tip_in_world(&poses)));
+        self.time_s.push(time_s);
+        self.poses.push(poses);
+        Ok(())
+    }
+
+    /// Writes what waits.
+    pub fn flush(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        self.flush_path(stream)?;
+        for (i, link) in self.links.iter().enumerate() {
+            let of_link = || self.poses.iter().map(|poses| &poses[i]);
+            let columns = Transform3D::update_fields()
+                .with_many_translation(of_link().map(|p| shapes::point(&p.translation.vector)))
+                .with_many_quaternion(of_link().map(|p| shapes::quaternion(&p.rotation)))
+                .columns_of_unit_batches()?;
+            if !self.time_s.is_empty() {
+                stream.send_columns(link.clone(), [time_column(&self.time_s)], columns)?;
+            }
+        }
+        self.time_s.clear();
+        self.poses.clear();
+        Ok(())
+    }
+
+    /// Writes one more piece of the path; the next one starts where it ends.
+    fn flush_path(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        let (Some(&end), Some(&time_s)) = (self.piece.last(), self.time_s.last()) else {
+            return Ok(());
+        };
+        if self.piece.len() > 1 {
+            let piece = std::mem::replace(&mut self.piece, vec![end]);
+            let columns =
+                LineStrips3D::update_fields().with_strips([piece]).columns_of_unit_batches()?;
+            stream.send_columns(self.path.clone(), [time_column(&[time_s])], columns)?;
+        }
+        Ok(())
+    }
+}
+
+/// Draws the links of one arm.
+struct Brush<'a> {
+    stream: &'a RecordingStream,
+    skeleton: &'a Skeleton,
+    role: Role,
+}
+
+impl Brush<'_> {
+    /// The shapes of a link; without any, sticks to the joints on it.
+    fn link(
+        &self,
+        path: &EntityPath,
+        visuals: &[Visual],
+        joints: &[Vector3<f64>],
+    ) -> RecordingStreamResult<()> {
+        let own = colour::rgb(self.role);
+        if self.shapes(path, visuals, own)? {
+            return Ok(());
+        }
+        let brush = (self.skeleton.stick_m(), colour::on_arm(own, self.role));
+        let hub = (1.4 * self.skeleton.stick_m(), brush.1);
+        shapes::ball(self.stream, &below(path, "joint"), &Vector3::zeros(), hub)?;
+        let far = joints.iter().filter(|to| to.norm() > self.skeleton.stick_m());
+        for (i, to) in far.enumerate() {
+            let ends = [Vector3::zeros(), *to];
+            shapes::stick(self.stream, &below(path, &format!("stick{i}")), ends, brush)?;
+        }
+        Ok(())
+    }
+
+    fn base(&self, root: &EntityPath, visuals: &[Visual]) -> RecordingStreamResult<()> {
+        let path = below(root, "base");
+        if self.shapes(&path, visuals, colour::BASE)? {
+            return Ok(());
+        }
+        let brush = (self.skeleton.stick_m(), colour::solid(colour::BASE));
+        for (i, to) in self.skeleton.joints_on(None).into_iter().enumerate() {
+            let ends = [Vector3::zeros(), to];
+            shapes::stick(self.stream, &below(&path, &format!("stick{i}")), ends, brush)?;
+        }
+        Ok(())
+    }
+
+    /// Whether there was something to draw.
+    fn shapes(
+        &self,
+        path: &EntityPath,
+        visuals: &[Visual],
+        own: colour::Rgb,
+    ) -> RecordingStreamResult<bool> {
+        let mut drawn = false;
+        for (i, visual) in visuals.iter().enumerate() {
+            let given = visual.color_rgba.filter(|_| self.role == Role::Actual);
+            let rgb = given.map_or(own, |[r, g, b, _]| [r, g, b].map(|c| (255.0 * c) as u8));
+            let color = colour::on_arm(rgb, self.role);
+            drawn |= shapes::draw(self.stream, &below(path, &format!("shape{i}")), visual, color)?;
+        }
+        Ok(drawn)
+    }
+}
+
+pub(crate) fn time_column(time_s: &[f64]) -> TimeColumn {
+    TimeColumn::new_duration_secs(TIMELINE, time_s.iter().copied())
+}
+
+/// A name as one part of a path, whatever characters it has.
+pub(crate) fn part(name: &str) -> EntityPathPart {
+    EntityPathPart::new(if name.is_empty() { "unnamed" } else { name })
+}
+
+fn below(path: &EntityPath, name: &str) -> EntityPath {
+    path.join(&EntityPath::new(vec![part("shapes"), part(name)]))
+}

@@ -1,0 +1,48 @@
+use rerun::Color;
+
+use crate::Role;
+
+/// Red, green and blue.
+pub(crate) type Rgb = [u8; 3];
+
+/// Colours of models and of joints side by side; none is that of another role.
+const SERIES: [Rgb; 8] = [
+    [0xc3, 0x8f, 0xff],
+    [0xff, 0xd1, 0x4f],
+    [0x4f, 0xd8, 0xe8],
+    [0xff, 0x7e, 0xb6],
+    [0xa8, 0xd5, 0x4a],
+    [0x8f, 0xa8, 0xc8],
+    [0xd9, 0xa0, 0x6b],
+    [0xe8, 0xe8, 0xe8],
+];
+/// Links that stand still.
+pub(crate) const BASE: Rgb = [0x6b, 0x72, 0x80];
+/// Opacity of an arm that is not the actual one.
+const GHOST: u8 = 60;
+
+pub(crate) fn rgb(role: Role) -> Rgb {
+    match role {
+        Role::Desired => [0x4c, 0x9a, 0xff],
+        Role::Actual => [0xff, 0x8b, 0x3d],
+        Role::Predicted => [0x57, 0xd9, 0xa3],
+        Role::Error => [0xff, 0x56, 0x30],
+        Role::Model(index) => series(index),
+    }
+}
+
+/// Colour of one of several of the same kind.
+pub(crate) fn series(index: usize) -> Rgb {
+    SERIES[index % SERIES.len()]
+}
+
+/// A colour that hides what is behind it.
+pub(crate) fn solid([r, g, b]: Rgb) -> Color {
+    Color::from_rgb(r, g, b)
+}
+
+/// A colour on an arm: solid on the actual one, transparent on every other.
+pub(crate) fn on_arm([r, g, b]: Rgb, role: Role) -> Color {
+    let opacity = if role == Role::Actual { 255 } else { GHOST };
+    Color::from_unmultiplied_rgba(r, g, b, opacity)
+}

@@ -1,0 +1,152 @@
+use rerun::blueprint::components::{Corner2D, LinkAxis, PanelState};
+use rerun::blueprint::{
+    BarChartView, Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel,
+    Spatial3DView, Tabs, TextDocumentView, TextLogView, TimePanel, Vertical,
+};
+use rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns, TimeAxis, VisibleTimeRanges,
+};
+use rerun::external::re_sdk_types::blueprint::datatypes::{
+    TextLogColumn, TextLogColumnKind, TimelineColumn,
+};
+use rerun::external::re_sdk_types::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
+use rerun::{EntityPath, RecordingStream};
+
+use crate::plots::Plots;
+use crate::properties::Properties;
+use crate::recorder::{DOCUMENT, EVENTS, TIMELINE};
+use crate::{Quantity, RecordingError};
+
+/// What the screen shows: the arm left, a tab a joint in the middle, the verdict right.
+#[derive(Debug, Clone)]
+pub(crate) struct Layout {
+    pub title: String,
+    pub reach_m: f64,
+    pub plots: Plots,
+    /// Titles and entities of the bar charts, which are not known before they come.
+    pub bars: Vec<(String, EntityPath)>,
+}
+
+impl Layout {
+    /// Writes the layout; the one written last is shown.
+    pub fn send(&self, stream: &RecordingStream) -> Result<(), RecordingError> {
+        let mut properties = Properties::default();
+        let screen = Horizontal::new([
+            self.left(&mut properties),
+            self.joints(&mut properties),
+            self.right(&mut properties),
+        ]);
+        let layout = Blueprint::new(screen.with_column_shares([2.0, 2.0, 1.3]))
+            .with_auto_views(false)
+            .with_auto_layout(false)
+            .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))
+            .with_selection_panel(SelectionPanel::from_state(PanelState::Hidden))
+            .with_time_panel(
+                TimePanel::new().with_state(PanelState::Collapsed).with_timeline(TIMELINE),
+            );
+        properties.send(&layout, stream)
+    }
+
+    fn left(&self, properties: &mut Properties) -> ContainerLike {
+        let scene = self.scene(properties);
+        let overview = [Quantity::Error, Quantity::Residual, Quantity::Position]
+            .into_iter()
+            .find(|quantity| self.plots.quantities().any(|q| q == *quantity));
+        let Some(quantity) = overview else { return scene };
+        let plot = plot(self.plots.of_all(quantity).into(), properties);
+        Vertical::new([scene, plot]).with_row_shares([2.4, 1.0]).into()
+    }
+
+    /// The arms, seen from a place that the reach decides.
+    fn scene(&self, properties: &mut Properties) -> ContainerLike {
+        let reach = self.reach_m as f32;
+        let view = Spatial3DView::new(self.title.as_str()).with_origin("world");
+        let eye = EyeControls3D::new()
+            .with_position([1.25 * reach, -1.35 * reach, 0.95 * reach])
+            .with_look_target([0.0, 0.0, 0.42 * reach])
+            .with_eye_up([0.0_f32, 0.0, 1.0]);
+        let grid = LineGrid3D::new().with_visible(true).with_spacing(spacing(self.reach_m) as f32);
+        // Pieces of a path are each written once: all up to now make the path.
+        let so_far = VisibleTimeRange {
+            timeline: TIMELINE.into(),
+            range: TimeRange {
+                start: TimeRangeBoundary::Infinite,
+                end: TimeRangeBoundary::CursorRelative(0.into()),
+            },
+        };
+        let dark = Background::new(rerun::blueprint::components::BackgroundKind::GradientDark);
+        let view = properties.set(view.into(), "EyeControls3D", eye);
+        let view = properties.set(view, "LineGrid3D", grid);
+        let view = properties.set(view, "Background", dark);
+        properties.set(view, "VisibleTimeRanges", VisibleTimeRanges::new([so_far]))
+    }
+
+    fn joints(&self, properties: &mut Properties) -> ContainerLike {
+        let tabs: Vec<ContainerLike> = self
+            .plots
+            .joints
+            .iter()
+            .map(|joint| {
+                let of_joint = self.plots.quantities().map(|q| self.plots.of_joint(joint, q));
+                let plots = of_joint.map(|view| plot(view.into(), properties));
+                Vertical::new(plots.collect::<Vec<_>>()).with_name(joint.0.as_str()).into()
+            })
+            .collect();
+        Tabs::new(tabs).with_name("joints").into()
+    }
+
+    fn right(&self, properties: &mut Properties) -> ContainerLike {
+        let verdict = TextDocumentView::new("verdict").with_origin(DOCUMENT).into();
+        let mut events = TextLogView::new("events").with_origin(EVENTS).into();
+        let shown = [TextLogColumnKind::LogLevel, TextLogColumnKind::Body];
+        let columns = TextLogColumns::new()
+            .with_timeline_columns([TimelineColumn {
+                visible: true.into(),
+                timeline: TIMELINE.into(),
+            }])
+            .with_text_log_columns(shown.map(|kind| TextLogColumn { visible: true.into(), kind }));
+        events = properties.set(events, "TextLogColumns", columns);
+        let bars = self.bars.iter().map(|(title, path)| -> ContainerLike {
+            let view = BarChartView::new(title.as_str()).with_origin(path.clone());
+            legend(view.into(), properties)
+        });
+        let bars: Vec<_> = bars.collect();
+        if bars.is_empty() {
+            return Vertical::new([verdict, events]).with_row_shares([2.5, 1.0]).into();
+        }
+        let bars = Tabs::new(bars).with_name("metrics").into();
+        Vertical::new([verdict, bars, events]).with_row_shares([2.0, 1.2, 1.0]).into()
+    }
+}
+
+fn plot(view: ContainerLike, properties: &mut Properties) -> ContainerLike {
+    let shared = TimeAxis::new().with_link(LinkAxis::LinkToGlobal);
+    let view = properties.set(view, "TimeAxis", shared);
+    legend(view, properties)
+}
+
+fn legend(view: ContainerLike, properties: &mut Properties) -> ContainerLike {
+    properties.set(view, "PlotLegend", PlotLegend::new().with_corner(Corner2D::LeftTop))
+}
+
+/// Distance of the lines of the grid: 1, 2 or 5 times a power of ten, about a quarter of
+/// the reach.
+fn spacing(reach_m: f64) -> f64 {
+    let wanted = 0.25 * reach_m;
+    let decade = 10_f64.powf(wanted.log10().floor());
+    let steps = [5.0, 2.0, 1.0].map(|step| step * decade);
+    steps.into_iter().find(|step| *step <= wanted).unwrap_or(decade)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_grid_has_round_steps_for_small_and_large_robots() {
+        for (reach_m, expected) in [(0.01, 0.002), (0.5, 0.1), (1.4, 0.2), (30.0, 5.0)] {
+            let step = spacing(reach_m);
+            assert!((step / expected - 1.0).abs() < 1e-9, "{reach_m}: {step}");
+        }
+    }
+}

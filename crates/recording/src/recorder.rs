@@ -1,0 +1,302 @@
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use rerun::sink::{FileSink, FileSinkError, LogSink};
+use rerun::{
+    BarChart, EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamResult,
+    TextDocument, TextLog, ViewCoordinates,
+};
+
+use crate::arms::{ArmTrack, part, time_column};
+use crate::error::refused;
+use crate::layout::Layout;
+use crate::live::Viewer;
+use crate::pace::Pace;
+use crate::plots::Plots;
+use crate::signals::Signals;
+use crate::skeleton::Skeleton;
+use crate::{Level, Listener, Live, RecordingError, Scene, colour};
+
+/// The one timeline, in seconds.
+pub(crate) const TIMELINE: &str = "t";
+pub(crate) const DOCUMENT: &str = "verdict";
+pub(crate) const EVENTS: &str = "events";
+
+/// Rows wait up to this long, in their own time (s): every write costs some kilobytes.
+const WAIT_S: f64 = 1.0;
+/// Poses in the picture (s); signals are written at full rate.
+const POSE_PERIOD_S: f64 = 0.02;
+/// Latest time that is shown (s): the file counts nanoseconds.
+const LAST_S: f64 = 9e9;
+/// Longest wait for the disk at the end.
+const DISK: Duration = Duration::from_secs(60);
+/// Width of the bars of a joint together.
+const BARS: f64 = 0.8;
+
+/// Consecutive rows of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Rows<'a> {
+    /// Times (s), increasing within a block and from block to block.
+    pub time_s: &'a [f64],
+    /// Per arm, row-major positions of all joints (rad or m); a row with a NaN leaves the arm
+    /// where it is.
+    pub arms: &'a [&'a [f64]],
+    /// Per signal, row-major numbers of all joints; a NaN leaves a gap in the line.
+    pub signals: &'a [&'a [f64]],
+}
+
+/// A finished recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// The file.
+    pub path: PathBuf,
+    /// Rows taken.
+    pub rows: u64,
+    /// Size of the file (bytes).
+    pub bytes: u64,
+    /// Who watched.
+    pub listener: Listener,
+}
+
+/// A recording that is being written.
+///
+/// Dropped before [`Recorder::finish`], it writes what it holds of whole seconds and ends the
+/// file properly, but nobody is told of errors.
+pub struct Recorder {
+    stream: RecordingStream,
+    path: PathBuf,
+    viewer: Viewer,
+    layout: Layout,
+    skeleton: Skeleton,
+    arms: Vec<(String, ArmTrack)>,
+    signal_names: Vec<String>,
+    signals: Signals,
+    pace: Pace,
+    last_s: f64,
+    rows: u64,
+}
+
+impl Recorder {
+    /// Opens the file, draws the arms and lays out the screen.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordingError::Unwritable`], [`RecordingError::TurnedOff`],
+    /// [`RecordingError::NameTwice`] and [`RecordingError::Refused`].
+    pub fn create(path: &Path, scene: &Scene<'_>, live: Live) -> Result<Self, RecordingError> {
+        distinct(scene)?;
+        let (stream, viewer) = open(path, scene.title, live)?;
+        let skeleton = Skeleton::new(scene.robot, scene.looks);
+        let arms = draw(&stream, scene, &skeleton).map_err(refused)?;
+        let joints = scene.robot.links().iter().map(|l| (l.joint.name.clone(), l.joint.kind));
+        let signals = scene.signals.iter().map(|s| (s.quantity, s.name.to_owned(), s.role));
+        let layout = Layout {
+            title: scene.title.to_owned(),
+            reach_m: skeleton.reach_m,
+            plots: Plots { joints: joints.collect(), signals: signals.collect() },
+            bars: vec![],
+        };
+        layout.send(&stream)?;
+        stream.flush_with_timeout(DISK).map_err(refused)?;
+        Ok(Self {
+            stream,
+            path: path.to_owned(),
+            viewer,
+            layout,
+            skeleton,
+            arms,
+            signal_names: scene.signals.iter().map(|s| s.name.to_owned()).collect(),
+            signals: Signals::new(scene.robot.joint_names(), &scene.signals),
+            pace: Pace::new(POSE_PERIOD_S),
+            last_s: f64::NEG_INFINITY,
+            rows: 0,
+        })
+    }
+
+    /// Takes a block of rows; they are written when they make up a second.
+    ///
+    /// It never waits for the disk or for a viewer: what they refuse, [`Recorder::finish`] tells.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordingError::WrongLength`] and [`RecordingError::TimeNotIncreasing`], both before
+    /// anything of the block is taken; [`RecordingError::Refused`].
+    pub fn rows(&mut self, rows: &Rows<'_>) -> Result<(), RecordingError> {
+        self.check(rows)?;
+        let joints = self.skeleton.joints.len();
+        for (row, &time_s) in rows.time_s.iter().enumerate() {
+            if !self.pace.takes(time_s) {
+                continue;
+            }
+            for ((_, arm), q) in self.arms.iter_mut().zip(rows.arms) {
+                let at = (time_s, &q[row * joints..][..joints]);
+                arm.push(&self.stream, at, &self.skeleton).map_err(refused)?;
+            }
+        }
+        self.signals.push(rows.time_s, rows.signals);
+        self.last_s = rows.time_s.last().copied().unwrap_or(self.last_s);
+        self.rows += rows.time_s.len() as u64;
+        if self.signals.span_s() >= WAIT_S { self.write().map_err(refused) } else { Ok(()) }
+    }
+
+    /// Notes that something happened at a time (s).
+    ///
+    /// # Errors
+    ///
+    /// [`RecordingError::EventTime`] and [`RecordingError::Refused`].
+    pub fn event(&mut self, time_s: f64, level: Level, text: &str) -> Result<(), RecordingError> {
+        if time_s.is_nan() || time_s.abs() > LAST_S {
+            return Err(RecordingError::EventTime { text: text.to_owned(), time_s });
+        }
+        let columns = TextLog::update_fields()
+            .with_many_text([text])
+            .with_many_level([level.label()])
+            .columns_of_unit_batches();
+        let sent = columns.map_err(refused)?;
+        self.stream.send_columns(EVENTS, [time_column(&[time_s])], sent).map_err(refused)
+    }
+
+    /// Shows a text in Markdown beside the plots, instead of the one before.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordingError::Refused`].
+    pub fn document(&mut self, markdown: &str) -> Result<(), RecordingError> {
+        let text = TextDocument::from_markdown(markdown);
+        self.stream.log_static(DOCUMENT, &text).map_err(refused)
+    }
+
+    /// Shows a bar a joint for every series, side by side; the first joint stands at 1.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordingError::WrongLength`] where a series does not have a number a joint, and
+    /// [`RecordingError::Refused`].
+    pub fn bars(&mut self, title: &str, series: &[(&str, &[f64])]) -> Result<(), RecordingError> {
+        let joints = self.skeleton.joints.len();
+        let wrong = series.iter().find(|(_, values)| values.len() != joints);
+        if let Some((name, values)) = wrong {
+            return Err(length(format!("bars {title}, {name}"), "numbers", values.len(), joints));
+        }
+        let path = EntityPath::new(vec![part("metrics"), part(title)]);
+        let width = BARS / series.len().max(1) as f64;
+        for (i, (name, values)) in series.iter().enumerate() {
+            let shift = (i as f64 + 0.5) * width - 0.5 * BARS;
+            let at: Vec<f64> = (1..=joints).map(|joint| joint as f64 + shift).collect();
+            let values: Vec<f64> =
+                values.iter().map(|v| if v.is_finite() { *v } else { 0.0 }).collect();
+            let chart = BarChart::new(values)
+                .with_abscissa(at)
+                .with_widths(vec![width as f32; joints])
+                .with_color(colour::solid(colour::series(i)));
+            let path = path.join(&EntityPath::new(vec![part(name)]));
+            self.stream.log_static(path, &chart).map_err(refused)?;
+        }
+        if !self.layout.bars.iter().any(|(_, shown)| *shown == path) {
+            self.layout.bars.push((title.to_owned(), path));
+        }
+        Ok(())
+    }
+
+    /// Writes what waits and ends the file.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordingError::Refused`], also for what the disk refused before.
+    pub fn finish(mut self) -> Result<Written, RecordingError> {
+        self.write().map_err(refused)?;
+        if !self.layout.bars.is_empty() {
+            self.layout.send(&self.stream)?;
+        }
+        self.stream.flush_with_timeout(DISK).map_err(refused)?;
+        drop(self.stream);
+        let unreadable = |e: std::io::Error| unwritable(&self.path, e.to_string());
+        let bytes = std::fs::metadata(&self.path).map_err(unreadable)?.len();
+        let listener = self.viewer.close();
+        Ok(Written { path: self.path, rows: self.rows, bytes, listener })
+    }
+
+    fn write(&mut self) -> RecordingStreamResult<()> {
+        for (_, arm) in &mut self.arms {
+            arm.flush(&self.stream)?;
+        }
+        self.signals.flush(&self.stream)
+    }
+
+    fn check(&self, rows: &Rows<'_>) -> Result<(), RecordingError> {
+        let lists = [("arms", rows.arms.len(), self.arms.len())];
+        let signals = [("signals", rows.signals.len(), self.signal_names.len())];
+        for (items, found, expected) in lists.into_iter().chain(signals) {
+            if found != expected {
+                return Err(length("a block of rows".to_owned(), items, found, expected));
+            }
+        }
+        let expected = rows.time_s.len() * self.skeleton.joints.len();
+        let arms = self.arms.iter().map(|(name, _)| format!("arm {name}")).zip(rows.arms);
+        let signals = self.signal_names.iter().map(|n| format!("signal {n}")).zip(rows.signals);
+        for (thing, values) in arms.chain(signals) {
+            if values.len() != expected {
+                return Err(length(thing, "numbers", values.len(), expected));
+            }
+        }
+        let mut previous_s = self.last_s;
+        for (row, &time_s) in rows.time_s.iter().enumerate() {
+            if !(time_s > previous_s && time_s.abs() <= LAST_S) {
+                return Err(RecordingError::TimeNotIncreasing { row, time_s, previous_s });
+            }
+            previous_s = time_s;
+        }
+        Ok(())
+    }
+}
+
+fn length(thing: String, items: &'static str, found: usize, expected: usize) -> RecordingError {
+    RecordingError::WrongLength { thing, items, found, expected }
+}
+
+fn unwritable(path: &Path, reason: String) -> RecordingError {
+    RecordingError::Unwritable { path: path.to_owned(), reason }
+}
+
+/// Two arms of one name would be drawn over one another.
+fn distinct(scene: &Scene<'_>) -> Result<(), RecordingError> {
+    for (i, arm) in scene.arms.iter().enumerate() {
+        if scene.arms[..i].iter().any(|other| other.name == arm.name) {
+            return Err(RecordingError::NameTwice { name: arm.name.to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// The stream into the file, and into a viewer where one listens.
+fn open(path: &Path, title: &str, live: Live) -> Result<(RecordingStream, Viewer), RecordingError> {
+    let builder = RecordingStreamBuilder::new("plumbline").recording_name(title);
+    let stream = builder.buffered().map_err(refused)?;
+    if !stream.is_enabled() {
+        let value = std::env::var("RERUN").unwrap_or_default();
+        return Err(RecordingError::TurnedOff { path: path.to_owned(), value });
+    }
+    stream.set_log_time_enabled(false);
+    let file = FileSink::new(path).map_err(|error| match error {
+        FileSinkError::CreateFile { source, .. } => unwritable(path, source.to_string()),
+        other => unwritable(path, other.to_string()),
+    })?;
+    let (viewer, queue) = Viewer::find(live);
+    let mut sinks: Vec<Box<dyn LogSink>> = vec![Box::new(file)];
+    sinks.extend(queue.map(|queue| -> Box<dyn LogSink> { Box::new(queue) }));
+    stream.set_sinks(sinks);
+    Ok((stream, viewer))
+}
+
+fn draw(
+    stream: &RecordingStream,
+    scene: &Scene<'_>,
+    skeleton: &Skeleton,
+) -> RecordingStreamResult<Vec<(String, ArmTrack)>> {
+    stream.log_static("world", &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+    let mut arms = vec![];
+    for arm in &scene.arms {
+        arms.push((arm.name.to_owned(), ArmTrack::new(stream, arm, skeleton, scene.looks)?));
+    }
+    Ok(arms)
+}
