@@ -63,3 +63,29 @@ pub(crate) fn positive(quantity: &str, found: f64) -> Result<(), TrackingError> 
     let expected = "a finite number above 0";
     Err(TrackingError::OutOfRange { quantity: quantity.to_owned(), found, expected })
 }
+
+/// Refuses what no loop can have as its period (s).
+pub(crate) fn period(found: f64) -> Result<(), TrackingError> {
+    if found > 0.0 && found <= LONGEST_PERIOD_S {
+        return Ok(());
+    }
+    let (quantity, expected) = ("the period of the machine (s)", "a number above 0, at most 60");
+    Err(TrackingError::OutOfRange { quantity: quantity.to_owned(), found, expected })
+}
+
+/// No arm is controlled at a slower beat (s).
+const LONGEST_PERIOD_S: f64 = 60.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_period_is_a_time_in_which_an_arm_can_be_controlled() {
+        assert_eq!(period(0.002), Ok(()));
+        for found in [0.0, -0.002, f64::NAN, f64::INFINITY, 1e30] {
+            let words = period(found).unwrap_err().to_string();
+            assert!(words.contains("period of the machine (s) is"), "{words}");
+        }
+    }
+}

@@ -13,8 +13,8 @@ pub trait Feedforward: Send {
     /// Fills `prediction`, whose vectors have one entry a joint, with what the motion needs at
     /// a time (s).
     ///
-    /// It may take its time: the feedback does not wait for it. A panic is taken as the death
-    /// of the predictor.
+    /// It may take its time: the feedback does not wait for it. But it has to return in the end,
+    /// since a run is not over before. A panic is taken as the death of the predictor.
     fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction);
 }
 

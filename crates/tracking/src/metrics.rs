@@ -145,3 +145,67 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most: f64, v| most.max(v.abs()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        rows::tests::rows_of,
+        testing::{pendulum, slider},
+    };
+
+    fn assert_near(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 1e-14, "{found} instead of {expected}");
+    }
+
+    #[test]
+    fn metrics_are_those_worked_out_by_hand() {
+        // Twelve seconds: an error of 3 in the first ten, then of -4.
+        let mut ticks = vec![[1.0, -2.0, 2.0, 0.0]; 10];
+        ticks.extend([[1.0, 5.0, 2.0, 0.0]; 2]);
+        (ticks[3], ticks[11][3]) = ([1.0, -2.0, -4.0, 1.0], 6.0);
+        let metrics = Metrics::of(&rows_of(&ticks, Some(0.5)), &slider(), &Point3::origin());
+        let metrics = metrics.unwrap();
+        let joint = &metrics.joints[0];
+        assert_near(joint.rmse, f64::sqrt((90.0 + 32.0) / 12.0));
+        assert_near(joint.rmse_first_10_s, 3.0);
+        assert_near(joint.max_error, 4.0);
+        // Ten commands of 2, one of -3, one of 8; feedback of 1 and 6.
+        assert_near(joint.command_rms, f64::sqrt((40.0 + 9.0 + 64.0) / 12.0));
+        assert_near(joint.feedback_rms, f64::sqrt(37.0 / 12.0));
+        assert_near(joint.feedback_share, f64::sqrt(37.0 / 113.0));
+        // From 2 to -4 and back, among eleven changes.
+        assert_near(joint.jump_max, 6.0);
+        assert_near(joint.jump_rms, f64::sqrt(72.0 / 11.0));
+        assert_near(joint.jump_share, 6.0 / joint.command_rms);
+        assert_eq!(joint.ticks_limited, 1);
+        let link = LinkMetrics { rmse: 0.5, rmse_first_10_s: 0.5, max_error: 0.5 };
+        assert_eq!(joint.link, Some(link));
+        // A slider's point is where its joint is.
+        assert_near(metrics.end_effector.rms_m, joint.rmse);
+        assert_near(metrics.end_effector.max_m, 4.0);
+        assert_eq!(metrics.end_effector_of_links, Some(Distance { rms_m: 0.5, max_m: 0.5 }));
+    }
+
+    #[test]
+    fn the_point_of_a_hinge_is_off_by_the_chord() {
+        let rows = rows_of(&[[0.9, 0.5, 0.0, 0.0], [0.4, 0.4, 0.0, 0.0]], None);
+        let point = Point3::new(0.0, 0.0, -0.5);
+        let metrics = Metrics::of(&rows, &pendulum(), &point).unwrap();
+        let chord = 2.0 * 0.5 * f64::sin(0.5 * 0.4);
+        assert_near(metrics.end_effector.max_m, chord);
+        assert_near(metrics.end_effector.rms_m, chord / f64::sqrt(2.0));
+        assert_eq!((metrics.end_effector_of_links, metrics.joints[0].link), (None, None));
+        // Without a command nothing is a share of it.
+        assert_eq!((metrics.joints[0].feedback_share, metrics.joints[0].jump_share), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_run_without_ticks_has_zeros_and_one_of_other_joints_is_refused() {
+        let metrics = Metrics::of(&rows_of(&[], None), &slider(), &Point3::origin()).unwrap();
+        assert_eq!(metrics.end_effector, Distance::default());
+        assert_eq!((metrics.joints[0].rmse, metrics.joints[0].jump_max), (0.0, 0.0));
+        let error = Metrics::of(&Rows::new(2, 0), &slider(), &Point3::origin()).unwrap_err();
+        assert_eq!(error.to_string(), "the run is for 2 joints, 1 were expected");
+    }
+}

@@ -129,3 +129,64 @@ impl Rows {
         self.data.chunks_exact(self.width.max(1)).map(move |row| row[at])
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use motion::State;
+    use robot::Reading;
+
+    use super::*;
+    use crate::Prediction;
+
+    /// Rows of one joint at 1 Hz, from `[q_ref, q, feedforward, feedback]` and the link.
+    pub fn rows_of(ticks: &[[f64; 4]], link: Option<f64>) -> Rows {
+        let mut rows = Rows::new(1, ticks.len());
+        for (k, &[q_ref, q, feedforward, feedback]) in ticks.iter().enumerate() {
+            let reference = State { q: vec![q_ref], qd: vec![2.0], qdd: vec![3.0] };
+            let time_s = k as f64 + 0.5;
+            let reading = Reading { time_s, q: vec![q], qd: vec![5.0], effort: vec![6.0] };
+            let prediction = Prediction { tau: vec![feedforward], ..Prediction::zero(1) };
+            rows.push(&Tick {
+                time_s: k as f64,
+                reference: &reference,
+                reading: &reading,
+                link_positions: link.as_ref().map(std::slice::from_ref),
+                feedforward: &prediction,
+                feedback: &[feedback],
+                command: &[feedforward + feedback],
+                limited: &[k == 1],
+                age_s: (k > 0).then_some(0.25),
+            });
+        }
+        rows
+    }
+
+    #[test]
+    fn a_signal_is_found_by_tick_and_by_joint() {
+        let rows = rows_of(&[[1.0, 4.0, 8.0, 9.0], [1.5, 4.5, 8.5, 9.5]], Some(7.0));
+        let signals = [
+            Signal::QRef,
+            Signal::QdRef,
+            Signal::QddRef,
+            Signal::Q,
+            Signal::Qd,
+            Signal::Effort,
+            Signal::QLead,
+            Signal::Feedforward,
+            Signal::Feedback,
+            Signal::Command,
+            Signal::Limited,
+            Signal::Link,
+        ];
+        let second = [1.5, 2.0, 3.0, 4.5, 5.0, 6.0, 0.0, 8.5, 9.5, 18.0, 1.0, 7.0];
+        for (signal, expected) in signals.into_iter().zip(second) {
+            assert_eq!(rows.row(1, signal), [expected], "{signal:?}");
+            assert_eq!(rows.column(signal, 0).nth(1), Some(expected), "{signal:?}");
+        }
+        assert_eq!((rows.len(), rows.joints(), rows.knows_links()), (2, 1, true));
+        assert_eq!(rows.time_s().collect::<Vec<_>>(), [0.0, 1.0]);
+        assert_eq!(rows.reading_time_s().collect::<Vec<_>>(), [0.5, 1.5]);
+        assert!(rows.age_s().next().unwrap().is_nan() && rows.age_s().nth(1) == Some(0.25));
+        assert!(!rows_of(&[[0.0; 4]], None).knows_links());
+    }
+}

@@ -56,3 +56,51 @@ fn channels(rows: &Rows, joint: usize, name: &str) -> Channels {
         commanded_effort: Some(signal(Signal::Command)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use logs::{ReadOptions, read_run, write_parquet};
+
+    use super::*;
+    use crate::{
+        Settings, Signal, TrackingError,
+        testing::{Of, Plant, controller, pendulum, slider, swing},
+        track,
+    };
+
+    fn tracking() -> Tracking {
+        let motion = swing(&slider(), 3.0);
+        let mut machine = Plant::slider(&motion);
+        machine.link = Some([0.0]);
+        let (pd, usual) = (controller(90.0, 9.0), Settings::default());
+        track(&mut machine, &motion, &pd, &mut Of(f64::cos), &usual, &mut ()).unwrap()
+    }
+
+    #[test]
+    fn a_run_is_a_log_that_reads_back_as_it_was() {
+        let tracking = tracking();
+        let run = tracking.to_run("swing", &slider()).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("swing.parquet");
+        write_parquet(&path, &run).unwrap();
+        let back = read_run(&path, &slider(), &ReadOptions::default()).unwrap();
+        let none = (PathBuf::new(), String::new());
+        let back = Run { source: none.0, sha256: none.1, ..back };
+        assert_eq!(back, run);
+        assert_eq!((run.time.len(), run.joints[0].name.as_str()), (1500, "x"));
+        let column = |signal| tracking.rows.column(signal, 0).collect::<Vec<_>>();
+        assert_eq!(run.joints[0].effort, column(Signal::Command));
+        assert_eq!(run.joints[0].position, column(Signal::Q));
+        assert_eq!(run.extra["x.feedforward"], column(Signal::Feedforward));
+        let behind = run.extra["x.link_position"].iter().zip(&run.joints[0].position);
+        assert!(behind.into_iter().all(|(link, q)| (link - q - 0.01).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_robot_of_other_joints_is_refused() {
+        let two = Tracking { rows: Rows::new(2, 0), ..tracking() };
+        let error = two.to_run("swing", &pendulum()).unwrap_err();
+        let expected = TrackingError::JointCount { what: "the run", got: 2, expected: 1 };
+        assert_eq!(error, expected);
+    }
+}

@@ -5,7 +5,8 @@ use crate::{TrackingError, error};
 pub struct Settings {
     /// Which time it goes by.
     pub clock: Clock,
-    /// Time without a new prediction after which the last one is no longer trusted (s).
+    /// Time without a new prediction after which the last one is no longer trusted (s): longer
+    /// than a prediction takes, or each of them fades before the next.
     pub stall_s: f64,
     /// Time in which a prediction that is no longer trusted fades to zero, and in which one
     /// that is trusted again fades in (s).

@@ -5,7 +5,7 @@ use crate::{
     Clock, Controller, End, Event, Feedforward, Level, Rows, Settings, Tick, Timing, Tracking,
     TrackingError, Watch,
     controller::Feedback,
-    error::{positive, same_joints},
+    error::{period, same_joints},
     pace::Pace,
     predictor::{Delivery, Predictor, VirtualPredictor, tick_from},
     trust::Trust,
@@ -37,7 +37,7 @@ pub fn track(
     watch: &mut dyn Watch,
 ) -> Result<Tracking, TrackingError> {
     let (joints, period_s) = (machine.joint_count(), machine.period_s());
-    positive("the period of the machine (s)", period_s)?;
+    period(period_s)?;
     same_joints("the motion", motion.joint_count(), joints)?;
     same_joints("the feedforward", feedforward.joints(), joints)?;
     controller.check(joints)?;
@@ -317,7 +317,11 @@ mod tests {
 
     #[test]
     fn gravity_alone_is_the_model_at_rest() {
-        let (robot, model) = (pendulum(), model_of(&pendulum()));
+        // Friction and inertia of the rotor would show what is not rest.
+        let mut robot = pendulum();
+        let actuator = &mut robot.link_mut(0).unwrap().actuator;
+        (actuator.viscous, actuator.rotor_inertia) = (3.0, 0.5);
+        let model = model_of(&robot);
         let motion = swing(&robot, 3.0);
         let mut gravity = GravityFeedforward::new(&model, 0.1);
         let mut prediction = crate::Prediction::zero(1);
@@ -443,6 +447,56 @@ mod tests {
         assert!(tracking.rows.column(Signal::Command, 0).all(f64::is_finite));
     }
 
+    /// Stops in its fifty-first tick, or forgets a joint in it.
+    struct Faulty(Plant, usize, Lapse);
+
+    #[derive(PartialEq)]
+    enum Lapse {
+        Stops,
+        Forgets,
+    }
+
+    impl Machine for Faulty {
+        fn joint_count(&self) -> usize {
+            self.0.joint_count()
+        }
+
+        fn period_s(&self) -> f64 {
+            self.0.period_s()
+        }
+
+        fn read(&mut self, reading: &mut Reading) -> Result<(), MachineFault> {
+            self.0.read(reading)?;
+            self.1 += 1;
+            if self.1 == 51 && self.2 == Lapse::Forgets {
+                reading.qd.clear();
+            }
+            Ok(())
+        }
+
+        fn actuate(&mut self, effort: &[f64]) -> Result<(), MachineFault> {
+            let (joint, found) = ("x".to_owned(), "a bang".to_owned());
+            let fault = MachineFault { time_s: 0.1, joint, found, advice: "look".to_owned() };
+            if self.1 == 51 { Err(fault) } else { self.0.actuate(effort) }
+        }
+    }
+
+    #[test]
+    fn a_machine_that_stops_ends_the_run_and_its_last_tick_is_kept() {
+        let motion = swing(&slider(), 3.0);
+        let of = |lapse| {
+            let mut machine = Faulty(Plant::slider(&motion), 0, lapse);
+            let (pd, usual) = (controller(9.0, 1.0), Settings::default());
+            track(&mut machine, &motion, &pd, &mut Of(f64::sin), &usual, &mut ()).unwrap()
+        };
+        let (stopped, forgot) = (of(Lapse::Stops), of(Lapse::Forgets));
+        assert_eq!((stopped.rows.len(), forgot.rows.len()), (51, 50));
+        assert!(matches!(&stopped.end, End::Fault(fault) if fault.found == "a bang"));
+        assert!(stopped.events[0].words.contains("a bang"), "{:?}", stopped.events);
+        let End::Fault(fault) = forgot.end else { panic!("{:?}", forgot.end) };
+        assert!(fault.found.contains("[1, 0, 1] joints instead of 1"), "{fault}");
+    }
+
     /// Ends a run with its hundredth tick.
     #[derive(Default)]
     struct Impatient(usize, Vec<Event>);
@@ -495,6 +549,24 @@ mod tests {
     }
 
     #[test]
+    fn a_tick_allocates_nothing() {
+        let model = model_of(&pendulum());
+        let taken = |duration_s| {
+            let motion = swing(&pendulum(), duration_s);
+            let mut machine = Plant::pendulum(&motion);
+            machine.link = Some([0.0]);
+            let mut feedforward = ModelFeedforward::new(&model, LEAD_S);
+            let (pd, usual) = (controller(5.0, 0.5), Settings::default());
+            let go = || {
+                track(&mut machine, &motion, &pd, &mut feedforward, &usual, &mut ()).unwrap();
+            };
+            allocation_counter::measure(go).count_total
+        };
+        assert_eq!(taken(3.0), taken(30.0));
+        assert!(taken(3.0) > 0);
+    }
+
+    #[test]
     fn parts_that_do_not_fit_are_refused() {
         let motion = swing(&slider(), 3.0);
         let of = |controller: &Controller, joints, settings: &Settings| {
@@ -509,6 +581,8 @@ mod tests {
         assert!(of(&limits, 1, &usual).contains("torque limits is for 3 joints"));
         let never = Settings { fade_s: f64::NAN, ..usual };
         assert!(of(&pd, 1, &never).contains("the time of a fade (s) is NaN"));
+        let still = Settings { stall_s: f64::INFINITY, ..usual };
+        assert!(of(&pd, 1, &still).contains("the time to a stall (s) is inf"));
         let slow = settings(VirtualClock { prediction_time_s: -1.0, ..VirtualClock::default() });
         assert!(of(&pd, 1, &slow).contains("the time of a prediction (s) is -1"));
     }
