@@ -4,6 +4,7 @@
 mod bad_input;
 mod files;
 mod filter;
+mod growing;
 mod info;
 mod preparation;
 mod recorded;

@@ -73,6 +73,7 @@ pub fn run(time: Vec<f64>, joints: Vec<Channels>) -> Run {
         name: "run".to_owned(),
         source: PathBuf::from("run.csv"),
         sha256: String::new(),
+        is_torn: false,
         time,
         joints,
         extra: BTreeMap::new(),

@@ -26,7 +26,8 @@ fn log(robot: &Robot, path: &Path, keep: impl Fn(f64) -> bool) {
     };
     let joints = robot.joint_names().enumerate().map(channels).collect();
     let (source, sha256, extra) = (PathBuf::new(), String::new(), BTreeMap::new());
-    let run = Run { name: "run".to_owned(), source, sha256, time: time.clone(), joints, extra };
+    let name = "run".to_owned();
+    let run = Run { name, source, sha256, is_torn: false, time: time.clone(), joints, extra };
     write_parquet(path, &run).unwrap();
 }
 

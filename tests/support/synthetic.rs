@@ -153,6 +153,7 @@ pub fn run_at(truth: &Truth, noise: &Noise, [seconds, hertz]: [f64; 2], seed: u6
         name: format!("run_{seed}"),
         source: PathBuf::new(),
         sha256: String::new(),
+        is_torn: false,
         time,
         joints,
         extra: BTreeMap::new(),

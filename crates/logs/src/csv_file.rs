@@ -1,21 +1,52 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fs::File,
+    fs::{self, File},
+    io::{self, Read, Seek, SeekFrom},
     path::Path,
 };
 
 use crate::LogError;
 
-fn reader(path: &Path) -> Result<csv::Reader<File>, LogError> {
+fn reader(path: &Path) -> Result<csv::Reader<io::Take<File>>, LogError> {
+    let end = torn_from(path)?.unwrap_or(u64::MAX);
+    let file = File::open(path).map_err(|e| unreadable(path, &e))?.take(end);
     // Rows of another length are let through here and refused by `load` with their number.
-    csv::ReaderBuilder::new()
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_path(path)
-        .map_err(|e| unreadable(path, &e))
+    Ok(csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(file))
 }
 
-fn unreadable(path: &Path, error: &csv::Error) -> LogError {
+/// Where a last row begins that was torn while it was written; none when the file is whole.
+///
+/// A row without its newline is torn when the line before it ends in a number in quotes, as
+/// every row of a [`crate::LogWriter`] does, and it does not.
+pub(crate) fn torn_from(path: &Path) -> Result<Option<u64>, LogError> {
+    let ends_well = || -> io::Result<bool> {
+        let mut file = File::open(path)?;
+        let mut last = [b'\n'];
+        if file.seek(SeekFrom::End(0))? > 0 {
+            file.seek(SeekFrom::End(-1))?;
+            file.read_exact(&mut last)?;
+        }
+        Ok(last == [b'\n'])
+    };
+    if ends_well().map_err(|e| unreadable(path, &e))? {
+        return Ok(None);
+    }
+    let bytes = fs::read(path).map_err(|e| unreadable(path, &e))?;
+    let mut lines = bytes.rsplitn(3, |&byte| byte == b'\n');
+    let (last, before) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
+    let is_torn = ends_in_quoted_number(before) && !ends_in_quoted_number(last);
+    Ok(is_torn.then(|| (bytes.len() - last.len()) as u64))
+}
+
+fn ends_in_quoted_number(line: &[u8]) -> bool {
+    let field = line.trim_ascii_end().strip_suffix(b"\"").and_then(|line| {
+        let start = line.iter().rposition(|&byte| byte == b'"')?;
+        std::str::from_utf8(&line[start + 1..]).ok()
+    });
+    field.is_some_and(|field| field.parse::<f64>().is_ok())
+}
+
+fn unreadable(path: &Path, error: &impl ToString) -> LogError {
     LogError::Unreadable { path: path.to_owned(), reason: error.to_string() }
 }
 

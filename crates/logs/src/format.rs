@@ -60,6 +60,14 @@ impl Format {
         }
     }
 
+    /// Whether the file ends in the middle of a row.
+    pub(crate) fn is_torn(self, path: &Path) -> Result<bool, LogError> {
+        match self {
+            Self::Csv => Ok(csv_file::torn_from(path)?.is_some()),
+            Self::Parquet => Ok(false),
+        }
+    }
+
     /// Columns by name, those in `required` complete.
     pub(crate) fn load(
         self,

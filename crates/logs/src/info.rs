@@ -14,6 +14,8 @@ pub struct LogInfo {
     pub name: String,
     /// Number of rows.
     pub samples: usize,
+    /// Whether the file ended in the middle of a further row, which is left out.
+    pub is_torn: bool,
     /// Time from the first row to the last (s).
     pub duration_s: f64,
     /// One over the median step of time (Hz).
@@ -91,6 +93,7 @@ pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
     LogInfo {
         name: run.name.clone(),
         samples: run.time.len(),
+        is_torn: run.is_torn,
         duration_s: steps.iter().sum(),
         rate_hz: 1.0 / usual,
         jitter_std_s,

@@ -9,7 +9,8 @@
 //! `.desired_velocity`, `.desired_acceleration` and `.commanded_effort` (SI units,
 //! radians). Only `time`, `position` and `effort` have to be there. Columns are found
 //! by name, never by their place; a [`ColumnMap`] reads files that use other names or
-//! units.
+//! units. A log is written as a whole by [`write_csv`] and [`write_parquet`], or while it
+//! grows by a [`LogWriter`].
 //!
 //! After [`prepare`], `q`, `qd` and `qdd` have passed the same zero-phase [`LowPass`];
 //! the effort has not, so that one filter can be applied to it and to every regressor
@@ -39,6 +40,7 @@ mod uniform;
 mod unit;
 mod warning;
 mod write;
+mod writer;
 
 pub use agreement::Agreement;
 pub use column_map::{ColumnMap, MappedColumn};
@@ -55,3 +57,4 @@ pub use run::{Channel, Channels, Run};
 pub use unit::Unit;
 pub use warning::LogWarning;
 pub use write::{replace_file, write_csv, write_parquet};
+pub use writer::LogWriter;

@@ -157,6 +157,7 @@ fn about_runs(runs: &[Run], pieces: &[UniformRun], cutoff_hz: f64) -> Vec<LogWar
     let mut warnings = Vec::new();
     for (index, run) in runs.iter().enumerate() {
         let name = || run.name.clone();
+        warnings.extend(run.is_torn.then(|| LogWarning::TornLastRow { run: name() }));
         let unknown = unknown_joints(run).into_iter();
         warnings.extend(unknown.map(|joint| LogWarning::UnknownJoint { run: name(), joint }));
         if let Some(earlier) = duplicate_of(runs, index) {

@@ -31,6 +31,10 @@ impl Default for ReadOptions<'_> {
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// Which of the two formats a file has is seen from its first bytes.
 ///
+/// A CSV file may lack its last newline. Its last row was torn, and is left out, when it does
+/// not end in a number in quotes as the row before it does: such are the files of a
+/// [`crate::LogWriter`] that was stopped while it wrote. No other file loses a row.
+///
 /// # Errors
 ///
 /// Every [`LogError`] that names a file: no file, an empty or broken one, a missing
@@ -59,6 +63,6 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
     let used: Vec<String> = plan.required().into_iter().map(str::to_owned).collect();
     columns.retain(|name, _| !used.contains(name));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let sha256 = sha256(path)?;
-    Ok(Run { name, source: path.to_owned(), sha256, time, joints, extra: columns })
+    let (sha256, is_torn) = (sha256(path)?, format.is_torn(path)?);
+    Ok(Run { name, source: path.to_owned(), sha256, is_torn, time, joints, extra: columns })
 }

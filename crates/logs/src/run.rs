@@ -11,6 +11,8 @@ pub struct Run {
     pub source: PathBuf,
     /// SHA-256 of the file, in hexadecimal; empty for a run that was never a file.
     pub sha256: String,
+    /// Whether the file ended in the middle of a row, which is left out.
+    pub is_torn: bool,
     /// Time of each sample as in the file (s), strictly increasing.
     pub time: Vec<f64>,
     /// Signals of each joint of the robot.

@@ -10,6 +10,12 @@ pub enum LogWarning {
         /// The joint of the log.
         joint: String,
     },
+    /// The file ends in the middle of a row.
+    #[error("run {run}: its last row was cut off while it was written, it is left out")]
+    TornLastRow {
+        /// The run.
+        run: String,
+    },
     /// Two runs have the same samples.
     #[error(
         "run {run} has the same positions and efforts as run {of}: held-out results would be too good"

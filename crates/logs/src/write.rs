@@ -81,13 +81,18 @@ pub fn write_csv(path: &Path, run: &Run) -> Result<(), LogError> {
     })
 }
 
+/// The name of a column.
+pub(crate) fn name_of(joint: &str, channel: Channel) -> String {
+    format!("{joint}.{}", channel.suffix())
+}
+
 /// Names and samples in the order of the file.
 fn columns(run: &Run) -> Vec<(String, &[f64])> {
     let mut columns = vec![("time".to_owned(), run.time.as_slice())];
     for channel in Channel::ALL {
         for joint in &run.joints {
             if let Some(samples) = joint.get(channel) {
-                columns.push((format!("{}.{}", joint.name, channel.suffix()), samples));
+                columns.push((name_of(&joint.name, channel), samples));
             }
         }
     }

@@ -278,6 +278,7 @@ fn log(name: &str, robot: &Robot, rows: &[Row]) -> Run {
         name: name.to_owned(),
         source: Default::default(),
         sha256: String::new(),
+        is_torn: false,
         time: column(&|r| r.reading.time_s),
         joints: robot.joint_names().enumerate().map(joint).collect(),
         extra: BTreeMap::new(),

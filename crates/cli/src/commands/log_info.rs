@@ -124,6 +124,9 @@ fn text(Info { path, info, repeats }: &Info) -> String {
     };
     note("joints that the robot does not have", &info.unknown_joints);
     note("further columns", &info.extra);
+    if info.is_torn {
+        text.push_str("warning: the last row was cut off while it was written, it is left out\n");
+    }
     if let Some(earlier) = repeats {
         text.push_str(&format!("warning: the same samples as {earlier}\n"));
     }
@@ -189,6 +192,7 @@ struct Document<'a> {
 struct FileInfo<'a> {
     path: &'a str,
     samples: usize,
+    is_torn: bool,
     duration_s: f64,
     rate_hz: f64,
     jitter_std_s: f64,
@@ -230,6 +234,7 @@ impl<'a> FileInfo<'a> {
         Self {
             path,
             samples: info.samples,
+            is_torn: info.is_torn,
             duration_s: info.duration_s,
             rate_hz: info.rate_hz,
             jitter_std_s: info.jitter_std_s,
