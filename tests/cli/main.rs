@@ -9,3 +9,4 @@ mod learn;
 mod program;
 mod replay;
 mod simulate;
+mod view;

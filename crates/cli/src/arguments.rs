@@ -1,6 +1,6 @@
 use clap::{Parser, Subcommand};
 
-use crate::commands::{diagnose, explain, learn, log_info, replay, robot_check, simulate};
+use crate::commands::{diagnose, explain, learn, log_info, replay, robot_check, simulate, view};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -20,6 +20,12 @@ Exit codes:
   0  done, if only as far as Ctrl-C let it
   2  usage: arguments, or an output folder that cannot be made
   3  unusable data: a robot, a log or a column map";
+
+const VIEW_EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  2  no program opens what there is
+  3  there is nothing to look at";
 
 const EXAMPLES: &str = "\
 Examples:
@@ -113,6 +119,9 @@ pub enum Command {
     /// Compares a simulation with logs: motion under their torque, torque along their motion
     #[command(after_help = format!("{REPLAY_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Replay(replay::Arguments),
+    /// Opens the report of an output folder in the browser, its recordings in rerun's viewer
+    #[command(after_help = VIEW_EXIT_CODES)]
+    View(view::Arguments),
     /// Prints the JSON schema of scenario files
     Schema,
 }

@@ -10,6 +10,8 @@ use report::ReportError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
+use crate::commands::view::INSTALLATION;
+
 /// Why a command did not run to its end.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
@@ -66,6 +68,36 @@ pub enum CliError {
         /// What was found.
         reason: String,
     },
+    /// A folder cannot be looked into.
+    #[error("{}: it cannot be listed ({reason}), the output folder of a command was expected", path.display())]
+    Unlisted {
+        /// The folder.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: String,
+    },
+    /// A folder holds nothing to look at.
+    #[error("{}: a report.html or a recording (.rrd) was expected, found {found}", path.display())]
+    NothingToView {
+        /// The folder.
+        path: PathBuf,
+        /// The names in it.
+        found: String,
+    },
+    /// There is no viewer for recordings.
+    #[error("{recordings}: the program rerun that shows recordings is not on the PATH")]
+    NoViewer {
+        /// The names of the recordings.
+        recordings: String,
+    },
+    /// A program that should open something did not start.
+    #[error("{}: it cannot be opened: {reason}", path.display())]
+    NotOpened {
+        /// The file or program.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: String,
+    },
     /// The robot with the findings is none that can be described.
     #[error("the extended model cannot be written: {0}")]
     Extended(RobotError),
@@ -104,6 +136,8 @@ impl CliError {
             | Self::Output(_)
             | Self::Folder { .. }
             | Self::TestedOnTraining { .. }
+            | Self::NoViewer { .. }
+            | Self::NotOpened { .. }
             | Self::Signal { .. } => 2,
             Self::Learner(error) => match error {
                 LearnerError::Setting { .. }
@@ -122,6 +156,8 @@ impl CliError {
             | Self::Extended(_)
             | Self::Diagnosis(_)
             | Self::NoJoints { .. }
+            | Self::Unlisted { .. }
+            | Self::NothingToView { .. }
             | Self::OtherRobot { .. } => 3,
         }
     }
@@ -136,6 +172,8 @@ impl CliError {
             Self::Learner(LearnerError::Memory { .. }) => {
                 return Some("--points N, or a model -inducing, which takes all samples");
             }
+            Self::NoViewer { .. } => return Some(INSTALLATION),
+            Self::NotOpened { .. } => return Some("plumbline view --print names the files"),
             Self::UnknownEffect { .. } => return Some("plumbline explain lists every effect"),
             Self::NoJoints { .. } => {
                 return Some(

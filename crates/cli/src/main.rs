@@ -12,7 +12,9 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
-use crate::commands::{diagnose, explain, learn, log_info, replay, robot_check, schema, simulate};
+use crate::commands::{
+    diagnose, explain, learn, log_info, replay, robot_check, schema, simulate, view,
+};
 use crate::error::CliError;
 
 /// How a command that ran to its end turned out.
@@ -45,6 +47,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Learn(arguments) => learn::run(arguments),
         Command::Replay(arguments) => replay::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
+        Command::View(arguments) => view::run(arguments),
         Command::Schema => schema::run(),
     }
 }

@@ -8,3 +8,4 @@ pub mod replay;
 pub mod robot_check;
 pub mod schema;
 pub mod simulate;
+pub mod view;
