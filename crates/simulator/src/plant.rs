@@ -1,5 +1,9 @@
 use nalgebra::{Rotation3, Vector3};
-use robot::{Inertia, Robot};
+use robot::{Actuator, Inertia, Robot};
+
+/// Damping of a described transmission as a share of critical damping against the rotor: the
+/// description has no key for it. Cable drives and harmonic gears have 0.5 to 5 %.
+const DAMPING_RATIO: f64 = 0.02;
 
 /// What lies between motor and link of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -13,6 +17,18 @@ pub struct Transmission {
 }
 
 impl Transmission {
+    /// What the description says of a joint: its stiffness, its free play, and a damping of 2 %
+    /// of critical.
+    pub fn described(actuator: &Actuator) -> Self {
+        let inertia = actuator.rotor_inertia;
+        let damping = |stiffness| damping(DAMPING_RATIO, stiffness, inertia);
+        Self {
+            stiffness: actuator.elasticity,
+            damping: actuator.elasticity.map_or(0.0, damping),
+            gap: actuator.backlash,
+        }
+    }
+
     /// Whether motor and link move as one.
     pub fn is_rigid(&self) -> bool {
         self.stiffness.is_none() && self.gap <= 0.0
@@ -23,7 +39,7 @@ impl Transmission {
 ///
 /// The robot's actuators count: `viscous`, `coulomb_forward`, `coulomb_backward` and
 /// `rotor_inertia` act at the motor, the spring at the link, gain and offset in the drive:
-/// `effort = torque_gain tau + torque_offset`.
+/// `effort = torque_gain tau + torque_offset`. A delay holds the command back on its way there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plant {
     /// Links, joints, actuators, gravity.
@@ -33,10 +49,10 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// The robot as described, every transmission rigid.
+    /// The robot as described.
     pub fn new(robot: Robot) -> Self {
-        let transmissions = vec![Transmission::default(); robot.joint_count()];
-        Self { robot, transmissions }
+        let described = robot.links().iter().map(|l| Transmission::described(&l.actuator));
+        Self { transmissions: described.collect(), robot }
     }
 
     /// Fixes a body, given in the frame of the link, to a link.
@@ -51,4 +67,13 @@ impl Plant {
         let gravity = Rotation3::new(rotation_in_base) * self.robot.gravity_in_base();
         self.robot = self.robot.clone().with_gravity(gravity);
     }
+}
+
+/// Damping (N m s/rad or N s/m) that is `ratio` of critical for a rotor on a spring:
+///
+/// ```text
+/// d = 2 ratio sqrt(k J)
+/// ```
+pub(crate) fn damping(ratio: f64, stiffness: f64, rotor_inertia: f64) -> f64 {
+    2.0 * ratio * (stiffness * rotor_inertia.max(0.0)).sqrt()
 }

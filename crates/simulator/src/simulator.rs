@@ -1,6 +1,7 @@
 use robot::{Machine, MachineFault, Reading, Robot};
 
 use crate::arm::Arm;
+use crate::effects::described_delays;
 use crate::inject::{Efforts, Inject, Moment};
 use crate::sensors::{EffortSource, PositionSide, Sensors};
 use crate::{Plant, SimulatorError};
@@ -59,7 +60,8 @@ struct Joint {
 }
 
 impl Simulator {
-    /// Builds a simulated arm; effects act in the order given.
+    /// Builds a simulated arm; effects act in the order given, after the delays that the robot's
+    /// description says.
     ///
     /// # Errors
     ///
@@ -67,10 +69,11 @@ impl Simulator {
     /// inertia, or a spring too stiff for the step.
     pub fn new(
         robot: &Robot,
-        mut effects: Vec<Box<dyn Inject>>,
+        effects: Vec<Box<dyn Inject>>,
         sensors: Sensors,
         stepping: Stepping,
     ) -> Result<Self, SimulatorError> {
+        let mut effects: Vec<Box<dyn Inject>> = described_delays(robot).chain(effects).collect();
         let mut plant = Plant::new(robot.clone());
         for effect in &mut effects {
             effect.on_build(&mut plant);

@@ -34,7 +34,7 @@ impl Effect for ActuatorDelay {
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
         within("delay_ms", self.delay_ms, 0.0, 1000.0)?;
-        Ok(Box::new(Injected { joint, command: DelayLine::new(1e-3 * self.delay_ms) }))
+        Ok(delay(joint, 1e-3 * self.delay_ms))
     }
 
     /// The torque is off by about `delay d(tau)/dt`.
@@ -42,6 +42,16 @@ impl Effect for ActuatorDelay {
         let delay_ms = 1e3 * share * at.torque_rms / at.torque_rate_rms;
         Self { joint: at.joint_name(), delay_ms: delay_ms.min(1000.0) }
     }
+}
+
+/// The delays that the robot's description says, ready to act.
+pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
+    let joints = robot.links().iter().map(|l| l.actuator.delay_s).enumerate();
+    joints.filter(|(_, delay_s)| *delay_s > 0.0).map(|(joint, delay_s)| delay(joint, delay_s))
+}
+
+fn delay(joint: usize, delay_s: f64) -> Box<dyn Inject> {
+    Box::new(Injected { joint, command: DelayLine::new(delay_s) })
 }
 
 struct Injected {

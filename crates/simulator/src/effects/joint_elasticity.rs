@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::plant::damping;
 use crate::{Inject, Plant, Truth};
 
 /// A spring with damping between motor and link, such as a cable drive or a harmonic gear.
@@ -60,7 +61,7 @@ impl Effect for JointElasticity {
         Self {
             joint: at.joint_name(),
             stiffness_nm_per_rad: stiffness,
-            damping_nm_s_per_rad: 2.0 * ratio * (stiffness * rotor.max(0.0)).sqrt(),
+            damping_nm_s_per_rad: damping(ratio, stiffness, rotor),
         }
     }
 }

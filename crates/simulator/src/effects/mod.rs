@@ -35,6 +35,7 @@ use rand_distr::{Distribution, UnitSphere};
 use robot::Robot;
 
 pub use actuator_delay::ActuatorDelay;
+pub(crate) use actuator_delay::described as described_delays;
 pub use actuator_lag::ActuatorLag;
 pub use asymmetric_friction::AsymmetricFriction;
 pub use backlash::Backlash;
