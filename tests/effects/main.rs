@@ -2,8 +2,10 @@
 //! robot adds.
 #![allow(clippy::unwrap_used, reason = "a broken fixture should stop the test")]
 
+mod undone;
+
 use checks::synthetic::wam;
-use effects::{Frame, Hypothesis, Motion, Scale, hypotheses, model};
+use effects::{Compensated, Compensation, Frame, Hypothesis, Motion, Scale, hypotheses, model};
 use robot::Robot;
 
 const SAMPLES: usize = 40;
@@ -125,4 +127,21 @@ fn parameters_carry_the_names_of_the_catalogue() {
         let known: Vec<_> = model(h.kind).unwrap().parameters().iter().map(|p| p.name).collect();
         assert_eq!(names, known, "{h:?}");
     }
+}
+
+#[test]
+fn the_compensation_allocates_nothing() {
+    let mut robot = worn();
+    for j in 0..robot.joint_count() {
+        let a = &mut robot.link_mut(j).unwrap().actuator;
+        (a.backlash, a.elasticity) = (0.001, Some(1000.0));
+    }
+    let n = robot.joint_count();
+    let compensation = Compensation::new(&robot, vec![0.01; n]);
+    let (mut ws, mut out) = (compensation.workspace(), Compensated::zero(n));
+    let (q, qd, qdd) = (vec![0.3; n], vec![0.7; n], vec![-0.2; n]);
+    let state: [&[f64]; 3] = [&q, &qd, &qdd];
+    let counted = allocation_counter::measure(|| compensation.fill(&mut ws, &[state; 3], &mut out));
+    assert_eq!(counted.count_total, 0);
+    assert!(out.tau.iter().all(|tau| tau.abs() > 0.1));
 }

@@ -6,10 +6,12 @@
 //! ```
 //!
 //! One file an effect, under the name it has in `catalogue`; [`model`] finds it, or
-//! says what an effect without one would need.
+//! says what an effect without one would need. [`Compensation`] asks the motors for what undoes
+//! the effects that a robot's description holds, and [`remedy`] says which those are.
 
 mod asymmetric_friction;
 mod cable_spring;
+mod compensation;
 mod coulomb_friction;
 mod explain;
 mod gravity_direction;
@@ -18,14 +20,17 @@ mod inertial_parameters;
 mod model;
 mod motion;
 mod payload;
+mod remedy;
 mod rotor_inertia;
 mod scale;
 mod torque_constant;
 mod torque_offset;
 mod viscous_friction;
 
+pub use compensation::{Compensated, Compensation, CompensationWorkspace};
 pub use explain::{Column, Explain, Part, Quantity};
 pub use hypothesis::{Hypothesis, Place, hypotheses};
 pub use model::{MODELLED, model};
 pub use motion::{Frame, Motion, drive_torque};
+pub use remedy::remedy;
 pub use scale::Scale;

@@ -57,7 +57,8 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
             return Err("it depends on the time since the drive was cold, which runs do not share");
         }
         EffectKind::DifferentialCoupling => {
-            return Err("the description of a robot does not say which joints share two motors");
+            return Err("the ratio of the pair is not a factor of a signal of the log, \
+                        and only factors are solved for");
         }
         EffectKind::ActuatorLag | EffectKind::ActuatorDelay | EffectKind::TimeSkew => {
             return Err("it moves torque in time: it needs the torque of neighbouring samples");

@@ -145,11 +145,18 @@ impl Motion {
 /// rotor_inertia qdd + viscous qd + coulomb(direction) + stiffness (q - rest)
 /// ```
 pub fn drive_torque(drive: &Actuator, [q, qd, qdd]: [f64; 3], direction: f64) -> f64 {
+    motor_torque(drive, [qd, qdd], direction) + spring_torque(drive, q)
+}
+
+/// The part of the drive's torque that is spent at the motor (N·m or N).
+pub(crate) fn motor_torque(drive: &Actuator, [qd, qdd]: [f64; 2], direction: f64) -> f64 {
     let level = if direction > 0.0 { drive.coulomb_forward } else { drive.coulomb_backward };
-    drive.rotor_inertia * qdd
-        + drive.viscous * qd
-        + level * direction
-        + drive.spring_stiffness * (q - drive.spring_rest)
+    drive.rotor_inertia * qdd + drive.viscous * qd + level * direction
+}
+
+/// The part of the drive's torque that is spent at the link (N·m or N).
+pub(crate) fn spring_torque(drive: &Actuator, q: f64) -> f64 {
+    drive.spring_stiffness * (q - drive.spring_rest)
 }
 
 /// Two horizontal axes, unit vectors orthogonal to gravity and to each other.

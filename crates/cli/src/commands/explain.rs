@@ -67,6 +67,10 @@ fn explanation(entry: &Entry) -> String {
     line("confused with", &rivals.join(", "));
     line("told apart by", entry.told_apart_by);
     line("diagnosed", &diagnosed(entry));
+    match effects::remedy(entry.kind) {
+        Ok(how) => line("compensated by", how),
+        Err(reason) => line("not compensated", reason),
+    }
     line("source", entry.source);
     text
 }
@@ -115,6 +119,11 @@ mod tests {
             }
             let answer = effects::model(kind).map_or_else(|reason| reason, |_| "yes");
             assert!(text.contains(answer), "{answer} in\n{text}");
+            let undone = effects::remedy(kind).map_or_else(
+                |reason| format!("not compensated    {reason}\n"),
+                |how| format!("compensated by     {how}\n"),
+            );
+            assert!(text.contains(&undone), "{undone} in\n{text}");
         }
     }
 

@@ -1,0 +1,378 @@
+use dynamics::{Dynamics, Workspace};
+use robot::{Actuator, Robot, SensingSide};
+
+use crate::motion::{motor_torque, spring_torque};
+
+/// Acceleration (rad/s² or m/s²) that the load must give the links for its sign to count.
+///
+/// The smaller it is the more abruptly a motor crosses its free play, and the rotor is asked for
+/// up to `0.77 (gap/2) (jerk / acceleration)²`. At 1 rad/s² and a jerk of 100 rad/s³ a gap of
+/// 2 mrad asks for 8 rad/s², as the motion itself does.
+const CROSSING_ACCELERATION: f64 = 1.0;
+
+/// What is to be asked of the motors so that the links follow a motion, for a robot that is
+/// extended by named effects.
+///
+/// The links need `tau_link`, which passes through transmissions that give way:
+///
+/// ```text
+/// tau_link  = M(q) qdd + C(q, qd) qd + g(q) + spring_stiffness (q - spring_rest)
+/// q_motor   = q + tau_link / elasticity + (backlash / 2) tanh(tau_link / tau_0)
+/// tau_motor = tau_link + rotor_inertia qdd_motor + viscous qd_motor + coulomb(direction)
+/// direction = tanh(qd_motor / rest_speed)
+/// tau       = torque_gain tau_motor + torque_offset
+/// ```
+///
+/// `qd_motor` and `qdd_motor` are those of the motion plus central differences of
+/// `q_motor - q`. `tau_0 = M_jj(q) x 1 rad/s²` is the load that gives the links one unit of
+/// acceleration: beyond it the load knows its side of the gap. Damping of a transmission has no
+/// key in the description and is left out.
+///
+/// Friction stays within its Coulomb levels, the lead within `backlash / 2` and the twist
+/// `|tau_link| / elasticity`, and both are smooth, so that no reversal makes them jump.
+///
+/// Where an actuator is late, its `tau` is to be that of the motion
+/// [`delay_s`](Self::delay_s) ahead; leads are those of the present.
+///
+/// # Source
+///
+/// Spong 1987 for the elastic joint, Nordin & Gutman 2002 for the inverse of backlash, smoothed
+/// here.
+#[derive(Debug, Clone)]
+pub struct Compensation {
+    dynamics: Dynamics,
+    drives: Vec<Actuator>,
+    rest_speed: Vec<f64>,
+    delay_s: Vec<f64>,
+}
+
+/// What [`Compensation::fill`] gives, one entry a joint.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Compensated {
+    /// Effort to be asked for (N·m or N).
+    pub tau: Vec<f64>,
+    /// What the position that is measured should be ahead of the reference (rad or m):
+    /// `q_motor - q`, zero where the link is measured. A side that is not stated counts as the
+    /// motor's.
+    pub q_lead: Vec<f64>,
+    /// The same for the velocity (rad/s or m/s).
+    pub qd_lead: Vec<f64>,
+}
+
+/// Scratch memory of [`Compensation::fill`], made once by [`Compensation::workspace`].
+#[derive(Debug, Clone)]
+pub struct CompensationWorkspace {
+    dynamics: Workspace,
+    /// Torque through the transmissions, of every instant.
+    tau_link: [Vec<f64>; 3],
+    /// Row-major n x n.
+    mass_matrix: Vec<f64>,
+}
+
+impl Compensated {
+    /// Nothing, for `joint_count` joints.
+    pub fn zero(joint_count: usize) -> Self {
+        let zero = vec![0.0; joint_count];
+        Self { tau: zero.clone(), q_lead: zero.clone(), qd_lead: zero }
+    }
+}
+
+impl Compensation {
+    /// Time between the states that [`fill`](Self::fill) takes (s). Differences over it are off
+    /// by `(w h)² / 12`, 1e-3 at 17 Hz.
+    pub const SPACING_S: f64 = 1e-3;
+
+    /// The compensation for `robot`, whose joints count as at rest below `rest_speed` (rad/s or
+    /// m/s, one entry a joint).
+    ///
+    /// # Panics
+    ///
+    /// When `rest_speed` is of another number of joints.
+    pub fn new(robot: &Robot, rest_speed: Vec<f64>) -> Self {
+        assert_eq!(rest_speed.len(), robot.joint_count(), "one rest speed a joint");
+        let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
+        let delay_s = drives.iter().map(|a| a.delay_s).collect();
+        Self { dynamics: Dynamics::new(robot), drives, rest_speed, delay_s }
+    }
+
+    /// Number of states that [`fill`](Self::fill) takes: one when every transmission is rigid,
+    /// three otherwise.
+    pub fn states_needed(&self) -> usize {
+        if self.drives.iter().all(is_rigid) { 1 } else { 3 }
+    }
+
+    /// How far ahead of the present each joint's torque is to be asked for (s).
+    pub fn delay_s(&self) -> &[f64] {
+        &self.delay_s
+    }
+
+    /// Scratch memory of the right size.
+    pub fn workspace(&self) -> CompensationWorkspace {
+        let n = self.drives.len();
+        CompensationWorkspace {
+            dynamics: self.dynamics.workspace(),
+            tau_link: [vec![0.0; n], vec![0.0; n], vec![0.0; n]],
+            mass_matrix: vec![0.0; n * n],
+        }
+    }
+
+    /// Works out what to ask for at one instant; allocates nothing.
+    ///
+    /// `states` are `[q, qd, qdd]` (rad, rad/s, rad/s² or m, m/s, m/s²) of the motion that the
+    /// links should follow: of the instant alone, or, as [`states_needed`](Self::states_needed)
+    /// says, [`SPACING_S`](Self::SPACING_S) before, at and after it.
+    ///
+    /// # Panics
+    ///
+    /// When the number of states is another, or when anything is of another number of joints.
+    pub fn fill(
+        &self,
+        ws: &mut CompensationWorkspace,
+        states: &[[&[f64]; 3]],
+        out: &mut Compensated,
+    ) {
+        assert_eq!(states.len(), self.states_needed(), "states of the motion");
+        let [q_now, qd_now, qdd_now] = states[states.len() / 2];
+        let (dynamics, n) = (&mut ws.dynamics, self.drives.len());
+        for (tau, [q, qd, qdd]) in ws.tau_link.iter_mut().zip(states) {
+            self.dynamics.inverse_dynamics_into(dynamics, q, qd, qdd, tau);
+            let joints = tau.iter_mut().zip(&self.drives).zip(*q);
+            joints.for_each(|((tau, drive), q)| *tau += spring_torque(drive, *q));
+        }
+        if states.len() > 1 {
+            self.dynamics.mass_matrix_into(dynamics, q_now, &mut ws.mass_matrix);
+        }
+        for (j, drive) in self.drives.iter().enumerate() {
+            let tau_link = ws.tau_link[states.len() / 2][j];
+            let [q_lead, qd_lead, qdd_lead] = if is_rigid(drive) {
+                [0.0; 3]
+            } else {
+                let tau_0 = CROSSING_ACCELERATION * ws.mass_matrix[j * n + j];
+                differences([0, 1, 2].map(|t| lead(drive, ws.tau_link[t][j], tau_0)))
+            };
+            let qd_motor = qd_now[j] + qd_lead;
+            let direction = (qd_motor / self.rest_speed[j].max(f64::MIN_POSITIVE)).tanh();
+            let tau_motor =
+                tau_link + motor_torque(drive, [qd_motor, qdd_now[j] + qdd_lead], direction);
+            out.tau[j] = drive.torque_gain * tau_motor + drive.torque_offset;
+            let seen = if drive.sensing == SensingSide::Link { 0.0 } else { 1.0 };
+            out.q_lead[j] = seen * q_lead;
+            out.qd_lead[j] = seen * qd_lead;
+        }
+    }
+}
+
+fn is_rigid(drive: &Actuator) -> bool {
+    drive.elasticity.is_none() && drive.backlash <= 0.0
+}
+
+/// How far the motor is ahead of its link under a load (rad or m):
+///
+/// ```text
+/// tau / elasticity + (backlash / 2) tanh(tau / tau_0)
+/// ```
+fn lead(drive: &Actuator, tau: f64, tau_0: f64) -> f64 {
+    let twist = drive.elasticity.map_or(0.0, |stiffness| tau / stiffness);
+    twist + 0.5 * drive.backlash * (tau / tau_0.max(f64::MIN_POSITIVE)).tanh()
+}
+
+/// Value and first two derivatives at the middle of three instants, by central differences.
+fn differences([before, now, after]: [f64; 3]) -> [f64; 3] {
+    const H: f64 = Compensation::SPACING_S;
+    [now, (after - before) / (2.0 * H), (after - 2.0 * now + before) / (H * H)]
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "the same arithmetic gives the same bits")]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use proptest::prelude::*;
+    use robot::Robot;
+
+    use super::*;
+    use crate::drive_torque;
+
+    const H: f64 = Compensation::SPACING_S;
+    const REST: f64 = 0.02;
+
+    /// A hinge at the origin that carries a point of 2 kg at 0.5 m along x; gravity moves it
+    /// where the axis lies level.
+    fn hinge(axis: &str, describe: impl Fn(&mut Actuator)) -> Robot {
+        let mut robot = Robot::from_urdf(&format!(
+            r#"<robot name="hinge"><link name="base"/>
+            <link name="arm"><inertial><origin xyz="0.5 0 0"/><mass value="2"/>
+              <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial></link>
+            <joint name="joint" type="continuous"><parent link="base"/><child link="arm"/>
+              <axis xyz="{axis}"/></joint></robot>"#
+        ))
+        .unwrap();
+        describe(&mut robot.link_mut(0).unwrap().actuator);
+        robot
+    }
+
+    const INERTIA: f64 = 2.0 * 0.5 * 0.5;
+    const WEIGHT: f64 = 2.0 * 9.81 * 0.5;
+
+    /// Everything at once.
+    fn worn(a: &mut Actuator) {
+        (a.rotor_inertia, a.viscous) = (0.1, 0.3);
+        (a.coulomb_forward, a.coulomb_backward) = (0.6, 0.4);
+        (a.spring_stiffness, a.spring_rest) = (0.5, 0.2);
+        (a.torque_gain, a.torque_offset) = (1.1, 0.05);
+        (a.backlash, a.elasticity, a.sensing) = (0.002, Some(500.0), SensingSide::Motor);
+    }
+
+    /// Along a motion of one joint, which gives `[q, qd, qdd]` at a time.
+    fn along(robot: &Robot, motion: impl Fn(f64) -> [f64; 3], time_s: f64) -> [f64; 3] {
+        let compensation = Compensation::new(robot, vec![REST]);
+        let mut out = Compensated::zero(1);
+        let states = [time_s - H, time_s, time_s + H].map(&motion);
+        let states: Vec<[&[f64]; 3]> =
+            states.iter().map(|s| [0, 1, 2].map(|i| &s[i..=i])).collect();
+        let states = if compensation.states_needed() == 1 { &states[1..2] } else { &states[..] };
+        compensation.fill(&mut compensation.workspace(), states, &mut out);
+        [out.tau[0], out.q_lead[0], out.qd_lead[0]]
+    }
+
+    fn sine(amplitude: f64, omega: f64) -> impl Fn(f64) -> [f64; 3] {
+        move |t| {
+            let (sin, cos) = (omega * t).sin_cos();
+            [sin, omega * cos, -omega * omega * sin].map(|x| amplitude * x)
+        }
+    }
+
+    /// A link on a spring follows `A sin(w t)` when the motor does
+    ///
+    /// ```text
+    /// q_motor = A (1 - I w² / k) sin(w t)
+    /// tau     = -w² (I A + J A (1 - I w² / k)) sin(w t) + b w A (1 - I w² / k) cos(w t)
+    /// ```
+    #[test]
+    fn a_link_on_a_spring_under_a_sine_gets_the_torque_of_the_closed_form() {
+        let (rotor, viscous, stiffness, amplitude) = (0.1, 0.3, 500.0, 0.4);
+        let wheel = hinge("0 0 1", |a| {
+            (a.rotor_inertia, a.viscous, a.elasticity) = (rotor, viscous, Some(stiffness));
+        });
+        for omega in [1.0, 10.0, 30.0] {
+            let motor = amplitude * (1.0 - INERTIA * omega * omega / stiffness);
+            // What central differences take off the twist.
+            let share = (omega * H).powi(2) / 6.0 + 1e-9;
+            let twist = (motor - amplitude).abs();
+            for step in 0..40 {
+                let t = 0.05 * f64::from(step) / omega * TAU;
+                let (sin, cos) = (omega * t).sin_cos();
+                let [tau, lead, lead_rate] = along(&wheel, sine(amplitude, omega), t);
+                let inertial = -omega * omega * (INERTIA * amplitude + rotor * motor) * sin;
+                let expected = inertial + viscous * omega * motor * cos;
+                let allowed = share * twist * (rotor * omega * omega + viscous * omega);
+                assert!((tau - expected).abs() <= allowed, "{tau}, not {expected}, at {omega}");
+                assert!((lead - (motor - amplitude) * sin).abs() < 1e-12);
+                let rate = omega * (motor - amplitude) * cos;
+                assert!((lead_rate - rate).abs() <= share * omega * twist, "{lead_rate}, {rate}");
+            }
+        }
+    }
+
+    /// Held level, at `mgl / I = g / l` times the acceleration at which a load counts.
+    #[test]
+    fn a_motor_leads_by_half_the_gap_and_the_twist_on_the_side_of_the_load() {
+        // A positive turn about y lowers x, so the load is negative.
+        for (axis, side) in [("0 1 0", -1.0), ("0 -1 0", 1.0)] {
+            let at_rest = |_| [0.0; 3];
+            let play = hinge(axis, |a| a.backlash = 0.004);
+            let [tau, lead, rate] = along(&play, at_rest, 0.0);
+            assert!((tau - side * WEIGHT).abs() < 1e-12, "{tau}");
+            assert!((lead - side * 0.002).abs() < 1e-12 && rate.abs() < 1e-12, "{lead}, {rate}");
+            let both = hinge(axis, |a| (a.backlash, a.elasticity) = (0.004, Some(500.0)));
+            let [_, lead, _] = along(&both, at_rest, 0.0);
+            assert!((lead - side * (0.002 + WEIGHT / 500.0)).abs() < 1e-12, "{lead}");
+        }
+    }
+
+    #[test]
+    fn where_the_link_is_measured_nothing_leads_and_the_torque_stays() {
+        let motor = hinge("0 1 0", worn);
+        let mut link = motor.clone();
+        link.link_mut(0).unwrap().actuator.sensing = SensingSide::Link;
+        let mut unknown = motor.clone();
+        unknown.link_mut(0).unwrap().actuator.sensing = SensingSide::Unknown;
+        let of = |robot| along(robot, sine(0.4, 8.0), 0.13);
+        let [tau, lead, rate] = of(&motor);
+        assert!(lead.abs() > 1e-3 && rate.abs() > 1e-3);
+        assert_eq!(of(&link), [tau, 0.0, 0.0]);
+        assert_eq!(of(&unknown), [tau, lead, rate]);
+    }
+
+    #[test]
+    fn a_rigid_robot_gets_inverse_dynamics_and_the_law_of_its_drive() {
+        let robot = hinge("0 1 0", |a| {
+            worn(a);
+            (a.backlash, a.elasticity) = (0.0, None);
+        });
+        assert_eq!(Compensation::new(&robot, vec![REST]).states_needed(), 1);
+        for t in [0.0, 0.1, 0.196, 0.3, 0.7] {
+            let [q, qd, qdd] = sine(0.4, 8.0)(t);
+            let rigid_body = INERTIA * qdd - WEIGHT * q.cos();
+            let drive = &robot.links()[0].actuator;
+            let torque = rigid_body + drive_torque(drive, [q, qd, qdd], (qd / REST).tanh());
+            let [tau, lead, rate] = along(&robot, sine(0.4, 8.0), t);
+            assert!((tau - (1.1 * torque + 0.05)).abs() < 1e-12, "{tau} at {t} s");
+            assert_eq!([lead, rate], [0.0; 2]);
+        }
+    }
+
+    /// Ten times finer steps make the largest change ten times smaller: there is no jump.
+    #[test]
+    fn nothing_jumps_along_a_fast_sine() {
+        let robot = hinge("0 1 0", worn);
+        // It passes the vertical, where gravity changes its side of the gap.
+        let swing = |t: f64| {
+            let [q, qd, qdd] = sine(1.0, 6.0)(t);
+            [q + 0.5 * std::f64::consts::PI, qd, qdd]
+        };
+        let largest = |dt: f64| {
+            let steps = (1.2 / dt) as u32;
+            let mut before = along(&robot, swing, 0.0);
+            let mut largest = [0.0_f64; 3];
+            for step in 1..=steps {
+                let now = along(&robot, swing, dt * f64::from(step));
+                for i in 0..3 {
+                    largest[i] = largest[i].max((now[i] - before[i]).abs());
+                }
+                before = now;
+            }
+            largest
+        };
+        let (coarse, fine) = (largest(1e-4), largest(1e-5));
+        for i in 0..3 {
+            assert!(fine[i] > 0.0 && fine[i] < 0.11 * coarse[i], "{coarse:?}, {fine:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn friction_and_leads_are_bounded_by_their_causes(
+            states in prop::array::uniform3(prop::array::uniform3(-20.0..20.0f64)),
+            gap in 0.0..0.5f64,
+            stiffness in prop::option::of(1.0..1e5f64),
+            level in prop::array::uniform2(0.0..50.0f64),
+        ) {
+            let smooth = hinge("0 1 0", |a| (a.backlash, a.elasticity) = (gap, stiffness));
+            let rough = hinge("0 1 0", |a| {
+                (a.backlash, a.elasticity) = (gap, stiffness);
+                [a.coulomb_forward, a.coulomb_backward] = level;
+            });
+            let at = |t: f64| states[(1.0 + t / H).round() as usize];
+            let [q, _, qdd] = states[1];
+            let load = INERTIA * qdd - WEIGHT * q.cos();
+            let [tau, lead, rate] = along(&smooth, at, 0.0);
+            let most = 0.5 * gap + stiffness.map_or(0.0, |k| load.abs() / k);
+            prop_assert!(lead.abs() <= most * (1.0 + 1e-12) && rate.is_finite());
+            prop_assert!(lead * load >= 0.0);
+            let friction = along(&rough, at, 0.0)[0] - tau;
+            let rounding = 1e-12 * (1.0 + tau.abs());
+            prop_assert!(friction <= level[0] + rounding && -friction <= level[1] + rounding);
+        }
+    }
+}
