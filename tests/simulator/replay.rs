@@ -1,6 +1,6 @@
 use checks::arms::{wam, workspace_root};
 use logs::{PreparedJoint, PreparedRun};
-use robot::{Gain, Robot, TorqueSource};
+use robot::{Actuator, Gain, Robot, TorqueSource};
 use simulator::scenario::Scenario;
 use simulator::{SimulatorError, replay_motion, replay_torque};
 
@@ -65,6 +65,24 @@ fn a_simulation_without_the_payload_of_the_log_drifts_away() {
     for (window_s, allowed) in &ALLOWED[..2] {
         let drift = largest(&drift(&robot, &record, *window_s));
         assert!(drift > 1e5 * allowed, "{drift:.2e} rad after {window_s} s");
+    }
+}
+
+/// A robot that says what its elbow has goes with the record, one that does not drifts away.
+#[test]
+fn a_record_of_an_arm_with_play_or_delay_is_replayed_by_a_robot_that_says_so() {
+    let elbow = "joint = 'j4_elbow_pitch'";
+    let cases: [(String, fn(&mut Actuator)); 2] = [
+        (format!("actuator_delay = {{ {elbow}, delay_ms = 1.5 }}"), |a| a.delay_s = 0.0015),
+        (format!("backlash = {{ {elbow}, gap_rad = 0.002 }}"), |a| a.backlash = 0.002),
+    ];
+    let rigid = wam_with(TorqueSource::Commanded);
+    for (effect, describe) in cases {
+        let record = record("commanded", &format!("[[effect]]\n{effect}"));
+        let mut described = rigid.clone();
+        describe(&mut described.link_mut(3).unwrap().actuator);
+        let [with, without] = [&described, &rigid].map(|robot| drift(robot, &record, 0.05)[3]);
+        assert!(50.0 * with < without, "{effect}: {with:.2e} rad, {without:.2e} without");
     }
 }
 

@@ -111,13 +111,16 @@ impl Arm {
         self.engine.step_s()
     }
 
-    /// Puts the joints into a state, nothing deflected.
-    pub fn set_state(&mut self, q: &[f64], qd: &[f64]) {
+    /// Puts the motors into a state, each link `twist` ahead of its own where they can part.
+    pub fn set_state(&mut self, q: &[f64], qd: &[f64], twist: &[f64]) {
         let mut at = Load::none(self.constraint.len());
         let mut velocity = at.effort.clone();
         for (i, joint) in self.joints.iter().enumerate() {
             at.effort[joint.motor] = q[i];
             velocity[joint.motor] = qd[i];
+            if let Some(deflection) = joint.deflection {
+                at.effort[deflection] = twist[i];
+            }
         }
         self.engine.set_state(&at.effort, &velocity);
         self.transmitted.fill(0.0);

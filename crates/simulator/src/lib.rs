@@ -16,6 +16,7 @@ mod engine;
 mod error;
 mod inject;
 mod plant;
+mod recorded;
 mod replay;
 mod run;
 pub mod scenario;

@@ -29,6 +29,19 @@ impl Transmission {
         }
     }
 
+    /// How far the link stays behind its motor under a load that rests on it (rad or m), as a
+    /// negative number for a positive load:
+    ///
+    /// ```text
+    /// q - theta = -(load / stiffness + (gap / 2) sign(load))
+    /// ```
+    pub(crate) fn twist_under(&self, load: f64) -> f64 {
+        if load.abs() <= 0.0 {
+            return 0.0;
+        }
+        -(self.stiffness.map_or(0.0, |k| load / k) + 0.5 * self.gap.copysign(load))
+    }
+
     /// Whether motor and link move as one.
     pub fn is_rigid(&self) -> bool {
         self.stiffness.is_none() && self.gap <= 0.0

@@ -1,9 +1,10 @@
 use std::collections::BTreeMap;
 
-use logs::{Channels, PreparedJoint, PreparedRun, Run};
+use logs::{Channels, PreparedRun, Run};
 use rayon::prelude::*;
-use robot::{Gain, Machine, MachineFault, Reading, Robot, TorqueSource};
+use robot::{Gain, Machine, MachineFault, Reading, Robot};
 
+use crate::recorded::{State, begin, between, delay_s, held, seen};
 use crate::{Sensors, Simulator, SimulatorError, Stepping};
 
 /// Longest step of the engine (s).
@@ -36,7 +37,10 @@ pub struct ForwardReplay {
 /// ```
 ///
 /// A torque that was commanded is held from its sample to the next, one that was measured is the
-/// mean of both. Windows are simulated side by side.
+/// mean of both. Windows are simulated side by side. Transmissions start under the load that the
+/// drive's description and the torque of the first sample say; what is compared is what the
+/// robot's encoders would show. A spring that rings at the start of a window rings on from the
+/// state of rest under that load, which one encoder cannot tell.
 ///
 /// # Errors
 ///
@@ -84,11 +88,6 @@ struct Window {
     fault: Option<MachineFault>,
 }
 
-struct State {
-    q: Vec<f64>,
-    qd: Vec<f64>,
-}
-
 fn roll(
     robot: &Robot,
     record: &PreparedRun,
@@ -96,9 +95,7 @@ fn roll(
     samples: usize,
 ) -> Result<Window, SimulatorError> {
     let mut simulator = perfect(robot, record.rate_hz)?;
-    let at =
-        |of: &dyn Fn(&PreparedJoint) -> f64| -> Vec<f64> { record.joints.iter().map(of).collect() };
-    simulator.start_moving(&at(&|j| j.q[start]), &at(&|j| j.qd[start]));
+    begin(&mut simulator, robot, record, start);
     let mut window = Window { states: Vec::with_capacity(samples), fault: None };
     for sample in start..start + samples {
         let tau = held(robot, record, sample);
@@ -106,19 +103,9 @@ fn roll(
             window.fault = Some(fault);
             break;
         }
-        let (q, qd) = (simulator.q_true().to_vec(), simulator.qd_true().to_vec());
-        window.states.push(State { q, qd });
+        window.states.push(seen(&simulator, robot));
     }
     Ok(window)
-}
-
-/// Torques from one sample to the next.
-fn held(robot: &Robot, record: &PreparedRun, sample: usize) -> Vec<f64> {
-    let of = |(joint, link): (&PreparedJoint, &robot::Link)| match link.actuator.torque_source {
-        TorqueSource::Commanded => joint.effort[sample],
-        _ => 0.5 * (joint.effort[sample] + joint.effort[sample + 1]),
-    };
-    record.joints.iter().zip(robot.links()).map(of).collect()
 }
 
 /// A simulator that holds commands for one sample of a record.
@@ -129,7 +116,13 @@ fn perfect(robot: &Robot, rate_hz: f64) -> Result<Simulator, SimulatorError> {
         steps_per_period: steps as usize,
         stops: false,
     };
-    Simulator::new(robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping)
+    let mut robot = robot.clone();
+    for i in 0..robot.joint_count() {
+        if let Some(link) = robot.link_mut(i) {
+            link.actuator.delay_s = delay_s(&link.actuator);
+        }
+    }
+    Simulator::new(&robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping)
 }
 
 fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[Window]) -> Run {
@@ -198,14 +191,14 @@ pub fn replay_motion(
     // A controller at the rate of a slow log would not be stable.
     let turns = (CONTROL_HZ / record.rate_hz).ceil().max(1.0) as usize;
     let mut simulator = perfect(robot, record.rate_hz * turns as f64)?;
-    let at =
-        |of: &dyn Fn(&PreparedJoint) -> f64| -> Vec<f64> { record.joints.iter().map(of).collect() };
-    simulator.start_moving(&at(&|j| j.q[0]), &at(&|j| j.qd[0]));
+    begin(&mut simulator, robot, record, 0);
     let mut rows = Vec::with_capacity(record.time.len());
     let mut reading = Reading::zero(robot.joint_count());
     for tick in 0..(record.time.len() - 1) * turns {
         let mut turn = || {
             simulator.read(&mut reading)?;
+            let State { q, qd } = seen(&simulator, robot);
+            (reading.q, reading.qd) = (q, qd);
             let (sample, part) = (tick / turns, (tick % turns) as f64 / turns as f64);
             let mut tau = held(robot, record, sample);
             for (i, (joint, gain)) in record.joints.iter().zip(gains).enumerate() {
@@ -223,17 +216,6 @@ pub fn replay_motion(
         }
     }
     Ok(compared(robot, record, &rows))
-}
-
-/// Position and velocity a part of the way from one sample to the next: the cubic that has the
-/// positions and velocities of both.
-fn between(joint: &PreparedJoint, sample: usize, part: f64, interval_s: f64) -> [f64; 2] {
-    let (a, b) = (joint.q[sample], joint.q[sample + 1]);
-    let (va, vb) = (interval_s * joint.qd[sample], interval_s * joint.qd[sample + 1]);
-    let (second, third) = (3.0 * (b - a) - 2.0 * va - vb, 2.0 * (a - b) + va + vb);
-    let q = a + part * (va + part * (second + part * third));
-    let qd = (va + part * (2.0 * second + 3.0 * part * third)) / interval_s;
-    [q, qd]
 }
 
 /// What rows of simulated motion, with what was fed back as their effort, say about a record.

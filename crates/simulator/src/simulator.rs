@@ -120,7 +120,12 @@ impl Simulator {
     /// Puts the arm into a state of positions (rad or m) and velocities (rad/s or m/s), its
     /// clock to zero.
     pub fn start_moving(&mut self, q: &[f64], qd: &[f64]) {
-        self.arm.set_state(q, qd);
+        self.start_twisted(q, qd, &vec![0.0; q.len()]);
+    }
+
+    /// The same with each link `twist` (rad or m) ahead of its motor, where they can part.
+    pub(crate) fn start_twisted(&mut self, q: &[f64], qd: &[f64], twist: &[f64]) {
+        self.arm.set_state(q, qd, twist);
         self.steps = 0;
         self.command = None;
         self.motor_torque.fill(0.0);
@@ -134,6 +139,24 @@ impl Simulator {
     /// Sets the clock to as many periods before time zero.
     pub(crate) fn count_down(&mut self, periods: usize) {
         self.steps = -((periods * self.steps_per_period) as i64);
+    }
+
+    /// Sends the commands of the last periods before time zero through what holds them back; the
+    /// arm stays where it starts.
+    pub(crate) fn recall(&mut self, past: &[Vec<f64>]) {
+        self.count_down(past.len());
+        for command in past {
+            let before = self.command.take().unwrap_or_else(|| command.clone());
+            for step in 0..self.steps_per_period {
+                ask(&mut self.tau, step, &before, command);
+                let moment = moment(&self.arm, self.steps);
+                for effect in &mut self.effects {
+                    effect.on_command(&moment, &mut self.tau);
+                }
+                self.steps += 1;
+            }
+            self.command = Some(command.clone());
+        }
     }
 
     /// Time since the start (s).
@@ -156,6 +179,11 @@ impl Simulator {
         self.arm.motor_q()
     }
 
+    /// Velocities of the motors as they are, seen at the joint (rad/s or m/s).
+    pub fn motor_qd_true(&self) -> &[f64] {
+        self.arm.motor_qd()
+    }
+
     /// Torque of the motors in the last step (N m or N).
     pub fn motor_torque_true(&self) -> &[f64] {
         &self.motor_torque
@@ -174,15 +202,7 @@ impl Simulator {
 
     /// One step of the engine under the torque asked for (N m or N), the mean over the step.
     fn step(&mut self) -> Result<(), MachineFault> {
-        let moment = Moment {
-            time_s: self.steps as f64 * self.arm.step_s(),
-            step_s: self.arm.step_s(),
-            motor_q: self.arm.motor_q(),
-            motor_qd: self.arm.motor_qd(),
-            q: self.arm.q(),
-            qd: self.arm.qd(),
-            load: self.arm.transmitted(),
-        };
+        let moment = moment(&self.arm, self.steps);
         for effect in &mut self.effects {
             effect.on_command(&moment, &mut self.tau);
         }
@@ -267,11 +287,7 @@ impl Machine for Simulator {
     fn actuate(&mut self, effort: &[f64]) -> Result<(), MachineFault> {
         let before = self.command.take().unwrap_or_else(|| effort.to_vec());
         for step in 0..self.steps_per_period {
-            // The first step's middle falls on the jump from one command to the next.
-            let old = if step == 0 { 0.5 } else { 0.0 };
-            for (tau, (b, e)) in self.tau.iter_mut().zip(before.iter().zip(effort)) {
-                *tau = old * b + (1.0 - old) * e;
-            }
+            ask(&mut self.tau, step, &before, effort);
             self.step()?;
             if step == 0 {
                 self.sample_effort(effort);
@@ -303,6 +319,29 @@ impl Joint {
             dry_backward: link.actuator.coulomb_backward,
             viscous: link.actuator.viscous,
         }
+    }
+}
+
+/// Where the arm is at the beginning of a step.
+fn moment(arm: &Arm, steps: i64) -> Moment<'_> {
+    Moment {
+        time_s: steps as f64 * arm.step_s(),
+        step_s: arm.step_s(),
+        motor_q: arm.motor_q(),
+        motor_qd: arm.motor_qd(),
+        q: arm.q(),
+        qd: arm.qd(),
+        load: arm.transmitted(),
+    }
+}
+
+/// What is asked for on the mean over a step of the period that follows a command.
+///
+/// The first step's middle falls on the jump from one command to the next.
+fn ask(tau: &mut [f64], step: usize, before: &[f64], command: &[f64]) {
+    let old = if step == 0 { 0.5 } else { 0.0 };
+    for (tau, (b, c)) in tau.iter_mut().zip(before.iter().zip(command)) {
+        *tau = old * b + (1.0 - old) * c;
     }
 }
 

@@ -1,0 +1,99 @@
+use logs::{PreparedJoint, PreparedRun};
+use robot::{Actuator, Robot, SensingSide, TorqueSource};
+
+use crate::{Simulator, Transmission};
+
+/// Positions (rad or m) and velocities (rad/s or m/s), one a joint.
+pub(crate) struct State {
+    pub q: Vec<f64>,
+    pub qd: Vec<f64>,
+}
+
+/// Puts a simulation into the state of a sample: positions and velocities as measured, every
+/// transmission twisted by the load of that instant, and what was asked for before on its way.
+pub(crate) fn begin(simulator: &mut Simulator, robot: &Robot, record: &PreparedRun, sample: usize) {
+    let (mut motor_q, mut motor_qd, mut twist) = (Vec::new(), Vec::new(), Vec::new());
+    for (link, joint) in robot.links().iter().zip(&record.joints) {
+        let drive = &link.actuator;
+        let load = load(drive, joint, sample, record.rate_hz);
+        let behind = Transmission::described(drive).twist_under(load);
+        let at_link = drive.sensing == SensingSide::Link;
+        motor_q.push(joint.q[sample] - if at_link { behind } else { 0.0 });
+        motor_qd.push(joint.qd[sample]);
+        twist.push(behind);
+    }
+    simulator.start_twisted(&motor_q, &motor_qd, &twist);
+    let longest_s = robot.links().iter().map(|l| delay_s(&l.actuator)).fold(0.0, f64::max);
+    if longest_s > 0.0 {
+        let first = sample.saturating_sub((longest_s * record.rate_hz).ceil() as usize + 1);
+        let past: Vec<Vec<f64>> = (first..sample).map(|k| held(robot, record, k)).collect();
+        simulator.recall(&past);
+    }
+}
+
+/// Torque through the transmission of a joint (N m or N):
+///
+/// ```text
+/// load = (effort(t - delay) - offset) / gain - J qdd - viscous qd - coulomb sign(qd)
+/// ```
+fn load(drive: &Actuator, joint: &PreparedJoint, sample: usize, rate_hz: f64) -> f64 {
+    let [qd, qdd] = [joint.qd[sample], joint.qdd[sample]];
+    let late = (delay_s(drive) * rate_hz).round() as usize;
+    let effort = joint.effort[sample.saturating_sub(late)];
+    let friction = match qd {
+        qd if qd > 0.0 => drive.coulomb_forward,
+        qd if qd < 0.0 => -drive.coulomb_backward,
+        _ => 0.0,
+    };
+    (effort - drive.torque_offset) / drive.torque_gain
+        - drive.rotor_inertia * qdd
+        - drive.viscous * qd
+        - friction
+}
+
+/// How late the torque is after the effort of the log (s): what was measured has its delay
+/// behind it.
+pub(crate) fn delay_s(drive: &Actuator) -> f64 {
+    if drive.torque_source == TorqueSource::Commanded { drive.delay_s } else { 0.0 }
+}
+
+/// What the robot's encoders would show.
+pub(crate) fn seen(simulator: &Simulator, robot: &Robot) -> State {
+    let pick = |link: &[f64], motor: &[f64]| -> Vec<f64> {
+        let sides = robot.links().iter().map(|l| l.actuator.sensing);
+        let of = |(side, (link, motor)): (SensingSide, (&f64, &f64))| match side {
+            SensingSide::Link => *link,
+            SensingSide::Motor | SensingSide::Unknown => *motor,
+        };
+        sides.zip(link.iter().zip(motor)).map(of).collect()
+    };
+    State {
+        q: pick(simulator.q_true(), simulator.motor_q_true()),
+        qd: pick(simulator.qd_true(), simulator.motor_qd_true()),
+    }
+}
+
+/// Torques from one sample to the next.
+pub(crate) fn held(robot: &Robot, record: &PreparedRun, sample: usize) -> Vec<f64> {
+    let of = |(joint, link): (&PreparedJoint, &robot::Link)| match link.actuator.torque_source {
+        TorqueSource::Commanded => joint.effort[sample],
+        _ => 0.5 * (joint.effort[sample] + joint.effort[sample + 1]),
+    };
+    record.joints.iter().zip(robot.links()).map(of).collect()
+}
+
+/// Position and velocity a part of the way from one sample to the next: the cubic that has the
+/// positions and velocities of both.
+pub(crate) fn between(
+    joint: &PreparedJoint,
+    sample: usize,
+    part: f64,
+    interval_s: f64,
+) -> [f64; 2] {
+    let (a, b) = (joint.q[sample], joint.q[sample + 1]);
+    let (va, vb) = (interval_s * joint.qd[sample], interval_s * joint.qd[sample + 1]);
+    let (second, third) = (3.0 * (b - a) - 2.0 * va - vb, 2.0 * (a - b) + va + vb);
+    let q = a + part * (va + part * (second + part * third));
+    let qd = (va + part * (2.0 * second + 3.0 * part * third)) / interval_s;
+    [q, qd]
+}
