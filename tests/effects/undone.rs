@@ -28,15 +28,13 @@ fn worn() -> Robot {
 /// which gravity keeps elbow and shoulder loaded.
 fn motion(time_s: f64) -> [Vec<f64>; 3] {
     let rest = [0.0, 0.5, 0.0, 1.3, 0.0, -0.3, 0.0];
-    let mut state = [rest.to_vec(), vec![0.0; 7], vec![0.0; 7]];
-    for j in 0..7 {
+    let at = |(j, rest): (usize, f64)| {
         let (omega, amplitude) = (2.0 + 0.3 * j as f64, 0.2);
         let (sin, cos) = (omega * time_s).sin_cos();
-        state[0][j] += amplitude * (1.0 - cos);
-        state[1][j] = amplitude * omega * sin;
-        state[2][j] = amplitude * omega * omega * cos;
-    }
-    state
+        [rest + amplitude * (1.0 - cos), amplitude * omega * sin, amplitude * omega * omega * cos]
+    };
+    let joints: Vec<[f64; 3]> = rest.into_iter().enumerate().map(at).collect();
+    [0, 1, 2].map(|i| joints.iter().map(|state| state[i]).collect())
 }
 
 fn asked(compensation: &Compensation, time_s: f64) -> Compensated {

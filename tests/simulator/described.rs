@@ -8,6 +8,9 @@ const INERTIA: f64 = 0.4;
 const ROTOR: f64 = 0.1;
 const STIFFNESS: f64 = 2000.0;
 
+/// What a description says of a drive.
+type Describe = fn(&mut Actuator);
+
 fn wheel(describe: impl Fn(&mut Actuator)) -> Robot {
     let mut robot = flywheel(INERTIA, ROTOR);
     describe(&mut robot.link_mut(0).unwrap().actuator);
@@ -32,7 +35,7 @@ fn a_described_arm_moves_bit_for_bit_as_one_with_the_effect_put_in() {
         "joint_elasticity = {{ joint = 'joint', stiffness_nm_per_rad = {STIFFNESS}, \
          damping_nm_s_per_rad = {damping} }}"
     );
-    let cases: [(&[&String], fn(&mut Actuator)); 4] = [
+    let cases: [(&[&String], Describe); 4] = [
         (&[&gap], |a| a.backlash = 0.01),
         (&[&delay], |a| a.delay_s = 1e-3 * 3.37),
         (&[&spring], |a| a.elasticity = Some(STIFFNESS)),

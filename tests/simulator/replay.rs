@@ -68,11 +68,14 @@ fn a_simulation_without_the_payload_of_the_log_drifts_away() {
     }
 }
 
+/// What a description says of a drive.
+type Describe = fn(&mut Actuator);
+
 /// A robot that says what its elbow has goes with the record, one that does not drifts away.
 #[test]
 fn a_record_of_an_arm_with_play_or_delay_is_replayed_by_a_robot_that_says_so() {
     let elbow = "joint = 'j4_elbow_pitch'";
-    let cases: [(String, fn(&mut Actuator)); 2] = [
+    let cases: [(String, Describe); 2] = [
         (format!("actuator_delay = {{ {elbow}, delay_ms = 1.5 }}"), |a| a.delay_s = 0.0015),
         (format!("backlash = {{ {elbow}, gap_rad = 0.002 }}"), |a| a.backlash = 0.002),
     ];
