@@ -21,7 +21,7 @@ fn grown(rows: &[[f64; 6]]) -> Scratch {
 /// Rows as they are read back: time, positions, efforts, gauge.
 fn read(file: &Scratch) -> Result<Vec<[f64; 6]>, LogError> {
     let run = file.read(&two_joints())?;
-    let [one, two] = &run.joints[..] else { panic!("two joints") };
+    let (one, two) = (&run.joints[0], &run.joints[1]);
     let gauge = &run.extra["gauge"];
     let row = |k: usize| {
         let [a, b] = [one, two].map(|joint| (joint.position[k], joint.effort[k]));
@@ -68,10 +68,7 @@ proptest! {
 }
 
 fn rows(count: u32) -> Vec<[f64; 6]> {
-    (0..count)
-        .map(|k| f64::from(k))
-        .map(|k| [0.002 * k, k.sin(), k.cos(), k, -k, 0.5 * k])
-        .collect()
+    (0..count).map(f64::from).map(|k| [0.002 * k, k.sin(), k.cos(), k, -k, 0.5 * k]).collect()
 }
 
 #[test]
@@ -111,7 +108,7 @@ fn a_torn_row_is_told() {
     fs::write(&file.path, &bytes[..bytes.len() - 3]).unwrap();
     let torn = file.read(&two_joints()).unwrap();
     assert_eq!((whole.is_torn, torn.is_torn, torn.time.len()), (false, true, 2999));
-    let settings = PrepareSettings { cutoff_hz: Some(20.0), ..PrepareSettings::default() };
+    let settings = PrepareSettings { cutoff_hz: Some(20.0) };
     let warnings = |run| prepare(&[run], &settings).unwrap().warnings;
     let told = LogWarning::TornLastRow { run: "run".to_owned() };
     assert!(warnings(torn).contains(&told) && !warnings(whole).contains(&told));
