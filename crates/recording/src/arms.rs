@@ -86,6 +86,7 @@ impl ArmTrack {
         self.flush_path(stream)?;
         for (i, link) in self.links.iter().enumerate() {
             let of_link = || self.poses.iter().map(|poses| &poses[i]);
+            // Both parts in every row: the viewer does not join a static one with a moving one.
             let columns = Transform3D::update_fields()
                 .with_many_translation(of_link().map(|p| shapes::point(&p.translation.vector)))
                 .with_many_quaternion(of_link().map(|p| shapes::quaternion(&p.rotation)))

@@ -62,7 +62,7 @@ impl Layout {
         let reach = self.reach_m as f32;
         let view = Spatial3DView::new(self.title.as_str()).with_origin("world");
         let eye = EyeControls3D::new()
-            .with_position([1.25 * reach, -1.35 * reach, 0.95 * reach])
+            .with_position([0.95 * reach, -1.05 * reach, 0.85 * reach])
             .with_look_target([0.0, 0.0, 0.42 * reach])
             .with_eye_up([0.0_f32, 0.0, 1.0]);
         let grid = LineGrid3D::new().with_visible(true).with_spacing(spacing(self.reach_m) as f32);
@@ -108,7 +108,8 @@ impl Layout {
         events = properties.set(events, "TextLogColumns", columns);
         let bars = self.bars.iter().map(|(title, path)| -> ContainerLike {
             let view = BarChartView::new(title.as_str()).with_origin(path.clone());
-            legend(view.into(), properties)
+            let corner = PlotLegend::new().with_corner(Corner2D::RightTop);
+            properties.set(view.into(), "PlotLegend", corner)
         });
         let bars: Vec<_> = bars.collect();
         if bars.is_empty() {
@@ -122,10 +123,6 @@ impl Layout {
 fn plot(view: ContainerLike, properties: &mut Properties) -> ContainerLike {
     let shared = TimeAxis::new().with_link(LinkAxis::LinkToGlobal);
     let view = properties.set(view, "TimeAxis", shared);
-    legend(view, properties)
-}
-
-fn legend(view: ContainerLike, properties: &mut Properties) -> ContainerLike {
     properties.set(view, "PlotLegend", PlotLegend::new().with_corner(Corner2D::LeftTop))
 }
 

@@ -178,7 +178,7 @@ impl Recorder {
         if let Some((name, values)) = wrong {
             return Err(length(format!("bars {title}, {name}"), "numbers", values.len(), joints));
         }
-        let path = EntityPath::new(vec![part("metrics"), part(title)]);
+        let path = EntityPath::new(vec![part("metrics"), part(&plain(title))]);
         let width = BARS / series.len().max(1) as f64;
         for (i, (name, values)) in series.iter().enumerate() {
             let shift = (i as f64 + 0.5) * width - 0.5 * BARS;
@@ -189,7 +189,7 @@ impl Recorder {
                 .with_abscissa(at)
                 .with_widths(vec![width as f32; joints])
                 .with_color(colour::solid(colour::series(i)));
-            let path = path.join(&EntityPath::new(vec![part(name)]));
+            let path = path.join(&EntityPath::new(vec![part(&plain(name))]));
             self.stream.log_static(path, &chart).map_err(refused)?;
         }
         if !self.layout.bars.iter().any(|(_, shown)| *shown == path) {
@@ -248,6 +248,12 @@ impl Recorder {
         }
         Ok(())
     }
+}
+
+/// A name that the legend of a bar chart, which shows paths, can show without escapes.
+fn plain(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric() && !matches!(c, '-' | '.'));
+    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
 }
 
 fn length(thing: String, items: &'static str, found: usize, expected: usize) -> RecordingError {

@@ -1,0 +1,256 @@
+//! What a recording holds, read back with the decoder of the library that wrote it.
+#![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use recording::{
+    Arm, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows, Scene, Signal,
+    Written,
+};
+use rerun::external::arrow::array::{Array, Float64Array};
+use rerun::external::re_log_encoding::DecoderApp;
+use rerun::external::re_log_types::{LogMsg, StoreKind};
+use rerun::log::Chunk;
+use robot::{Loaded, Robot};
+
+const RATE_HZ: f64 = 500.0;
+
+/// Per entity: times (ns) with their rows of numbers by column, in the order of the file.
+#[derive(Debug, Default, PartialEq)]
+struct Found {
+    rows: usize,
+    times_ns: Vec<i64>,
+    columns: BTreeMap<String, Vec<Vec<f64>>>,
+}
+
+#[derive(Debug, Default)]
+struct File {
+    entities: BTreeMap<String, Found>,
+    layouts: usize,
+    activations: usize,
+}
+
+/// Everything up to the first message that cannot be read.
+fn decode(bytes: &[u8]) -> File {
+    let mut file = File::default();
+    for message in DecoderApp::decode_lazy(std::io::Cursor::new(bytes.to_vec())) {
+        match message {
+            Ok(LogMsg::ArrowMsg(id, _)) if id.kind() == StoreKind::Blueprint => file.layouts += 1,
+            Ok(LogMsg::ArrowMsg(_, message)) => {
+                let chunk = Chunk::from_arrow_msg(&message).unwrap();
+                take(file.entities.entry(chunk.entity_path().to_string()).or_default(), &chunk);
+            }
+            Ok(LogMsg::BlueprintActivationCommand(_)) => file.activations += 1,
+            Ok(LogMsg::SetStoreInfo(_)) => {}
+            Err(_) => break,
+        }
+    }
+    file
+}
+
+fn take(found: &mut Found, chunk: &Chunk) {
+    found.rows += chunk.num_rows();
+    let clock = chunk.timelines().get(&rerun::TimelineName::from("t"));
+    found.times_ns.extend(clock.iter().flat_map(|column| column.times_raw()));
+    let columns: BTreeMap<_, _> = chunk.components().iter().collect();
+    for (name, column) in columns {
+        let rows = (0..column.list_array.len()).map(|row| column.list_array.value(row));
+        let numbers = rows.filter_map(|row| {
+            row.as_any().downcast_ref::<Float64Array>().map(|n| n.values().to_vec())
+        });
+        found.columns.entry(name.to_string()).or_default().extend(numbers);
+    }
+}
+
+fn wam() -> Loaded {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/wam7/robot.toml");
+    Robot::load(Path::new(file)).unwrap()
+}
+
+fn scene(loaded: &Loaded) -> Scene<'_> {
+    Scene {
+        title: "a test",
+        robot: &loaded.robot,
+        looks: &loaded.looks,
+        arms: vec![
+            Arm { name: "measured", role: Role::Actual },
+            Arm { name: "desired", role: Role::Desired },
+        ],
+        signals: vec![
+            Signal { quantity: Quantity::Position, name: "desired", role: Role::Desired },
+            Signal { quantity: Quantity::Position, name: "measured", role: Role::Actual },
+            Signal { quantity: Quantity::Error, name: "tracking error", role: Role::Error },
+        ],
+    }
+}
+
+fn value(row: usize, joint: usize) -> f64 {
+    (0.003 * row as f64 + joint as f64).sin()
+}
+
+/// Three seconds in blocks of 0.2 s; the position of joint 2 is not known in row 700.
+fn record(path: &Path) -> Written {
+    let loaded = wam();
+    let mut recorder = Recorder::create(path, &scene(&loaded), Live::Off).unwrap();
+    for start in (0..1500).step_by(100) {
+        let time_s: Vec<f64> = (start..start + 100).map(|i| i as f64 / RATE_HZ).collect();
+        let grid = || (start..start + 100).flat_map(|i| (0..7).map(move |j| (i, j)));
+        let q: Vec<f64> = grid().map(|(i, j)| value(i, j)).collect();
+        let gap = |(i, j)| if (i, j) == (700, 2) { f64::NAN } else { value(i, j) };
+        let measured: Vec<f64> = grid().map(gap).collect();
+        let error: Vec<f64> = grid().map(|(i, j)| 1e-3 * value(i, j)).collect();
+        recorder
+            .rows(&Rows { time_s: &time_s, arms: &[&q, &q], signals: &[&q, &measured, &error] })
+            .unwrap();
+    }
+    recorder.event(1.0, Level::Warning, "prediction stalled").unwrap();
+    recorder.document("# Verdict").unwrap();
+    recorder.bars("RMSE (mrad)", &[("gp", &[1.0; 7]), ("none", &[2.0; 7])]).unwrap();
+    recorder.finish().unwrap()
+}
+
+#[test]
+fn a_recording_holds_what_was_put_into_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let written = record(&path);
+    let bytes = std::fs::read(&path).unwrap();
+    assert_eq!(written.rows, 1500);
+    assert_eq!(written.bytes, bytes.len() as u64);
+    assert_eq!(written.listener, Listener::NotAsked);
+    let file = decode(&bytes);
+    assert!(file.layouts > 50, "{}", file.layouts);
+    // Once without the bars, once with them.
+    assert_eq!(file.activations, 2);
+
+    let joint = &file.entities["/joints/j3_shoulder_yaw"];
+    let expected_ns: Vec<i64> = (0..1500).map(|i| i * 2_000_000).collect();
+    assert_eq!(joint.times_ns, expected_ns);
+    let (position, error) = (&joint.columns["position"], &joint.columns["error"]);
+    for row in 0..1500 {
+        let q = value(row, 2);
+        assert_eq!(position[row][0].to_bits(), q.to_bits());
+        if row == 700 {
+            assert!(position[row][1].is_nan());
+        } else {
+            assert_eq!(position[row][1].to_bits(), q.to_bits());
+        }
+        // Errors are shown in mrad.
+        assert!((error[row][0] - q).abs() < 1e-15);
+    }
+
+    let link = file.entities.keys().find(|k| k.ends_with("/shoulder_yaw/shoulder_pitch"));
+    let link = &file.entities[link.unwrap()];
+    assert_eq!(link.times_ns.len(), 150, "poses come at 50 Hz");
+    for entity in ["/world/paths/measured", "/events", "/verdict", "/metrics/RMSE_mrad/gp"] {
+        assert!(file.entities.contains_key(entity), "{entity}: {:?}", file.entities.keys());
+    }
+}
+
+#[test]
+fn a_file_that_is_cut_reads_up_to_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    record(&path);
+    let bytes = std::fs::read(&path).unwrap();
+    let rows = |file: &File| file.entities.get("/joints/j1_base_yaw").map_or(0, |f| f.rows);
+    let counts: Vec<usize> =
+        (1..100).map(|percent| rows(&decode(&bytes[..bytes.len() * percent / 100]))).collect();
+    assert!(counts.is_sorted(), "{counts:?}");
+    assert!(counts.iter().any(|n| (1..1500).contains(n)), "{counts:?}");
+    assert_eq!(counts.last(), Some(&1500));
+}
+
+#[test]
+fn two_recordings_of_the_same_run_hold_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = ["a.rrd", "b.rrd"].map(|name| {
+        record(&folder.path().join(name));
+        decode(&std::fs::read(folder.path().join(name)).unwrap())
+    });
+    let text = |file: &File| format!("{:?}", file.entities);
+    assert_eq!(text(&files[0]), text(&files[1]));
+}
+
+#[test]
+fn rows_of_wrong_lengths_or_times_are_refused_and_leave_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let loaded = wam();
+    let path = folder.path().join("run.rrd");
+    let mut recorder = Recorder::create(&path, &scene(&loaded), Live::Off).unwrap();
+    let (one, short) = ([0.0; 7], [0.0; 6]);
+    let mut rows = |time_s: &[f64], arms: &[&[f64]], signals: &[&[f64]]| {
+        recorder.rows(&Rows { time_s, arms, signals })
+    };
+    let all = [&one[..], &one, &one];
+    let length = |thing: &str, items, found, expected| {
+        Err(RecordingError::WrongLength { thing: thing.to_owned(), items, found, expected })
+    };
+    assert_eq!(rows(&[0.0], &all[..1], &all), length("a block of rows", "arms", 1, 2));
+    assert_eq!(rows(&[0.0], &all[..2], &all[..2]), length("a block of rows", "signals", 2, 3));
+    assert_eq!(rows(&[0.0], &[&one, &short], &all), length("arm desired", "numbers", 6, 7));
+    let signals = [&one[..], &short, &one];
+    assert_eq!(rows(&[0.0], &all[..2], &signals), length("signal measured", "numbers", 6, 7));
+    for time_s in [f64::NAN, f64::INFINITY, 1e300] {
+        let refused = rows(&[time_s], &all[..2], &all);
+        assert!(matches!(refused, Err(RecordingError::TimeNotIncreasing { row: 0, .. })));
+    }
+    assert_eq!(rows(&[], &[&[], &[]], &[&[], &[], &[]]), Ok(()));
+    assert_eq!(rows(&[1.0], &all[..2], &all), Ok(()));
+    let again = RecordingError::TimeNotIncreasing { row: 0, time_s: 1.0, previous_s: 1.0 };
+    assert_eq!(rows(&[1.0], &all[..2], &all), Err(again));
+    let bars = recorder.bars("RMSE", &[("gp", &[1.0])]);
+    assert_eq!(bars, length("bars RMSE, gp", "numbers", 1, 7));
+    assert!(recorder.event(f64::NAN, Level::Info, "never").is_err());
+    assert_eq!(recorder.finish().unwrap().rows, 1);
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_an_error() {
+    let loaded = wam();
+    let created = Recorder::create(Path::new("no/such/run.rrd"), &scene(&loaded), Live::Off);
+    assert!(matches!(created.err(), Some(RecordingError::Unwritable { .. })));
+}
+
+#[test]
+fn two_arms_of_one_name_are_refused() {
+    let loaded = wam();
+    let mut scene = scene(&loaded);
+    scene.arms[1].name = "measured";
+    let created = Recorder::create(Path::new("never.rrd"), &scene, Live::Off);
+    assert_eq!(created.err(), Some(RecordingError::NameTwice { name: "measured".to_owned() }));
+}
+
+/// Runs itself once more, in an environment that turns recordings off.
+#[test]
+fn a_recording_that_the_environment_turns_off_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    if std::env::var("RERUN").as_deref() == Ok("off") {
+        let (loaded, path) = (wam(), folder.path().join("run.rrd"));
+        let created = Recorder::create(&path, &scene(&loaded), Live::Off);
+        let value = "off".to_owned();
+        assert_eq!(created.err(), Some(RecordingError::TurnedOff { path: path.clone(), value }));
+        assert!(!path.exists());
+        return;
+    }
+    let own = "a_recording_that_the_environment_turns_off_is_an_error";
+    let program = std::env::current_exe().unwrap();
+    let run = Command::new(program).args(["--exact", own]).env("RERUN", "off").output().unwrap();
+    let said = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(run.status.success() && said.contains("1 passed"), "{said}");
+}
+
+#[test]
+fn the_programs_own_check_accepts_a_recording() {
+    if Command::new("rerun").arg("--version").output().is_err() {
+        println!("skipped: no program rerun is installed");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    record(&path);
+    let check = Command::new("rerun").args(["rrd", "verify"]).arg(&path).output().unwrap();
+    assert!(check.status.success(), "{}", String::from_utf8_lossy(&check.stderr));
+}
