@@ -61,12 +61,46 @@ pub fn simulate(
     scenario: &Scenario,
     on_second: &(dyn Fn() + Sync),
 ) -> Result<Simulation, SimulatorError> {
+    simulate_only(scenario, &|_| true, on_second)
+}
+
+/// Simulates the runs of a scenario whose names are `wanted`, each as [`simulate`] does.
+///
+/// # Errors
+///
+/// As [`simulate`].
+pub fn simulate_only(
+    scenario: &Scenario,
+    wanted: &dyn Fn(&str) -> bool,
+    on_second: &(dyn Fn() + Sync),
+) -> Result<Simulation, SimulatorError> {
+    let effects = all_effects(scenario)?;
+    let truth = effects.iter().map(EffectSpec::truth).collect();
+    let runs: Vec<_> =
+        scenario.runs().iter().enumerate().filter(|(_, run)| wanted(&run.name)).collect();
+    let runs = runs
+        .into_par_iter()
+        .map(|(index, run)| simulate_run(scenario, &effects, index, run, on_second));
+    Ok(Simulation { runs: runs.collect::<Result<_, _>>()?, truth })
+}
+
+/// The arm of a scenario with all its effects, for a controller of one's own; `part` sets the
+/// seed of its sensors apart from those of the scenario's runs and of other parts.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when the arm cannot be simulated or no effect could be drawn.
+pub fn arm(scenario: &Scenario, part: u64) -> Result<Simulator, SimulatorError> {
+    let effects = all_effects(scenario)?;
+    let sensors = scenario.sensors(mixed(mixed(scenario.seed(), u64::MAX), part));
+    simulator(scenario.robot(), &effects, sensors, scenario.stepping())
+}
+
+/// The effects that a scenario states, and those that it draws.
+fn all_effects(scenario: &Scenario) -> Result<Vec<EffectSpec>, SimulatorError> {
     let mut effects = scenario.effects().to_vec();
     effects.extend(draw_hidden(scenario)?);
-    let truth = effects.iter().map(EffectSpec::truth).collect();
-    let runs = scenario.runs().par_iter().enumerate();
-    let runs = runs.map(|(index, run)| simulate_run(scenario, &effects, index, run, on_second));
-    Ok(Simulation { runs: runs.collect::<Result<_, _>>()?, truth })
+    Ok(effects)
 }
 
 /// Writes the logs, the resolved scenario and `truth.json` into a folder.

@@ -284,6 +284,10 @@ impl Machine for Simulator {
         Ok(())
     }
 
+    fn link_positions(&self) -> Option<&[f64]> {
+        Some(self.arm.q())
+    }
+
     fn actuate(&mut self, effort: &[f64]) -> Result<(), MachineFault> {
         let before = self.command.take().unwrap_or_else(|| effort.to_vec());
         for step in 0..self.steps_per_period {

@@ -69,6 +69,27 @@ impl MotionSpec {
         Ok(Motion::new(robot.joint_count(), parts))
     }
 
+    /// Makes paths that start from `folder` absolute, so that the spec can be read from anywhere.
+    pub fn anchor(&mut self, folder: &Path) {
+        let anchored = |path: &Path| {
+            let path = folder.join(path);
+            path.canonicalize().unwrap_or(path)
+        };
+        match self {
+            Self::Recorded(recorded) => {
+                recorded.file = anchored(&recorded.file);
+                recorded.map = recorded.map.as_deref().map(anchored);
+            }
+            Self::Fourier(fourier) => {
+                if let Coefficients::File(file) = &mut fourier.coefficients {
+                    *file = anchored(file);
+                }
+            }
+            Self::Sequence(motions) => motions.iter_mut().for_each(|motion| motion.anchor(folder)),
+            _ => {}
+        }
+    }
+
     fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
         match self {
             Self::Sinusoids(spec) => spec.parts(&site.within("sinusoids")),

@@ -1,0 +1,52 @@
+use std::path::PathBuf;
+
+use diagnosis::DiagnosisError;
+use document::DocumentError;
+use learner::{LearnerError, ModelKind};
+use logs::LogError;
+use robot::RobotError;
+use simulator::SimulatorError;
+use tracking::TrackingError;
+
+/// Why a scenario cannot be run.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EvaluationError {
+    /// The scenario cannot be meant.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// The robot cannot be used.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// The arm cannot be simulated.
+    #[error(transparent)]
+    Simulator(#[from] SimulatorError),
+    /// A log cannot be used or written.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// A model cannot be learned or read.
+    #[error(transparent)]
+    Learner(#[from] LearnerError),
+    /// The named effects cannot be found.
+    #[error(transparent)]
+    Diagnosis(#[from] DiagnosisError),
+    /// The arm cannot be tracked.
+    #[error(transparent)]
+    Tracking(#[from] TrackingError),
+    /// A model is to be learned and there is nothing to learn from.
+    #[error("{}: the scenario feeds {model} forward, but learn.train names no run to learn it from", path.display())]
+    NothingToLearnFrom {
+        /// The scenario of the plant, whose runs there are.
+        path: PathBuf,
+        /// The model.
+        model: ModelKind,
+    },
+    /// A folder of models lacks one.
+    #[error("{}: there is no such file, the scenario feeds {model} forward", path.display())]
+    NoModel {
+        /// Where it was looked for.
+        path: PathBuf,
+        /// The model.
+        model: ModelKind,
+    },
+}

@@ -1,0 +1,181 @@
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use diagnosis::Settings;
+use dynamics::ColumnSet;
+use learner::{
+    Mean, Model, ModelKind, Regression, RobotTorque, Samples, TrainSettings, Training,
+};
+use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare, rest_speeds};
+use robot::Robot;
+
+use crate::{EvaluationError, Progress, TrackingScenario};
+
+/// The models that a scenario feeds forward, ready to be asked.
+#[derive(Debug, Clone)]
+pub struct Learned {
+    models: BTreeMap<&'static str, Model>,
+}
+
+impl Learned {
+    /// The model of a kind.
+    pub fn model(&self, kind: ModelKind) -> Option<&Model> {
+        self.models.get(kind.name())
+    }
+
+    /// The robot extended by named effects, with the speeds below which its joints rest.
+    pub fn named(&self) -> Option<&RobotTorque> {
+        match &self.model(ModelKind::Named)?.mean {
+            Mean::Robot(torque) => Some(torque),
+            _ => None,
+        }
+    }
+
+    /// Writes every model into a folder that is there, as `<kind>.parquet`.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::Learner`].
+    pub fn save(&self, folder: &Path) -> Result<(), EvaluationError> {
+        for (name, model) in &self.models {
+            model.save(&folder.join(format!("{name}.parquet")))?;
+        }
+        Ok(())
+    }
+
+    /// Reads the models that a scenario feeds forward from a folder that
+    /// [`save`](Self::save) or `plumbline learn` has written.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::NoModel`] and [`EvaluationError::Learner`].
+    pub fn load(scenario: &TrackingScenario, folder: &Path) -> Result<Self, EvaluationError> {
+        let mut models = BTreeMap::new();
+        for kind in kinds(scenario) {
+            let path = folder.join(format!("{kind}.parquet"));
+            if !path.exists() {
+                return Err(EvaluationError::NoModel { path, model: kind });
+            }
+            models.insert(kind.name(), Model::load(&path, scenario.robot())?);
+        }
+        Ok(Self { models })
+    }
+
+    /// Learns the models that a scenario feeds forward from the logs of its arm.
+    ///
+    /// The arm's effects are found in the logs by a diagnosis that has nothing but the logs.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::NothingToLearnFrom`], and what diagnosis and learner refuse.
+    pub fn learn(
+        scenario: &TrackingScenario,
+        logs: &[Run],
+        progress: &dyn Progress,
+    ) -> Result<Self, EvaluationError> {
+        let mut models = BTreeMap::new();
+        let kinds = kinds(scenario);
+        if kinds.iter().all(|kind| *kind == ModelKind::Cad) {
+            let robot = scenario.robot();
+            let joints = robot.joint_count();
+            // Without friction no direction is asked for, so the speed of rest is of no account.
+            let torque = RobotTorque::new(robot.clone(), vec![1e-3; joints]);
+            let mean = Mean::Robot(Box::new(torque));
+            let cad = Model::new(ModelKind::Cad, robot, mean, vec![0.0; joints]);
+            models.insert(ModelKind::Cad.name(), cad);
+            return Ok(Self { models });
+        }
+        let data = Data::new(scenario, logs, &kinds)?;
+        let named = match kinds.iter().any(|kind| needs_names(*kind)) {
+            true => Some(extended(scenario, logs, progress)?),
+            false => None,
+        };
+        progress.begin("regression of the rigid bodies");
+        let mut regression = Regression::new(scenario.robot(), ColumnSet::INERTIAL);
+        regression.add_samples(&data.regression)?;
+        let fit = regression.fit(None)?;
+        let settings = TrainSettings { points: scenario.learn().points, ..TrainSettings::default() };
+        let (robot, speeds) = (scenario.robot(), data.rest_speeds.clone());
+        let mut training = Training::new(robot, &data.train, speeds, &settings, progress)?
+            .with_regression(&fit);
+        if let Some(named) = &named {
+            training = training.with_named(named);
+        }
+        for kind in kinds {
+            progress.begin(kind.name());
+            models.insert(kind.name(), training.fit(kind)?.model);
+        }
+        Ok(Self { models })
+    }
+}
+
+/// The models behind what a scenario feeds forward.
+fn kinds(scenario: &TrackingScenario) -> Vec<ModelKind> {
+    let mut kinds: Vec<ModelKind> = Vec::new();
+    for kind in scenario.all_feedforward().into_iter().filter_map(|kind| kind.model()) {
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    kinds
+}
+
+fn needs_names(kind: ModelKind) -> bool {
+    matches!(kind, ModelKind::Named | ModelKind::NamedGp | ModelKind::NamedGpInducing)
+}
+
+/// The robot extended by what a diagnosis names in the logs.
+fn extended(
+    scenario: &TrackingScenario,
+    logs: &[Run],
+    progress: &dyn Progress,
+) -> Result<Robot, EvaluationError> {
+    progress.begin("diagnosis");
+    let settings =
+        Settings { control_rate_hz: scenario.loaded().control.rate_hz, ..Settings::default() };
+    Ok(diagnosis::diagnose(scenario.robot(), logs, &settings, &diagnosis::Silent)?.extended)
+}
+
+/// The samples of the logs, all through one filter.
+struct Data {
+    train: Samples,
+    regression: Samples,
+    rest_speeds: Vec<f64>,
+}
+
+impl Data {
+    fn new(
+        scenario: &TrackingScenario,
+        logs: &[Run],
+        kinds: &[ModelKind],
+    ) -> Result<Self, EvaluationError> {
+        let learn = scenario.learn();
+        if let ([], Some(&model)) = (learn.train.as_slice(), kinds.first()) {
+            let path = scenario.plant_file().to_owned();
+            return Err(EvaluationError::NothingToLearnFrom { path, model });
+        }
+        let mut prepared = prepare(logs, &PrepareSettings::default())?;
+        let rate_hz = scenario.loaded().control.rate_hz;
+        centre_commands(scenario.robot(), &mut prepared.runs, rate_hz);
+        let of = |names: &[String]| Prepared {
+            runs: (prepared.runs.iter())
+                .filter(|run| names.iter().any(|name| is_part_of(&run.name, name)))
+                .cloned()
+                .collect(),
+            warnings: Vec::new(),
+            cutoff_reason: prepared.cutoff_reason.clone(),
+            cutoff_hz: prepared.cutoff_hz,
+        };
+        let train = of(&learn.train);
+        let regression = match learn.regression.as_slice() {
+            [] => Samples::new(&train),
+            names => Samples::new(&of(names)),
+        };
+        Ok(Self { rest_speeds: rest_speeds(&train), train: Samples::new(&train), regression })
+    }
+}
+
+/// Whether a prepared run is a log or, where it was split at gaps, a part of it.
+fn is_part_of(prepared: &str, log: &str) -> bool {
+    prepared.strip_prefix(log).is_some_and(|rest| rest.is_empty() || rest.starts_with(" part "))
+}

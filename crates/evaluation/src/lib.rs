@@ -1,0 +1,33 @@
+//! Scenarios put to work: an arm with effects, what is learned of it, and what that gains.
+//!
+//! ```text
+//! TrackingScenario --simulate--> logs --diagnose, learn--> Learned --track--> TrackedRun, Sweep
+//! ```
+//!
+//! The one place where the simulated arm and the models of it meet; what is learned is learned
+//! from the arm's logs alone.
+
+mod error;
+mod feedforward_kind;
+mod learned;
+mod median_time;
+mod progress;
+mod stream;
+mod sweep;
+mod track;
+mod tracking_scenario;
+mod tracking_spec;
+
+pub use error::EvaluationError;
+pub use feedforward_kind::FeedforwardKind;
+pub use learned::Learned;
+pub use median_time::median_time_s;
+pub use progress::Progress;
+pub use stream::{Stream, Written};
+pub use sweep::{GainSweep, SweptModel, sweep};
+pub use track::{Outputs, TrackedRun, simulated_logs, track_all};
+pub use tracking_scenario::TrackingScenario;
+pub use tracking_spec::{
+    AheadSpec, ClockSpec, ErrorRateSpec, LearnSpec, Measured, PredictionSpec, PredictionTimeSpec,
+    SweepSpec, TrackingControlSpec, TrackingSpec,
+};

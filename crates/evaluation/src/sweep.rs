@@ -1,0 +1,94 @@
+use std::ops::ControlFlow;
+
+use rayon::prelude::*;
+use robot::Gain;
+use tracking::{Event, Tick, Watch};
+
+use crate::track::{Parts, controller};
+use crate::{EvaluationError, FeedforwardKind, Learned, Progress, TrackingScenario};
+
+/// The errors at several gains.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GainSweep {
+    /// Name of the set of gains that is scaled.
+    pub gains: String,
+    /// Factors of `kp`; those of `kd` are their square roots.
+    pub scales: Vec<f64>,
+    /// The errors of each feedforward.
+    pub models: Vec<SweptModel>,
+}
+
+/// The errors of one feedforward at several gains.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweptModel {
+    /// What is fed forward.
+    pub kind: FeedforwardKind,
+    /// Root mean square error by joint, for each of the scales (rad or m); NaN where the arm did
+    /// not come to the end.
+    pub rmse: Vec<Vec<f64>>,
+}
+
+/// Tracks the motion of a scenario over its range of gains, if it has one.
+///
+/// ```text
+/// kp = scale kp_0,   kd = sqrt(scale) kd_0
+/// ```
+///
+/// which keeps the damping ratio of a joint whose inertia dominates.
+///
+/// # Errors
+///
+/// [`EvaluationError`] when the arm cannot be simulated or tracked.
+pub fn sweep(
+    scenario: &TrackingScenario,
+    learned: &Learned,
+    progress: &dyn Progress,
+) -> Result<Option<GainSweep>, EvaluationError> {
+    let Some((spec, gains)) = scenario.sweep() else { return Ok(None) };
+    let longest_s = spec.duration_s.unwrap_or(f64::INFINITY);
+    let runs: Vec<(FeedforwardKind, f64)> = spec
+        .feedforward
+        .iter()
+        .flat_map(|&kind| spec.scales.iter().map(move |&scale| (kind, scale)))
+        .collect();
+    let errors: Result<Vec<Vec<f64>>, EvaluationError> = runs
+        .into_par_iter()
+        .map(|(kind, scale)| {
+            let controller = controller(scenario, &scaled(gains, scale))?;
+            let parts = Parts { scenario, learned, kind, controller: &controller };
+            let mut watch = Until { end_s: longest_s, progress };
+            let run = parts.run(&mut watch)?;
+            let seconds = longest_s.min(scenario.motion().duration_s());
+            let whole = run.tracking.rows.time_s().last().is_some_and(|t| t > seconds - 0.01);
+            Ok(match whole {
+                true => run.metrics.joints.iter().map(|joint| joint.rmse).collect(),
+                false => vec![f64::NAN; scenario.robot().joint_count()],
+            })
+        })
+        .collect();
+    let errors = errors?;
+    let models = spec.feedforward.iter().zip(errors.chunks(spec.scales.len()));
+    let models = models.map(|(&kind, rmse)| SweptModel { kind, rmse: rmse.to_vec() }).collect();
+    Ok(Some(GainSweep { gains: spec.gains.clone(), scales: spec.scales.clone(), models }))
+}
+
+fn scaled(gains: &[Gain], scale: f64) -> Vec<Gain> {
+    gains.iter().map(|g| Gain { kp: scale * g.kp, kd: scale.sqrt() * g.kd }).collect()
+}
+
+/// Ends a run at a time, or when the user does.
+struct Until<'a> {
+    end_s: f64,
+    progress: &'a dyn Progress,
+}
+
+impl Watch for Until<'_> {
+    fn tick(&mut self, tick: &Tick) -> ControlFlow<()> {
+        if tick.time_s >= self.end_s || self.progress.is_stopped() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn event(&mut self, _: &Event) {}
+}

@@ -1,0 +1,273 @@
+use std::path::{Path, PathBuf};
+
+use document::{Document, DocumentError, KeyPath};
+use motion::Motion;
+use robot::{Gain, Loaded, Robot};
+use simulator::scenario::Scenario;
+
+use crate::tracking_spec::{ErrorRateSpec, LearnSpec, PredictionTimeSpec};
+use crate::{EvaluationError, FeedforwardKind, PredictionSpec, SweepSpec, TrackingSpec};
+
+/// A tracking scenario whose every value can be meant: ready to run.
+#[derive(Debug, Clone)]
+pub struct TrackingScenario {
+    spec: TrackingSpec,
+    plant: Scenario,
+    plant_file: PathBuf,
+    loaded: Loaded,
+    motion: Motion,
+    gains: Vec<Gain>,
+    swept_gains: Vec<Gain>,
+    resolved: String,
+}
+
+impl TrackingScenario {
+    /// Reads a tracking scenario from a document.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::Document`], at the value at fault, and what the plant's scenario is
+    /// refused for.
+    pub fn from_document(document: &Document) -> Result<Self, EvaluationError> {
+        let spec: TrackingSpec = document.parse()?;
+        let plant_key = KeyPath::root().key("plant");
+        let plant_file = document.directory_of(&plant_key).join(&spec.plant);
+        let plant = Scenario::from_document(&Document::read(&plant_file)?)?;
+        let loaded = Robot::load(plant.robot_file())?;
+        let check = Checker { document, spec: &spec, plant: &plant, loaded: &loaded };
+        let gains = check.gains()?;
+        check.error_rate()?;
+        check.prediction()?;
+        check.feedforward()?;
+        check.learn()?;
+        let swept_gains = check.sweep()?;
+        let motion = check.motion()?;
+        let resolved = resolved(document, &spec);
+        Ok(Self { spec, plant, plant_file, loaded, motion, gains, swept_gains, resolved })
+    }
+
+    /// The scenario as one text that extends nothing and can be read from any folder.
+    pub fn resolved(&self) -> &str {
+        &self.resolved
+    }
+
+    /// The arm that is tracked.
+    pub fn plant(&self) -> &Scenario {
+        &self.plant
+    }
+
+    /// Where the scenario of the arm was read.
+    pub fn plant_file(&self) -> &Path {
+        &self.plant_file
+    }
+
+    /// The robot as described, with its looks and gains.
+    pub fn loaded(&self) -> &Loaded {
+        &self.loaded
+    }
+
+    /// The robot as described.
+    pub fn robot(&self) -> &Robot {
+        &self.loaded.robot
+    }
+
+    /// The motion that is tracked.
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// Gains of the feedback, one a joint.
+    pub fn gains(&self) -> &[Gain] {
+        &self.gains
+    }
+
+    /// Name of the set of gains.
+    pub fn gains_name(&self) -> &str {
+        &self.spec.control.gains
+    }
+
+    /// Where the rate of the error comes from.
+    pub fn error_rate(&self) -> ErrorRateSpec {
+        self.spec.control.error_rate
+    }
+
+    /// How predictions reach the loop.
+    pub fn prediction(&self) -> &PredictionSpec {
+        &self.spec.prediction
+    }
+
+    /// What models are learned from.
+    pub fn learn(&self) -> &LearnSpec {
+        &self.spec.learn
+    }
+
+    /// What is fed forward, run by run.
+    pub fn feedforward(&self) -> &[FeedforwardKind] {
+        &self.spec.feedforward
+    }
+
+    /// The range of gains, and the set that it scales.
+    pub fn sweep(&self) -> Option<(&SweepSpec, &[Gain])> {
+        Some((self.spec.sweep.as_ref()?, &self.swept_gains))
+    }
+
+    /// Everything that is fed forward, in the runs or in the sweep, once.
+    pub fn all_feedforward(&self) -> Vec<FeedforwardKind> {
+        let swept = self.spec.sweep.iter().flat_map(|sweep| &sweep.feedforward);
+        let mut all = Vec::new();
+        for kind in self.spec.feedforward.iter().chain(swept) {
+            if !all.contains(kind) {
+                all.push(*kind);
+            }
+        }
+        all
+    }
+}
+
+fn resolved(document: &Document, spec: &TrackingSpec) -> String {
+    let mut spec = spec.clone();
+    let folder = |key: &str| document.directory_of(&KeyPath::root().key(key));
+    let plant = folder("plant").join(&spec.plant);
+    spec.plant = plant.canonicalize().unwrap_or(plant);
+    spec.motion.anchor(folder("motion"));
+    toml::to_string(&spec).unwrap_or_else(|_| document.to_toml())
+}
+
+struct Checker<'a> {
+    document: &'a Document,
+    spec: &'a TrackingSpec,
+    plant: &'a Scenario,
+    loaded: &'a Loaded,
+}
+
+impl Checker<'_> {
+    fn mistake(&self, path: &KeyPath, message: impl Into<String>) -> DocumentError {
+        self.document.mistake(path, message, None)
+    }
+
+    fn within(
+        &self,
+        path: &KeyPath,
+        value: f64,
+        [low, high]: [f64; 2],
+    ) -> Result<(), DocumentError> {
+        if value >= low && value <= high {
+            return Ok(());
+        }
+        Err(self.mistake(path, format!("{value}, a number from {low} to {high} was expected")))
+    }
+
+    fn gain_set(&self, path: &KeyPath, name: &str) -> Result<Vec<Gain>, DocumentError> {
+        let sets = &self.loaded.control.gain_sets;
+        sets.get(name).cloned().ok_or_else(|| {
+            let names: Vec<&str> = sets.keys().map(String::as_str).collect();
+            self.document.unknown_name(path, "set of gains", name, &names)
+        })
+    }
+
+    fn gains(&self) -> Result<Vec<Gain>, DocumentError> {
+        let control = &self.spec.control;
+        let path = KeyPath::root().key("control");
+        let mut gains = self.gain_set(&path.key("gains"), &control.gains)?;
+        let names: Vec<&str> = self.loaded.robot.joint_names().collect();
+        for (key, map) in [
+            ("kp_nm_per_rad", &control.kp_nm_per_rad),
+            ("kd_nm_s_per_rad", &control.kd_nm_s_per_rad),
+        ] {
+            for (name, &value) in map {
+                let path = path.key(key).key(name.clone());
+                let Some(joint) = self.loaded.robot.joint_index(name) else {
+                    return Err(self.document.unknown_name(&path, "joint", name, &names));
+                };
+                self.within(&path, value, [0.0, 1e6])?;
+                let gain = &mut gains[joint];
+                if key == "kp_nm_per_rad" { gain.kp = value } else { gain.kd = value }
+            }
+        }
+        Ok(gains)
+    }
+
+    fn error_rate(&self) -> Result<(), DocumentError> {
+        let ErrorRateSpec::FilteredDifference { cutoff_hz } = self.spec.control.error_rate else {
+            return Ok(());
+        };
+        let path = ["control", "error_rate", "filtered_difference", "cutoff_hz"];
+        let path = path.iter().fold(KeyPath::root(), |path, key| path.key(*key));
+        self.within(&path, cutoff_hz, [0.1, 1e4])
+    }
+
+    fn prediction(&self) -> Result<(), DocumentError> {
+        let path = KeyPath::root().key("prediction");
+        if let PredictionTimeSpec::Given(time_ms) = self.spec.prediction.time_ms {
+            self.within(&path.key("time_ms"), time_ms, [0.0, 1e4])?;
+        }
+        match self.spec.prediction.stops_at_s {
+            Some(stop_s) => self.within(&path.key("stops_at_s"), stop_s, [0.0, 1e6]),
+            None => Ok(()),
+        }
+    }
+
+    fn feedforward(&self) -> Result<(), DocumentError> {
+        let path = KeyPath::root().key("feedforward");
+        let kinds = &self.spec.feedforward;
+        if kinds.is_empty() {
+            return Err(self.mistake(&path, "nothing, at least one was expected, such as \"rbd\""));
+        }
+        let twice = (0..kinds.len()).find(|&i| kinds[..i].contains(&kinds[i]));
+        match twice {
+            Some(i) => {
+                Err(self.mistake(&path.index(i), format!("{} is there already", kinds[i])))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn learn(&self) -> Result<(), DocumentError> {
+        let path = KeyPath::root().key("learn");
+        let learn = &self.spec.learn;
+        let names: Vec<&str> = self.plant.runs().iter().map(|run| run.name.as_str()).collect();
+        for (key, runs) in [("train", &learn.train), ("regression", &learn.regression)] {
+            for (i, name) in runs.iter().enumerate() {
+                if !names.contains(&name.as_str()) {
+                    let path = path.key(key).index(i);
+                    return Err(self.document.unknown_name(&path, "run of the plant", name, &names));
+                }
+            }
+        }
+        if learn.points == 0 {
+            return Err(self.mistake(&path.key("points"), "0, at least one was expected"));
+        }
+        Ok(())
+    }
+
+    fn sweep(&self) -> Result<Vec<Gain>, DocumentError> {
+        let Some(sweep) = &self.spec.sweep else { return Ok(Vec::new()) };
+        let path = KeyPath::root().key("sweep");
+        let gains = self.gain_set(&path.key("gains"), &sweep.gains)?;
+        if sweep.scales.len() < 2 || !sweep.scales.is_sorted_by(|a, b| a < b) {
+            let message = format!("{:?}, two or more rising factors were expected", sweep.scales);
+            return Err(self.mistake(&path.key("scales"), message));
+        }
+        for (i, &scale) in sweep.scales.iter().enumerate() {
+            self.within(&path.key("scales").index(i), scale, [1e-4, 1e4])?;
+        }
+        if sweep.feedforward.is_empty() {
+            let message = "nothing, at least one was expected, such as \"rbd\"";
+            return Err(self.mistake(&path.key("feedforward"), message));
+        }
+        if let Some(duration_s) = sweep.duration_s {
+            self.within(&path.key("duration_s"), duration_s, [0.1, 1e6])?;
+        }
+        Ok(gains)
+    }
+
+    fn motion(&self) -> Result<Motion, DocumentError> {
+        let path = KeyPath::root().key("motion");
+        let folder = self.document.directory_of(&path);
+        self.spec.motion.build(&self.loaded.robot, folder).map_err(|error| {
+            let inside: KeyPath = error.key().parse().unwrap_or_else(|_| KeyPath::root());
+            let segments = path.segments().iter().chain(inside.segments()).cloned();
+            self.mistake(&segments.collect(), error.to_string())
+        })
+    }
+}
