@@ -35,6 +35,7 @@ impl Tracking {
             name: name.to_owned(),
             source: PathBuf::new(),
             sha256: String::new(),
+            is_torn: false,
             time: rows.reading_time_s().collect(),
             joints,
             extra,
