@@ -2,8 +2,8 @@
 //! trusted and repeated.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
 
-mod bench;
 mod amplitude;
+mod bench;
 mod models;
 mod perfect;
 mod repeatable;

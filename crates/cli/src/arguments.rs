@@ -1,6 +1,8 @@
 use clap::{Parser, Subcommand};
 
-use crate::commands::{diagnose, explain, learn, log_info, replay, robot_check, simulate, view};
+use crate::commands::{
+    diagnose, explain, learn, log_info, replay, robot_check, schema, simulate, track, view,
+};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -75,6 +77,26 @@ The output folder holds
 Ctrl-C ends the searches: every model is finished with what was found until then. Pressed
 again it ends the program.";
 
+const TRACK_EXAMPLES: &str = "\
+Examples:
+  plumbline track scenarios/tracking.toml --out out
+  plumbline track scenarios/tracking.toml --out out --set prediction.clock=wall
+  plumbline track scenarios/paper/tracking.toml --out out --learned out/models
+
+The output folder holds
+  report.html           the comparison for a browser
+  tracking.json         the same for programs
+  errors.svg            the errors by joint and model
+  motion.svg            the first 10 s of three joints
+  gains.svg             the errors against the gains, where the scenario has a sweep
+  logs/NAME.parquet     the log of each run
+  recordings/NAME.rrd   the recording of each run, for rerun's viewer: plumbline view out
+  models/NAME.parquet   the models, for --learned
+  scenario.toml         the scenario with all that it extends and --set
+
+Ctrl-C ends the runs where they are. A run that is killed leaves NAME.rrd as far as it came, and
+its log as NAME.csv.";
+
 const REPLAY_EXAMPLES: &str = "\
 Examples:
   plumbline replay --robot robot.toml --log run_1.parquet --out replay
@@ -119,11 +141,14 @@ pub enum Command {
     /// Compares a simulation with logs: motion under their torque, torque along their motion
     #[command(after_help = format!("{REPLAY_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Replay(replay::Arguments),
+    /// Tracks a motion with low gains and the torque of models fed forward, and compares them
+    #[command(after_help = format!("{TRACK_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
+    Track(track::Arguments),
     /// Opens the report of an output folder in the browser, its recordings in rerun's viewer
     #[command(after_help = VIEW_EXIT_CODES)]
     View(view::Arguments),
     /// Prints the JSON schema of scenario files
-    Schema,
+    Schema(schema::Arguments),
 }
 
 /// Commands on a robot description.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use anstyle::{AnsiColor, Style};
 use diagnosis::DiagnosisError;
 use document::{Coloring, DocumentError};
+use evaluation::EvaluationError;
 use learner::LearnerError;
 use logs::LogError;
 use report::ReportError;
@@ -36,6 +37,9 @@ pub enum CliError {
     /// A model cannot be learned.
     #[error(transparent)]
     Learner(#[from] LearnerError),
+    /// A scenario cannot be run.
+    #[error(transparent)]
+    Evaluation(Box<EvaluationError>),
     /// A model would be tested on what it was trained on.
     #[error(
         "{test}: it is the recording that {training} holds, a test needs a log that took no part in the training"
@@ -120,6 +124,12 @@ pub enum CliError {
     Output(#[from] io::Error),
 }
 
+impl From<EvaluationError> for CliError {
+    fn from(error: EvaluationError) -> Self {
+        Self::Evaluation(Box::new(error))
+    }
+}
+
 const KINDS_OF_FILES: &str =
     "a robot is a .urdf or a .toml file (--robot), a log is a .csv or a .parquet file (--log)";
 
@@ -146,6 +156,13 @@ impl CliError {
                 _ => 3,
             },
             Self::Document(_) | Self::Simulator(_) => 3,
+            Self::Evaluation(error) => match **error {
+                EvaluationError::NoModel { .. }
+                | EvaluationError::NothingToLearnFrom { .. }
+                | EvaluationError::Recording(_)
+                | EvaluationError::Log(LogError::Unwritable { .. }) => 2,
+                _ => 3,
+            },
             Self::Report(ReportError::Unreadable { .. }) => 3,
             Self::Report(_) | Self::Diagnosis(DiagnosisError::Setting { .. }) => 2,
             Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => match log {
@@ -174,6 +191,12 @@ impl CliError {
             }
             Self::NoViewer { .. } => return Some(INSTALLATION),
             Self::NotOpened { .. } => return Some("plumbline view --print names the files"),
+            Self::Evaluation(error) => {
+                let lacks = matches!(**error, EvaluationError::NoModel { .. });
+                return lacks.then_some(
+                    "plumbline learn and track write models; without --learned they are learned",
+                );
+            }
             Self::UnknownEffect { .. } => return Some("plumbline explain lists every effect"),
             Self::NoJoints { .. } => {
                 return Some(
@@ -203,9 +226,22 @@ impl CliError {
         }
     }
 
+    /// The mistake in a scenario, which is shown where it stands.
+    fn mistake(&self) -> Option<&DocumentError> {
+        use EvaluationError as E;
+        match self {
+            Self::Document(error) | Self::Simulator(SimulatorError::Scenario(error)) => Some(error),
+            Self::Evaluation(error) => match &**error {
+                E::Document(error) | E::Simulator(SimulatorError::Scenario(error)) => Some(error),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// Prints the error, and advice where there is any, on the standard error.
     pub fn print(&self) {
-        if let Self::Document(error) | Self::Simulator(SimulatorError::Scenario(error)) = self {
+        if let Some(error) = self.mistake() {
             anstream::eprintln!("{}", error.render(Coloring::Ansi));
             return;
         }

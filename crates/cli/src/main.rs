@@ -6,6 +6,7 @@ mod error;
 mod input;
 mod output;
 mod progress;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -13,7 +14,7 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
-    diagnose, explain, learn, log_info, replay, robot_check, schema, simulate, view,
+    diagnose, explain, learn, log_info, replay, robot_check, schema, simulate, track, view,
 };
 use crate::error::CliError;
 
@@ -47,7 +48,8 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Learn(arguments) => learn::run(arguments),
         Command::Replay(arguments) => replay::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
+        Command::Track(arguments) => track::run(arguments),
         Command::View(arguments) => view::run(arguments),
-        Command::Schema => schema::run(),
+        Command::Schema(arguments) => schema::run(arguments),
     }
 }

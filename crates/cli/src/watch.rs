@@ -2,7 +2,6 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-
 use crate::error::CliError;
 use crate::progress::Line;
 
@@ -37,7 +36,8 @@ impl Watch {
             }
         })
         .map_err(|error| CliError::Signal { reason: error.to_string() })?;
-        let (stage, seconds, ended) = (Mutex::default(), AtomicUsize::new(0), AtomicBool::new(false));
+        let (stage, seconds, ended) =
+            (Mutex::default(), AtomicUsize::new(0), AtomicBool::new(false));
         Ok(Self { line, stage, seconds, stop, ended })
     }
 

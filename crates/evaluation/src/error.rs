@@ -4,6 +4,7 @@ use diagnosis::DiagnosisError;
 use document::DocumentError;
 use learner::{LearnerError, ModelKind};
 use logs::LogError;
+use recording::RecordingError;
 use robot::RobotError;
 use simulator::SimulatorError;
 use tracking::TrackingError;
@@ -33,6 +34,15 @@ pub enum EvaluationError {
     /// The arm cannot be tracked.
     #[error(transparent)]
     Tracking(#[from] TrackingError),
+    /// The recording cannot be written.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// The thread that writes a run has died.
+    #[error("{}: the thread that wrote it died, what it had written is there", path.display())]
+    WriterDied {
+        /// The recording.
+        path: PathBuf,
+    },
     /// A model is to be learned and there is nothing to learn from.
     #[error("{}: the scenario feeds {model} forward, but learn.train names no run to learn it from", path.display())]
     NothingToLearnFrom {

@@ -3,9 +3,7 @@ use std::path::Path;
 
 use diagnosis::Settings;
 use dynamics::ColumnSet;
-use learner::{
-    Mean, Model, ModelKind, Regression, RobotTorque, Samples, TrainSettings, Training,
-};
+use learner::{Mean, Model, ModelKind, Regression, RobotTorque, Samples, TrainSettings, Training};
 use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare, rest_speeds};
 use robot::Robot;
 
@@ -94,10 +92,11 @@ impl Learned {
         let mut regression = Regression::new(scenario.robot(), ColumnSet::INERTIAL);
         regression.add_samples(&data.regression)?;
         let fit = regression.fit(None)?;
-        let settings = TrainSettings { points: scenario.learn().points, ..TrainSettings::default() };
+        let settings =
+            TrainSettings { points: scenario.learn().points, ..TrainSettings::default() };
         let (robot, speeds) = (scenario.robot(), data.rest_speeds.clone());
-        let mut training = Training::new(robot, &data.train, speeds, &settings, progress)?
-            .with_regression(&fit);
+        let mut training =
+            Training::new(robot, &data.train, speeds, &settings, progress)?.with_regression(&fit);
         if let Some(named) = &named {
             training = training.with_named(named);
         }

@@ -17,6 +17,7 @@ mod sweep;
 mod track;
 mod tracking_scenario;
 mod tracking_spec;
+mod words;
 
 pub use error::EvaluationError;
 pub use feedforward_kind::FeedforwardKind;

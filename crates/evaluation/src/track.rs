@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use robot::{Gain, Machine};
 use tracking::{
     Ahead, Clock, Controller, ErrorRate, Feedforward, GravityFeedforward, Metrics,
-    ModelFeedforward, NoFeedforward, Prediction, Settings, TorqueLimits,
+    ModelFeedforward, NamedFeedforward, NoFeedforward, Prediction, Settings, TorqueLimits,
     Tracking, VirtualClock, WallClock, Watch,
 };
 
@@ -39,7 +39,7 @@ pub struct Outputs {
     /// Folder of the recordings, one a feedforward.
     pub recordings: PathBuf,
     /// Whether a running viewer sees them too.
-    pub live: (),
+    pub live: recording::Live,
 }
 
 /// The logs that a scenario's models are learned from, simulated.
@@ -147,6 +147,12 @@ impl Parts<'_> {
             return Ok(Box::new(NoFeedforward { joints }));
         };
         let missing = || EvaluationError::NoModel { path: PathBuf::from(kind.name()), model: kind };
+        if let (FeedforwardKind::Model(learner::ModelKind::Named), Some(named)) =
+            (self.kind, self.learned.named())
+        {
+            let (robot, speeds) = (named.robot(), named.rest_speed());
+            return Ok(Box::new(NamedFeedforward::new(robot, speeds, lead_s)?));
+        }
         let model = self.learned.model(kind).ok_or_else(missing)?;
         Ok(match self.kind {
             FeedforwardKind::Gravity => Box::new(GravityFeedforward::new(model, lead_s)),

@@ -215,9 +215,7 @@ impl Checker<'_> {
         }
         let twice = (0..kinds.len()).find(|&i| kinds[..i].contains(&kinds[i]));
         match twice {
-            Some(i) => {
-                Err(self.mistake(&path.index(i), format!("{} is there already", kinds[i])))
-            }
+            Some(i) => Err(self.mistake(&path.index(i), format!("{} is there already", kinds[i]))),
             None => Ok(()),
         }
     }
@@ -230,7 +228,12 @@ impl Checker<'_> {
             for (i, name) in runs.iter().enumerate() {
                 if !names.contains(&name.as_str()) {
                     let path = path.key(key).index(i);
-                    return Err(self.document.unknown_name(&path, "run of the plant", name, &names));
+                    return Err(self.document.unknown_name(
+                        &path,
+                        "run of the plant",
+                        name,
+                        &names,
+                    ));
                 }
             }
         }

@@ -5,7 +5,6 @@ mod peers;
 mod regressor_kernel;
 mod row;
 mod timing;
-mod watch;
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -19,8 +18,7 @@ use crate::Outcome;
 use crate::error::CliError;
 use crate::input::{ColumnArguments, positive};
 use crate::progress::Line;
-
-use self::watch::Watch;
+use crate::watch::Watch;
 
 /// Models that are compared when none are named: the robot as described and the five of
 /// Nguyen-Tuong & Peters 2010.

@@ -8,4 +8,5 @@ pub mod replay;
 pub mod robot_check;
 pub mod schema;
 pub mod simulate;
+pub mod track;
 pub mod view;

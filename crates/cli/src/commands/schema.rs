@@ -1,3 +1,5 @@
+use clap::ValueEnum;
+use evaluation::TrackingSpec;
 use schemars::{json_schema, schema_for};
 use simulator::scenario::ScenarioSpec;
 
@@ -5,11 +7,31 @@ use crate::Outcome;
 use crate::error::CliError;
 use crate::output::print_json;
 
+/// Arguments of `schema`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Of which command's scenarios
+    #[arg(value_enum, default_value_t = Kind::Simulate)]
+    command: Kind,
+}
+
+/// A command that takes a scenario.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Kind {
+    /// Runs of a simulated arm
+    Simulate,
+    /// A motion tracked with models
+    Track,
+}
+
 /// Prints the JSON schema of scenario files, which editors complete and check keys with.
 ///
 /// It is that of one file, which may extend others and leave to them what a scenario needs.
-pub fn run() -> Result<Outcome, CliError> {
-    let mut schema = schema_for!(ScenarioSpec);
+pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    let mut schema = match arguments.command {
+        Kind::Simulate => schema_for!(ScenarioSpec),
+        Kind::Track => schema_for!(TrackingSpec),
+    };
     schema.remove("required");
     let file = json_schema!({ "type": "string" });
     let extends = json_schema!({

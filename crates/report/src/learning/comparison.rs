@@ -43,6 +43,17 @@ pub struct ComparedJoint {
     pub effort_unit: &'static str,
 }
 
+impl ComparedJoint {
+    /// The joints of a robot, in its order.
+    pub fn all(robot: &robot::Robot) -> Vec<Self> {
+        let joint = |link: &robot::Link| Self {
+            name: link.joint.name.clone(),
+            effort_unit: if link.joint.kind.is_rotation() { "N m" } else { "N" },
+        };
+        robot.links().iter().map(joint).collect()
+    }
+}
+
 /// The samples of some logs.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct DataSet {

@@ -154,12 +154,7 @@ fn missed(timing: &WallTiming) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::terminal::without_escapes;
-    use crate::tracking::sample;
-
-    const EXPECTED: &str = "\
+const EXPECTED: &str = "\
 RMS error of the end effector of arm at the gains low: 2.50 mm with gp-rbd and 10.0 mm with rbd.
 
 RMS error                 none         rbd      gp-rbd
@@ -188,6 +183,12 @@ none: was stopped: slide: its encoder failed after 12 s
 
 warning: shoulder: its gains are below what friction needs
 ";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::without_escapes;
+    use crate::tracking::sample;
 
     #[test]
     fn the_table_marks_the_least_error_of_a_joint_and_leaves_a_stopped_run_out() {

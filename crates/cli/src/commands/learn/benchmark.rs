@@ -9,12 +9,12 @@ use robot::{Loaded, Robot};
 
 use super::regressor_kernel::RegressorKernel;
 use super::timing::{median_query_us, median_us};
-use super::watch::Watch;
 use super::{Arguments, peers};
 use crate::Outcome;
 use crate::error::CliError;
 use crate::input::provenance;
 use crate::output::{print, shown};
+use crate::watch::Watch;
 
 /// Numbers of training points.
 const POINTS: [usize; 6] = [100, 300, 1000, 3000, 10_000, 30_000];

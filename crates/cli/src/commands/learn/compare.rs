@@ -5,18 +5,18 @@ use std::time::Instant;
 use learner::{
     LearnerError, ModelKind, Regression, RigidBodyFit, Samples, Score, TrainSettings, Training,
 };
-use report::{Comparison, ModelRow, ReportError};
+use report::{ComparedJoint, Comparison, ModelRow, ReportError};
 use robot::{Loaded, Robot};
 
 use super::Arguments;
 use super::data::Data;
-use super::row::{joints_of, row};
+use super::row::row;
 use super::timing::median_query_us;
-use super::watch::Watch;
 use crate::Outcome;
 use crate::error::CliError;
 use crate::input::provenance;
 use crate::output::{create_folder, print, shown};
+use crate::watch::Watch;
 
 /// A file of the output folder, and what it holds.
 type NamedFile = (String, Vec<u8>);
@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
     let (models, mut files) = learned?;
     let comparison = Comparison {
         robot: robot.name().to_owned(),
-        joints: joints_of(robot),
+        joints: ComparedJoint::all(robot),
         train: data.train.summary(arguments.points),
         regression: data.regression().summary(usize::MAX),
         test: data.test.summary_of_test(),

@@ -1,6 +1,6 @@
 use gaussian_process::SearchEnd;
 use learner::{Fitted, JointFit, ModelKind, Score};
-use report::{ComparedJoint, KernelRow, ModelRow};
+use report::{KernelRow, ModelRow};
 use robot::Robot;
 
 /// What was learned, as it is reported, and how it did on the test.
@@ -22,15 +22,6 @@ pub fn row(fitted: &Fitted, score: Score, robot: &Robot) -> ModelRow {
         kernels: kernels.filter(|kernels| !kernels.is_empty()),
         remarks: remarks(fitted, robot),
     }
-}
-
-/// The joints of a robot, as they are reported.
-pub fn joints_of(robot: &Robot) -> Vec<ComparedJoint> {
-    let joint = |link: &robot::Link| ComparedJoint {
-        name: link.joint.name.clone(),
-        effort_unit: if link.joint.kind.is_rotation() { "N m" } else { "N" },
-    };
-    robot.links().iter().map(joint).collect()
 }
 
 fn kernel(fitted: &Fitted, joint: usize, robot: &Robot) -> Option<KernelRow> {

@@ -2,14 +2,13 @@ use evaluation::{
     AheadSpec, ClockSpec, GainSweep, PredictionTimeSpec, TrackedRun, TrackingScenario,
 };
 use report::{
-    FirstSeconds, Gains, ReportError, Sweep, SweptModel, TrackedModel, TrackingComparison,
-    WallTiming,
+    ComparedJoint, FirstSeconds, Gains, ReportError, Sweep, SweptModel, TrackedModel,
+    TrackingComparison, WallTiming,
 };
 use robot::Gain;
 use tracking::{End, Signal};
 
 use super::Arguments;
-use crate::commands::learn::joints_of;
 use crate::input::{hash, provenance};
 use crate::output::shown;
 
@@ -27,12 +26,8 @@ pub fn comparison(
     provenance.files.push(hash("plant", scenario.plant_file())?);
     Ok(TrackingComparison {
         robot: robot.name().to_owned(),
-        joints: joints_of(robot),
-        motion: format!(
-            "the motion of {}, {} s",
-            shown(&arguments.scenario),
-            scenario.motion().duration_s()
-        ),
+        joints: ComparedJoint::all(robot),
+        motion: format!("the motion of {}", shown(&arguments.scenario)),
         gains: gains(scenario.gains_name(), scenario.gains()),
         clock: clock(scenario),
         duration_s: scenario.motion().duration_s(),
