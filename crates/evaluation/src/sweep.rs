@@ -12,6 +12,8 @@ use crate::{EvaluationError, FeedforwardKind, Learned, Progress, TrackingScenari
 pub struct GainSweep {
     /// Name of the set of gains that is scaled.
     pub gains: String,
+    /// How much of the motion is tracked (s).
+    pub duration_s: f64,
     /// Factors of `kp`; those of `kd` are their square roots.
     pub scales: Vec<f64>,
     /// The errors of each feedforward.
@@ -45,7 +47,10 @@ pub fn sweep(
     progress: &dyn Progress,
 ) -> Result<Option<GainSweep>, EvaluationError> {
     let Some((spec, gains)) = scenario.sweep() else { return Ok(None) };
-    let longest_s = spec.duration_s.unwrap_or(f64::INFINITY);
+    let whole_s = scenario.motion().duration_s();
+    let duration_s = spec.duration_s.map_or(whole_s, |longest_s| longest_s.min(whole_s));
+    let count = spec.feedforward.len() * spec.scales.len();
+    progress.begin(&format!("tracking for {:.0} s at other gains", count as f64 * duration_s));
     let runs: Vec<(FeedforwardKind, f64)> = spec
         .feedforward
         .iter()
@@ -56,10 +61,9 @@ pub fn sweep(
         .map(|(kind, scale)| {
             let controller = controller(scenario, &scaled(gains, scale))?;
             let parts = Parts { scenario, learned, kind, controller: &controller };
-            let mut watch = Until { end_s: longest_s, progress };
+            let mut watch = Until { end_s: duration_s, second: 0.0, progress };
             let run = parts.run(&mut watch)?;
-            let seconds = longest_s.min(scenario.motion().duration_s());
-            let whole = run.tracking.rows.time_s().last().is_some_and(|t| t > seconds - 0.01);
+            let whole = run.tracking.rows.time_s().last().is_some_and(|t| t > duration_s - 0.01);
             Ok(match whole {
                 true => run.metrics.joints.iter().map(|joint| joint.rmse).collect(),
                 false => vec![f64::NAN; scenario.robot().joint_count()],
@@ -69,7 +73,8 @@ pub fn sweep(
     let errors = errors?;
     let models = spec.feedforward.iter().zip(errors.chunks(spec.scales.len()));
     let models = models.map(|(&kind, rmse)| SweptModel { kind, rmse: rmse.to_vec() }).collect();
-    Ok(Some(GainSweep { gains: spec.gains.clone(), scales: spec.scales.clone(), models }))
+    let (gains, scales) = (spec.gains.clone(), spec.scales.clone());
+    Ok(Some(GainSweep { gains, duration_s, scales, models }))
 }
 
 fn scaled(gains: &[Gain], scale: f64) -> Vec<Gain> {
@@ -79,11 +84,16 @@ fn scaled(gains: &[Gain], scale: f64) -> Vec<Gain> {
 /// Ends a run at a time, or when the user does.
 struct Until<'a> {
     end_s: f64,
+    second: f64,
     progress: &'a dyn Progress,
 }
 
 impl Watch for Until<'_> {
     fn tick(&mut self, tick: &Tick) -> ControlFlow<()> {
+        if tick.time_s >= self.second + 1.0 {
+            self.second += 1.0;
+            self.progress.second();
+        }
         if tick.time_s >= self.end_s || self.progress.is_stopped() {
             return ControlFlow::Break(());
         }

@@ -118,7 +118,11 @@ pub struct FirstSeconds {
 /// The errors at several gains.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sweep {
-    /// The gains `Kp` and `Kd` over the compliant ones.
+    /// Name of the set of gains that was scaled.
+    pub gains: String,
+    /// How much of the motion was followed (s).
+    pub duration_s: f64,
+    /// `Kp` over that of the set, rising; `Kd` goes with its square root.
     pub scales: Vec<f64>,
     /// The errors of each feedforward.
     pub models: Vec<SweptModel>,

@@ -27,6 +27,8 @@ pub fn comparison() -> TrackingComparison {
             model("gp-rbd", [0.005, 0.001], 0.0025),
         ],
         sweep: Some(Sweep {
+            gains: "compliant".into(),
+            duration_s: 20.0,
             scales: vec![0.1, 0.25, 1.0],
             models: vec![swept("rbd", 1.0), swept("gp-rbd", 0.25)],
         }),

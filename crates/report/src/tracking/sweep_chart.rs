@@ -26,6 +26,7 @@ struct Drawing {
     sheet: Sheet,
     edges: [f64; 2],
     axis: &'static str,
+    gains: String,
     panels: Vec<Panel>,
 }
 
@@ -82,17 +83,19 @@ impl Drawing {
         };
         let title = format!("{}: how low can the gains be?", comparison.robot);
         let subtitle = format!(
-            "RMS error over {} s of {} against the gains over the compliant ones; both \
-             logarithmic, lower left is better",
-            significant(comparison.duration_s, 3),
-            comparison.motion
+            "RMS error over {} s of {} against Kp over that of the gains {}, Kd with its square \
+             root; both logarithmic, lower left is better",
+            significant(sweep.duration_s, 3),
+            comparison.motion,
+            sweep.gains
         );
         let keys = sweep.models.iter().map(key).collect();
         let sheet = Sheet::new(&title, &subtitle, keys, place);
         let panels = panels(comparison, sweep, sheet.bottom() + 42.0);
         let bottom = panels.last().map_or(sheet.bottom(), |panel| panel.y[1]);
         let axis = comparison.thousandths();
-        Self { sheet: sheet.down_to(bottom + BELOW), edges: EDGES, axis, panels }
+        let gains = sweep.gains.clone();
+        Self { sheet: sheet.down_to(bottom + BELOW), edges: EDGES, axis, gains, panels }
     }
 }
 

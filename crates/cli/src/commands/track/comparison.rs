@@ -1,6 +1,7 @@
 use evaluation::{
     AheadSpec, ClockSpec, GainSweep, PredictionTimeSpec, TrackedRun, TrackingScenario,
 };
+use recording::Listener;
 use report::{
     ComparedJoint, FirstSeconds, Gains, ReportError, Sweep, SweptModel, TrackedModel,
     TrackingComparison, WallTiming,
@@ -33,8 +34,24 @@ pub fn comparison(
         duration_s: scenario.motion().duration_s(),
         models: runs.iter().map(tracked).collect(),
         sweep: swept.map(sweep),
-        warnings: Vec::new(),
+        warnings: unseen(runs).into_iter().collect(),
         provenance,
+    })
+}
+
+/// What a viewer that was asked for did not see.
+fn unseen(runs: &[TrackedRun]) -> Option<String> {
+    let listeners = || runs.iter().filter_map(|run| Some(run.written.as_ref()?.listener));
+    if listeners().any(|listener| listener == Listener::Nobody) {
+        return Some("no viewer listened on 127.0.0.1:9876 (--live): start rerun first".into());
+    }
+    let missed = |listener| match listener {
+        Listener::Viewer { left_out } => left_out,
+        Listener::NotAsked | Listener::Nobody => 0,
+    };
+    let left_out: u64 = listeners().map(missed).sum();
+    (left_out > 0).then(|| {
+        format!("the viewer was too slow for {left_out} messages, which the recordings hold")
     })
 }
 
@@ -115,6 +132,8 @@ fn first_seconds(run: &TrackedRun) -> FirstSeconds {
 fn sweep(swept: &GainSweep) -> Sweep {
     let models = swept.models.iter();
     Sweep {
+        gains: swept.gains.clone(),
+        duration_s: swept.duration_s,
         scales: swept.scales.clone(),
         models: models
             .map(|model| SweptModel {
