@@ -8,6 +8,9 @@ const SEMIPARAMETRIC: [&str; 4] = ["gp-rbd", "gp-rbd-prior", "gp-rbd-shared", "r
 /// Elbow and wrist, counted from 0: most of what their drives need is friction.
 const ELBOW_AND_WRIST: [usize; 3] = [3, 4, 5];
 
+/// The palm's torque is friction of its own velocity, which rigid bodies add nothing to.
+const PALM: usize = 6;
+
 fn tracking() -> String {
     format!(
         "feedforward = [\"rbd\", \"gp\", \"gp-rbd\", \"gp-rbd-prior\", \"gp-rbd-shared\", \
@@ -33,6 +36,8 @@ fn models_with_rigid_bodies_and_data_track_best_and_named_effects_better_still()
         }
         for j in ELBOW_AND_WRIST {
             assert!(2.0 * own[j] < rbd[j], "{name}, joint {j}: {} and RBD {}", own[j], rbd[j]);
+        }
+        for j in 0..PALM {
             assert!(own[j] < gp[j], "{name}, joint {j}: {} and GP {}", own[j], gp[j]);
         }
     }

@@ -4,7 +4,6 @@ use robot::Robot;
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extent::inadequate;
-use crate::left_out::left_out;
 use crate::progress::Progress;
 use crate::result::{Diagnosis, RunSummary};
 use crate::settings::Settings;
@@ -50,7 +49,7 @@ pub fn diagnose(
     settings.check()?;
     progress.stage("preparing the logs", 2);
     let (runs, mut warnings) = distinct(robot, runs)?;
-    warnings.extend(left_out(robot));
+    warnings.extend(effects::left_out(robot));
     let mut prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));

@@ -22,7 +22,6 @@ mod flip_test;
 mod floor;
 mod gain;
 mod gram;
-mod left_out;
 mod noise;
 mod problem;
 mod progress;

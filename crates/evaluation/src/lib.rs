@@ -24,7 +24,7 @@ pub use feedforward_kind::FeedforwardKind;
 pub use learned::Learned;
 pub use median_time::median_time_s;
 pub use progress::Progress;
-pub use stream::{Stream, Written};
+pub use stream::Written;
 pub use sweep::{GainSweep, SweptModel, sweep};
 pub use track::{Outputs, TrackedRun, simulated_logs, track_all};
 pub use tracking_scenario::TrackingScenario;

@@ -2,6 +2,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
+use effects::left_out;
 use learner::{
     LearnerError, ModelKind, Regression, RigidBodyFit, Samples, Score, TrainSettings, Training,
 };
@@ -32,6 +33,8 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
     let learned = Learning { arguments, robot, named: named.as_ref(), data: &data, watch }.run(out);
     watch.finish();
     let (models, mut files) = learned?;
+    let mut warnings = data.warnings.clone();
+    warnings.extend(left_out(named.as_ref().unwrap_or(robot)));
     let comparison = Comparison {
         robot: robot.name().to_owned(),
         joints: ComparedJoint::all(robot),
@@ -41,7 +44,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
         thinning: "sample floor(i n / points) of n, i from 0: evenly spread over all runs".into(),
         cutoff_hz: data.cutoff_hz,
         models,
-        warnings: data.warnings,
+        warnings,
         provenance: provenance(&arguments.robot, loaded, arguments.names.map.as_deref())?,
     };
     files.push(("learning.json".to_owned(), comparison.json()?.into_bytes()));

@@ -3,9 +3,10 @@ use robot::{Actuator, Robot, TorqueSource};
 /// What the robot says of its drives and the expected effort along a log leaves out, one
 /// sentence a joint.
 ///
-/// An effort that was measured has the delay behind it. Free play, twist and delay are states that would have to be followed along the log; what
-/// they do to the effort counts as something that the robot does not say.
-pub(crate) fn left_out(robot: &Robot) -> Vec<String> {
+/// Free play, twist and delay are states that would have to be followed along the log; what they
+/// do to the effort counts as something that the robot does not say. An effort that was measured
+/// has the delay behind it.
+pub fn left_out(robot: &Robot) -> Vec<String> {
     let sentence = |(name, drive): (&str, &Actuator)| {
         let measured =
             matches!(drive.torque_source, TorqueSource::Measured | TorqueSource::Current);
