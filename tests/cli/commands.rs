@@ -6,9 +6,16 @@ fn help_names_every_command_and_every_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let help = run(folder.path(), &["--help"]);
     assert_eq!(help.code, 0);
-    for expected in
-        ["diagnose", "robot", "log", "explain", "Examples:", "Exit codes:", "  3  unusable data"]
-    {
+    for expected in [
+        "diagnose",
+        "robot",
+        "log",
+        "effects",
+        "explain",
+        "Examples:",
+        "Exit codes:",
+        "  3  unusable data",
+    ] {
         assert!(help.out.contains(expected), "{expected} is missing in\n{}", help.out);
     }
     let help = run(folder.path(), &["diagnose", "--help"]);
@@ -40,7 +47,7 @@ fn wrong_usage_exits_with_two() {
         (with(&["--cutoff-hz", "-3"]), "--cutoff-hz"),
         (with(&["--cutoff-hz", "abc"]), "a positive number was expected"),
         (with(&["--cutoff-hz", "5000"]), "half the sampling rate"),
-        (run(folder.path(), &["explain", "frictoin"]), "did you mean viscous_friction"),
+        (run(folder.path(), &["explain", "frictoin"]), "did you mean FR01 viscous_friction"),
     ];
     for (answer, expected) in cases {
         assert_eq!(answer.code, 2, "{answer:?}");
@@ -52,15 +59,35 @@ fn wrong_usage_exits_with_two() {
 #[test]
 fn explain_prints_the_catalogue() {
     let folder = tempfile::tempdir().unwrap();
-    let list = run(folder.path(), &["explain"]);
+    let list = run(folder.path(), &["effects"]);
+    assert_eq!((list.code, list.err.as_str()), (0, ""));
+    assert_eq!(run(folder.path(), &["explain"]).out, list.out);
     for kind in catalogue::EffectKind::ALL {
         assert!(list.out.contains(kind.name()), "{}", list.out);
         let one = run(folder.path(), &["explain", kind.name()]);
         assert_eq!(one.code, 0);
+        assert!(one.out.starts_with(&format!("{} ({kind})\n", kind.label())), "{}", one.out);
+        assert_eq!(run(folder.path(), &["explain", &kind.code().to_lowercase()]).out, one.out);
         for expected in [kind.entry().equation, kind.entry().told_apart_by, kind.entry().source] {
             assert!(one.out.contains(expected), "{expected} is missing in\n{}", one.out);
         }
     }
+}
+
+#[test]
+fn effects_prints_for_programs_what_can_be_done_about_each() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = run(folder.path(), &["effects", "--json"]);
+    let list: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(list["schema"], "plumbline.effects/1");
+    let effects = list["effects"].as_array().unwrap();
+    let backlash = effects.iter().find(|e| e["name"] == "backlash");
+    let expected = serde_json::json!({
+        "code": "TR01", "name": "backlash", "family": "transmission",
+        "summary": "play between motor and link",
+        "diagnosed": false, "simulated": true, "compensated": true,
+    });
+    assert_eq!((effects.len(), backlash), (26, Some(&expected)));
 }
 
 #[test]

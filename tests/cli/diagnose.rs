@@ -32,7 +32,7 @@ fn friction_is_named_written_down_and_gone_from_the_extended_robot() {
     let answer = diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out"]);
     assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
     assert!(answer.out.starts_with("Explained: "), "{}", answer.out);
-    assert!(answer.out.contains("Coulomb friction"), "{}", answer.out);
+    assert!(answer.out.contains("FR02 Coulomb friction"), "{}", answer.out);
     assert!(answer.out.contains("figure         out/figure.svg"), "{}", answer.out);
     assert!(answer.out.trim_end().ends_with("extended model out/extended.toml (for --robot)"));
     assert!(!answer.out.contains('\u{1b}') && answer.err.is_empty(), "{answer:?}");
@@ -46,6 +46,10 @@ fn friction_is_named_written_down_and_gone_from_the_extended_robot() {
     );
     let level = finding["parameters"]["level"]["value"].as_f64().unwrap();
     assert!((level - 1.5).abs() < 0.1, "{level}");
+
+    assert_eq!(finding["code"], "FR02");
+    let extended = fs::read_to_string(folder.path().join("out/extended.toml")).unwrap();
+    assert!(extended.contains("\n# FR02 Coulomb friction at elbow: "), "{extended}");
 
     let again = diagnose(
         folder.path(),
@@ -146,7 +150,9 @@ fn the_figure_stands_alone_and_shows_the_joint_with_its_cause() {
     diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out", "--quiet"]);
     let svg = fs::read_to_string(folder.path().join("out/figure.svg")).unwrap();
     assert!(svg.starts_with("<svg xmlns=") && svg.trim_end().ends_with("</svg>"));
-    for expected in ["elbow: torque over time", "Coulomb friction", "arm: explained by 1 named"] {
+    for expected in
+        ["elbow: torque over time", "FR02 Coulomb friction", "arm: explained by 1 named"]
+    {
         assert!(svg.contains(expected), "{expected} is missing");
     }
     assert_eq!(svg.matches("http").count(), 1, "only the name space");

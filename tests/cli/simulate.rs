@@ -213,6 +213,7 @@ fn the_logs_the_scenario_and_the_truth_are_written_and_told() {
     let truth: serde_json::Value = serde_json::from_str(truth).unwrap();
     let effect = &truth["effects"][0];
     assert_eq!((&truth["seed"], &effect["effect"]), (&3.into(), &"coulomb_friction".into()));
+    assert_eq!(effect["code"], "FR02");
     assert_eq!(effect["parameters"]["level"], 0.6);
     let quiet = simulate(folder.path(), &["--csv", "--quiet"]);
     assert_eq!((quiet.code, quiet.out.as_str(), quiet.err.as_str()), (0, "", ""));
@@ -306,7 +307,7 @@ fn what_cannot_be_drawn_is_said() {
             "--set",
             "run=[{ name = 'x', lead_in_s = 0, motion = { hold = { duration_s = 0.2 } } }]",
         ],
-        &["none of 40 draws", "between 0.95 and 0.96", "encoder_offset at "],
+        &["none of 40 draws", "between 0.95 and 0.96", "SE01 encoder_offset at "],
     );
 }
 

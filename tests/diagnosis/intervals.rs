@@ -9,9 +9,9 @@ const LOGS: u64 = 80;
 
 /// The causes in every log: words, parameter, true value.
 const CAUSES: [(&str, &str, f64); 3] = [
-    ("Coulomb friction at j4_elbow_pitch", "level", 0.5),
-    ("viscous friction at j2_shoulder_pitch", "viscous", 1.5),
-    ("torque offset at j3_shoulder_yaw", "offset", 0.3),
+    ("FR02 Coulomb friction at j4_elbow_pitch", "level", 0.5),
+    ("FR01 viscous friction at j2_shoulder_pitch", "viscous", 1.5),
+    ("DR03 torque offset at j3_shoulder_yaw", "offset", 0.3),
 ];
 
 /// Of `n` intervals that hold the truth with probability 0.95, `0.95 n +- sqrt(0.0475 n)`

@@ -135,7 +135,7 @@ fn recorded_lwr4_has_two_sensor_offsets_and_all_joints_but_one_are_predicted_as_
     let runs = ["measurements_1", "measurements_2", "measurements_3"];
     let answer = diagnosis(&robot, &folder.join("kuka_lwr4"), &runs, "effort");
     for (joint, known, within) in [("lwr_0_joint", 0.85, 0.15), ("lwr_4_joint", -0.72, 0.2)] {
-        let offset = finding(&answer, &format!("torque offset at {joint}"));
+        let offset = finding(&answer, &format!("DR03 torque offset at {joint}"));
         let offset = offset.unwrap_or_else(|| panic!("no offset at {joint}"));
         let value = offset.parameters[0].value;
         println!("offset at {joint}: {value:.3} N m, known {known}");

@@ -37,8 +37,8 @@ fn coulomb_and_viscous_friction_at_one_joint_are_told_apart() {
     check(
         &world,
         &[
-            ("Coulomb friction at j4_elbow_pitch", "level", 0.5),
-            ("viscous friction at j4_elbow_pitch", "viscous", 0.6),
+            ("FR02 Coulomb friction at j4_elbow_pitch", "level", 0.5),
+            ("FR01 viscous friction at j4_elbow_pitch", "viscous", 0.6),
         ],
     );
 }
@@ -52,9 +52,9 @@ fn three_causes_at_three_joints_are_all_found() {
     check(
         &world,
         &[
-            ("viscous friction at j1_base_yaw", "viscous", 1.6),
-            ("torque offset at j3_shoulder_yaw", "offset", 0.3),
-            ("Coulomb friction at j4_elbow_pitch", "level", 0.5),
+            ("FR01 viscous friction at j1_base_yaw", "viscous", 1.6),
+            ("DR03 torque offset at j3_shoulder_yaw", "offset", 0.3),
+            ("FR02 Coulomb friction at j4_elbow_pitch", "level", 0.5),
         ],
     );
 }

@@ -42,8 +42,8 @@ impl Trial {
     /// The cause in words, as a finding names it.
     pub fn words(&self) -> String {
         match self.place {
-            "" => self.kind.words().to_owned(),
-            place => format!("{} at {place}", self.kind.words()),
+            "" => self.kind.label(),
+            place => format!("{} at {place}", self.kind.label()),
         }
     }
 }
@@ -66,7 +66,7 @@ pub fn trials(kind: EffectKind) -> Vec<Trial> {
             joints: &[J4],
             name: Name::Exact,
             // Where the spring is slack is a constant torque, and so is an offset.
-            beside: Some("torque offset at j4_elbow_pitch"),
+            beside: Some("DR03 torque offset at j4_elbow_pitch"),
         }],
         EffectKind::GravityDirection => vec![Trial {
             kind,

@@ -79,6 +79,7 @@ fn no_name_of_an_effect_or_of_its_parameters_is_in_a_log() {
         for word in words(kind) {
             assert!(!said.contains(word), "{word} of {kind} is said of the log");
         }
+        assert!(!text.contains(&kind.code().to_lowercase()), "the code of {kind} is in the log");
     }
 }
 

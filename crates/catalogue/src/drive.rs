@@ -7,13 +7,16 @@ use crate::EffectKind::{
     TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation, TransmissionRatio,
     ViscousFriction,
 };
-use crate::Entry;
 use crate::entry::{TORQUE, always, parameter, phase};
+use crate::{Entry, Family};
 
 pub(crate) const TORQUE_RIPPLE: Entry = Entry {
     kind: TorqueRipple,
+    code: "DR01",
+    family: Family::Drive,
     name: "torque_ripple",
     words: "torque ripple",
+    summary: "torque that varies with the motor angle",
     equation: "amplitude sin(periods_per_turn q + phase)",
     parameters: &[
         parameter("amplitude", TORQUE, "amplitude of the torque", (0.05, 0.5)),
@@ -39,8 +42,11 @@ pub(crate) const TORQUE_RIPPLE: Entry = Entry {
 
 pub(crate) const TORQUE_CONSTANT: Entry = Entry {
     kind: TorqueConstant,
+    code: "DR02",
+    family: Family::Drive,
     name: "torque_constant",
     words: "torque constant",
+    summary: "reported effort off by a factor",
     equation: "torque_gain tau",
     parameters: &[parameter(
         "gain",
@@ -65,8 +71,11 @@ pub(crate) const TORQUE_CONSTANT: Entry = Entry {
 
 pub(crate) const TORQUE_OFFSET: Entry = Entry {
     kind: TorqueOffset,
+    code: "DR03",
+    family: Family::Drive,
     name: "torque_offset",
     words: "torque offset",
+    summary: "reported effort off by a constant",
     equation: "offset",
     parameters: &[parameter("offset", TORQUE, "effort reported at zero torque", (-0.3, 0.3))],
     signature: "the residual has a mean that depends on nothing",
@@ -85,8 +94,11 @@ pub(crate) const TORQUE_OFFSET: Entry = Entry {
 
 pub(crate) const ACTUATOR_LAG: Entry = Entry {
     kind: ActuatorLag,
+    code: "DR04",
+    family: Family::Drive,
     name: "actuator_lag",
     words: "actuator lag",
+    summary: "torque that lags behind its command",
     equation: "time_constant d(tau)/dt",
     parameters: &[parameter(
         "time_constant",
@@ -103,8 +115,11 @@ pub(crate) const ACTUATOR_LAG: Entry = Entry {
 
 pub(crate) const ACTUATOR_DELAY: Entry = Entry {
     kind: ActuatorDelay,
+    code: "DR05",
+    family: Family::Drive,
     name: "actuator_delay",
     words: "actuator delay",
+    summary: "torque a fixed time after its command",
     equation: "tau(t + delay) - tau(t)",
     parameters: &[parameter("delay", always("s"), "time from command to torque", (0.002, 0.01))],
     signature: "the residual follows the rate of the torque, the more so the faster it is",
@@ -116,8 +131,11 @@ pub(crate) const ACTUATOR_DELAY: Entry = Entry {
 
 pub(crate) const TORQUE_SATURATION: Entry = Entry {
     kind: TorqueSaturation,
+    code: "DR06",
+    family: Family::Drive,
     name: "torque_saturation",
     words: "torque saturation",
+    summary: "torque that ends at a limit",
     equation: "(|effort| - limit) sign(effort) where |effort| > limit",
     parameters: &[parameter("limit", TORQUE, "largest torque of the drive", (29.0, 102.0))],
     signature: "above a level of effort the arm accelerates no faster",

@@ -1,4 +1,4 @@
-use crate::{EffectKind, drive, friction, load, sensing, transmission};
+use crate::{EffectKind, Family, drive, environment, friction, inertia, sensing, transmission};
 
 /// One parameter of an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,10 +22,16 @@ pub struct Parameter {
 pub struct Entry {
     /// The effect.
     pub kind: EffectKind,
+    /// The code, as [`EffectKind::code`].
+    pub code: &'static str,
+    /// The family.
+    pub family: Family,
     /// The name used in files and on the command line.
     pub name: &'static str,
     /// The name in words, for sentences.
     pub words: &'static str,
+    /// What it is, in a few words.
+    pub summary: &'static str,
     /// What it adds to the torque.
     pub equation: &'static str,
     /// Its parameters.
@@ -56,12 +62,12 @@ impl EffectKind {
             Self::FrictionTemperatureDrift => &friction::TEMPERATURE_DRIFT,
             Self::Backlash => &transmission::BACKLASH,
             Self::JointElasticity => &transmission::JOINT_ELASTICITY,
-            Self::RotorInertia => &transmission::ROTOR_INERTIA,
+            Self::RotorInertia => &inertia::ROTOR_INERTIA,
             Self::DifferentialCoupling => &transmission::DIFFERENTIAL_COUPLING,
-            Self::Payload => &load::PAYLOAD,
-            Self::InertialParameters => &load::INERTIAL_PARAMETERS,
-            Self::GravityDirection => &load::GRAVITY_DIRECTION,
-            Self::CableSpring => &load::CABLE_SPRING,
+            Self::Payload => &inertia::PAYLOAD,
+            Self::InertialParameters => &inertia::INERTIAL_PARAMETERS,
+            Self::GravityDirection => &environment::GRAVITY_DIRECTION,
+            Self::CableSpring => &environment::CABLE_SPRING,
             Self::TorqueRipple => &drive::TORQUE_RIPPLE,
             Self::TorqueConstant => &drive::TORQUE_CONSTANT,
             Self::TorqueOffset => &drive::TORQUE_OFFSET,
@@ -69,9 +75,9 @@ impl EffectKind {
             Self::ActuatorDelay => &drive::ACTUATOR_DELAY,
             Self::TorqueSaturation => &drive::TORQUE_SATURATION,
             Self::EncoderOffset => &sensing::ENCODER_OFFSET,
-            Self::TransmissionRatio => &sensing::TRANSMISSION_RATIO,
+            Self::TransmissionRatio => &transmission::TRANSMISSION_RATIO,
             Self::TimeSkew => &sensing::TIME_SKEW,
-            Self::ExternalDisturbance => &load::EXTERNAL_DISTURBANCE,
+            Self::ExternalDisturbance => &environment::EXTERNAL_DISTURBANCE,
         }
     }
 }

@@ -6,13 +6,16 @@ use crate::EffectKind::{
     PositionDependentFriction, PreslidingFriction, StribeckFriction, TimeSkew, TorqueConstant,
     TorqueOffset, TorqueRipple, ViscousFriction,
 };
-use crate::Entry;
 use crate::entry::{TORQUE, always, parameter, phase};
+use crate::{Entry, Family};
 
 pub(crate) const VISCOUS: Entry = Entry {
     kind: ViscousFriction,
+    code: "FR01",
+    family: Family::Friction,
     name: "viscous_friction",
     words: "viscous friction",
+    summary: "torque proportional to velocity",
     equation: "viscous qd",
     parameters: &[parameter(
         "viscous",
@@ -35,8 +38,11 @@ pub(crate) const VISCOUS: Entry = Entry {
 
 pub(crate) const COULOMB: Entry = Entry {
     kind: CoulombFriction,
+    code: "FR02",
+    family: Family::Friction,
     name: "coulomb_friction",
     words: "Coulomb friction",
+    summary: "constant torque against the motion",
     equation: "coulomb sign(qd)",
     parameters: &[parameter("level", TORQUE, "friction torque while moving", (0.35, 2.7))],
     signature: "the residual jumps when the joint reverses, whatever the speed",
@@ -58,8 +64,11 @@ pub(crate) const COULOMB: Entry = Entry {
 
 pub(crate) const ASYMMETRIC: Entry = Entry {
     kind: AsymmetricFriction,
+    code: "FR03",
+    family: Family::Friction,
     name: "asymmetric_friction",
     words: "asymmetric friction",
+    summary: "dry friction that differs by direction",
     equation: "forward for qd > 0, -backward for qd < 0",
     parameters: &[
         parameter("forward", TORQUE, "friction torque against positive motion", (0.35, 2.7)),
@@ -74,8 +83,11 @@ pub(crate) const ASYMMETRIC: Entry = Entry {
 
 pub(crate) const STRIBECK: Entry = Entry {
     kind: StribeckFriction,
+    code: "FR04",
+    family: Family::Friction,
     name: "stribeck_friction",
     words: "Stribeck friction",
+    summary: "dry friction that is largest near rest",
     equation: "(coulomb + (breakaway - coulomb) exp(-(qd / stribeck_velocity)^2)) sign(qd)",
     parameters: &[
         parameter("coulomb", TORQUE, "friction torque at higher speed", (0.35, 2.7)),
@@ -96,8 +108,11 @@ pub(crate) const STRIBECK: Entry = Entry {
 
 pub(crate) const PRESLIDING: Entry = Entry {
     kind: PreslidingFriction,
+    code: "FR05",
+    family: Family::Friction,
     name: "presliding_friction",
     words: "presliding friction",
+    summary: "dry friction, springy before it slides",
     equation: "stiffness z + damping zd, zd = qd - stiffness |qd| z / level",
     parameters: &[
         parameter(
@@ -118,8 +133,11 @@ pub(crate) const PRESLIDING: Entry = Entry {
 
 pub(crate) const LOAD_DEPENDENT: Entry = Entry {
     kind: LoadDependentFriction,
+    code: "FR06",
+    family: Family::Friction,
     name: "load_dependent_friction",
     words: "load-dependent friction",
+    summary: "dry friction that grows with the load",
     equation: "coefficient |load| sign(qd), load the torque that the joint carries",
     parameters: &[parameter(
         "coefficient",
@@ -136,8 +154,11 @@ pub(crate) const LOAD_DEPENDENT: Entry = Entry {
 
 pub(crate) const POSITION_DEPENDENT: Entry = Entry {
     kind: PositionDependentFriction,
+    code: "FR07",
+    family: Family::Friction,
     name: "position_dependent_friction",
     words: "position-dependent friction",
+    summary: "dry friction that varies with position",
     equation: "level (1 + share cos(periods_per_turn q + phase)) sign(qd)",
     parameters: &[
         parameter("level", TORQUE, "friction torque, mean over the positions", (0.35, 2.7)),
@@ -159,8 +180,11 @@ pub(crate) const POSITION_DEPENDENT: Entry = Entry {
 
 pub(crate) const TEMPERATURE_DRIFT: Entry = Entry {
     kind: FrictionTemperatureDrift,
+    code: "FR08",
+    family: Family::Friction,
     name: "friction_temperature_drift",
     words: "friction temperature drift",
+    summary: "friction that falls as the drive warms",
     equation: "-share (1 - exp(-t / time_constant)) (viscous qd + coulomb sign(qd))",
     parameters: &[
         parameter("share", always("1"), "share of the cold friction lost when warm", (0.05, 0.6)),

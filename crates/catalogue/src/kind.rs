@@ -3,9 +3,12 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use crate::Family;
+
 /// A named cause of a gap between a robot and its simulation.
 ///
-/// By family: friction, transmission, what the arm carries, drive, sensors, surroundings.
+/// Each has a [`name`](Self::name), which files use, and a [`code`](Self::code), which stands
+/// beside the name wherever it is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EffectKind {
@@ -64,7 +67,7 @@ pub enum EffectKind {
 }
 
 impl EffectKind {
-    /// Every effect, in the order in which they are listed to the user.
+    /// Every effect, in the order in which random draws count them.
     pub const ALL: [Self; 26] = [
         Self::ViscousFriction,
         Self::CoulombFriction,
@@ -94,6 +97,20 @@ impl EffectKind {
         Self::ExternalDisturbance,
     ];
 
+    /// The code that stands beside the name: two letters of the family and two digits.
+    ///
+    /// A code is for good: it never becomes another effect's, and an effect never gets another
+    /// one, not even when it is renamed or moves to another family. A new effect takes the
+    /// next number of its family, and the number of one that is taken out stays unused.
+    pub const fn code(self) -> &'static str {
+        self.entry().code
+    }
+
+    /// The family.
+    pub const fn family(self) -> Family {
+        self.entry().family
+    }
+
     /// The name used in files and on the command line.
     pub const fn name(self) -> &'static str {
         self.entry().name
@@ -103,6 +120,11 @@ impl EffectKind {
     pub const fn words(self) -> &'static str {
         self.entry().words
     }
+
+    /// Code and name in words, such as `FR02 Coulomb friction`.
+    pub fn label(self) -> String {
+        format!("{} {}", self.code(), self.words())
+    }
 }
 
 impl fmt::Display for EffectKind {
@@ -111,16 +133,16 @@ impl fmt::Display for EffectKind {
     }
 }
 
-/// No effect has this name.
+/// No effect has this name or code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownEffect(
-    /// The name that was asked for.
+    /// What was asked for.
     pub String,
 );
 
 impl fmt::Display for UnknownEffect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names: Vec<_> = EffectKind::ALL.iter().map(|k| k.name()).collect();
+        let names = EffectKind::ALL.map(|k| format!("{} {k}", k.code()));
         write!(f, "effect {}: not in the catalogue, expected one of {}", self.0, names.join(", "))
     }
 }
@@ -130,11 +152,12 @@ impl std::error::Error for UnknownEffect {}
 impl FromStr for EffectKind {
     type Err = UnknownEffect;
 
-    fn from_str(name: &str) -> Result<Self, UnknownEffect> {
+    /// The effect with this name or code, in capitals or small letters.
+    fn from_str(text: &str) -> Result<Self, UnknownEffect> {
         Self::ALL
             .into_iter()
-            .find(|k| k.name() == name)
-            .ok_or_else(|| UnknownEffect(name.to_owned()))
+            .find(|k| [k.name(), k.code()].iter().any(|known| known.eq_ignore_ascii_case(text)))
+            .ok_or_else(|| UnknownEffect(text.to_owned()))
     }
 }
 
@@ -144,6 +167,36 @@ mod tests {
     use serde::de::value::{Error, StrDeserializer};
 
     use super::*;
+
+    /// Never to be changed, only added to: see [`EffectKind::code`].
+    const CODES: [(&str, &str); 26] = [
+        ("FR01", "viscous_friction"),
+        ("FR02", "coulomb_friction"),
+        ("FR03", "asymmetric_friction"),
+        ("FR04", "stribeck_friction"),
+        ("FR05", "presliding_friction"),
+        ("FR06", "load_dependent_friction"),
+        ("FR07", "position_dependent_friction"),
+        ("FR08", "friction_temperature_drift"),
+        ("TR01", "backlash"),
+        ("TR02", "joint_elasticity"),
+        ("TR03", "differential_coupling"),
+        ("TR04", "transmission_ratio"),
+        ("IN01", "payload"),
+        ("IN02", "inertial_parameters"),
+        ("IN03", "rotor_inertia"),
+        ("DR01", "torque_ripple"),
+        ("DR02", "torque_constant"),
+        ("DR03", "torque_offset"),
+        ("DR04", "actuator_lag"),
+        ("DR05", "actuator_delay"),
+        ("DR06", "torque_saturation"),
+        ("SE01", "encoder_offset"),
+        ("SE02", "time_skew"),
+        ("EN01", "gravity_direction"),
+        ("EN02", "cable_spring"),
+        ("EN03", "external_disturbance"),
+    ];
 
     fn read(name: &str) -> Result<EffectKind, Error> {
         let deserializer: StrDeserializer<'_, Error> = name.into_deserializer();
@@ -157,6 +210,28 @@ mod tests {
             assert_eq!(kind.entry().kind, kind);
         }
         assert_eq!("frictoin".parse::<EffectKind>(), Err(UnknownEffect("frictoin".to_owned())));
+    }
+
+    #[test]
+    fn a_code_is_for_good_and_finds_its_effect_as_the_name_does_in_any_case() {
+        for (code, name) in CODES {
+            let kind = read(name).unwrap();
+            assert_eq!((kind.code(), kind.name()), (code, name));
+            for text in [code, name, &code.to_lowercase(), &name.to_uppercase()] {
+                assert_eq!(text.parse(), Ok(kind), "{text}");
+            }
+        }
+        assert_eq!("FR00".parse::<EffectKind>(), Err(UnknownEffect("FR00".to_owned())));
+    }
+
+    #[test]
+    fn a_code_is_the_letters_of_its_family_and_two_digits_and_no_other_effects() {
+        for kind in EffectKind::ALL {
+            let (code, family) = (kind.code(), kind.family());
+            let digits = code.strip_prefix(family.letters()).unwrap_or_default();
+            assert!(digits.len() == 2 && digits.bytes().all(|b| b.is_ascii_digit()), "{code}");
+            assert_eq!(EffectKind::ALL.iter().filter(|k| k.code() == code).count(), 1, "{code}");
+        }
     }
 
     /// serde's message lists every variant, in the order of the enum.

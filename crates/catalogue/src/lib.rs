@@ -14,11 +14,14 @@
 
 mod drive;
 mod entry;
+mod environment;
+mod family;
 mod friction;
+mod inertia;
 mod kind;
-mod load;
 mod sensing;
 mod transmission;
 
 pub use entry::{Entry, Parameter};
+pub use family::Family;
 pub use kind::{EffectKind, UnknownEffect};

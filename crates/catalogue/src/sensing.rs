@@ -2,15 +2,18 @@
 
 use crate::EffectKind::{
     ActuatorDelay, ActuatorLag, EncoderOffset, GravityDirection, InertialParameters, TimeSkew,
-    TorqueConstant, TransmissionRatio, ViscousFriction,
+    TransmissionRatio, ViscousFriction,
 };
-use crate::Entry;
 use crate::entry::{POSITION, always, parameter};
+use crate::{Entry, Family};
 
 pub(crate) const ENCODER_OFFSET: Entry = Entry {
     kind: EncoderOffset,
+    code: "SE01",
+    family: Family::Sensing,
     name: "encoder_offset",
     words: "encoder offset",
+    summary: "reported position off by a constant",
     equation: "tau(q - offset) - tau(q)",
     parameters: &[parameter(
         "offset",
@@ -25,28 +28,13 @@ pub(crate) const ENCODER_OFFSET: Entry = Entry {
     source: "substitution of the true position",
 };
 
-pub(crate) const TRANSMISSION_RATIO: Entry = Entry {
-    kind: TransmissionRatio,
-    name: "transmission_ratio",
-    words: "transmission ratio",
-    equation: "ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)",
-    parameters: &[parameter(
-        "ratio",
-        always("1"),
-        "true over reported position, and effort over true torque",
-        (0.957, 1.043),
-    )],
-    signature: "torque is off by a factor, gravity torque by more the farther from zero",
-    needs: "the whole range of the joint",
-    confused_with: &[TorqueConstant, EncoderOffset],
-    told_apart_by: "both end stops of the joint, or poses measured from outside, far from zero",
-    source: "equal power on both sides of the gear",
-};
-
 pub(crate) const TIME_SKEW: Entry = Entry {
     kind: TimeSkew,
+    code: "SE02",
+    family: Family::Sensing,
     name: "time_skew",
     words: "time skew",
+    summary: "effort and position not of one instant",
     equation: "tau(t - skew) - tau(t)",
     parameters: &[parameter(
         "skew",

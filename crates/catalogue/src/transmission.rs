@@ -1,17 +1,20 @@
 //! Transmission: what lies between motor and link.
 
 use crate::EffectKind::{
-    ActuatorDelay, ActuatorLag, Backlash, CoulombFriction, DifferentialCoupling,
-    InertialParameters, JointElasticity, PreslidingFriction, RotorInertia, StribeckFriction,
-    TorqueRipple,
+    ActuatorDelay, ActuatorLag, Backlash, CoulombFriction, DifferentialCoupling, EncoderOffset,
+    JointElasticity, PreslidingFriction, StribeckFriction, TorqueConstant, TorqueRipple,
+    TransmissionRatio,
 };
-use crate::Entry;
 use crate::entry::{POSITION, TORQUE, always, parameter};
+use crate::{Entry, Family};
 
 pub(crate) const BACKLASH: Entry = Entry {
     kind: Backlash,
+    code: "TR01",
+    family: Family::Transmission,
     name: "backlash",
     words: "backlash",
+    summary: "play between motor and link",
     equation: "no torque while |theta - q| < gap / 2, theta the position of the motor",
     parameters: &[parameter("gap", POSITION, "play from one end to the other", (0.0002, 0.003))],
     signature: "where the load changes sign, the motor moves by the gap without the link",
@@ -23,8 +26,11 @@ pub(crate) const BACKLASH: Entry = Entry {
 
 pub(crate) const JOINT_ELASTICITY: Entry = Entry {
     kind: JointElasticity,
+    code: "TR02",
+    family: Family::Transmission,
     name: "joint_elasticity",
     words: "joint elasticity",
+    summary: "a spring between motor and link",
     equation: "stiffness (theta - q) + damping (thetad - qd) at the link, theta the motor's",
     parameters: &[
         parameter("stiffness", ["N m/rad", "N/m"], "torque per unit of twist", (320.0, 5.9e4)),
@@ -42,28 +48,13 @@ pub(crate) const JOINT_ELASTICITY: Entry = Entry {
     source: "Spong 1987",
 };
 
-pub(crate) const ROTOR_INERTIA: Entry = Entry {
-    kind: RotorInertia,
-    name: "rotor_inertia",
-    words: "rotor inertia",
-    equation: "rotor_inertia qdd",
-    parameters: &[parameter(
-        "inertia",
-        ["kg m^2", "kg"],
-        "inertia of rotor and gear seen at the joint",
-        (0.035, 0.21),
-    )],
-    signature: "the residual follows the joint's own acceleration, whatever the pose",
-    needs: "acceleration in poses with different mass matrix",
-    confused_with: &[InertialParameters],
-    told_apart_by: "the same acceleration with the arm stretched and folded",
-    source: "Featherstone 2008",
-};
-
 pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
     kind: DifferentialCoupling,
+    code: "TR03",
+    family: Family::Transmission,
     name: "differential_coupling",
     words: "differential coupling",
+    summary: "friction of motors shared by two joints",
     equation: "T^T (level_sum, level_difference) sign(T (qd_a, qd_b)), T = (1 ratio; 1 -ratio)",
     parameters: &[
         parameter(
@@ -90,4 +81,25 @@ pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
     confused_with: &[CoulombFriction],
     told_apart_by: "each joint alone, then both so that one motor turns and one rests",
     source: "virtual work over the differential",
+};
+
+pub(crate) const TRANSMISSION_RATIO: Entry = Entry {
+    kind: TransmissionRatio,
+    code: "TR04",
+    family: Family::Transmission,
+    name: "transmission_ratio",
+    words: "transmission ratio",
+    summary: "a gear ratio that is not the stated one",
+    equation: "ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)",
+    parameters: &[parameter(
+        "ratio",
+        always("1"),
+        "true over reported position, and effort over true torque",
+        (0.957, 1.043),
+    )],
+    signature: "torque is off by a factor, gravity torque by more the farther from zero",
+    needs: "the whole range of the joint",
+    confused_with: &[TorqueConstant, EncoderOffset],
+    told_apart_by: "both end stops of the joint, or poses measured from outside, far from zero",
+    source: "equal power on both sides of the gear",
 };

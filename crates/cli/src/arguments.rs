@@ -1,7 +1,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    diagnose, explain, learn, log_info, replay, robot_check, schema, simulate, track, view,
+    diagnose, effects, explain, learn, log_info, replay, robot_check, schema, simulate, track, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -33,7 +33,7 @@ const EXAMPLES: &str = "\
 Examples:
   plumbline log info run_1.csv --robot robot.urdf
   plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out out
-  plumbline explain coulomb_friction";
+  plumbline explain FR02";
 
 const DIAGNOSE_EXAMPLES: &str = "\
 Examples:
@@ -61,7 +61,7 @@ The output folder holds
                  the same logs
   truth.json     what was put in: for scoring, never for a diagnosis
 
-plumbline explain lists the effects, plumbline schema prints what a scenario may say.";
+plumbline effects lists the effects, plumbline schema prints what a scenario may say.";
 
 const LEARN_EXAMPLES: &str = "\
 Examples:
@@ -130,7 +130,9 @@ pub enum Command {
     /// Looks at logs: rate, gaps, ranges, noise, time skew
     #[command(subcommand)]
     Log(LogCommand),
-    /// Explains an effect by its name; lists all effects without one
+    /// Lists the effects: code, name, what each is, whether it is diagnosed and compensated
+    Effects(effects::Arguments),
+    /// Explains an effect by its code or name; lists all effects without one
     Explain(explain::Arguments),
     /// Simulates the runs of a scenario: logs, and apart from them what was put in
     #[command(after_help = format!("{SIMULATE_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]

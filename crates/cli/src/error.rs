@@ -197,7 +197,7 @@ impl CliError {
                     "plumbline learn and track write models; without --learned they are learned",
                 );
             }
-            Self::UnknownEffect { .. } => return Some("plumbline explain lists every effect"),
+            Self::UnknownEffect { .. } => return Some("plumbline effects lists every effect"),
             Self::NoJoints { .. } => {
                 return Some(
                     "give the robot with --robot, and --map if the columns have other names",

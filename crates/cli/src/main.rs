@@ -14,7 +14,7 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
-    diagnose, explain, learn, log_info, replay, robot_check, schema, simulate, track, view,
+    diagnose, effects, explain, learn, log_info, replay, robot_check, schema, simulate, track, view,
 };
 use crate::error::CliError;
 
@@ -44,6 +44,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Diagnose(arguments) => diagnose::run(arguments),
         Command::Robot(RobotCommand::Check(arguments)) => robot_check::run(arguments),
         Command::Log(LogCommand::Info(arguments)) => log_info::run(arguments),
+        Command::Effects(arguments) => effects::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Learn(arguments) => learn::run(arguments),
         Command::Replay(arguments) => replay::run(arguments),

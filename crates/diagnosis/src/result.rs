@@ -1,5 +1,6 @@
 use catalogue::EffectKind;
-use serde::Serialize;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 
 /// The schema that `diagnosis.json` follows.
 pub const SCHEMA: &str = "plumbline.diagnosis/1";
@@ -117,7 +118,8 @@ pub struct Estimate {
 /// An effect and where it acts.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct EffectAt {
-    /// The effect.
+    /// The effect; in JSON its name as `effect`, its code as `code`.
+    #[serde(flatten, serialize_with = "code_and_name")]
     pub effect: EffectKind,
     /// The joint, for an effect of a joint.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,13 +130,20 @@ pub struct EffectAt {
 }
 
 impl EffectAt {
-    /// The effect and its place in words, such as `viscous friction at elbow`.
+    /// The effect and its place in words, such as `FR01 viscous friction at elbow`.
     pub fn words(&self) -> String {
         match self.joint.as_ref().or(self.link.as_ref()) {
-            Some(place) => format!("{} at {place}", self.effect.words()),
-            None => self.effect.words().to_owned(),
+            Some(place) => format!("{} at {place}", self.effect.label()),
+            None => self.effect.label(),
         }
     }
+}
+
+fn code_and_name<S: Serializer>(effect: &EffectKind, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut fields = serializer.serialize_struct("Effect", 2)?;
+    fields.serialize_field("code", effect.code())?;
+    fields.serialize_field("effect", effect)?;
+    fields.end()
 }
 
 /// A named cause.

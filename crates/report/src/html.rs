@@ -174,9 +174,14 @@ mod tests {
         let page = super::html(&sample.report()).unwrap();
         assert!(!page.contains("http://") && !page.contains("https://"));
         assert!(page.contains("default-src 'none'") && !page.contains("<script>"));
-        for expected in
-            ["Partly explained:", "Coulomb friction", "2.00 N·m (1.80 to 2.20)", "0.020"]
-        {
+        for expected in [
+            "Partly explained:",
+            "<code>FR02</code> Coulomb friction",
+            "<b>FR01 viscous friction at shoulder</b>",
+            ">EN02 cable spring<",
+            "2.00 N·m (1.80 to 2.20)",
+            "0.020",
+        ] {
             assert!(page.contains(expected), "{expected} is missing");
         }
         assert!(

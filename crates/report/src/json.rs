@@ -136,6 +136,8 @@ mod tests {
         let finding = &value["findings"][0];
         assert_eq!(finding["effect"], "coulomb_friction");
         assert_eq!(finding["joint"], "shoulder");
+        let codes = [finding, &finding["not_separable_from"][0], &value["ruled_out"][0]];
+        assert_eq!(codes.map(|at| &at["code"]), ["FR02", "FR01", "EN02"]);
         assert_eq!(finding["parameters"]["level"]["unit"], "N m");
         assert_eq!(finding["parameters"]["level"]["ci95"][1], 2.2);
         assert!(finding["q_value"].is_null());

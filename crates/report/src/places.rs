@@ -92,8 +92,8 @@ mod tests {
         let words = |joint| -> Vec<String> {
             acting_on(&sample.report(), joint).iter().map(|f| f.at.words()).collect()
         };
-        let of_link = "inertial parameters at elbow_link";
-        assert_eq!(words(0), ["Coulomb friction at shoulder", of_link]);
+        let of_link = "IN02 inertial parameters at elbow_link";
+        assert_eq!(words(0), ["FR02 Coulomb friction at shoulder", of_link]);
         assert_eq!(words(1), [of_link]);
     }
 

@@ -217,7 +217,8 @@ mod tests {
         let sample = sample::arm();
         let svg = super::figure(&sample.report()).unwrap();
         let text = text_of_xml(&svg);
-        for expected in ["arm: partly explained", "shoulder", "Coulomb friction", "2.00 N·m"] {
+        for expected in ["arm: partly explained", "shoulder", "FR02 Coulomb friction", "2.00 N·m"]
+        {
             assert!(text.contains(expected), "{expected} is missing in {text}");
         }
         assert_eq!(svg.matches("http").count(), 1, "only the name space");

@@ -98,14 +98,15 @@ pub(crate) fn size(parameter: &Estimate, count: usize) -> String {
     format!("{name}{}{was}", interval(parameter))
 }
 
-/// The effect, with its link where it has one: a joint stands elsewhere.
+/// The effect and its code, with its link where it has one: a joint stands elsewhere.
 pub(crate) fn name_beside_joint(at: &EffectAt) -> String {
     let link = at.link.as_ref().map(|l| format!(" of {l}")).unwrap_or_default();
-    format!("{}{link}", at.effect.words())
+    format!("{}{link}", at.effect.label())
 }
 
 /// A finding as text.
 pub(crate) struct Cause {
+    pub code: &'static str,
     pub effect: &'static str,
     pub place: String,
     pub equation: &'static str,
@@ -137,6 +138,7 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
     let joint = joint_of(report, &finding.at).and_then(|i| report.diagnosis.joints.get(i));
     let units = JointUnits::of(report.robot, joint.map_or("", |j| &j.name));
     Cause {
+        code: finding.at.effect.code(),
         effect: finding.at.effect.words(),
         place: place(&finding.at),
         equation: entry.equation,

@@ -157,12 +157,12 @@ fn finding(out: &mut String, finding: &Finding) {
         percent(finding.held_out_gain)
     );
     match sizes.as_slice() {
-        [size] if name.chars().count() <= 22 && size.chars().count() <= 43 => {
-            out.push_str(&format!("  {name:<23} {size:<43}{worth}\n"));
+        [size] if name.chars().count() <= 26 && size.chars().count() <= 41 => {
+            out.push_str(&format!("  {name:<27} {size:<41}{worth}\n"));
         }
         // What does not fit between the columns takes lines of its own.
         _ => {
-            out.push_str(&format!("  {name:<67}{worth}\n"));
+            out.push_str(&format!("  {name:<69}{worth}\n"));
             for line in packed(sizes.iter().map(String::as_str), "; ", WIDTH - 4) {
                 out.push_str(&format!("    {line}\n"));
             }
@@ -267,16 +267,16 @@ gain               fall of the held-out mean square error when the cause is adde
 noise (state)      what no function of the state predicts
 
 links and whole robot
-  inertial parameters of elbow_link                                    71 % of the gap, gain 62 %
+  IN02 inertial parameters of elbow_link                                 71 % of the gap, gain 62 %
     mass 2.50 kg (2.30 to 2.70)
     not determined by this log: com y
 
 shoulder           explained         error 2.10 -> 0.400 of 5.00 N·m RMS, noise 0.350 (state)
-  Coulomb friction        2.00 N·m (1.80 to 2.20)                      71 % of the gap, gain 62 %
-    may as well be viscous friction at shoulder
+  FR02 Coulomb friction       2.00 N·m (1.80 to 2.20)                    71 % of the gap, gain 62 %
+    may as well be FR01 viscous friction at shoulder
 
 elbow              partly explained  error 0.900 -> 0.500 of 5.00 N·m RMS, noise 0.350 (state)
-    no cause of its own; affected by inertial parameters of elbow_link
+    no cause of its own; affected by IN02 inertial parameters of elbow_link
     the reason in a sentence
     left: 29 % of the gap has no name, it follows position of elbow (31 %)
 
@@ -301,7 +301,8 @@ warning: elbow: quantised in steps of 0.01 N m
         let mut sample = sample::arm();
         sample.diagnosis.joints[0].verdict = Verdict::DataInadequate;
         let plain = without_escapes(&text(&sample.report()));
-        let block = "shoulder           data inadequate\n    the reason in a sentence\n  Coulomb";
+        let block =
+            "shoulder           data inadequate\n    the reason in a sentence\n  FR02 Coulomb";
         let elbow = plain.find("\nelbow ");
         assert!(elbow.is_some() && plain.find(block) > elbow, "{plain}");
     }

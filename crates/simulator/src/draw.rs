@@ -119,7 +119,7 @@ impl<'a> Bench<'a> {
             let goal = least * (largest / least).powf(random.random::<f64>());
             let seed = random.random::<u64>();
             let Some((effect, share)) = self.sized(kind, joint, goal, seed) else { continue };
-            last = format!("{kind} at {:.3} of the torque", share);
+            last = format!("{} {kind} at {share:.3} of the torque", kind.code());
             let truth = effect.truth();
             let taken = drawn.iter().any(|d| {
                 let other = d.truth();

@@ -1,3 +1,4 @@
+use catalogue::EffectKind;
 use document::DocumentError;
 use logs::LogError;
 use robot::MachineFault;
@@ -65,10 +66,10 @@ pub enum SimulatorError {
         window_s: f64,
     },
     /// An effect cannot act on the robot.
-    #[error("effect {effect}, {key}: {found}")]
+    #[error("effect {code} {effect}, {key}: {found}", code = .effect.code())]
     Effect {
-        /// Name of the effect.
-        effect: String,
+        /// The effect.
+        effect: EffectKind,
         /// Key of the value at fault.
         key: String,
         /// What was found and what was expected.

@@ -117,7 +117,8 @@ pub fn write(
     simulation: &Simulation,
     format: LogFormat,
 ) -> Result<(), SimulatorError> {
-    let sealed = Sealed { seed: scenario.seed(), effects: &simulation.truth };
+    let coded = simulation.truth.iter().map(|truth| Coded { code: truth.effect.code(), truth });
+    let sealed = Sealed { seed: scenario.seed(), effects: coded.collect() };
     let truth = serde_json::to_string_pretty(&sealed).unwrap_or_default() + "\n";
     let truth_file = folder.join("truth.json");
     match std::fs::remove_file(&truth_file) {
@@ -144,7 +145,15 @@ pub fn write(
 #[derive(Serialize)]
 struct Sealed<'a> {
     seed: u64,
-    effects: &'a [Truth],
+    effects: Vec<Coded<'a>>,
+}
+
+/// What was put in, and the code of its effect beside the name.
+#[derive(Serialize)]
+struct Coded<'a> {
+    code: &'static str,
+    #[serde(flatten)]
+    truth: &'a Truth,
 }
 
 fn simulate_run(
@@ -184,7 +193,7 @@ pub(crate) fn simulator(
 ) -> Result<Simulator, SimulatorError> {
     let injected: Vec<Box<dyn Inject>> =
         injected(effects, robot).map_err(|(index, mistake)| SimulatorError::Effect {
-            effect: effects[index].kind().name().to_owned(),
+            effect: effects[index].kind(),
             key: mistake.key.to_owned(),
             found: mistake.found,
         })?;

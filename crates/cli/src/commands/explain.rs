@@ -2,33 +2,37 @@ use anstyle::Style;
 use catalogue::{EffectKind, Entry, Parameter};
 
 use crate::Outcome;
+use crate::commands::effects as list;
 use crate::error::CliError;
-use crate::output::{print, table};
+use crate::output::print;
+
+/// Columns of the values on the page.
+const WIDTH: usize = 79;
 
 /// Arguments of `explain`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Name of the effect, such as coulomb_friction
+    /// Code or name of the effect, such as FR02 or coulomb_friction
     effect: Option<String>,
 }
 
-/// Prints what is known about one effect, or the list of all.
+/// Prints what is known about one effect; without one, what `effects` prints.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let text = match &arguments.effect {
-        Some(name) => explanation(find(name)?.entry()),
-        None => list(),
+    let Some(name) = &arguments.effect else {
+        return list::run(&list::Arguments { json: false });
     };
-    print(&text)?;
+    print(&explanation(find(name)?.entry()))?;
     Ok(Outcome::Good)
 }
 
 fn find(name: &str) -> Result<EffectKind, CliError> {
     let plain = name.to_lowercase().replace(['-', ' '], "_");
     plain.parse().map_err(|_| {
-        let names = EffectKind::ALL.map(EffectKind::name);
-        let near: Vec<&str> = names.into_iter().filter(|n| is_near(&plain, n)).collect();
+        let named = |kind: &EffectKind| format!("{} {kind}", kind.code());
+        let near = EffectKind::ALL.iter().filter(|kind| is_near(&plain, kind.name()));
+        let near: Vec<String> = near.map(named).collect();
         let hint = if near.is_empty() {
-            format!("one of {} was expected", names.join(", "))
+            format!("one of {} was expected", EffectKind::ALL.each_ref().map(named).join(", "))
         } else {
             format!("did you mean {}?", near.join(" or "))
         };
@@ -42,29 +46,23 @@ fn is_near(typed: &str, name: &str) -> bool {
     words.any(|word| 3 * strsim::damerau_levenshtein(typed, word) <= word.len())
 }
 
-fn list() -> String {
-    let rows = EffectKind::ALL.map(|kind| {
-        let entry = kind.entry();
-        let named = if effects::model(kind).is_ok() { "yes" } else { "no" };
-        vec![kind.name().to_owned(), named.to_owned(), entry.equation.to_owned()]
-    });
-    table(&["effect", "diagnosed", "adds to the torque"], rows)
-}
-
 fn explanation(entry: &Entry) -> String {
     let bold = Style::new().bold();
-    let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.words(), entry.kind.name());
+    let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.label(), entry.kind);
     let mut line = |name: &str, value: &str| {
         text.push_str(&format!("  {name:<19}{value}\n"));
     };
+    line("is", entry.summary);
+    line("family", entry.family.name());
     line("adds", entry.equation);
     for parameter in entry.parameters {
         line(parameter.name, &meaning(parameter));
     }
     line("shows as", entry.signature);
     line("needs", entry.needs);
-    let rivals: Vec<&str> = entry.confused_with.iter().map(|k| k.words()).collect();
-    line("confused with", &rivals.join(", "));
+    let rivals: Vec<String> = entry.confused_with.iter().map(|k| k.label()).collect();
+    let rivals = report::packed(rivals.iter().map(String::as_str), ", ", WIDTH);
+    line("confused with", &rivals.join(&format!(",\n{:21}", "")));
     line("told apart by", entry.told_apart_by);
     line("diagnosed", &diagnosed(entry));
     match effects::remedy(entry.kind) {

@@ -1,6 +1,7 @@
 //! One file per command: its arguments and what it does.
 
 pub mod diagnose;
+pub mod effects;
 pub mod explain;
 pub mod learn;
 pub mod log_info;

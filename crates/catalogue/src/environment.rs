@@ -1,68 +1,20 @@
-//! What the arm carries and what acts on it from outside.
+//! Environment: how the arm is mounted, and what pulls and pushes it from outside.
 
 use crate::EffectKind::{
     AsymmetricFriction, CableSpring, EncoderOffset, ExternalDisturbance, GravityDirection,
-    InertialParameters, Payload, PositionDependentFriction, PreslidingFriction, RotorInertia,
-    TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation,
+    InertialParameters, Payload, PositionDependentFriction, PreslidingFriction, TorqueOffset,
+    TorqueRipple, TorqueSaturation,
 };
 use crate::entry::{POSITION, TORQUE, always, parameter, phase};
-use crate::{Entry, Parameter};
-
-/// Mass and centre of mass of a body, with their plausible ranges (kg, m).
-const fn body(mass: (f64, f64), com: (f64, f64)) -> [Parameter; 4] {
-    [
-        parameter("mass", always("kg"), "mass", mass),
-        parameter("com_x", always("m"), "centre of mass in the link frame, x", com),
-        parameter("com_y", always("m"), "centre of mass in the link frame, y", com),
-        parameter("com_z", always("m"), "centre of mass in the link frame, z", com),
-    ]
-}
-
-pub(crate) const PAYLOAD: Entry = Entry {
-    kind: Payload,
-    name: "payload",
-    words: "payload",
-    equation: "Y_last(q, qd, qdd) pi_payload",
-    parameters: &body((0.1, 3.0), (-0.15, 0.15)),
-    signature: "gravity torque changes at every joint between the base and the last link",
-    needs: "poses with different gravity torque",
-    confused_with: &[
-        InertialParameters,
-        TorqueOffset,
-        GravityDirection,
-        TorqueConstant,
-        ExternalDisturbance,
-    ],
-    told_apart_by: "the same motion before and after the load is put on",
-    source: "Gautier & Khalil 1990",
-};
-
-pub(crate) const INERTIAL_PARAMETERS: Entry = Entry {
-    kind: InertialParameters,
-    name: "inertial_parameters",
-    words: "inertial parameters",
-    equation: "Y_link(q, qd, qdd) (pi - pi_nominal)",
-    parameters: &body((0.07, 11.0), (-0.25, 0.25)),
-    signature: "the residual lies in the span of the link's regressor",
-    needs: "motion of the joints before the link, in many poses",
-    confused_with: &[
-        InertialParameters,
-        Payload,
-        RotorInertia,
-        CableSpring,
-        TorqueOffset,
-        GravityDirection,
-        TorqueConstant,
-        EncoderOffset,
-    ],
-    told_apart_by: "an exciting motion over the whole range of every joint",
-    source: "Gautier & Khalil 1990; Wensing, Kim & Slotine 2018",
-};
+use crate::{Entry, Family};
 
 pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
     kind: GravityDirection,
+    code: "EN01",
+    family: Family::Environment,
     name: "gravity_direction",
     words: "gravity direction",
+    summary: "gravity off its line: a tilted base",
     equation: "G(q) (g - g_nominal)",
     parameters: &[
         parameter("tilt_1", always("rad"), "tilt about the first horizontal axis", (-0.05, 0.05)),
@@ -77,8 +29,11 @@ pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
 
 pub(crate) const CABLE_SPRING: Entry = Entry {
     kind: CableSpring,
+    code: "EN02",
+    family: Family::Environment,
     name: "cable_spring",
     words: "cable spring",
+    summary: "a hose or cable that pulls at a joint",
     equation: "stiffness (q - rest); a hose adds cubic (q - rest)^3 + h, \
                hd = stiffness qd, |h| <= hysteresis",
     parameters: &[
@@ -108,8 +63,11 @@ pub(crate) const CABLE_SPRING: Entry = Entry {
 
 pub(crate) const EXTERNAL_DISTURBANCE: Entry = Entry {
     kind: ExternalDisturbance,
+    code: "EN03",
+    family: Family::Environment,
     name: "external_disturbance",
     words: "external disturbance",
+    summary: "a force from outside",
     equation: "-amplitude sin(2 pi frequency t + phase), or -J^T force from start for duration",
     parameters: &[
         parameter("amplitude", TORQUE, "amplitude of the torque on the link", (0.05, 2.0)),

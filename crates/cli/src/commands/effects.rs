@@ -1,0 +1,97 @@
+use catalogue::{EffectKind, Family};
+use serde::Serialize;
+
+use crate::Outcome;
+use crate::error::CliError;
+use crate::output::{print, print_json, table};
+
+/// Arguments of `effects`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Prints the list of all effects, family by family.
+pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    if arguments.json {
+        print_json(&Document { schema: "plumbline.effects/1", effects: rows() })?;
+    } else {
+        print(&text())?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Document {
+    schema: &'static str,
+    effects: Vec<Row>,
+}
+
+#[derive(Serialize)]
+struct Row {
+    code: &'static str,
+    name: &'static str,
+    family: Family,
+    summary: &'static str,
+    diagnosed: bool,
+    /// As every effect of the catalogue is.
+    simulated: bool,
+    compensated: bool,
+}
+
+/// The effects by family and code.
+fn rows() -> Vec<Row> {
+    let mut kinds = EffectKind::ALL;
+    kinds.sort_by_key(|kind| (kind.family(), kind.code()));
+    let row = |kind: EffectKind| Row {
+        code: kind.code(),
+        name: kind.name(),
+        family: kind.family(),
+        summary: kind.entry().summary,
+        diagnosed: effects::model(kind).is_ok(),
+        simulated: true,
+        compensated: effects::remedy(kind).is_ok(),
+    };
+    kinds.map(row).into()
+}
+
+fn text() -> String {
+    let said = |is: bool| if is { "yes" } else { "no" }.to_owned();
+    let cells = rows().into_iter().map(|row| {
+        let [diagnosed, compensated] = [row.diagnosed, row.compensated].map(said);
+        vec![row.code.into(), row.name.into(), diagnosed, compensated, row.summary.into()]
+    });
+    let list = table(&["code", "effect", "diagnosed", "compensated", "what it is"], cells);
+    let families = Family::ALL.map(|f| format!("{} {}", f.letters(), f.name()));
+    format!(
+        "{list}\n  {}\n  All can be simulated. Of each, plumbline explain CODE says more.\n",
+        families.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_list_fits_a_terminal_of_100_columns_and_says_every_effect_once() {
+        let text = text();
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        for kind in EffectKind::ALL {
+            assert_eq!(text.matches(&format!(" {}  {} ", kind.code(), kind.name())).count(), 1);
+        }
+    }
+
+    #[test]
+    fn what_is_diagnosed_is_what_has_a_model_and_families_stand_together() {
+        let rows = rows();
+        let diagnosed = rows.iter().filter(|r| r.diagnosed).map(|r| r.name);
+        let diagnosed: Vec<&str> = diagnosed.collect();
+        assert_eq!(diagnosed.len(), effects::MODELLED.len());
+        assert!(effects::MODELLED.iter().all(|kind| diagnosed.contains(&kind.name())));
+        assert!(rows.is_sorted_by_key(|r| (r.family, r.code)));
+    }
+}
