@@ -14,7 +14,7 @@ pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
     family: Family::Environment,
     name: "gravity_direction",
     words: "gravity direction",
-    summary: "gravity off its line: a tilted base",
+    summary: "a tilted base: gravity points elsewhere",
     equation: "G(q) (g - g_nominal)",
     parameters: &[
         parameter("tilt_1", always("rad"), "tilt about the first horizontal axis", (-0.05, 0.05)),

@@ -157,12 +157,12 @@ fn finding(out: &mut String, finding: &Finding) {
         percent(finding.held_out_gain)
     );
     match sizes.as_slice() {
-        [size] if name.chars().count() <= 26 && size.chars().count() <= 41 => {
-            out.push_str(&format!("  {name:<27} {size:<41}{worth}\n"));
+        [size] if name.chars().count() <= 24 && size.chars().count() <= 42 => {
+            out.push_str(&format!("  {name:<24} {size:<43}{worth}\n"));
         }
         // What does not fit between the columns takes lines of its own.
         _ => {
-            out.push_str(&format!("  {name:<69}{worth}\n"));
+            out.push_str(&format!("  {name:<68}{worth}\n"));
             for line in packed(sizes.iter().map(String::as_str), "; ", WIDTH - 4) {
                 out.push_str(&format!("    {line}\n"));
             }
@@ -267,12 +267,12 @@ gain               fall of the held-out mean square error when the cause is adde
 noise (state)      what no function of the state predicts
 
 links and whole robot
-  IN02 inertial parameters of elbow_link                                 71 % of the gap, gain 62 %
+  IN02 inertial parameters of elbow_link                                71 % of the gap, gain 62 %
     mass 2.50 kg (2.30 to 2.70)
     not determined by this log: com y
 
 shoulder           explained         error 2.10 -> 0.400 of 5.00 N·m RMS, noise 0.350 (state)
-  FR02 Coulomb friction       2.00 N·m (1.80 to 2.20)                    71 % of the gap, gain 62 %
+  FR02 Coulomb friction    2.00 N·m (1.80 to 2.20)                      71 % of the gap, gain 62 %
     may as well be FR01 viscous friction at shoulder
 
 elbow              partly explained  error 0.900 -> 0.500 of 5.00 N·m RMS, noise 0.350 (state)
@@ -294,6 +294,20 @@ warning: elbow: quantised in steps of 0.01 N m
         let plain = without_escapes(&coloured);
         assert_eq!(plain, EXPECTED);
         assert!(plain.lines().all(|line| line.chars().count() <= WIDTH));
+    }
+
+    #[test]
+    fn the_widest_finding_is_within_the_width() {
+        let mut sample = sample::arm();
+        let widest = &mut sample.diagnosis.findings[0];
+        widest.at.effect = catalogue::EffectKind::AsymmetricFriction;
+        (widest.share_explained, widest.held_out_gain) = (0.997, 0.997);
+        let level = &mut widest.parameters[0];
+        (level.nominal, level.unit) = (0.205, "N m s/rad");
+        let plain = without_escapes(&text(&sample.report()));
+        let row = "FR03 asymmetric friction 2.00 N·m·s/rad (1.80 to 2.20), was 0.205   99.7 % of";
+        assert!(plain.contains(row), "{plain}");
+        assert!(plain.lines().all(|line| line.chars().count() <= WIDTH), "{plain}");
     }
 
     #[test]
