@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-/// Why something cannot be recorded.
+/// Why something cannot be recorded, or a recording not be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
@@ -10,6 +10,14 @@ pub enum RecordingError {
         /// The file.
         path: PathBuf,
         /// What the system says.
+        reason: String,
+    },
+    /// The file cannot be read, or holds no recording.
+    #[error("{path}: no recording can be read, {reason}")]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system or the decoder says.
         reason: String,
     },
     /// The environment turns recordings off.

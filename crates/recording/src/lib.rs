@@ -5,6 +5,7 @@
 //! Rows ----> Recorder::rows        blocks of consecutive samples, while a run goes on
 //!            Recorder::event, ::document, ::bars
 //!            Recorder::finish ---> Written
+//! summary    what a file holds, also one that was cut
 //! ```
 //!
 //! The file is the truth: a run that is killed leaves what it had recorded up to about a second
@@ -27,7 +28,9 @@ mod scene;
 mod shapes;
 mod signals;
 mod skeleton;
+mod summary;
 
 pub use error::RecordingError;
 pub use recorder::{Recorder, Rows, Written};
 pub use scene::{Arm, Level, Listener, Live, Quantity, Role, Scene, Signal};
+pub use summary::{Summary, summary};

@@ -164,6 +164,52 @@ fn a_file_that_is_cut_reads_up_to_there() {
 }
 
 #[test]
+fn a_summary_says_what_a_file_holds_and_whether_it_is_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    record(&path);
+    let whole = recording::summary(&path).unwrap();
+    assert!(whole.has_blueprint && whole.is_whole);
+    assert_eq!(whole.time_s, Some([0.0, 2.998]));
+    let bytes = std::fs::read(&path).unwrap();
+    let file = decode(&bytes);
+    let own: Vec<&String> = file.entities.keys().filter(|k| !k.starts_with("/__")).collect();
+    assert_eq!(whole.entities.iter().collect::<Vec<_>>(), own);
+    let rows: usize = own.iter().map(|entity| file.entities[*entity].rows).sum();
+    assert_eq!(whole.rows, rows as u64);
+
+    // Without its last byte, the file holds all but was not ended.
+    std::fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
+    let cut = recording::summary(&path).unwrap();
+    assert_eq!(cut, recording::Summary { is_whole: false, ..whole.clone() });
+    let ends = (20..100).map(|percent| {
+        std::fs::write(&path, &bytes[..bytes.len() * percent / 100]).unwrap();
+        let part = recording::summary(&path).unwrap();
+        assert!(!part.is_whole && part.rows <= whole.rows);
+        part.time_s.map_or(0.0, |[_, end]| end)
+    });
+    let ends: Vec<f64> = ends.collect();
+    assert!(ends.is_sorted() && ends.iter().any(|end| (1.0..2.9).contains(end)), "{ends:?}");
+}
+
+#[test]
+fn a_file_that_holds_no_recording_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    let refused = |path: &Path| {
+        let error = recording::summary(path).unwrap_err();
+        assert!(matches!(error, RecordingError::Unreadable { .. }), "{error}");
+        error.to_string()
+    };
+    refused(&path);
+    for bytes in [&b""[..], b"RRF2", b"time_s,j1.position_rad\n0.0,0.1\n"] {
+        std::fs::write(&path, bytes).unwrap();
+        let said = refused(&path);
+        assert!(said.contains("no recording can be read"), "{said}");
+    }
+}
+
+#[test]
 fn two_recordings_of_the_same_run_hold_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let files = ["a.rrd", "b.rrd"].map(|name| {
