@@ -9,4 +9,5 @@ mod learn;
 mod program;
 mod replay;
 mod simulate;
+mod track;
 mod view;

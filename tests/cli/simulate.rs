@@ -4,6 +4,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use document::Document;
+use evaluation::TrackingScenario;
 use simulator::scenario::Scenario;
 
 use crate::arm;
@@ -63,14 +64,21 @@ fn workspace() -> PathBuf {
 
 #[test]
 fn the_schema_beside_the_scenarios_is_that_of_the_program() {
-    let answer = run(&workspace(), &["schema"]);
-    let stale = "stale: cargo run --release -- schema > scenarios/scenario.schema.json";
-    let committed = fs::read_to_string(workspace().join("scenarios/scenario.schema.json"));
-    assert!(committed.unwrap() == answer.out, "{stale}");
-    for expected in ["\"extends\"", "\"differential_coupling\"", "\"torque_share\""] {
-        assert!(answer.out.contains(expected), "{expected} is missing");
+    let kinds = [
+        ("simulate", "scenario", ["differential_coupling", "torque_share"]),
+        ("track", "tracking", ["gp-rbd-prior", "stops_at_s"]),
+    ];
+    for (command, name, words) in kinds {
+        let answer = run(&workspace(), &["schema", command]);
+        let file = format!("scenarios/{name}.schema.json");
+        let stale = format!("stale: cargo run --release -- schema {command} > {file}");
+        assert!(fs::read_to_string(workspace().join(&file)).unwrap() == answer.out, "{stale}");
+        for expected in words.iter().chain(&["extends"]) {
+            assert!(answer.out.contains(&format!("\"{expected}\"")), "{expected} is missing");
+        }
+        assert!(!answer.out.contains("\n  \"required\""), "what is extended may say it");
     }
-    assert!(!answer.out.contains("\n  \"required\""), "what is extended may say it");
+    assert_eq!(run(&workspace(), &["schema"]).out, run(&workspace(), &["schema", "simulate"]).out);
 }
 
 /// Files below a folder that end so.
@@ -85,25 +93,32 @@ fn below(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// One without runs is there to be extended: it is tried with a run added.
+/// A scenario of runs without any is there to be extended: it is tried with a run added.
 #[test]
 fn every_scenario_is_accepted_and_names_the_schema_in_its_first_line() {
     let scenarios = workspace().join("scenarios");
     let mut found = Vec::new();
     below(&scenarios, "toml", &mut found);
-    assert!(!found.is_empty());
-    for path in found {
+    let mut tracked = 0;
+    for path in &found {
         let up = "../".repeat(path.strip_prefix(&scenarios).unwrap().components().count() - 1);
-        let text = fs::read_to_string(&path).unwrap();
-        let first = format!("#:schema {up}scenario.schema.json");
-        assert_eq!(text.lines().next(), Some(first.as_str()), "{}", path.display());
-        let mut document = Document::read(&path).unwrap();
+        let text = fs::read_to_string(path).unwrap();
+        let first = text.lines().next().unwrap();
+        let mut document = Document::read(path).unwrap();
+        if first == format!("#:schema {up}tracking.schema.json") {
+            let scenario = TrackingScenario::from_document(&document);
+            assert!(scenario.is_ok(), "{}: {}", path.display(), scenario.err().unwrap());
+            tracked += 1;
+            continue;
+        }
+        assert_eq!(first, format!("#:schema {up}scenario.schema.json"), "{}", path.display());
         if !document.to_toml().contains("[[run]]") {
             document.set("run=[{ name = 'x', motion = { hold = { duration_s = 1 } } }]").unwrap();
         }
         let scenario = Scenario::from_document(&document);
         assert!(scenario.is_ok(), "{}: {}", path.display(), scenario.err().unwrap());
     }
+    assert!(tracked > 0 && tracked < found.len(), "{tracked} of {}", found.len());
 }
 
 /// Refused with exit code 3 and this text, before anything is written.

@@ -32,6 +32,10 @@ impl TrackingScenario {
         let spec: TrackingSpec = document.parse()?;
         let plant_key = KeyPath::root().key("plant");
         let plant_file = document.directory_of(&plant_key).join(&spec.plant);
+        if !plant_file.is_file() {
+            let message = format!("{}: there is no such file", plant_file.display());
+            return Err(document.mistake(&plant_key, message, None).into());
+        }
         let plant = Scenario::from_document(&Document::read(&plant_file)?)?;
         let loaded = Robot::load(plant.robot_file())?;
         let check = Checker { document, spec: &spec, plant: &plant, loaded: &loaded };

@@ -100,7 +100,7 @@ pub enum ClockSpec {
 
 /// How long a prediction takes on the virtual clock.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "\"measured\" or a number (ms) was expected")]
 pub enum PredictionTimeSpec {
     /// This long (ms).
     Given(f64),
