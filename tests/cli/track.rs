@@ -96,6 +96,8 @@ fn everything_that_a_comparison_needs_is_written_and_told() {
     for name in names(&out.join("recordings")) {
         is_recorded(&out.join("recordings").join(name), 2.0);
     }
+    let entities = recording::summary(&out.join("recordings/rbd.rrd")).unwrap().entities;
+    assert!(entities.iter().any(|e| e == "/joints/j7_palm_yaw/further1"), "what gp expects");
     for name in names(&out.join("logs")) {
         assert!((1000..=1001).contains(&log(&out.join("logs").join(name)).time.len()));
     }
@@ -269,6 +271,45 @@ fn on_the_clock_on_the_wall_missed_deadlines_are_told() {
         assert!((0.0..=timing("latency_max_us")).contains(&timing("latency_99_us")));
         assert!(timing("latency_max_us") > 0.0, "a prediction takes time");
     }
+}
+
+#[test]
+fn a_log_that_cannot_be_made_whole_is_left_as_it_grew() {
+    let folder = folder();
+    let logs = folder.path().join("out/logs");
+    fs::create_dir_all(logs.join("none.parquet")).unwrap();
+    let answer = track(folder.path(), "out", &["--feedforward", "none"]);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    for part in ["error: out/logs/none.parquet: it cannot be written: ", "comparison is whole"] {
+        assert!(answer.err.contains(part), "{part} is missing in\n{}", answer.err);
+    }
+    assert!(answer.out.contains("j4_elbow_pitch"), "{}", answer.out);
+    assert_eq!(log(&logs.join("none.csv")).time.len(), 1000);
+    is_recorded(&folder.path().join("out/recordings/none.rrd"), 2.0);
+    let warning = json(&folder.path().join("out"))["warnings"][0].to_string();
+    assert!(warning.contains("none.parquet: it cannot be written"), "{warning}");
+}
+
+/// The recording needs more room than a file may have here, the log does not.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_recording_that_the_disk_refuses_costs_neither_log_nor_comparison() {
+    let folder = folder();
+    let program = plumbline().get_program().to_owned();
+    let script = "trap '' XFSZ; ulimit -f 2048; exec \"$0\" \"$@\"";
+    let mut command = Command::new("sh");
+    command.current_dir(folder.path()).arg("-c").arg(script).arg(program);
+    command.args(["track", "tracking.toml", "--out", "out", "--feedforward", "none"]);
+    command.args(["--set", "motion.sinusoids.duration_s=1"]);
+    let answer: Answer = command.output().unwrap().into();
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    let part = "error: out/recordings/none.rrd: the recording cannot be written, ";
+    assert!(answer.err.contains(part), "{}", answer.err);
+    assert!(answer.out.contains("j4_elbow_pitch"), "{}", answer.out);
+    let out = folder.path().join("out");
+    assert_eq!(log(&out.join("logs/none.parquet")).time.len(), 500);
+    assert_eq!(names(&out.join("logs")), ["none.parquet"]);
+    assert!(out.join("report.html").exists());
 }
 
 /// A run of a minute with feedback alone, once its log holds so many lines and its recording

@@ -72,6 +72,12 @@ pub enum CliError {
         /// What was found.
         reason: String,
     },
+    /// The results are there, but a file beside them is not.
+    #[error("{problem}; the comparison is whole")]
+    Incomplete {
+        /// The file and what is wrong with it.
+        problem: String,
+    },
     /// A folder cannot be looked into.
     #[error("{}: it cannot be listed ({reason}), the output folder of a command was expected", path.display())]
     Unlisted {
@@ -148,6 +154,7 @@ impl CliError {
             | Self::TestedOnTraining { .. }
             | Self::NoViewer { .. }
             | Self::NotOpened { .. }
+            | Self::Incomplete { .. }
             | Self::Signal { .. } => 2,
             Self::Learner(error) => match error {
                 LearnerError::Setting { .. }

@@ -11,6 +11,7 @@ mod error;
 mod feedforward_kind;
 mod learned;
 mod median_time;
+mod predictions;
 mod progress;
 mod stream;
 mod sweep;

@@ -4,11 +4,14 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use logs::{Channel, LogWriter, write_parquet};
-use recording::{Arm, Listener, Quantity, Recorder, Role, Rows, Scene, Signal};
+use recording::{Arm, Listener, Quantity, Recorder, RecordingError, Role, Rows, Scene, Signal};
 use tracking::{Event, Level, Tick, Watch};
 
+use crate::predictions::Predictions;
 use crate::track::file;
-use crate::{EvaluationError, FeedforwardKind, Outputs, Progress, TrackedRun, TrackingScenario};
+use crate::{
+    EvaluationError, FeedforwardKind, Learned, Outputs, Progress, TrackedRun, TrackingScenario,
+};
 
 /// Ticks that are handed over at a time: half a second at 500 Hz.
 const BLOCK: usize = 250;
@@ -16,12 +19,14 @@ const BLOCK: usize = 250;
 /// The files of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {
-    /// The log, whole.
+    /// The log: one Parquet file, or where that could not be written the CSV file that grew.
     pub log: PathBuf,
     /// The recording.
     pub recording: PathBuf,
     /// Who saw the recording while it was written.
     pub listener: Listener,
+    /// What could not be written, in sentences that name the file; the run went on.
+    pub problems: Vec<String>,
 }
 
 /// Writes a run while it goes on, in a thread of its own, so that the loop never waits for it.
@@ -36,7 +41,7 @@ pub struct Stream<'a> {
 /// The thread that writes.
 struct Writing {
     to: Sender<Message>,
-    thread: JoinHandle<Result<Files, EvaluationError>>,
+    thread: JoinHandle<Files>,
     /// The log while it grows.
     growing: PathBuf,
     log: PathBuf,
@@ -48,6 +53,8 @@ struct Writing {
 struct Files {
     log: LogWriter,
     recorder: Recorder,
+    /// The first thing that the recorder refused.
+    refused: Option<RecordingError>,
 }
 
 enum Message {
@@ -113,26 +120,23 @@ impl<'a> Stream<'a> {
         Ok(Self { progress, block: Block::default(), writer, second: 0.0 })
     }
 
-    /// Closes the files; the log is then one Parquet file.
-    ///
-    /// # Errors
-    ///
-    /// [`EvaluationError::Log`] and [`EvaluationError::Recording`], also for what could not be
-    /// written on the way.
+    /// Closes the files; the log is then one Parquet file, and the recording shows what the
+    /// other models expect too.
     pub fn finish(
         mut self,
         scenario: &TrackingScenario,
+        learned: &Learned,
         run: &TrackedRun,
-    ) -> Result<Option<Written>, EvaluationError> {
+    ) -> Option<Written> {
         self.hand_over();
-        let Some(writing) = self.writer else { return Ok(None) };
-        writing.finish(scenario, run).map(Some)
+        let writing = self.writer?;
+        Some(writing.finish(scenario, learned, run))
     }
 
     fn hand_over(&mut self) {
         let block = std::mem::take(&mut self.block);
         if let Some(writing) = self.writer.as_ref().filter(|_| !block.time_s.is_empty()) {
-            // A thread that has ended has an error to tell at the end.
+            // That a thread has died is told at the end.
             let _ = writing.to.send(Message::Rows(block));
         }
     }
@@ -185,65 +189,107 @@ impl Writing {
         let recorder = Recorder::create(&recording, &scene, outputs.live)?;
         let log = log_writer(scenario, &growing)?;
         let (to, from) = channel();
-        let mut files = Files { log, recorder };
+        let mut files = Files { log, recorder, refused: None };
         let thread = std::thread::spawn(move || {
-            files.write(&from)?;
-            Ok(files)
+            files.write(&from);
+            files
         });
         let log = file(&outputs.logs, kind, "parquet");
         Ok(Self { to, thread, growing, log, recording, name })
     }
 
-    fn finish(
-        self,
-        scenario: &TrackingScenario,
-        run: &TrackedRun,
-    ) -> Result<Written, EvaluationError> {
-        drop(self.to);
-        let files = self
-            .thread
-            .join()
-            .map_err(|_| EvaluationError::WriterDied { path: self.recording.clone() })?;
-        let Files { log, mut recorder } = files?;
-        recorder.document(&crate::words::words(scenario, run))?;
-        let errors: Vec<f64> = run.metrics.joints.iter().map(|j| 1e3 * j.rmse).collect();
-        let feedback: Vec<f64> =
-            run.metrics.joints.iter().map(|j| 100.0 * j.feedback_share).collect();
-        recorder.bars("RMSE (mrad)", &[(self.name.as_str(), &errors)])?;
-        recorder.bars("feedback (% of the torque)", &[(self.name.as_str(), &feedback)])?;
-        let listener = recorder.finish()?.listener;
-        let name = self.name;
-        write_parquet(&self.log, &run.tracking.to_run(&name, scenario.robot())?)?;
-        log.finish()?;
-        // The Parquet file beside it holds all of it and more.
-        let _ = std::fs::remove_file(&self.growing);
-        Ok(Written { log: self.log, recording: self.recording, listener })
+    /// Every file is tried, whatever became of the others.
+    fn finish(self, scenario: &TrackingScenario, learned: &Learned, run: &TrackedRun) -> Written {
+        let Self { to, thread, growing, log, recording, name } = self;
+        drop(to);
+        let (mut problems, mut listener) = (Vec::new(), Listener::NotAsked);
+        let mut grown = Ok(());
+        match thread.join() {
+            Ok(files) => {
+                grown = files.log.finish();
+                let parts = (scenario, learned, run);
+                match files.refused.map_or_else(|| end(files.recorder, parts), Err) {
+                    Ok(seen) => listener = seen,
+                    Err(error) => problems.push(error.to_string()),
+                }
+            }
+            Err(_) => {
+                let died = EvaluationError::WriterDied { path: recording.clone() };
+                problems.push(died.to_string());
+            }
+        }
+        let written = match write_log(&log, &name, scenario, run) {
+            Ok(()) => {
+                // The Parquet file beside it holds all of it and more.
+                let _ = std::fs::remove_file(&growing);
+                log
+            }
+            Err(error) => {
+                problems.push(error.to_string());
+                problems.extend(grown.err().map(|error| error.to_string()));
+                growing
+            }
+        };
+        Written { log: written, recording, listener, problems }
     }
 }
 
+/// Writes the whole log.
+fn write_log(
+    path: &Path,
+    name: &str,
+    scenario: &TrackingScenario,
+    run: &TrackedRun,
+) -> Result<(), EvaluationError> {
+    Ok(write_parquet(path, &run.tracking.to_run(name, scenario.robot())?)?)
+}
+
+/// Adds to a recording what is known at the end of the run, and ends it.
+fn end(
+    mut recorder: Recorder,
+    (scenario, learned, run): (&TrackingScenario, &Learned, &TrackedRun),
+) -> Result<Listener, RecordingError> {
+    let predictions = Predictions::of(scenario, learned, run);
+    let signal =
+        |name, place| Signal { quantity: Quantity::Torque, name, role: Role::Model(place) };
+    let models = predictions.models.iter();
+    let models = models.map(|m| (signal(m.kind.name(), m.place), m.tau.as_slice()));
+    let models: Vec<(Signal<'_>, &[f64])> = models.collect();
+    if !models.is_empty() {
+        recorder.further(&predictions.time_s, &models)?;
+    }
+    recorder.document(&crate::words::words(scenario, run))?;
+    let joints = run.metrics.joints.iter();
+    let (errors, feedback): (Vec<f64>, Vec<f64>) =
+        joints.map(|j| (1e3 * j.rmse, 100.0 * j.feedback_share)).unzip();
+    let name = run.kind.name();
+    recorder.bars("RMSE (mrad)", &[(name, &errors)])?;
+    recorder.bars("feedback (% of the torque)", &[(name, &feedback)])?;
+    Ok(recorder.finish()?.listener)
+}
+
 impl Files {
-    fn write(&mut self, from: &Receiver<Message>) -> Result<(), EvaluationError> {
+    /// Writes what comes. What one file refuses keeps nothing from the other.
+    fn write(&mut self, from: &Receiver<Message>) {
         for message in from {
-            match message {
-                Message::Rows(block) => self.rows(&block)?,
+            let recorded = match message {
+                Message::Rows(block) => self.rows(&block),
                 Message::Event(Event { time_s, level, words }) => {
                     let level = match level {
                         Level::Info => recording::Level::Info,
                         Level::Warning => recording::Level::Warning,
                         Level::Error => recording::Level::Error,
                     };
-                    self.recorder.event(time_s, level, &words)?;
+                    self.recorder.event(time_s, level, &words)
                 }
+            };
+            if let Err(error) = recorded {
+                self.refused.get_or_insert(error);
             }
         }
-        Ok(())
     }
 
-    fn rows(&mut self, b: &Block) -> Result<(), EvaluationError> {
-        let signals: [&[f64]; 7] =
-            [&b.q_ref, &b.q, &b.qd_ref, &b.qd, &b.command, &b.feedforward, &b.error];
-        let rows = Rows { time_s: &b.time_s, arms: &[&b.q, &b.q_ref], signals: &signals };
-        self.recorder.rows(&rows)?;
+    fn rows(&mut self, b: &Block) -> Result<(), RecordingError> {
         let (joints, mut row) = (b.q.len() / b.time_s.len().max(1), Vec::new());
         let signals: [&[f64]; 7] =
             [&b.q, &b.qd, &b.command, &b.q_ref, &b.qd_ref, &b.qdd_ref, &b.feedforward];
@@ -251,9 +297,13 @@ impl Files {
             row.clear();
             row.push(*time_s);
             signals.iter().for_each(|s| row.extend(&s[k * joints..(k + 1) * joints]));
-            self.log.row(&row)?;
+            // Rows that the disk refuses stay collected; the end tells whether they were lost.
+            let _ = self.log.row(&row);
         }
-        Ok(())
+        let signals: [&[f64]; 7] =
+            [&b.q_ref, &b.q, &b.qd_ref, &b.qd, &b.command, &b.feedforward, &b.error];
+        let rows = Rows { time_s: &b.time_s, arms: &[&b.q, &b.q_ref], signals: &signals };
+        self.recorder.rows(&rows)
     }
 }
 

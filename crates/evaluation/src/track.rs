@@ -77,7 +77,7 @@ pub fn track_all(
         let parts = Parts { scenario, learned, kind, controller: &controller };
         let mut stream = Stream::start(scenario, kind, outputs, progress)?;
         let mut run = parts.run(&mut stream)?;
-        run.written = stream.finish(scenario, &run)?;
+        run.written = stream.finish(scenario, learned, &run);
         Ok(run)
     };
     let kinds = scenario.feedforward();

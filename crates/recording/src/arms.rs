@@ -5,6 +5,7 @@ use rerun::{
 };
 use robot::{Looks, Visual};
 
+use crate::colour::Paint;
 use crate::recorder::TIMELINE;
 use crate::skeleton::Skeleton;
 use crate::{Arm, Role, colour, shapes};
@@ -56,7 +57,7 @@ impl ArmTrack {
             .with_radii([(PATH * skeleton.reach_m) as f32]);
         stream.log_static(path.clone(), &line)?;
         if let Some(last) = links.get(skeleton.last) {
-            let ball = (BALL * skeleton.reach_m, colour::solid(colour::rgb(arm.role)));
+            let ball = (BALL * skeleton.reach_m, Paint::solid(colour::rgb(arm.role)));
             shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, ball)?;
         }
         Ok(Self { links, path, time_s: vec![], poses: vec![], piece: vec![] })
@@ -134,7 +135,7 @@ impl Brush<'_> {
         if self.shapes(path, visuals, own)? {
             return Ok(());
         }
-        let brush = (self.skeleton.stick_m(), colour::on_arm(own, self.role));
+        let brush = (self.skeleton.stick_m(), Paint::on_arm(own, self.role));
         let hub = (1.4 * self.skeleton.stick_m(), brush.1);
         shapes::ball(self.stream, &below(path, "joint"), &Vector3::zeros(), hub)?;
         let far = joints.iter().filter(|to| to.norm() > self.skeleton.stick_m());
@@ -150,7 +151,7 @@ impl Brush<'_> {
         if self.shapes(&path, visuals, colour::BASE)? {
             return Ok(());
         }
-        let brush = (self.skeleton.stick_m(), colour::solid(colour::BASE));
+        let brush = (self.skeleton.stick_m(), Paint::solid(colour::BASE));
         for (i, to) in self.skeleton.joints_on(None).into_iter().enumerate() {
             let ends = [Vector3::zeros(), to];
             shapes::stick(self.stream, &below(&path, &format!("stick{i}")), ends, brush)?;
@@ -169,8 +170,8 @@ impl Brush<'_> {
         for (i, visual) in visuals.iter().enumerate() {
             let given = visual.color_rgba.filter(|_| self.role == Role::Actual);
             let rgb = given.map_or(own, |[r, g, b, _]| [r, g, b].map(|c| (255.0 * c) as u8));
-            let color = colour::on_arm(rgb, self.role);
-            drawn |= shapes::draw(self.stream, &below(path, &format!("shape{i}")), visual, color)?;
+            let paint = Paint::on_arm(rgb, self.role);
+            drawn |= shapes::draw(self.stream, &below(path, &format!("shape{i}")), visual, paint)?;
         }
         Ok(drawn)
     }

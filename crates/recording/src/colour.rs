@@ -1,4 +1,4 @@
-use rerun::Color;
+use rerun::{Color, FillMode};
 
 use crate::Role;
 
@@ -18,8 +18,8 @@ const SERIES: [Rgb; 8] = [
 ];
 /// Links that stand still.
 pub(crate) const BASE: Rgb = [0x6b, 0x72, 0x80];
-/// Opacity of an arm that is not the actual one.
-const GHOST: u8 = 60;
+/// Opacity of the meshes of an arm that is not the actual one.
+const GHOST: u8 = 40;
 
 pub(crate) fn rgb(role: Role) -> Rgb {
     match role {
@@ -41,8 +41,34 @@ pub(crate) fn solid([r, g, b]: Rgb) -> Color {
     Color::from_rgb(r, g, b)
 }
 
-/// A colour on an arm: solid on the actual one, transparent on every other.
-pub(crate) fn on_arm([r, g, b]: Rgb, role: Role) -> Color {
-    let opacity = if role == Role::Actual { 255 } else { GHOST };
-    Color::from_unmultiplied_rgba(r, g, b, opacity)
+/// How a shape of an arm is drawn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Paint {
+    pub color: Color,
+    pub fill: FillMode,
+}
+
+impl Paint {
+    /// Hides what is behind it.
+    pub fn solid(rgb: Rgb) -> Self {
+        Self { color: solid(rgb), fill: FillMode::Solid }
+    }
+
+    /// On an arm: solid on the actual one, edges alone on every other, so that neither tints
+    /// the other where they meet.
+    pub fn on_arm(rgb: Rgb, role: Role) -> Self {
+        match role {
+            Role::Actual => Self::solid(rgb),
+            _ => Self { color: solid(rgb), fill: FillMode::MajorWireframe },
+        }
+    }
+
+    /// Of a mesh, which has no edges to draw: nearly transparent in their place.
+    pub fn of_mesh(self) -> Color {
+        let [r, g, b, _] = self.color.to_array();
+        match self.fill {
+            FillMode::Solid => self.color,
+            _ => Color::from_unmultiplied_rgba(r, g, b, GHOST),
+        }
+    }
 }

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why something cannot be recorded, or a recording not be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -78,4 +78,9 @@ pub enum RecordingError {
 /// A refusal of the library, which has an error for every part of it.
 pub(crate) fn refused(error: impl std::fmt::Display) -> RecordingError {
     RecordingError::Refused { reason: error.to_string() }
+}
+
+/// What the disk refuses.
+pub(crate) fn unwritable(path: &Path, reason: String) -> RecordingError {
+    RecordingError::Unwritable { path: path.to_owned(), reason }
 }

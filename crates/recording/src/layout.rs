@@ -17,14 +17,26 @@ use crate::properties::Properties;
 use crate::recorder::{DOCUMENT, EVENTS, TIMELINE};
 use crate::{Quantity, RecordingError};
 
+/// Most lines that a legend names in a plot.
+const LEGEND: usize = 6;
+
 /// What the screen shows: the arm left, a tab a joint in the middle, the verdict right.
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
     pub title: String,
     pub reach_m: f64,
     pub plots: Plots,
-    /// Titles and entities of the bar charts, which are not known before they come.
-    pub bars: Vec<(String, EntityPath)>,
+    /// The bar charts, which are not known before they come.
+    pub bars: Vec<Bars>,
+}
+
+/// A bar chart.
+#[derive(Debug, Clone)]
+pub(crate) struct Bars {
+    pub title: String,
+    pub path: EntityPath,
+    /// The series in it.
+    pub names: Vec<String>,
 }
 
 impl Layout {
@@ -53,7 +65,8 @@ impl Layout {
             .into_iter()
             .find(|quantity| self.plots.quantities().any(|q| q == *quantity));
         let Some(quantity) = overview else { return scene };
-        let plot = plot(self.plots.of_all(quantity).into(), properties);
+        let lines = self.plots.joints.len() * self.plots.count(quantity);
+        let plot = plot(self.plots.of_all(quantity).into(), lines, properties);
         Vertical::new([scene, plot]).with_row_shares([2.4, 1.0]).into()
     }
 
@@ -87,9 +100,15 @@ impl Layout {
             .joints
             .iter()
             .map(|joint| {
-                let of_joint = self.plots.quantities().map(|q| self.plots.of_joint(joint, q));
-                let plots = of_joint.map(|view| plot(view.into(), properties));
-                Vertical::new(plots.collect::<Vec<_>>()).with_name(joint.0.as_str()).into()
+                let plots = self.plots.quantities().map(|quantity| {
+                    let view = self.plots.of_joint(joint, quantity).into();
+                    plot(view, self.plots.count(quantity), properties)
+                });
+                let plots: Vec<ContainerLike> = plots.collect();
+                // A longer legend needs a higher plot.
+                let heights = self.plots.quantities().map(|q| 2.0 + self.plots.count(q) as f32);
+                let plots = Vertical::new(plots).with_row_shares(heights.collect::<Vec<_>>());
+                plots.with_name(joint.0.as_str()).into()
             })
             .collect();
         Tabs::new(tabs).with_name("joints").into()
@@ -106,10 +125,16 @@ impl Layout {
             }])
             .with_text_log_columns(shown.map(|kind| TextLogColumn { visible: true.into(), kind }));
         events = properties.set(events, "TextLogColumns", columns);
-        let bars = self.bars.iter().map(|(title, path)| -> ContainerLike {
-            let view = BarChartView::new(title.as_str()).with_origin(path.clone());
-            let corner = PlotLegend::new().with_corner(Corner2D::RightTop);
-            properties.set(view.into(), "PlotLegend", corner)
+        let bars = self.bars.iter().map(|bars| -> ContainerLike {
+            // The legend knows paths, not names: a title serves a single series better.
+            let (title, legend) = match bars.names.as_slice() {
+                [name] => {
+                    (format!("{}: {name}", bars.title), PlotLegend::new().with_visible(false))
+                }
+                _ => (bars.title.clone(), PlotLegend::new().with_corner(Corner2D::RightTop)),
+            };
+            let view = BarChartView::new(title).with_origin(bars.path.clone());
+            properties.set(view.into(), "PlotLegend", legend)
         });
         let bars: Vec<_> = bars.collect();
         if bars.is_empty() {
@@ -120,10 +145,13 @@ impl Layout {
     }
 }
 
-fn plot(view: ContainerLike, properties: &mut Properties) -> ContainerLike {
+/// A plot of so many lines; where the legend would hide them, a line tells its name when it is
+/// pointed at.
+fn plot(view: ContainerLike, lines: usize, properties: &mut Properties) -> ContainerLike {
     let shared = TimeAxis::new().with_link(LinkAxis::LinkToGlobal);
     let view = properties.set(view, "TimeAxis", shared);
-    properties.set(view, "PlotLegend", PlotLegend::new().with_corner(Corner2D::LeftTop))
+    let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+    properties.set(view, "PlotLegend", legend.with_visible(lines <= LEGEND))
 }
 
 /// Distance of the lines of the grid: 1, 2 or 5 times a power of ten, about a quarter of

@@ -3,7 +3,7 @@
 //! ```text
 //! Scene ---> Recorder::create      the arms, the names of the signals, the layout of the screen
 //! Rows ----> Recorder::rows        blocks of consecutive samples, while a run goes on
-//!            Recorder::event, ::document, ::bars
+//!            Recorder::event, ::further, ::document, ::bars
 //!            Recorder::finish ---> Written
 //! summary    what a file holds, also one that was cut
 //! ```
@@ -27,6 +27,7 @@ mod recorder;
 mod scene;
 mod shapes;
 mod signals;
+mod sinks;
 mod skeleton;
 mod summary;
 

@@ -1,66 +1,119 @@
 use rerun::blueprint::TimeSeriesView;
 use rerun::external::re_sdk_types::blueprint::datatypes::VisualizerComponentMapping;
 use rerun::external::re_sdk_types::{VisualizableArchetype, Visualizer};
-use rerun::{Color, SeriesLines};
+use rerun::{Color, EntityPath, SeriesLines};
 use robot::JointKind;
 
-use crate::signals::joint_path;
-use crate::{Quantity, Role, colour};
+use crate::arms::part;
+use crate::{Quantity, Role, Signal, colour};
 
 /// What the plots of all joints have in common: the signals of the scene, without its data.
 #[derive(Debug, Clone)]
 pub(crate) struct Plots {
     pub joints: Vec<(String, JointKind)>,
-    pub signals: Vec<(Quantity, String, Role)>,
+    /// Signals that share their times; the first ones are those of the scene.
+    sets: Vec<Vec<Line>>,
+}
+
+/// A signal as a line.
+#[derive(Debug, Clone)]
+struct Line {
+    quantity: Quantity,
+    name: String,
+    role: Role,
 }
 
 impl Plots {
+    pub fn new(joints: Vec<(String, JointKind)>, signals: &[Signal<'_>]) -> Self {
+        Self { joints, sets: vec![lines(signals)] }
+    }
+
+    /// Adds signals with times of their own; returns their entities, one a joint.
+    pub fn add(&mut self, signals: &[Signal<'_>]) -> Vec<EntityPath> {
+        self.sets.push(lines(signals));
+        let set = self.sets.len() - 1;
+        self.joints.iter().map(|(joint, _)| path(joint, set)).collect()
+    }
+
+    /// Whether there are signals with times of their own.
+    pub fn has_further(&self) -> bool {
+        self.sets.len() > 1
+    }
+
+    /// The entities of the signals of the scene, one a joint.
+    pub fn joint_paths(&self) -> impl Iterator<Item = EntityPath> {
+        self.joints.iter().map(|(joint, _)| path(joint, 0))
+    }
+
     /// The quantities that have a signal, in the order of the plots.
     pub fn quantities(&self) -> impl Iterator<Item = Quantity> {
-        let has = |q: &Quantity| self.signals.iter().any(|(own, ..)| own == q);
-        Quantity::ALL.into_iter().filter(has)
+        Quantity::ALL.into_iter().filter(|quantity| self.count(*quantity) > 0)
+    }
+
+    /// Lines in the plot of a quantity of one joint.
+    pub fn count(&self, quantity: Quantity) -> usize {
+        self.sets.iter().flatten().filter(|line| line.quantity == quantity).count()
     }
 
     /// One quantity of one joint, a line a signal.
     pub fn of_joint(
         &self,
-        (name, kind): &(String, JointKind),
+        (joint, kind): &(String, JointKind),
         quantity: Quantity,
     ) -> TimeSeriesView {
-        let own = || self.signals.iter().filter(|(q, ..)| *q == quantity);
-        let path = joint_path(name);
-        let lines = SeriesLines::new()
-            .with_names(own().map(|(_, name, _)| name.as_str()))
-            .with_colors(own().map(|(_, _, role)| colour::solid(colour::rgb(*role))))
-            .with_widths(own().map(|(_, _, role)| width(*role)));
-        TimeSeriesView::new(quantity.title(*kind))
-            .with_origin(path.clone())
-            .with_contents(["$origin"])
-            .with_override(path, reading(&lines, quantity))
+        let mut view = TimeSeriesView::new(quantity.title(*kind)).with_origin(path(joint, 0));
+        let mut contents = vec![];
+        for (set, lines) in self.sets.iter().enumerate() {
+            let own = || lines.iter().filter(|line| line.quantity == quantity);
+            if own().next().is_none() {
+                continue;
+            }
+            let shown = SeriesLines::new()
+                .with_names(own().map(|line| line.name.as_str()))
+                .with_colors(own().map(|line| colour::solid(colour::rgb(line.role))))
+                .with_widths(own().map(|line| width(line.role)));
+            contents.push(path(joint, set).to_string());
+            view = view.with_override(path(joint, set), reading(&shown, quantity));
+        }
+        view.with_contents(contents)
     }
 
     /// One quantity of all joints, a colour a joint.
     pub fn of_all(&self, quantity: Quantity) -> TimeSeriesView {
-        let own: Vec<_> = self.signals.iter().filter(|(q, ..)| *q == quantity).collect();
+        let lines = self.sets.first().into_iter().flatten();
+        let own: Vec<&Line> = lines.filter(|line| line.quantity == quantity).collect();
         let same = self.joints.windows(2).all(|w| w[0].1.is_rotation() == w[1].1.is_rotation());
         let kind = self.joints.first().filter(|_| same).map(|(_, kind)| *kind);
         let title = kind.map_or_else(|| mixed(quantity), |kind| quantity.title(kind));
         let mut view = TimeSeriesView::new(format!("{title} of all joints"))
             .with_origin("joints")
-            .with_contents(["$origin/**"]);
+            .with_contents(self.joint_paths().map(|path| path.to_string()));
         for (i, (joint, _)) in self.joints.iter().enumerate() {
             let name = |signal: &str| match own.len() {
                 1 => joint.clone(),
                 _ => format!("{joint} {signal}"),
             };
             let lines = SeriesLines::new()
-                .with_names(own.iter().map(|(_, signal, _)| name(signal)))
+                .with_names(own.iter().map(|line| name(&line.name)))
                 .with_colors(own.iter().map(|_| -> Color { colour::solid(colour::series(i)) }))
                 .with_widths(own.iter().map(|_| 1.0_f32));
-            view = view.with_override(joint_path(joint), reading(&lines, quantity));
+            view = view.with_override(path(joint, 0), reading(&lines, quantity));
         }
         view
     }
+}
+
+fn lines(signals: &[Signal<'_>]) -> Vec<Line> {
+    let line =
+        |s: &Signal<'_>| Line { quantity: s.quantity, name: s.name.to_owned(), role: s.role };
+    signals.iter().map(line).collect()
+}
+
+/// The entity of a joint: of the signals of the scene, or below it of those of a further set.
+fn path(joint: &str, set: usize) -> EntityPath {
+    let own = [part("joints"), part(joint)];
+    let below = (set > 0).then(|| part(&format!("further{set}")));
+    EntityPath::new(own.into_iter().chain(below).collect())
 }
 
 /// The title of a plot that holds sliding joints beside rotating ones.

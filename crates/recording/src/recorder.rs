@@ -1,21 +1,23 @@
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use rerun::sink::{FileSink, FileSinkError, LogSink};
 use rerun::{
-    BarChart, EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamResult,
-    TextDocument, TextLog, ViewCoordinates,
+    BarChart, EntityPath, RecordingStream, RecordingStreamResult, TextDocument, TextLog,
+    ViewCoordinates,
 };
 
 use crate::arms::{ArmTrack, part, time_column};
-use crate::error::refused;
-use crate::layout::Layout;
+use crate::error::{refused, unwritable};
+use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
 use crate::pace::Pace;
 use crate::plots::Plots;
 use crate::signals::Signals;
+use crate::sinks::open;
 use crate::skeleton::Skeleton;
-use crate::{Level, Listener, Live, RecordingError, Scene, colour};
+use crate::summary::has_footer;
+use crate::{Level, Listener, Live, RecordingError, Scene, Signal, colour};
 
 /// The one timeline, in seconds.
 pub(crate) const TIMELINE: &str = "t";
@@ -29,7 +31,7 @@ const POSE_PERIOD_S: f64 = 0.02;
 /// Latest time that is shown (s): the file counts nanoseconds.
 const LAST_S: f64 = 9e9;
 /// Longest wait for the disk at the end.
-const DISK: Duration = Duration::from_secs(60);
+const DISK: Duration = Duration::from_secs(20);
 /// Width of the bars of a joint together.
 const BARS: f64 = 0.8;
 
@@ -89,15 +91,15 @@ impl Recorder {
         let skeleton = Skeleton::new(scene.robot, scene.looks);
         let arms = draw(&stream, scene, &skeleton).map_err(refused)?;
         let joints = scene.robot.links().iter().map(|l| (l.joint.name.clone(), l.joint.kind));
-        let signals = scene.signals.iter().map(|s| (s.quantity, s.name.to_owned(), s.role));
         let layout = Layout {
             title: scene.title.to_owned(),
             reach_m: skeleton.reach_m,
-            plots: Plots { joints: joints.collect(), signals: signals.collect() },
+            plots: Plots::new(joints.collect(), &scene.signals),
             bars: vec![],
         };
+        let joint_paths = layout.plots.joint_paths().collect();
         layout.send(&stream)?;
-        stream.flush_with_timeout(DISK).map_err(refused)?;
+        stream.flush_with_timeout(DISK).map_err(|error| unwritable(path, error.to_string()))?;
         Ok(Self {
             stream,
             path: path.to_owned(),
@@ -106,7 +108,7 @@ impl Recorder {
             skeleton,
             arms,
             signal_names: scene.signals.iter().map(|s| s.name.to_owned()).collect(),
-            signals: Signals::new(scene.robot.joint_names(), &scene.signals),
+            signals: Signals::new(joint_paths, &scene.signals),
             pace: Pace::new(POSE_PERIOD_S),
             last_s: f64::NEG_INFINITY,
             rows: 0,
@@ -137,6 +139,34 @@ impl Recorder {
         self.last_s = rows.time_s.last().copied().unwrap_or(self.last_s);
         self.rows += rows.time_s.len() as u64;
         if self.signals.span_s() >= WAIT_S { self.write().map_err(refused) } else { Ok(()) }
+    }
+
+    /// Shows further signals in the plots of the joints, at times of their own (s), such as what
+    /// models predict a few times a second; per signal row-major numbers of all joints, a NaN
+    /// leaves a gap.
+    ///
+    /// Every call shows signals of its own. The layout shows them from [`Recorder::finish`] on.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordingError::WrongLength`] and [`RecordingError::TimeNotIncreasing`], both before
+    /// anything is taken; [`RecordingError::Refused`].
+    pub fn further(
+        &mut self,
+        time_s: &[f64],
+        signals: &[(Signal<'_>, &[f64])],
+    ) -> Result<(), RecordingError> {
+        let expected = time_s.len() * self.skeleton.joints.len();
+        if let Some((signal, values)) = signals.iter().find(|(_, v)| v.len() != expected) {
+            let thing = format!("signal {}", signal.name);
+            return Err(length(thing, "numbers", values.len(), expected));
+        }
+        increasing(time_s, f64::NEG_INFINITY)?;
+        let (signals, values): (Vec<Signal<'_>>, Vec<&[f64]>) = signals.iter().copied().unzip();
+        let paths = self.layout.plots.add(&signals);
+        let mut written = Signals::new(paths, &signals);
+        written.push(time_s, &values);
+        written.flush(&self.stream).map_err(refused)
     }
 
     /// Notes that something happened at a time (s).
@@ -192,9 +222,9 @@ impl Recorder {
             let path = path.join(&EntityPath::new(vec![part(&plain(name))]));
             self.stream.log_static(path, &chart).map_err(refused)?;
         }
-        if !self.layout.bars.iter().any(|(_, shown)| *shown == path) {
-            self.layout.bars.push((title.to_owned(), path));
-        }
+        let names = series.iter().map(|(name, _)| (*name).to_owned()).collect();
+        self.layout.bars.retain(|bars| bars.path != path);
+        self.layout.bars.push(Bars { title: title.to_owned(), path, names });
         Ok(())
     }
 
@@ -202,16 +232,26 @@ impl Recorder {
     ///
     /// # Errors
     ///
-    /// [`RecordingError::Refused`], also for what the disk refused before.
+    /// [`RecordingError::Unwritable`], also for what the disk refused before, and
+    /// [`RecordingError::Refused`].
     pub fn finish(mut self) -> Result<Written, RecordingError> {
         self.write().map_err(refused)?;
-        if !self.layout.bars.is_empty() {
+        if !self.layout.bars.is_empty() || self.layout.plots.has_further() {
             self.layout.send(&self.stream)?;
         }
-        self.stream.flush_with_timeout(DISK).map_err(refused)?;
+        let cannot = |reason: String| unwritable(&self.path, reason);
+        if let Err(error) = self.stream.flush_with_timeout(DISK) {
+            // Once its thread for the file has died, the library would wait for it forever.
+            std::mem::forget(self.stream);
+            return Err(cannot(error.to_string()));
+        }
         drop(self.stream);
-        let unreadable = |e: std::io::Error| unwritable(&self.path, e.to_string());
-        let bytes = std::fs::metadata(&self.path).map_err(unreadable)?.len();
+        // The library tells of what the disk refuses last to its own log alone.
+        let mut file = File::open(&self.path).map_err(|error| cannot(error.to_string()))?;
+        if !has_footer(&mut file).map_err(|error| cannot(error.to_string()))? {
+            return Err(cannot("its end is missing".to_owned()));
+        }
+        let bytes = file.metadata().map_err(|error| cannot(error.to_string()))?.len();
         let listener = self.viewer.close();
         Ok(Written { path: self.path, rows: self.rows, bytes, listener })
     }
@@ -239,15 +279,19 @@ impl Recorder {
                 return Err(length(thing, "numbers", values.len(), expected));
             }
         }
-        let mut previous_s = self.last_s;
-        for (row, &time_s) in rows.time_s.iter().enumerate() {
-            if !(time_s > previous_s && time_s.abs() <= LAST_S) {
-                return Err(RecordingError::TimeNotIncreasing { row, time_s, previous_s });
-            }
-            previous_s = time_s;
-        }
-        Ok(())
+        increasing(rows.time_s, self.last_s)
     }
+}
+
+/// Every time can be shown and is later than the one before.
+fn increasing(time_s: &[f64], mut previous_s: f64) -> Result<(), RecordingError> {
+    for (row, &time_s) in time_s.iter().enumerate() {
+        if !(time_s > previous_s && time_s.abs() <= LAST_S) {
+            return Err(RecordingError::TimeNotIncreasing { row, time_s, previous_s });
+        }
+        previous_s = time_s;
+    }
+    Ok(())
 }
 
 /// A name that the legend of a bar chart, which shows paths, can show without escapes.
@@ -260,10 +304,6 @@ fn length(thing: String, items: &'static str, found: usize, expected: usize) -> 
     RecordingError::WrongLength { thing, items, found, expected }
 }
 
-fn unwritable(path: &Path, reason: String) -> RecordingError {
-    RecordingError::Unwritable { path: path.to_owned(), reason }
-}
-
 /// Two arms of one name would be drawn over one another.
 fn distinct(scene: &Scene<'_>) -> Result<(), RecordingError> {
     for (i, arm) in scene.arms.iter().enumerate() {
@@ -272,26 +312,6 @@ fn distinct(scene: &Scene<'_>) -> Result<(), RecordingError> {
         }
     }
     Ok(())
-}
-
-/// The stream into the file, and into a viewer where one listens.
-fn open(path: &Path, title: &str, live: Live) -> Result<(RecordingStream, Viewer), RecordingError> {
-    let builder = RecordingStreamBuilder::new("plumbline").recording_name(title);
-    let stream = builder.buffered().map_err(refused)?;
-    if !stream.is_enabled() {
-        let value = std::env::var("RERUN").unwrap_or_default();
-        return Err(RecordingError::TurnedOff { path: path.to_owned(), value });
-    }
-    stream.set_log_time_enabled(false);
-    let file = FileSink::new(path).map_err(|error| match error {
-        FileSinkError::CreateFile { source, .. } => unwritable(path, source.to_string()),
-        other => unwritable(path, other.to_string()),
-    })?;
-    let (viewer, queue) = Viewer::find(live);
-    let mut sinks: Vec<Box<dyn LogSink>> = vec![Box::new(file)];
-    sinks.extend(queue.map(|queue| -> Box<dyn LogSink> { Box::new(queue) }));
-    stream.set_sinks(sinks);
-    Ok((stream, viewer))
 }
 
 fn draw(

@@ -1,16 +1,18 @@
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use rerun::{
-    Asset3D, Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, FillMode,
-    Quaternion, RecordingStream, RecordingStreamResult, Transform3D,
+    Asset3D, Boxes3D, Capsules3D, Cylinders3D, Ellipsoids3D, EntityPath, Quaternion,
+    RecordingStream, RecordingStreamResult, Transform3D,
 };
 use robot::{Shape, Visual};
+
+use crate::colour::Paint;
 
 /// Draws one shape on a link, at `path`; `false` when its file cannot be read.
 pub(crate) fn draw(
     stream: &RecordingStream,
     path: &EntityPath,
     visual: &Visual,
-    color: Color,
+    paint: Paint,
 ) -> RecordingStreamResult<bool> {
     let pose = &visual.link_from_shape;
     let (center, turn) = ([point(&pose.translation.vector)], [quaternion(&pose.rotation)]);
@@ -20,31 +22,31 @@ pub(crate) fn draw(
             path,
             &Boxes3D::from_centers_and_sizes(center, [point(size_m)])
                 .with_quaternions(turn)
-                .with_colors([color])
-                .with_fill_mode(FillMode::Solid),
+                .with_colors([paint.color])
+                .with_fill_mode(paint.fill),
         )?,
         Shape::Cylinder { radius_m, length_m } => stream.log_static(
             path,
             &Cylinders3D::from_lengths_and_radii([*length_m as f32], [*radius_m as f32])
                 .with_centers(center)
                 .with_quaternions(turn)
-                .with_colors([color])
-                .with_fill_mode(FillMode::Solid),
+                .with_colors([paint.color])
+                .with_fill_mode(paint.fill),
         )?,
         Shape::Sphere { radius_m } => stream.log_static(
             path,
             &Ellipsoids3D::from_centers_and_radii(center, [*radius_m as f32])
-                .with_colors([color])
-                .with_fill_mode(FillMode::Solid),
+                .with_colors([paint.color])
+                .with_fill_mode(paint.fill),
         )?,
         Shape::Capsule { radius_m, length_m } => {
             let half = Vector3::z() * (0.5 * length_m);
             let ends = [pose * Point3::from(-half), pose * Point3::from(half)];
-            stick(stream, &path, [ends[0].coords, ends[1].coords], (*radius_m, color))?;
+            stick(stream, &path, [ends[0].coords, ends[1].coords], (*radius_m, paint))?;
         }
         Shape::Mesh { file, scale } => {
             let Ok(mesh) = Asset3D::from_file_path(file) else { return Ok(false) };
-            stream.log_static(path.clone(), &mesh.with_albedo_factor(color.0))?;
+            stream.log_static(path.clone(), &mesh.with_albedo_factor(paint.of_mesh().0))?;
             let place = Transform3D::from_translation_rotation_scale(
                 center[0],
                 turn[0],
@@ -62,7 +64,7 @@ pub(crate) fn stick(
     stream: &RecordingStream,
     path: &EntityPath,
     ends: [Vector3<f64>; 2],
-    (radius_m, color): (f64, Color),
+    (radius_m, paint): (f64, Paint),
 ) -> RecordingStreamResult<()> {
     let along = ends[1] - ends[0];
     let turn = UnitQuaternion::rotation_between(&Vector3::z(), &along).unwrap_or_else(|| {
@@ -73,8 +75,8 @@ pub(crate) fn stick(
         &Capsules3D::from_lengths_and_radii([along.norm() as f32], [radius_m as f32])
             .with_translations([point(&ends[0])])
             .with_quaternions([quaternion(&turn)])
-            .with_colors([color])
-            .with_fill_mode(FillMode::Solid),
+            .with_colors([paint.color])
+            .with_fill_mode(paint.fill),
     )
 }
 
@@ -83,10 +85,10 @@ pub(crate) fn ball(
     stream: &RecordingStream,
     path: &EntityPath,
     center: &Vector3<f64>,
-    (radius_m, color): (f64, Color),
+    (radius_m, paint): (f64, Paint),
 ) -> RecordingStreamResult<()> {
     let ball = Ellipsoids3D::from_centers_and_radii([point(center)], [radius_m as f32]);
-    stream.log_static(path.clone(), &ball.with_colors([color]).with_fill_mode(FillMode::Solid))
+    stream.log_static(path.clone(), &ball.with_colors([paint.color]).with_fill_mode(paint.fill))
 }
 
 /// A pose as the viewer takes it.

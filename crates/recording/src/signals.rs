@@ -6,12 +6,12 @@ use rerun::{
     SerializedComponentBatch, SerializedComponentColumn,
 };
 
-use crate::arms::{part, time_column};
+use crate::arms::time_column;
 use crate::{Quantity, Signal};
 
 /// The signals, and the rows of them that wait to be written.
 ///
-/// Every joint is one entity with one column a quantity; a column holds one number a signal.
+/// Every joint has one entity with one column a quantity; a column holds one number a signal.
 /// The times are thus written once a joint, not once a signal.
 #[derive(Debug)]
 pub(crate) struct Signals {
@@ -22,15 +22,11 @@ pub(crate) struct Signals {
     values: Vec<Vec<f64>>,
 }
 
-/// The entity of a joint.
-pub(crate) fn joint_path(name: &str) -> EntityPath {
-    EntityPath::new(vec![part("joints"), part(name)])
-}
-
 impl Signals {
-    pub fn new<'a>(joints: impl Iterator<Item = &'a str>, signals: &[Signal<'_>]) -> Self {
+    /// Signals to be written to these entities, one a joint.
+    pub fn new(joints: Vec<EntityPath>, signals: &[Signal<'_>]) -> Self {
         Self {
-            joints: joints.map(joint_path).collect(),
+            joints,
             quantities: signals.iter().map(|s| s.quantity).collect(),
             time_s: vec![],
             values: vec![vec![]; signals.len()],

@@ -94,7 +94,7 @@ impl Found {
 }
 
 /// Whether the file ends as one that was ended properly; leaves it at its start.
-fn has_footer(file: &mut File) -> std::io::Result<bool> {
+pub(crate) fn has_footer(file: &mut File) -> std::io::Result<bool> {
     let bytes = file.metadata()?.len();
     let start = bytes.saturating_sub(StreamFooter::ENCODED_SIZE_BYTES as u64);
     file.seek(SeekFrom::Start(start))?;

@@ -2,8 +2,11 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 use std::collections::BTreeMap;
+use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::Command;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
 
 use recording::{
     Arm, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows, Scene, Signal,
@@ -90,10 +93,20 @@ fn value(row: usize, joint: usize) -> f64 {
     (0.003 * row as f64 + joint as f64).sin()
 }
 
+/// What a model predicts ten times a second.
+fn slow() -> (Vec<f64>, Vec<f64>) {
+    let time_s = (0..30).map(|i| 0.1 * f64::from(i)).collect();
+    (time_s, (0..30).flat_map(|i| (0..7).map(move |j| value(50 * i, j))).collect())
+}
+
 /// Three seconds in blocks of 0.2 s; the position of joint 2 is not known in row 700.
 fn record(path: &Path) -> Written {
+    record_to(path, Live::Off)
+}
+
+fn record_to(path: &Path, live: Live) -> Written {
     let loaded = wam();
-    let mut recorder = Recorder::create(path, &scene(&loaded), Live::Off).unwrap();
+    let mut recorder = Recorder::create(path, &scene(&loaded), live).unwrap();
     for start in (0..1500).step_by(100) {
         let time_s: Vec<f64> = (start..start + 100).map(|i| i as f64 / RATE_HZ).collect();
         let grid = || (start..start + 100).flat_map(|i| (0..7).map(move |j| (i, j)));
@@ -106,6 +119,9 @@ fn record(path: &Path) -> Written {
             .unwrap();
     }
     recorder.event(1.0, Level::Warning, "prediction stalled").unwrap();
+    let (time_s, tau) = slow();
+    let predicted = Signal { quantity: Quantity::Torque, name: "gp", role: Role::Model(0) };
+    recorder.further(&time_s, &[(predicted, &tau)]).unwrap();
     recorder.document("# Verdict").unwrap();
     recorder.bars("RMSE (mrad)", &[("gp", &[1.0; 7]), ("none", &[2.0; 7])]).unwrap();
     recorder.finish().unwrap()
@@ -140,6 +156,11 @@ fn a_recording_holds_what_was_put_into_it() {
         // Errors are shown in mrad.
         assert!((error[row][0] - q).abs() < 1e-15);
     }
+
+    let further = &file.entities["/joints/j3_shoulder_yaw/further1"];
+    assert_eq!(further.times_ns, (0..30).map(|i| i * 100_000_000).collect::<Vec<i64>>());
+    let expected: Vec<Vec<f64>> = (0..30).map(|i| vec![value(50 * i, 2)]).collect();
+    assert_eq!(further.columns["torque"], expected);
 
     let link = file.entities.keys().find(|k| k.ends_with("/shoulder_yaw/shoulder_pitch"));
     let link = &file.entities[link.unwrap()];
@@ -247,6 +268,11 @@ fn rows_of_wrong_lengths_or_times_are_refused_and_leave_nothing() {
     assert_eq!(rows(&[1.0], &all[..2], &all), Ok(()));
     let again = RecordingError::TimeNotIncreasing { row: 0, time_s: 1.0, previous_s: 1.0 };
     assert_eq!(rows(&[1.0], &all[..2], &all), Err(again));
+    let predicted = Signal { quantity: Quantity::Torque, name: "gp", role: Role::Model(0) };
+    let further = recorder.further(&[0.0], &[(predicted, &short)]);
+    assert_eq!(further, length("signal gp", "numbers", 6, 7));
+    let again = RecordingError::TimeNotIncreasing { row: 1, time_s: 0.0, previous_s: 0.0 };
+    assert_eq!(recorder.further(&[0.0, 0.0], &[(predicted, &[0.0; 14])]), Err(again));
     let bars = recorder.bars("RMSE", &[("gp", &[1.0])]);
     assert_eq!(bars, length("bars RMSE, gp", "numbers", 1, 7));
     assert!(recorder.event(f64::NAN, Level::Info, "never").is_err());
@@ -299,4 +325,113 @@ fn the_programs_own_check_accepts_a_recording() {
     record(&path);
     let check = Command::new("rerun").args(["rrd", "verify"]).arg(&path).output().unwrap();
     assert!(check.status.success(), "{}", String::from_utf8_lossy(&check.stderr));
+}
+
+/// A cart on a rail with a pole, both without shapes.
+#[test]
+fn links_without_shapes_are_sticks_and_slides_are_moved_along_their_axis() {
+    let urdf = r#"<robot name="crane">
+        <link name="base"/>
+        <link name="cart"><inertial><mass value="1"/>
+          <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+        <link name="pole"><inertial><origin xyz="0 0 -1"/><mass value="1"/>
+          <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+        <joint name="rail" type="prismatic"><parent link="base"/><child link="cart"/>
+          <origin xyz="0 0 2"/><axis xyz="1 0 0"/>
+          <limit lower="-3" upper="3" effort="10" velocity="1"/></joint>
+        <joint name="hinge" type="continuous"><parent link="cart"/><child link="pole"/>
+          <origin xyz="0 0 -0.5"/><axis xyz="0 1 0"/></joint>
+    </robot>"#;
+    let robot = Robot::from_urdf(urdf).unwrap();
+    let looks = robot::Looks { base: vec![], links: vec![vec![]; 2] };
+    let signal = Signal { quantity: Quantity::Error, name: "error", role: Role::Error };
+    let arms = vec![Arm { name: "measured", role: Role::Actual }];
+    let scene = Scene { title: "crane", robot: &robot, looks: &looks, arms, signals: vec![signal] };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("crane.rrd");
+    let mut recorder = Recorder::create(&path, &scene, Live::Off).unwrap();
+    let q = [0.25, 0.0];
+    recorder.rows(&Rows { time_s: &[0.0], arms: &[&q], signals: &[&[2e-3, 3e-3]] }).unwrap();
+    recorder.finish().unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    let file = decode(&bytes);
+    assert_eq!(file.entities["/joints/rail"].columns["error"], [[2.0]], "in mm");
+    for entity in ["/cart/shapes/joint", "/cart/shapes/stick0", "/base/shapes/stick0"] {
+        let found = file.entities.keys().any(|e| e.ends_with(entity));
+        assert!(found, "{entity}: {:?}", file.entities.keys());
+    }
+    let [cart] = translations(&bytes, "/world/arms/measured/cart")[..] else { panic!("one pose") };
+    let expected = [0.25, 0.0, 2.0];
+    assert!(cart.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{cart:?}");
+}
+
+/// The places of a link in its parent.
+fn translations(bytes: &[u8], entity: &str) -> Vec<[f32; 3]> {
+    let mut found = vec![];
+    for message in DecoderApp::decode_lazy(std::io::Cursor::new(bytes.to_vec())) {
+        let LogMsg::ArrowMsg(_, message) = message.unwrap() else { continue };
+        let chunk = Chunk::from_arrow_msg(&message).unwrap();
+        if chunk.entity_path().to_string() != entity {
+            continue;
+        }
+        let key = rerun::Transform3D::descriptor_translation().component;
+        found.extend(chunk.iter_slices::<[f32; 3]>(key).flat_map(<[_]>::to_vec));
+    }
+    found
+}
+
+/// Listens where viewers do, takes connections with `greet` and never reads.
+fn with_listener(greet: fn(TcpStream) -> Option<TcpStream>) -> Option<(Written, Duration)> {
+    let listener = TcpListener::bind(("127.0.0.1", rerun::DEFAULT_SERVER_PORT)).ok()?;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.rrd");
+    std::thread::spawn(move || {
+        let connections = listener.incoming().map_while(Result::ok);
+        connections.filter_map(greet).collect::<Vec<_>>()
+    });
+    let start = Instant::now();
+    let written = record_to(&path, Live::On);
+    let took = start.elapsed();
+    assert!(recording::summary(&path).unwrap().is_whole);
+    let quiet = folder.path().join("quiet.rrd");
+    record(&quiet);
+    let text = |path| format!("{:?}", decode(&std::fs::read(path).unwrap()).entities);
+    assert!(text(path) == text(quiet), "the file holds what it holds without a viewer");
+    Some((written, took))
+}
+
+/// One listener at a time.
+static PORT: Mutex<()> = Mutex::new(());
+
+/// In a process of its own: a listener does not give its place back before it ends.
+fn alone(name: &str, greet: fn(TcpStream) -> Option<TcpStream>) {
+    if std::env::var("LISTENS").as_deref() != Ok(name) {
+        let _turn = PORT.lock();
+        let program = std::env::current_exe().unwrap();
+        let mut command = Command::new(program);
+        command.args(["--exact", name, "--nocapture"]).env("LISTENS", name);
+        let run = command.output().unwrap();
+        let said = String::from_utf8_lossy(&run.stdout).into_owned();
+        assert!(run.status.success() && said.contains("1 passed"), "{said}");
+        return;
+    }
+    let Some((written, took)) = with_listener(greet) else {
+        println!("skipped: something listens there already");
+        return;
+    };
+    assert!(matches!(written.listener, Listener::Viewer { .. }), "{written:?}");
+    assert!(took < Duration::from_secs(60), "{took:?}");
+}
+
+#[test]
+fn a_viewer_that_never_reads_neither_blocks_nor_harms_the_file() {
+    alone("a_viewer_that_never_reads_neither_blocks_nor_harms_the_file", Some);
+}
+
+#[test]
+fn a_viewer_that_closes_at_once_neither_blocks_nor_harms_the_file() {
+    alone("a_viewer_that_closes_at_once_neither_blocks_nor_harms_the_file", |stream| {
+        drop(stream);
+        None
+    });
 }

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use document::Document;
 use evaluation::{
-    FeedforwardKind, Learned, Outputs, TrackingScenario, simulated_logs, sweep, track_all,
+    FeedforwardKind, Learned, Outputs, TrackedRun, TrackingScenario, simulated_logs, sweep,
+    track_all,
 };
 use recording::Live;
 use report::{ReportError, TrackingComparison};
@@ -69,9 +70,19 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     watch.finish();
     let (runs, swept) = tracked?;
     let comparison = comparison(arguments, &scenario, &runs, swept.as_ref())?;
-    write(arguments, &scenario, &comparison)?;
+    // A full disk does not keep a long run from being told.
+    let written = write(arguments, &scenario, &comparison);
     say(arguments, &comparison)?;
-    Ok(Outcome::Good)
+    written?;
+    match problems(&runs).next() {
+        None => Ok(Outcome::Good),
+        Some(problem) => Err(CliError::Incomplete { problem: problem.clone() }),
+    }
+}
+
+/// What of the runs could not be written.
+fn problems(runs: &[TrackedRun]) -> impl Iterator<Item = &String> {
+    runs.iter().filter_map(|run| run.written.as_ref()).flat_map(|written| &written.problems)
 }
 
 fn document(arguments: &Arguments) -> Result<Document, CliError> {

@@ -34,7 +34,7 @@ pub fn comparison(
         duration_s: scenario.motion().duration_s(),
         models: runs.iter().map(tracked).collect(),
         sweep: swept.map(sweep),
-        warnings: unseen(runs).into_iter().collect(),
+        warnings: super::problems(runs).cloned().chain(unseen(runs)).collect(),
         provenance,
     })
 }
