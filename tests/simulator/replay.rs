@@ -2,7 +2,7 @@ use checks::arms::{wam, workspace_root};
 use logs::{PreparedJoint, PreparedRun};
 use robot::{Actuator, Gain, Robot, TorqueSource};
 use simulator::scenario::Scenario;
-use simulator::{SimulatorError, replay_motion, replay_torque};
+use simulator::{SimulatorError, Windows, replay_motion, replay_torque};
 
 use crate::scenario::document;
 
@@ -37,7 +37,7 @@ fn wam_with(source: TorqueSource) -> Robot {
 }
 
 fn drift(robot: &Robot, record: &PreparedRun, window_s: f64) -> Vec<f64> {
-    let replay = replay_torque(robot, record, window_s).unwrap();
+    let replay = replay_torque(robot, record, Windows::of(window_s)).unwrap();
     replay.drift_rms.unwrap()
 }
 
@@ -112,7 +112,7 @@ fn drift_is_told_of_the_joint_that_drifted() {
     let robot = wam_with(TorqueSource::Commanded);
     let mut record = record("commanded", "");
     record.joints[3].q[700] += 0.5;
-    let replay = replay_torque(&robot, &record, 1.4).unwrap();
+    let replay = replay_torque(&robot, &record, Windows::of(1.4)).unwrap();
     assert_eq!((replay.windows, replay.window_s), (1, 1.4));
     for (joint, drift) in replay.drift_rms.unwrap().iter().enumerate() {
         let expected = if joint == 3 { 0.5 } else { 0.0 };
@@ -155,10 +155,10 @@ fn a_record_that_is_too_short_is_refused() {
         let run = "one".to_owned();
         Some(SimulatorError::TooShort { run, found_s, window_s })
     };
-    assert_eq!(replay_torque(&robot, &record, 2.5).err(), refused(2.4, 2.5));
+    assert_eq!(replay_torque(&robot, &record, Windows::of(2.5)).err(), refused(2.4, 2.5));
     for left in [1, 0] {
         record.time.truncate(left);
-        assert_eq!(replay_torque(&robot, &record, 0.002).err(), refused(0.0, 0.002));
+        assert_eq!(replay_torque(&robot, &record, Windows::of(0.002)).err(), refused(0.0, 0.002));
         assert_eq!(replay_motion(&robot, &gains(), &record).err(), refused(0.0, 0.002));
     }
 }
@@ -168,6 +168,6 @@ fn a_record_that_is_too_short_is_refused() {
 fn a_drift_that_no_window_shows_is_not_zero() {
     let (robot, mut record) = (wam_with(TorqueSource::Commanded), record("commanded", ""));
     record.joints[6].effort.fill(1e6);
-    let replay = replay_torque(&robot, &record, 0.2).unwrap();
+    let replay = replay_torque(&robot, &record, Windows::of(0.2)).unwrap();
     assert_eq!((replay.runaways.len(), replay.windows, replay.drift_rms), (12, 12, None));
 }

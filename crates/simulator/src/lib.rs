@@ -27,7 +27,7 @@ mod truth;
 pub use error::SimulatorError;
 pub use inject::{Efforts, Inject, Moment};
 pub use plant::{Plant, Transmission};
-pub use replay::{ForwardReplay, MotionReplay, replay_motion, replay_torque};
+pub use replay::{ForwardReplay, MotionReplay, Windows, replay_motion, replay_torque};
 pub use run::{LogFormat, Simulation, arm, simulate, simulate_only, write};
 pub use sensors::{EffortSource, JointSensor, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};

@@ -7,11 +7,27 @@ use robot::{Gain, Machine, MachineFault, Reading, Robot};
 use crate::recorded::{State, begin, between, delay_s, held, seen};
 use crate::{Sensors, Simulator, SimulatorError, Stepping};
 
-/// Longest step of the engine (s).
+/// Longest step of the engine where no other is given (s).
 const STEP_S: f64 = 1e-4;
 
 /// Slowest rate of the controller that follows a recorded motion (Hz).
 const CONTROL_HZ: f64 = 500.0;
+
+/// How a record is rolled forward: in windows one after the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Windows {
+    /// Time of a window (s), which becomes a whole number of samples.
+    pub window_s: f64,
+    /// Longest step of the engine (s): a sample of the record takes a whole number of steps.
+    pub longest_step_s: f64,
+}
+
+impl Windows {
+    /// Windows of this length (s), with steps of at most 0.1 ms.
+    pub fn of(window_s: f64) -> Self {
+        Self { window_s, longest_step_s: STEP_S }
+    }
+}
 
 /// How far a simulation drifts from a record when it is rolled forward for a while.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,16 +65,19 @@ pub struct ForwardReplay {
 pub fn replay_torque(
     robot: &Robot,
     record: &PreparedRun,
-    window_s: f64,
+    windows: Windows,
 ) -> Result<ForwardReplay, SimulatorError> {
+    let Windows { window_s, longest_step_s } = windows;
     let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
     let count = record.time.len().saturating_sub(1) / samples;
     if count == 0 {
         return Err(too_short(record, window_s));
     }
     let starts: Vec<usize> = (0..count).map(|w| w * samples).collect();
-    let windows: Result<Vec<Window>, SimulatorError> =
-        starts.par_iter().map(|&start| roll(robot, record, start, samples)).collect();
+    let windows: Result<Vec<Window>, SimulatorError> = starts
+        .par_iter()
+        .map(|&start| roll(robot, record, start, samples, longest_step_s))
+        .collect();
     let windows = windows?;
     let (mut squares, mut kept) = (vec![0.0; robot.joint_count()], 0_usize);
     for (window, start) in windows.iter().zip(&starts) {
@@ -93,8 +112,9 @@ fn roll(
     record: &PreparedRun,
     start: usize,
     samples: usize,
+    longest_step_s: f64,
 ) -> Result<Window, SimulatorError> {
-    let mut simulator = perfect(robot, record.rate_hz)?;
+    let mut simulator = perfect(robot, record.rate_hz, longest_step_s)?;
     begin(&mut simulator, robot, record, start);
     let mut window = Window { states: Vec::with_capacity(samples), fault: None };
     for sample in start..start + samples {
@@ -109,8 +129,8 @@ fn roll(
 }
 
 /// A simulator that holds commands for one sample of a record.
-fn perfect(robot: &Robot, rate_hz: f64) -> Result<Simulator, SimulatorError> {
-    let steps = (1.0 / (rate_hz * STEP_S)).ceil().max(1.0);
+fn perfect(robot: &Robot, rate_hz: f64, longest_step_s: f64) -> Result<Simulator, SimulatorError> {
+    let steps = (1.0 / (rate_hz * longest_step_s)).ceil().max(1.0);
     let stepping = Stepping {
         step_s: 1.0 / (rate_hz * steps),
         steps_per_period: steps as usize,
@@ -190,7 +210,7 @@ pub fn replay_motion(
     }
     // A controller at the rate of a slow log would not be stable.
     let turns = (CONTROL_HZ / record.rate_hz).ceil().max(1.0) as usize;
-    let mut simulator = perfect(robot, record.rate_hz * turns as f64)?;
+    let mut simulator = perfect(robot, record.rate_hz * turns as f64, STEP_S)?;
     begin(&mut simulator, robot, record, 0);
     let mut rows = Vec::with_capacity(record.time.len());
     let mut reading = Reading::zero(robot.joint_count());

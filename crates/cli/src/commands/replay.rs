@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
 use robot::{Gain, Loaded, Robot};
-use simulator::{ForwardReplay, MotionReplay, SimulatorError};
+use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
 use crate::error::CliError;
@@ -63,7 +63,8 @@ impl Replay {
     ) -> Result<Self, SimulatorError> {
         let robot = &loaded.robot;
         let windows = arguments.window_ms.iter();
-        let forward = windows.map(|ms| simulator::replay_torque(robot, record, 1e-3 * ms));
+        let forward =
+            windows.map(|ms| simulator::replay_torque(robot, record, Windows::of(1e-3 * ms)));
         let forward = forward.collect::<Result<_, _>>()?;
         let gains: Option<Vec<Gain>> = loaded.control.gains.iter().copied().collect();
         let gains = gains.filter(|g| g.len() == robot.joint_count());
