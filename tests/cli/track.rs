@@ -5,6 +5,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use logs::{ReadOptions, Run};
+use recording::Contents;
 use robot::Robot;
 use serde_json::Value;
 
@@ -70,12 +71,12 @@ fn log(path: &Path) -> Run {
 }
 
 fn is_recorded(path: &Path, end_s: f64) {
-    let summary = recording::summary(path).unwrap();
-    assert!(summary.is_whole && summary.has_blueprint, "{summary:?}");
-    let [start, end] = summary.time_s.unwrap();
+    let contents = Contents::read(path).unwrap();
+    assert!(contents.is_whole && contents.layouts > 0, "{}", path.display());
+    let [start, end] = contents.time_s().unwrap();
     assert!(start.abs() < 1e-9 && (end - end_s).abs() < 0.01, "{start} to {end}");
     for entity in ["/joints/j7_palm_yaw", "/verdict", "/world/paths/measured"] {
-        assert!(summary.entities.iter().any(|e| e == entity), "{entity} is missing");
+        assert!(contents.entities.contains_key(entity), "{entity} is missing");
     }
 }
 
@@ -96,8 +97,8 @@ fn everything_that_a_comparison_needs_is_written_and_told() {
     for name in names(&out.join("recordings")) {
         is_recorded(&out.join("recordings").join(name), 2.0);
     }
-    let entities = recording::summary(&out.join("recordings/rbd.rrd")).unwrap().entities;
-    assert!(entities.iter().any(|e| e == "/joints/j7_palm_yaw/further1"), "what gp expects");
+    let entities = Contents::read(&out.join("recordings/rbd.rrd")).unwrap().entities;
+    assert!(entities.contains_key("/joints/j7_palm_yaw/further1"), "what gp expects");
     for name in names(&out.join("logs")) {
         assert!((1000..=1001).contains(&log(&out.join("logs").join(name)).time.len()));
     }
@@ -324,7 +325,7 @@ fn running(folder: &Path, lines: usize) -> Child {
     let newlines = |bytes: Vec<u8>| bytes.iter().filter(|c| **c == b'\n').count();
     let has_rows = || fs::read(out.join("logs/none.csv")).is_ok_and(|b| newlines(b) >= lines);
     let recording = out.join("recordings/none.rrd");
-    let moves = || recording::summary(&recording).is_ok_and(|found| found.time_s.is_some());
+    let moves = || Contents::read(&recording).is_ok_and(|found| found.time_s().is_some());
     let (start, patience) = (Instant::now(), Duration::from_secs(120));
     while !(has_rows() && moves()) && start.elapsed() < patience {
         sleep(Duration::from_millis(2));
@@ -356,9 +357,9 @@ fn a_run_that_is_killed_leaves_a_log_and_a_recording_that_read_back() {
         assert!(bytes.starts_with(&before), "every run writes the same rows");
         before = bytes[..whole].to_vec();
 
-        let summary = recording::summary(&out.join("recordings/none.rrd")).unwrap();
-        assert!(summary.has_blueprint && !summary.is_whole, "{summary:?}");
-        let [start_s, end_s] = summary.time_s.unwrap();
+        let contents = Contents::read(&out.join("recordings/none.rrd")).unwrap();
+        assert!(contents.layouts > 0 && !contents.is_whole);
+        let [start_s, end_s] = contents.time_s().unwrap();
         let last_s = *log.time.last().unwrap();
         assert!(start_s.abs() < 1e-9 && end_s < last_s + 2.0, "{last_s} s, {end_s} s recorded");
     }

@@ -14,15 +14,20 @@ use crate::{Arm, Role, colour, shapes};
 const PATH: f64 = 0.002;
 const BALL: f64 = 0.012;
 
+/// Scale of an arm that is not shown; a scale of zero is no transform to the viewer.
+const UNSEEN: f32 = 1e-6;
+
 /// An arm in the picture and the poses that wait to be written.
 #[derive(Debug)]
 pub(crate) struct ArmTrack {
     /// Entity of every link below that of its parent.
     links: Vec<EntityPath>,
-    path: EntityPath,
+    /// The path that the tip leaves behind, where it is drawn.
+    path: Option<EntityPath>,
     time_s: Vec<f64>,
-    /// Per waiting row, the poses of all links.
-    poses: Vec<Vec<Isometry3<f64>>>,
+    /// Per waiting row, the poses of all links; none where the arm is not shown.
+    poses: Vec<Option<Vec<Isometry3<f64>>>>,
+    is_shown: bool,
     /// The tip since the last piece of the path, its end first.
     piece: Vec<[f32; 3]>,
 }
@@ -51,19 +56,23 @@ impl ArmTrack {
         if arm.role == Role::Actual {
             brush.base(&root, &looks.base)?;
         }
-        let path = EntityPath::new(vec![part("world"), part("paths"), part(arm.name)]);
-        let line = LineStrips3D::update_fields()
-            .with_colors([colour::solid(colour::rgb(arm.role))])
-            .with_radii([(PATH * skeleton.reach_m) as f32]);
-        stream.log_static(path.clone(), &line)?;
+        let path = matches!(arm.role, Role::Actual | Role::Desired)
+            .then(|| EntityPath::new(vec![part("world"), part("paths"), part(arm.name)]));
+        if let Some(path) = &path {
+            let line = LineStrips3D::update_fields()
+                .with_colors([colour::solid(colour::rgb(arm.role))])
+                .with_radii([(PATH * skeleton.reach_m) as f32]);
+            stream.log_static(path.clone(), &line)?;
+        }
         if let Some(last) = links.get(skeleton.last) {
             let ball = (BALL * skeleton.reach_m, Paint::solid(colour::rgb(arm.role)));
             shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, ball)?;
         }
-        Ok(Self { links, path, time_s: vec![], poses: vec![], piece: vec![] })
+        Ok(Self { links, path, time_s: vec![], poses: vec![], is_shown: true, piece: vec![] })
     }
 
-    /// Takes the pose at `q`; where it is not known the arm stays and its path is interrupted.
+    /// Takes the pose at `q`; where it is not known the arm is not shown and its path is
+    /// interrupted.
     pub fn push(
         &mut self,
         stream: &RecordingStream,
@@ -73,12 +82,19 @@ impl ArmTrack {
         if !q.iter().all(|q| q.is_finite()) {
             self.flush_path(stream)?;
             self.piece.clear();
+            if std::mem::replace(&mut self.is_shown, false) {
+                self.time_s.push(time_s);
+                self.poses.push(None);
+            }
             return Ok(());
         }
+        self.is_shown = true;
         let poses = skeleton.parent_from_child(q);
-        self.piece.push(shapes::point(&skeleton.tip_in_world(&poses)));
+        if self.path.is_some() {
+            self.piece.push(shapes::point(&skeleton.tip_in_world(&poses)));
+        }
         self.time_s.push(time_s);
-        self.poses.push(poses);
+        self.poses.push(Some(poses));
         Ok(())
     }
 
@@ -86,11 +102,15 @@ impl ArmTrack {
     pub fn flush(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         self.flush_path(stream)?;
         for (i, link) in self.links.iter().enumerate() {
-            let of_link = || self.poses.iter().map(|poses| &poses[i]);
-            // Both parts in every row: the viewer does not join a static one with a moving one.
+            let of_link = || self.poses.iter().map(move |row| row.as_ref().map(|poses| &poses[i]));
+            let pose = |p: Option<&Isometry3<f64>>| p.copied().unwrap_or_default();
+            // All parts in every row: the viewer does not join a static one with a moving one.
             let columns = Transform3D::update_fields()
-                .with_many_translation(of_link().map(|p| shapes::point(&p.translation.vector)))
-                .with_many_quaternion(of_link().map(|p| shapes::quaternion(&p.rotation)))
+                .with_many_translation(
+                    of_link().map(|p| shapes::point(&pose(p).translation.vector)),
+                )
+                .with_many_quaternion(of_link().map(|p| shapes::quaternion(&pose(p).rotation)))
+                .with_many_scale(of_link().map(|p| [if p.is_some() { 1.0 } else { UNSEEN }; 3]))
                 .columns_of_unit_batches()?;
             if !self.time_s.is_empty() {
                 stream.send_columns(link.clone(), [time_column(&self.time_s)], columns)?;
@@ -103,14 +123,16 @@ impl ArmTrack {
 
     /// Writes one more piece of the path; the next one starts where it ends.
     fn flush_path(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
-        let (Some(&end), Some(&time_s)) = (self.piece.last(), self.time_s.last()) else {
+        let (Some(path), Some(&end), Some(&time_s)) =
+            (&self.path, self.piece.last(), self.time_s.last())
+        else {
             return Ok(());
         };
         if self.piece.len() > 1 {
             let piece = std::mem::replace(&mut self.piece, vec![end]);
             let columns =
                 LineStrips3D::update_fields().with_strips([piece]).columns_of_unit_batches()?;
-            stream.send_columns(self.path.clone(), [time_column(&[time_s])], columns)?;
+            stream.send_columns(path.clone(), [time_column(&[time_s])], columns)?;
         }
         Ok(())
     }

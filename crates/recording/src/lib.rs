@@ -5,7 +5,7 @@
 //! Rows ----> Recorder::rows        blocks of consecutive samples, while a run goes on
 //!            Recorder::event, ::further, ::document, ::bars
 //!            Recorder::finish ---> Written
-//! summary    what a file holds, also one that was cut
+//! Contents <--- Contents::read     what a file holds, also one that was cut
 //! ```
 //!
 //! The file is the truth: a run that is killed leaves what it had recorded up to about a second
@@ -17,6 +17,7 @@
 
 mod arms;
 mod colour;
+mod contents;
 mod error;
 mod layout;
 mod live;
@@ -29,9 +30,8 @@ mod shapes;
 mod signals;
 mod sinks;
 mod skeleton;
-mod summary;
 
+pub use contents::{Contents, Entity};
 pub use error::RecordingError;
 pub use recorder::{Recorder, Rows, Written};
 pub use scene::{Arm, Level, Listener, Live, Quantity, Role, Scene, Signal};
-pub use summary::{Summary, summary};

@@ -78,7 +78,8 @@ impl Plots {
         view.with_contents(contents)
     }
 
-    /// One quantity of all joints, a colour a joint.
+    /// One quantity of all joints: a colour a joint, or where there are several signals the
+    /// colour of their role.
     pub fn of_all(&self, quantity: Quantity) -> TimeSeriesView {
         let lines = self.sets.first().into_iter().flatten();
         let own: Vec<&Line> = lines.filter(|line| line.quantity == quantity).collect();
@@ -88,6 +89,9 @@ impl Plots {
         let mut view = TimeSeriesView::new(format!("{title} of all joints"))
             .with_origin("joints")
             .with_contents(self.joint_paths().map(|path| path.to_string()));
+        let color = |i: usize, role: Role| -> Color {
+            colour::solid(if own.len() == 1 { colour::series(i) } else { colour::rgb(role) })
+        };
         for (i, (joint, _)) in self.joints.iter().enumerate() {
             let name = |signal: &str| match own.len() {
                 1 => joint.clone(),
@@ -95,7 +99,7 @@ impl Plots {
             };
             let lines = SeriesLines::new()
                 .with_names(own.iter().map(|line| name(&line.name)))
-                .with_colors(own.iter().map(|_| -> Color { colour::solid(colour::series(i)) }))
+                .with_colors(own.iter().map(|line| color(i, line.role)))
                 .with_widths(own.iter().map(|_| 1.0_f32));
             view = view.with_override(path(joint, 0), reading(&lines, quantity));
         }

@@ -8,6 +8,7 @@ use rerun::{
 };
 
 use crate::arms::{ArmTrack, part, time_column};
+use crate::contents::has_footer;
 use crate::error::{refused, unwritable};
 use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
@@ -16,7 +17,6 @@ use crate::plots::Plots;
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
-use crate::summary::has_footer;
 use crate::{Level, Listener, Live, RecordingError, Scene, Signal, colour};
 
 /// The one timeline, in seconds.
@@ -40,8 +40,8 @@ const BARS: f64 = 0.8;
 pub struct Rows<'a> {
     /// Times (s), increasing within a block and from block to block.
     pub time_s: &'a [f64],
-    /// Per arm, row-major positions of all joints (rad or m); a row with a NaN leaves the arm
-    /// where it is.
+    /// Per arm, row-major positions of all joints (rad or m); a row with a NaN hides the arm until
+    /// a row without one.
     pub arms: &'a [&'a [f64]],
     /// Per signal, row-major numbers of all joints; a NaN leaves a gap in the line.
     pub signals: &'a [&'a [f64]],

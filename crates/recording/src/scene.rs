@@ -20,7 +20,8 @@ pub struct Scene<'a> {
 pub struct Arm<'a> {
     /// Name, such as `measured`.
     pub name: &'a str,
-    /// The role `Actual` is drawn solid, every other one as a ghost in its colour.
+    /// The role `Actual` is drawn solid, every other one as a ghost in its colour. `Actual` and
+    /// `Desired` leave the path of their tip behind: models may start anew again and again.
     pub role: Role,
 }
 

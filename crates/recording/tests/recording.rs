@@ -1,7 +1,8 @@
 //! What a recording holds, read back with the decoder of the library that wrote it.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
-use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufReader;
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::Command;
@@ -9,63 +10,15 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use recording::{
-    Arm, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows, Scene, Signal,
-    Written,
+    Arm, Contents, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows, Scene,
+    Signal, Written,
 };
-use rerun::external::arrow::array::{Array, Float64Array};
-use rerun::external::re_log_encoding::DecoderApp;
-use rerun::external::re_log_types::{LogMsg, StoreKind};
+use rerun::external::re_log_encoding::{Decodable, DecoderApp};
+use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
 use robot::{Loaded, Robot};
 
 const RATE_HZ: f64 = 500.0;
-
-/// Per entity: times (ns) with their rows of numbers by column, in the order of the file.
-#[derive(Debug, Default, PartialEq)]
-struct Found {
-    rows: usize,
-    times_ns: Vec<i64>,
-    columns: BTreeMap<String, Vec<Vec<f64>>>,
-}
-
-#[derive(Debug, Default)]
-struct File {
-    entities: BTreeMap<String, Found>,
-    layouts: usize,
-    activations: usize,
-}
-
-/// Everything up to the first message that cannot be read.
-fn decode(bytes: &[u8]) -> File {
-    let mut file = File::default();
-    for message in DecoderApp::decode_lazy(std::io::Cursor::new(bytes.to_vec())) {
-        match message {
-            Ok(LogMsg::ArrowMsg(id, _)) if id.kind() == StoreKind::Blueprint => file.layouts += 1,
-            Ok(LogMsg::ArrowMsg(_, message)) => {
-                let chunk = Chunk::from_arrow_msg(&message).unwrap();
-                take(file.entities.entry(chunk.entity_path().to_string()).or_default(), &chunk);
-            }
-            Ok(LogMsg::BlueprintActivationCommand(_)) => file.activations += 1,
-            Ok(LogMsg::SetStoreInfo(_)) => {}
-            Err(_) => break,
-        }
-    }
-    file
-}
-
-fn take(found: &mut Found, chunk: &Chunk) {
-    found.rows += chunk.num_rows();
-    let clock = chunk.timelines().get(&rerun::TimelineName::from("t"));
-    found.times_ns.extend(clock.iter().flat_map(|column| column.times_raw()));
-    let columns: BTreeMap<_, _> = chunk.components().iter().collect();
-    for (name, column) in columns {
-        let rows = (0..column.list_array.len()).map(|row| column.list_array.value(row));
-        let numbers = rows.filter_map(|row| {
-            row.as_any().downcast_ref::<Float64Array>().map(|n| n.values().to_vec())
-        });
-        found.columns.entry(name.to_string()).or_default().extend(numbers);
-    }
-}
 
 fn wam() -> Loaded {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/wam7/robot.toml");
@@ -132,14 +85,15 @@ fn a_recording_holds_what_was_put_into_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
     let written = record(&path);
-    let bytes = std::fs::read(&path).unwrap();
     assert_eq!(written.rows, 1500);
-    assert_eq!(written.bytes, bytes.len() as u64);
+    assert_eq!(written.bytes, std::fs::metadata(&path).unwrap().len());
     assert_eq!(written.listener, Listener::NotAsked);
-    let file = decode(&bytes);
-    assert!(file.layouts > 50, "{}", file.layouts);
+    let file = Contents::read(&path).unwrap();
+    assert!(file.is_whole);
+    assert_eq!(file.time_s(), Some([0.0, 2.998]));
+    assert!(file.layout_messages > 50, "{}", file.layout_messages);
     // Once without the bars, once with them.
-    assert_eq!(file.activations, 2);
+    assert_eq!(file.layouts, 2);
 
     let joint = &file.entities["/joints/j3_shoulder_yaw"];
     let expected_ns: Vec<i64> = (0..1500).map(|i| i * 2_000_000).collect();
@@ -176,39 +130,22 @@ fn a_file_that_is_cut_reads_up_to_there() {
     let path = folder.path().join("run.rrd");
     record(&path);
     let bytes = std::fs::read(&path).unwrap();
-    let rows = |file: &File| file.entities.get("/joints/j1_base_yaw").map_or(0, |f| f.rows);
-    let counts: Vec<usize> =
-        (1..100).map(|percent| rows(&decode(&bytes[..bytes.len() * percent / 100]))).collect();
+    let whole = Contents::read(&path).unwrap();
+    let cut_to = |length: usize| {
+        std::fs::write(&path, &bytes[..length]).unwrap();
+        Contents::read(&path).unwrap()
+    };
+    // Without its last byte, the file holds all but was not ended.
+    assert_eq!(cut_to(bytes.len() - 1), Contents { is_whole: false, ..whole.clone() });
+    let parts: Vec<Contents> =
+        (20..100).map(|percent| cut_to(bytes.len() * percent / 100)).collect();
+    assert!(parts.iter().all(|part| !part.is_whole && part.rows() <= whole.rows()));
+    let rows = |file: &Contents| file.entities.get("/joints/j1_base_yaw").map_or(0, |f| f.rows);
+    let counts: Vec<usize> = parts.iter().map(rows).collect();
     assert!(counts.is_sorted(), "{counts:?}");
     assert!(counts.iter().any(|n| (1..1500).contains(n)), "{counts:?}");
     assert_eq!(counts.last(), Some(&1500));
-}
-
-#[test]
-fn a_summary_says_what_a_file_holds_and_whether_it_is_whole() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.rrd");
-    record(&path);
-    let whole = recording::summary(&path).unwrap();
-    assert!(whole.has_blueprint && whole.is_whole);
-    assert_eq!(whole.time_s, Some([0.0, 2.998]));
-    let bytes = std::fs::read(&path).unwrap();
-    let file = decode(&bytes);
-    let own: Vec<&String> = file.entities.keys().filter(|k| !k.starts_with("/__")).collect();
-    assert_eq!(whole.entities.iter().collect::<Vec<_>>(), own);
-    let rows: usize = own.iter().map(|entity| file.entities[*entity].rows).sum();
-    assert_eq!(whole.rows, rows as u64);
-
-    // Without its last byte, the file holds all but was not ended.
-    std::fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
-    let cut = recording::summary(&path).unwrap();
-    assert_eq!(cut, recording::Summary { is_whole: false, ..whole.clone() });
-    let ends = (20..100).map(|percent| {
-        std::fs::write(&path, &bytes[..bytes.len() * percent / 100]).unwrap();
-        let part = recording::summary(&path).unwrap();
-        assert!(!part.is_whole && part.rows <= whole.rows);
-        part.time_s.map_or(0.0, |[_, end]| end)
-    });
+    let ends = parts.iter().map(|part| part.time_s().map_or(0.0, |[_, end]| end));
     let ends: Vec<f64> = ends.collect();
     assert!(ends.is_sorted() && ends.iter().any(|end| (1.0..2.9).contains(end)), "{ends:?}");
 }
@@ -218,7 +155,7 @@ fn a_file_that_holds_no_recording_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");
     let refused = |path: &Path| {
-        let error = recording::summary(path).unwrap_err();
+        let error = Contents::read(path).unwrap_err();
         assert!(matches!(error, RecordingError::Unreadable { .. }), "{error}");
         error.to_string()
     };
@@ -235,9 +172,9 @@ fn two_recordings_of_the_same_run_hold_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let files = ["a.rrd", "b.rrd"].map(|name| {
         record(&folder.path().join(name));
-        decode(&std::fs::read(folder.path().join(name)).unwrap())
+        Contents::read(&folder.path().join(name)).unwrap()
     });
-    let text = |file: &File| format!("{:?}", file.entities);
+    let text = |file: &Contents| format!("{:?}", file.entities);
     assert_eq!(text(&files[0]), text(&files[1]));
 }
 
@@ -353,22 +290,21 @@ fn links_without_shapes_are_sticks_and_slides_are_moved_along_their_axis() {
     let q = [0.25, 0.0];
     recorder.rows(&Rows { time_s: &[0.0], arms: &[&q], signals: &[&[2e-3, 3e-3]] }).unwrap();
     recorder.finish().unwrap();
-    let bytes = std::fs::read(&path).unwrap();
-    let file = decode(&bytes);
+    let file = Contents::read(&path).unwrap();
     assert_eq!(file.entities["/joints/rail"].columns["error"], [[2.0]], "in mm");
     for entity in ["/cart/shapes/joint", "/cart/shapes/stick0", "/base/shapes/stick0"] {
         let found = file.entities.keys().any(|e| e.ends_with(entity));
         assert!(found, "{entity}: {:?}", file.entities.keys());
     }
-    let [cart] = translations(&bytes, "/world/arms/measured/cart")[..] else { panic!("one pose") };
+    let [cart] = translations(&path, "/world/arms/measured/cart")[..] else { panic!("one pose") };
     let expected = [0.25, 0.0, 2.0];
     assert!(cart.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{cart:?}");
 }
 
 /// The places of a link in its parent.
-fn translations(bytes: &[u8], entity: &str) -> Vec<[f32; 3]> {
+fn translations(path: &Path, entity: &str) -> Vec<[f32; 3]> {
     let mut found = vec![];
-    for message in DecoderApp::decode_lazy(std::io::Cursor::new(bytes.to_vec())) {
+    for message in DecoderApp::decode_lazy(BufReader::new(File::open(path).unwrap())) {
         let LogMsg::ArrowMsg(_, message) = message.unwrap() else { continue };
         let chunk = Chunk::from_arrow_msg(&message).unwrap();
         if chunk.entity_path().to_string() != entity {
@@ -392,11 +328,15 @@ fn with_listener(greet: fn(TcpStream) -> Option<TcpStream>) -> Option<(Written, 
     let start = Instant::now();
     let written = record_to(&path, Live::On);
     let took = start.elapsed();
-    assert!(recording::summary(&path).unwrap().is_whole);
+    let file = Contents::read(&path).unwrap();
+    assert!(file.is_whole);
     let quiet = folder.path().join("quiet.rrd");
     record(&quiet);
-    let text = |path| format!("{:?}", decode(&std::fs::read(path).unwrap()).entities);
-    assert!(text(path) == text(quiet), "the file holds what it holds without a viewer");
+    let text = |file: &Contents| format!("{:?}", file.entities);
+    assert!(
+        text(&file) == text(&Contents::read(&quiet).unwrap()),
+        "the file holds what it holds without a viewer"
+    );
     Some((written, took))
 }
 
