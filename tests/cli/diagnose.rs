@@ -4,7 +4,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::arm::{self, Gap};
-use crate::program::{Answer, run};
+use crate::program::{Answer, plumbline, run};
 
 const FILES: [&str; 5] =
     ["diagnosis.json", "extended.toml", "figure.svg", "report.html", "robot.urdf"];
@@ -12,6 +12,11 @@ const FILES: [&str; 5] =
 fn diagnose(folder: &Path, more: &[&str]) -> Answer {
     let base = ["diagnose", "--log", "run_0.csv", "run_1.csv", "--log", "run_2.csv"];
     run(folder, &[&base, more].concat())
+}
+
+/// The output folder, with its recording.
+fn all_files() -> Vec<&'static str> {
+    [&FILES[..3], &["recording.rrd"], &FILES[3..]].concat()
 }
 
 fn json(path: &Path) -> Value {
@@ -36,7 +41,8 @@ fn friction_is_named_written_down_and_gone_from_the_extended_robot() {
     assert!(answer.out.contains("figure         out/figure.svg"), "{}", answer.out);
     assert!(answer.out.trim_end().ends_with("extended model out/extended.toml (for --robot)"));
     assert!(!answer.out.contains('\u{1b}') && answer.err.is_empty(), "{answer:?}");
-    assert_eq!(names(&folder.path().join("out")), FILES);
+    assert!(answer.out.contains("\nrecording      out/recording.rrd (plumbline view out)\n"));
+    assert_eq!(names(&folder.path().join("out")), all_files());
 
     let value = json(&folder.path().join("out/diagnosis.json"));
     let finding = &value["findings"][0];
@@ -167,4 +173,33 @@ fn a_mesh_that_is_nowhere_is_no_error() {
     let answer = diagnose(folder.path(), &["--robot", "mesh.urdf", "--out", "out"]);
     assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
     assert!(answer.out.starts_with("Consistent: "), "{}", answer.out);
+}
+
+/// The recording of the diagnosis before is not left beside the report of another.
+#[test]
+fn a_diagnosis_without_its_recording_is_whole_but_for_that() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let arguments = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "--out", "out"];
+    let out = folder.path().join("out");
+    fs::create_dir(&out).unwrap();
+    let left_out = |path: &Path| fs::write(path.join("recording.rrd"), "an earlier one").unwrap();
+    left_out(&out);
+    let answer = run(folder.path(), &[&arguments[..], &["--no-recording"]].concat());
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{}", answer.out);
+    assert!(!answer.out.contains("recording"), "{}", answer.out);
+    assert_eq!(names(&out), FILES);
+
+    left_out(&out);
+    let mut off = plumbline();
+    let off = off.env("RERUN", "off").current_dir(folder.path()).args(arguments).output();
+    let off = Answer::from(off.unwrap());
+    assert_eq!(off.code, 0, "{}", off.err);
+    assert!(off.err.starts_with("warning: out/recording.rrd: nothing would be"), "{}", off.err);
+    assert_eq!(names(&out), FILES);
+
+    // A folder in its place cannot be written.
+    fs::create_dir(out.join("recording.rrd")).unwrap();
+    let answer = run(folder.path(), &arguments);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(answer.err.starts_with("warning: out/recording.rrd: "), "{}", answer.err);
 }

@@ -45,6 +45,7 @@ Logs have a column time (s) and the columns <joint>.position (rad or m) and <joi
 
 The output folder holds
   report.html     the whole answer for a browser
+  recording.rrd   the measured arm beside the simulated one, for rerun's viewer: plumbline view out
   figure.svg      the answer in one figure
   diagnosis.json  the whole answer for programs
   extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it";

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! TrackingScenario --simulate--> logs --diagnose, learn--> Learned --track--> TrackedRun, Sweep
+//! logs, diagnosis --replay--> a recording of the measured arm beside the simulated one
 //! ```
 //!
 //! The one place where the simulated arm and the models of it meet; what is learned is learned
@@ -13,6 +14,8 @@ mod learned;
 mod median_time;
 mod predictions;
 mod progress;
+mod record_diagnosis;
+mod replayed;
 mod stream;
 mod sweep;
 mod track;
@@ -25,6 +28,7 @@ pub use feedforward_kind::FeedforwardKind;
 pub use learned::Learned;
 pub use median_time::median_time_s;
 pub use progress::Progress;
+pub use record_diagnosis::{Diagnosed, record_diagnosis};
 pub use stream::Written;
 pub use sweep::{GainSweep, SweptModel, sweep};
 pub use track::{Outputs, TrackedRun, simulated_logs, track_all};

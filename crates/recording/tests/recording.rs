@@ -13,7 +13,7 @@ use recording::{
     Arm, Contents, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows, Scene,
     Signal, Written,
 };
-use rerun::external::re_log_encoding::{Decodable, DecoderApp};
+use rerun::external::re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
 use rerun::log::Chunk;
 use robot::{Loaded, Robot};

@@ -1,7 +1,7 @@
 //! What was found, for people and for programs: a page, a figure, a text for the terminal, JSON.
 //!
 //! ```text
-//! Report { diagnosis, traces, robot, provenance }      -> json(), html(), figure(), text()
+//! Report { diagnosis, traces, robot, provenance }      -> json(), html(), figure(), text(), markdown()
 //! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
@@ -23,6 +23,7 @@ mod json;
 mod learning;
 mod linear_axis;
 mod log_axis;
+mod markdown;
 mod numbers;
 mod places;
 mod poster;
@@ -45,6 +46,7 @@ pub use learning::{
     ComparedJoint, Comparison, Curve, DataSet, KernelRow, LEARNING_SCHEMA, Maker, ModelRow,
     PredictionTimes, TIMES_SCHEMA, TimePoint,
 };
+pub use markdown::markdown;
 pub use numbers::{interval, percent, significant, unit};
 pub use poster::figure;
 pub use provenance::{FileHash, Provenance};

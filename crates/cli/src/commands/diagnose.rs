@@ -1,6 +1,8 @@
 use std::path::{Path, PathBuf};
 
+use anstyle::AnsiColor;
 use diagnosis::{Diagnosis, Progress, Settings, Silent, Verdict};
+use evaluation::Diagnosed;
 use report::{Report, ReportError};
 use robot::{Loaded, Robot};
 
@@ -13,6 +15,9 @@ use crate::progress::Bar;
 /// Columns of a comment in `extended.toml`.
 const COMMENT_WIDTH: usize = 95;
 
+/// Name of the recording in the output folder.
+const RECORDING: &str = "recording.rrd";
+
 /// Arguments of `diagnose`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -22,7 +27,7 @@ pub struct Arguments {
     /// CSV or Parquet files, one run each, of the same robot
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
-    /// Folder for report.html, figure.svg, diagnosis.json and extended.toml
+    /// Folder for report.html, recording.rrd, figure.svg, diagnosis.json and extended.toml
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
@@ -36,6 +41,9 @@ pub struct Arguments {
     /// Seed of every random draw
     #[arg(long, default_value_t = Settings::default().seed)]
     seed: u64,
+    /// Leave recording.rrd out
+    #[arg(long)]
+    no_recording: bool,
     /// Print diagnosis.json instead of the text
     #[arg(long)]
     json: bool,
@@ -86,11 +94,41 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
             ("robot.urdf", &urdf),
         ],
     )?;
-    say(arguments, &report, &json)?;
+    let diagnosed = Diagnosed {
+        loaded: &loaded,
+        runs: &runs,
+        outcome: &outcome,
+        verdict: &report::markdown(&report),
+    };
+    let recording = record(arguments, &diagnosed);
+    say(arguments, &report, &json, recording.as_deref())?;
     Ok(match outcome.diagnosis.verdict {
         Verdict::Consistent | Verdict::Explained => Outcome::Good,
         Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => Outcome::Gap,
     })
+}
+
+/// Writes the recording and names it; one that cannot be written is a warning, as all the rest
+/// is there.
+fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Option<PathBuf> {
+    let path = arguments.out.join(RECORDING);
+    // One of an earlier diagnosis would show something else than the report beside it.
+    let _ = std::fs::remove_file(&path);
+    if arguments.no_recording {
+        return None;
+    }
+    let bar = Bar::new();
+    let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
+    let written = evaluation::record_diagnosis(&path, diagnosed, progress);
+    bar.finish();
+    match written {
+        Ok(written) => Some(written.path),
+        Err(error) => {
+            let yellow = AnsiColor::Yellow.on_default();
+            anstream::eprintln!("{yellow}warning:{yellow:#} {error}");
+            None
+        }
+    }
 }
 
 /// The extended robot as a `robot.toml`, its findings as comments on top.
@@ -118,10 +156,18 @@ fn read(path: &Path) -> Result<Vec<u8>, ReportError> {
 }
 
 /// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
-fn say(arguments: &Arguments, report: &Report, json: &str) -> Result<(), CliError> {
+fn say(
+    arguments: &Arguments,
+    report: &Report,
+    json: &str,
+    recording: Option<&Path>,
+) -> Result<(), CliError> {
     let out = &arguments.out;
+    let recording = recording.map_or_else(String::new, |path| {
+        format!("recording      {} (plumbline view {})\n", shown(path), shown(out))
+    });
     let closing = format!(
-        "report         {} (open it in a browser)\nfigure         {}\nextended model {} (for --robot)\n",
+        "report         {} (open it in a browser)\n{recording}figure         {}\nextended model {} (for --robot)\n",
         shown(&out.join("report.html")),
         shown(&out.join("figure.svg")),
         shown(&out.join("extended.toml"))

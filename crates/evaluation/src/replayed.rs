@@ -1,0 +1,125 @@
+use diagnosis::Progress;
+use logs::{PreparedJoint, PreparedRun};
+use robot::Robot;
+use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
+
+/// Times for which the models are rolled forward from a measured state (s), the longest first.
+const WINDOWS_S: [f64; 4] = [1.0, 0.5, 0.2, 0.1];
+
+/// Drift of the middle joint of the nominal model at the end of a window (rad or m) above which
+/// a shorter one is taken: a simulation that spins shows no error any more.
+const LARGEST_DRIFT: f64 = 0.5;
+
+/// Longest step of the engine (s): ten times that of `plumbline replay`.
+pub(crate) const STEP_S: f64 = 1e-3;
+
+/// Time of all runs together that is simulated (s).
+const TOTAL_S: f64 = 120.0;
+
+/// What both models make of the measured torques.
+pub(crate) struct Replayed {
+    /// Time after which a simulation starts anew from the measured state (s).
+    pub window_s: f64,
+    /// Time from its start that is simulated of each run (s).
+    pub simulated_s: f64,
+    /// The nominal model, one entry a run.
+    pub nominal: Vec<Simulated>,
+    /// The extended model, one entry a run.
+    pub extended: Vec<Simulated>,
+}
+
+/// One run of one model.
+pub(crate) struct Simulated {
+    /// Row-major positions of all joints at all samples of the record (rad or m), NaN where
+    /// there is no simulation.
+    pub q: Vec<f64>,
+    /// What kept it from being simulated, whole or in parts.
+    pub trouble: Option<String>,
+}
+
+impl Replayed {
+    /// Rolls both models forward under the measured torques.
+    pub fn of(robots: [&Robot; 2], records: &[PreparedRun], progress: &dyn Progress) -> Self {
+        let simulated_s = TOTAL_S / records.len().max(1) as f64;
+        let parts: Vec<PreparedRun> = records.iter().map(|r| first(r, simulated_s)).collect();
+        let roll = |robot: &Robot, window_s: f64, model: &str| -> Vec<_> {
+            let stage = format!("simulating {window_s} s of the {model} model");
+            progress.stage(&stage, parts.len());
+            let windows = Windows { window_s, longest_step_s: STEP_S };
+            let one = |part| {
+                let replay = replay_torque(robot, part, windows);
+                progress.step();
+                replay
+            };
+            parts.iter().map(one).collect()
+        };
+        let [longest_s, shorter @ ..] = WINDOWS_S;
+        let (mut window_s, mut nominal) = (longest_s, roll(robots[0], longest_s, "nominal"));
+        for shorter_s in shorter {
+            if middle_drift(&nominal).is_none_or(|drift| drift <= LARGEST_DRIFT) {
+                break;
+            }
+            (window_s, nominal) = (shorter_s, roll(robots[0], shorter_s, "nominal"));
+        }
+        let extended = roll(robots[1], window_s, "extended");
+        let simulated = |replays: Vec<_>| -> Vec<Simulated> {
+            records.iter().zip(replays).map(|(r, replay)| Simulated::new(r, replay)).collect()
+        };
+        let (nominal, extended) = (simulated(nominal), simulated(extended));
+        Self { window_s, simulated_s, nominal, extended }
+    }
+}
+
+impl Simulated {
+    fn new(record: &PreparedRun, replay: Result<ForwardReplay, SimulatorError>) -> Self {
+        let joints = record.joints.len();
+        let mut q = vec![f64::NAN; record.time.len() * joints];
+        let replay = match replay {
+            Ok(replay) => replay,
+            Err(error) => return Self { q, trouble: Some(error.to_string()) },
+        };
+        let start_s = record.time.first().copied().unwrap_or(0.0);
+        for (row, time_s) in replay.motion.time.iter().enumerate() {
+            let sample = ((time_s - start_s) * record.rate_hz).round() as usize;
+            for (j, joint) in replay.motion.joints.iter().enumerate() {
+                q[sample * joints + j] = joint.position[row];
+            }
+        }
+        let (found, windows) = (replay.runaways.len(), replay.windows);
+        let first = replay.runaways.first();
+        let trouble =
+            first.map(|fault| format!("{found} of {windows} windows ended early: {fault}"));
+        Self { q, trouble }
+    }
+}
+
+/// Median over joints and runs of the drift at the ends of windows (rad or m); none where
+/// nothing was simulated.
+fn middle_drift(replays: &[Result<ForwardReplay, SimulatorError>]) -> Option<f64> {
+    let of_run = |replay: &ForwardReplay| {
+        let joints = replay.motion.joints.len();
+        replay.drift_rms.clone().unwrap_or_else(|| vec![f64::INFINITY; joints])
+    };
+    let mut drifts: Vec<f64> = replays.iter().flatten().flat_map(of_run).collect();
+    drifts.sort_by(f64::total_cmp);
+    drifts.get(drifts.len() / 2).copied()
+}
+
+/// A record up to some time after its start (s).
+fn first(record: &PreparedRun, duration_s: f64) -> PreparedRun {
+    let kept = (duration_s * record.rate_hz) as usize + 1;
+    let cut = |x: &[f64]| x[..kept.min(x.len())].to_vec();
+    let joint = |j: &PreparedJoint| PreparedJoint {
+        q: cut(&j.q),
+        qd: cut(&j.qd),
+        qdd: cut(&j.qdd),
+        qd_wide: cut(&j.qd_wide),
+        effort: cut(&j.effort),
+    };
+    PreparedRun {
+        name: record.name.clone(),
+        rate_hz: record.rate_hz,
+        time: cut(&record.time),
+        joints: record.joints.iter().map(joint).collect(),
+    }
+}

@@ -1,0 +1,4 @@
+//! Scenarios put to work: what is written of them, read back.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
+
+mod recorded_diagnosis;
