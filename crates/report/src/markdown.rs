@@ -38,7 +38,7 @@ mod tests {
         let sample = sample::arm();
         let text = markdown(&sample.report());
         assert!(text.starts_with("**Partly explained: 2 named effects found"), "{text}");
-        assert!(text.contains("\n- **Coulomb friction at shoulder**: "), "{text}");
+        assert!(text.contains("\n- **FR02 Coulomb friction at shoulder**: "), "{text}");
         let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| ")).collect();
         assert_eq!(rows.len(), 3, "{text}");
         assert!(rows[2].starts_with("| elbow | ") && rows[2].ends_with("| partly explained |"));
