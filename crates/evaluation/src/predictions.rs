@@ -5,7 +5,7 @@ use tracking::Signal;
 use crate::{FeedforwardKind, Learned, TrackedRun, TrackingScenario};
 
 /// Time between two predictions (s).
-const PERIOD_S: f64 = 0.02;
+const PERIOD_S: f64 = 0.04;
 
 /// What the other models of a scenario expect along the motion of a run, after it.
 #[derive(Debug, Clone, PartialEq)]

@@ -28,6 +28,8 @@ pub(crate) struct ArmTrack {
     /// Per waiting row, the poses of all links; none where the arm is not shown.
     poses: Vec<Option<Vec<Isometry3<f64>>>>,
     is_shown: bool,
+    /// Whether it was hidden at any time; before, no row says how large it is.
+    was_hidden: bool,
     /// The tip since the last piece of the path, its end first.
     piece: Vec<[f32; 3]>,
 }
@@ -68,7 +70,15 @@ impl ArmTrack {
             let ball = (BALL * skeleton.reach_m, Paint::solid(colour::rgb(arm.role)));
             shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, ball)?;
         }
-        Ok(Self { links, path, time_s: vec![], poses: vec![], is_shown: true, piece: vec![] })
+        Ok(Self {
+            links,
+            path,
+            time_s: vec![],
+            poses: vec![],
+            is_shown: true,
+            was_hidden: false,
+            piece: vec![],
+        })
     }
 
     /// Takes the pose at `q`; where it is not known the arm is not shown and its path is
@@ -82,6 +92,7 @@ impl ArmTrack {
         if !q.iter().all(|q| q.is_finite()) {
             self.flush_path(stream)?;
             self.piece.clear();
+            self.was_hidden = true;
             if std::mem::replace(&mut self.is_shown, false) {
                 self.time_s.push(time_s);
                 self.poses.push(None);
@@ -105,14 +116,16 @@ impl ArmTrack {
             let of_link = || self.poses.iter().map(move |row| row.as_ref().map(|poses| &poses[i]));
             let pose = |p: Option<&Isometry3<f64>>| p.copied().unwrap_or_default();
             // All parts in every row: the viewer does not join a static one with a moving one.
-            let columns = Transform3D::update_fields()
-                .with_many_translation(
-                    of_link().map(|p| shapes::point(&pose(p).translation.vector)),
-                )
-                .with_many_quaternion(of_link().map(|p| shapes::quaternion(&pose(p).rotation)))
-                .with_many_scale(of_link().map(|p| [if p.is_some() { 1.0 } else { UNSEEN }; 3]))
-                .columns_of_unit_batches()?;
+            let place = |p| shapes::point(&pose(p).translation.vector);
+            let mut rows = Transform3D::update_fields()
+                .with_many_translation(of_link().map(place))
+                .with_many_quaternion(of_link().map(|p| shapes::quaternion(&pose(p).rotation)));
+            if self.was_hidden {
+                let scale = |p: Option<_>| [if p.is_some() { 1.0 } else { UNSEEN }; 3];
+                rows = rows.with_many_scale(of_link().map(scale));
+            }
             if !self.time_s.is_empty() {
+                let columns = rows.columns_of_unit_batches()?;
                 stream.send_columns(link.clone(), [time_column(&self.time_s)], columns)?;
             }
         }

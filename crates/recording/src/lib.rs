@@ -8,7 +8,7 @@
 //! Contents <--- Contents::read     what a file holds, also one that was cut
 //! ```
 //!
-//! The file is the truth: a run that is killed leaves what it had recorded up to about a second
+//! The file is the truth: a run that is killed leaves what it had recorded up to two seconds
 //! before. A viewer that listens may be shown the same while it is written ([`Live::On`]); it
 //! can be slow or go away without harm to the file.
 //!

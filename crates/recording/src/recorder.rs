@@ -25,7 +25,7 @@ pub(crate) const DOCUMENT: &str = "verdict";
 pub(crate) const EVENTS: &str = "events";
 
 /// Rows wait up to this long, in their own time (s): every write costs some kilobytes.
-const WAIT_S: f64 = 1.0;
+const WAIT_S: f64 = 1.9;
 /// Poses in the picture (s); signals are written at full rate.
 const POSE_PERIOD_S: f64 = 0.02;
 /// Latest time that is shown (s): the file counts nanoseconds.
@@ -62,8 +62,8 @@ pub struct Written {
 
 /// A recording that is being written.
 ///
-/// Dropped before [`Recorder::finish`], it writes what it holds of whole seconds and ends the
-/// file properly, but nobody is told of errors.
+/// Dropped before [`Recorder::finish`], it ends the file properly without the rows that wait, and
+/// nobody is told of errors.
 pub struct Recorder {
     stream: RecordingStream,
     path: PathBuf,
@@ -115,7 +115,7 @@ impl Recorder {
         })
     }
 
-    /// Takes a block of rows; they are written when they make up a second.
+    /// Takes a block of rows; they are written when they make up two seconds.
     ///
     /// It never waits for the disk or for a viewer: what they refuse, [`Recorder::finish`] tells.
     ///

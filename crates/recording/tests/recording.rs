@@ -136,7 +136,9 @@ fn a_file_that_is_cut_reads_up_to_there() {
         Contents::read(&path).unwrap()
     };
     // Without its last byte, the file holds all but was not ended.
-    assert_eq!(cut_to(bytes.len() - 1), Contents { is_whole: false, ..whole.clone() });
+    let almost = cut_to(bytes.len() - 1);
+    assert!(!almost.is_whole && whole.is_whole);
+    assert_eq!(format!("{:?}", almost.entities), format!("{:?}", whole.entities));
     let parts: Vec<Contents> =
         (20..100).map(|percent| cut_to(bytes.len() * percent / 100)).collect();
     assert!(parts.iter().all(|part| !part.is_whole && part.rows() <= whole.rows()));
