@@ -1,4 +1,4 @@
-use robot::{Gain, Loaded, SensingSide, TorqueSource};
+use robot::{Gain, Loaded, Ripple, SensingSide, Stribeck, TorqueSource, Wave};
 
 use super::{arm_with, load};
 
@@ -25,7 +25,12 @@ spring_stiffness_nm_per_rad = 0.4\nspring_rest_rad = 0.5\ntorque_gain = 0.6
 torque_offset_nm = 0.7\nbacklash_rad = 0.01\nelasticity_nm_per_rad = 2000\nactuator_delay_ms = 4
 torque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
 [joint.elbow]
-coulomb_forward_nm = 1\ncoulomb_backward_nm = 2\nsensing = \"link\"\ntorque_source = \"measured\"
+coulomb_forward_nm = 1\ncoulomb_backward_nm = 2
+stribeck_excess_nm = 0.3\nstribeck_velocity_rad_per_s = 0.04\nload_friction = 0.05
+presliding_rad = 0.001\nactuator_lag_ms = 3\nencoder_offset_rad = -0.02
+transmission_ratio = 1.01
+friction_wave = { share = 0.2, periods_per_turn = 7, phase_rad = 0.5 }
+torque_ripple = { amplitude_nm = 0.06, periods_per_turn = 120 }\nsensing = \"link\"\ntorque_source = \"measured\"
 [gains.soft]
 kp_nm_per_rad = [1, 2]\nkd_nm_s_per_rad = [3, 4]
 [link.lower]
@@ -46,6 +51,14 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((b.coulomb_forward, b.coulomb_backward), (1.0, 2.0));
     assert_eq!((b.backlash, b.elasticity, b.delay_s), (0.0, None, 0.0));
     assert_eq!((b.sensing, b.torque_source), (SensingSide::Link, TorqueSource::Measured));
+    assert_eq!(b.stribeck, Some(Stribeck { excess: 0.3, velocity: 0.04 }));
+    assert_eq!((b.load_friction, b.presliding, b.lag_s), (0.05, Some(0.001), 0.003));
+    assert_eq!((b.encoder_offset, b.transmission_ratio), (-0.02, 1.01));
+    assert_eq!(b.friction_wave, Some(Wave { share: 0.2, periods: 7.0, phase: 0.5 }));
+    assert_eq!(b.ripple, Some(Ripple { amplitude: 0.06, periods: 120.0, phase: 0.0 }));
+    assert_eq!((a.load_friction, a.lag_s, a.encoder_offset), (0.0, 0.0, 0.0));
+    assert_eq!((a.stribeck, a.friction_wave, a.ripple), (None, None, None));
+    assert_eq!((a.presliding, a.transmission_ratio), (None, 1.0));
     assert_eq!(
         (lower.inertia.mass, lower.inertia.com_in_link.as_slice()),
         (5.0, &[0.1, 0.2, 0.3][..])
@@ -94,7 +107,10 @@ fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
          `rotor_inertia_kg_m2`, `viscous_nm_s_per_rad`, `coulomb_nm`, `coulomb_forward_nm`, \
          `coulomb_backward_nm`, `spring_stiffness_nm_per_rad`, `spring_rest_rad`, `torque_gain`, \
          `torque_offset_nm`, `backlash_rad`, `elasticity_nm_per_rad`, `actuator_delay_ms`, \
-         `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`"
+         `stribeck_excess_nm`, `stribeck_velocity_rad_per_s`, `load_friction`, `presliding_rad`, \
+         `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `torque_limit_nm`, \
+         `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`, `friction_wave`, \
+         `torque_ripple`"
     );
     assert_eq!(
         refused("[joint.elbow]\ntorque_gain = \"one\""),
@@ -159,6 +175,62 @@ fn numbers_out_of_range_are_refused() {
 }
 
 #[test]
+fn numbers_of_friction_ripple_and_sensors_out_of_range_are_refused() {
+    for (toml, message) in [
+        (
+            "[joint.elbow]\nstribeck_excess_nm = -0.1\nstribeck_velocity_rad_per_s = 0.1",
+            "joint elbow: stribeck_excess_nm is -0.1, a finite number not below 0",
+        ),
+        (
+            "[joint.elbow]\nstribeck_excess_nm = 0.1\nstribeck_velocity_rad_per_s = 0",
+            "joint elbow: stribeck_velocity_rad_per_s is 0, a finite number above 0",
+        ),
+        (
+            "[joint.elbow]\nload_friction = -0.1",
+            "joint elbow: load_friction is -0.1, a finite number not below 0",
+        ),
+        (
+            "[joint.elbow]\npresliding_rad = 0",
+            "joint elbow: presliding_rad is 0, a finite number above 0",
+        ),
+        (
+            "[joint.elbow]\nactuator_lag_ms = -1",
+            "joint elbow: actuator_lag_ms is -1, a finite number not below 0",
+        ),
+        (
+            "[joint.elbow]\nencoder_offset_rad = nan",
+            "joint elbow: encoder_offset_rad is NaN, a finite number",
+        ),
+        (
+            "[joint.elbow]\ntransmission_ratio = 0",
+            "joint elbow: transmission_ratio is 0, a finite number above 0",
+        ),
+        (
+            "[joint.elbow]\nfriction_wave = { share = 1.5, periods_per_turn = 1 }",
+            "joint elbow: friction_wave.share is 1.5, a number from 0 to 1",
+        ),
+        (
+            "[joint.elbow]\nfriction_wave = { share = nan, periods_per_turn = 1 }",
+            "joint elbow: friction_wave.share is NaN, a number from 0 to 1",
+        ),
+        (
+            "[joint.elbow]\nfriction_wave = { share = 0.5, periods_per_turn = -1 }",
+            "joint elbow: friction_wave.periods_per_turn is -1, a finite number not below 0",
+        ),
+        (
+            "[joint.elbow]\ntorque_ripple = { amplitude_nm = -1, periods_per_turn = 1 }",
+            "joint elbow: torque_ripple.amplitude_nm is -1, a finite number not below 0",
+        ),
+        (
+            "[joint.elbow]\ntorque_ripple = { amplitude_nm = 1, periods_per_turn = inf }",
+            "joint elbow: torque_ripple.periods_per_turn is inf, a finite number not below 0",
+        ),
+    ] {
+        assert_eq!(refused(toml), format!("robot.toml: {message} was expected"));
+    }
+}
+
+#[test]
 fn keys_that_disagree_are_refused() {
     assert_eq!(
         refused("[joint.elbow]\ncoulomb_nm = 1\ncoulomb_forward_nm = 2"),
@@ -168,6 +240,16 @@ fn keys_that_disagree_are_refused() {
     assert_eq!(
         refused("[joint.elbow]\nkp_nm_per_rad = 1"),
         "robot.toml: joint elbow: kp_nm_per_rad is there alone, kd_nm_s_per_rad as well was expected"
+    );
+    assert_eq!(
+        refused("[joint.elbow]\nstribeck_excess_nm = 1"),
+        "robot.toml: joint elbow: stribeck_excess_nm is there alone, \
+         stribeck_velocity_rad_per_s as well was expected"
+    );
+    assert_eq!(
+        refused("[joint.elbow]\nstribeck_velocity_rad_per_s = 1"),
+        "robot.toml: joint elbow: stribeck_velocity_rad_per_s is there alone, \
+         stribeck_excess_nm as well was expected"
     );
     assert_eq!(
         refused("[gains.soft]\nkp_nm_per_rad = [1]\nkd_nm_s_per_rad = [1, 2]"),

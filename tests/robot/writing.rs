@@ -1,6 +1,8 @@
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
-use robot::{Inertia, Loaded, Robot, RobotError, SensingSide, TorqueSource};
+use robot::{
+    Inertia, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck, TorqueSource, Wave,
+};
 
 use super::{in_workspace, wam};
 
@@ -84,6 +86,9 @@ proptest! {
         gravity in prop::array::uniform3(number()),
         sides in (0usize..3, 0usize..4),
         transmission in (0.0..0.5f64, prop::option::of(1e-3..1e9f64), 0.0..1000.0f64),
+        dry in prop::option::of((0.0..10.0f64, 1e-9..10.0f64, 0.0..2.0f64, 1e-9..0.1f64)),
+        waves in prop::option::of((0.0..=1.0f64, 0.0..1e4f64, number(), 0.0..5.0f64)),
+        sensor in (0.0..1000.0f64, number(), 1e-3..1e3f64),
     ) {
         let original = wam();
         let mut robot = original.robot.clone().with_gravity(Vector3::from(gravity));
@@ -94,6 +99,13 @@ proptest! {
         a.backlash = transmission.0;
         a.elasticity = transmission.1;
         a.delay_s = 1e-3 * transmission.2;
+        a.stribeck = dry.map(|(excess, velocity, ..)| Stribeck { excess, velocity });
+        a.load_friction = dry.map_or(0.0, |(_, _, load, _)| load);
+        a.presliding = dry.map(|(.., way)| way);
+        a.friction_wave = waves.map(|(share, periods, phase, _)| Wave { share, periods, phase });
+        a.ripple = waves.map(|(_, periods, phase, amplitude)| Ripple { amplitude, periods, phase });
+        a.lag_s = 1e-3 * sensor.0;
+        (a.encoder_offset, a.transmission_ratio) = (sensor.1, sensor.2);
         a.sensing = [SensingSide::Motor, SensingSide::Link, SensingSide::Unknown][sides.0];
         a.torque_source = [TorqueSource::Measured, TorqueSource::Commanded, TorqueSource::Current, TorqueSource::Unknown][sides.1];
         link.joint.limits.effort = Some(positive[2]);

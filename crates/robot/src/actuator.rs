@@ -28,23 +28,78 @@ pub enum TorqueSource {
     Unknown,
 }
 
+/// Dry friction near rest beyond the Coulomb level.
+///
+/// ```text
+/// excess exp(-(qd / velocity)²)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stribeck {
+    /// Breakaway minus Coulomb level, not below 0 (N·m or N).
+    pub excess: f64,
+    /// Velocity at which 1/e of the excess is left (rad/s or m/s).
+    pub velocity: f64,
+}
+
+/// How the Coulomb level varies with the position of the motor.
+///
+/// ```text
+/// 1 + share cos(periods q + phase)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wave {
+    /// Amplitude over the mean, from 0 to 1.
+    pub share: f64,
+    /// Periods in a turn of the joint; phase per way at a prismatic one (rad/m).
+    pub periods: f64,
+    /// Phase at position zero (rad).
+    pub phase: f64,
+}
+
+/// Cogging and ripple: torque that the position of the motor alone decides.
+///
+/// ```text
+/// amplitude sin(periods q + phase)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ripple {
+    /// Amplitude (N·m or N).
+    pub amplitude: f64,
+    /// Periods in a turn of the joint; phase per way at a prismatic one (rad/m).
+    pub periods: f64,
+    /// Phase at position zero (rad).
+    pub phase: f64,
+}
+
 /// What the drive of one joint adds to the rigid-body torque, and how it is measured.
 ///
 /// The effort that the model expects in a log is, with `tau_rb` the rigid-body torque,
 ///
 /// ```text
-/// effort = torque_gain (tau_rb + rotor_inertia qdd
-///                       + viscous qd + coulomb(qd)
-///                       + spring_stiffness (q - spring_rest)) + torque_offset
-/// coulomb(qd) = coulomb_forward   for qd > 0
-///             = -coulomb_backward for qd < 0, 0 at rest
+/// load   = tau_rb + spring_stiffness (q - spring_rest)
+/// tau    = load + rotor_inertia qdd + viscous qd + level s + ripple(q)
+/// effort = transmission_ratio torque_gain tau + torque_offset
+///
+/// level  = coulomb (1 + friction_wave(q)) + stribeck(qd) + load_friction |load|
+/// coulomb = coulomb_forward for s > 0, coulomb_backward for s < 0
+/// s       = sign(qd), 0 at rest; with presliding ds = (dq - |dq| s) / presliding
 /// ```
+///
+/// `friction_wave(q) = share cos(periods q + phase)`: [`Wave`], [`Stribeck`] and [`Ripple`] hold
+/// the rest. All but `tau_rb` and the spring acts at the motor.
 ///
 /// Between motor and link may lie a transmission that gives way, and between command and
 /// torque some time. With `theta` the motor's position seen at the joint,
 ///
 /// ```text
-/// |theta - q| <= backlash / 2 + |tau_link| / elasticity,   tau(t) = command(t - delay)
+/// |theta - q| <= backlash / 2 + |load| / elasticity
+/// lag d(tau)/dt + tau = command(t - delay)
+/// ```
+///
+/// A sensor may be mounted or told wrongly. With `q` the true position,
+///
+/// ```text
+/// q_reported = q / transmission_ratio + encoder_offset,   qd_reported = qd / transmission_ratio
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Actuator {
@@ -56,6 +111,17 @@ pub struct Actuator {
     pub coulomb_forward: f64,
     /// Coulomb friction against negative motion (N·m or N).
     pub coulomb_backward: f64,
+    /// Dry friction near rest beyond the Coulomb level; `None` without.
+    pub stribeck: Option<Stribeck>,
+    /// Dry friction per unit of load that the joint carries, not below 0.
+    pub load_friction: f64,
+    /// Way over which dry friction builds up after a reversal (rad or m); `None` where it is
+    /// there at once.
+    pub presliding: Option<f64>,
+    /// Variation of the Coulomb level with position; `None` without.
+    pub friction_wave: Option<Wave>,
+    /// Torque ripple of the motor; `None` without.
+    pub ripple: Option<Ripple>,
     /// Stiffness of a hose or cable along the joint (N·m/rad or N/m).
     pub spring_stiffness: f64,
     /// Position at which that spring is slack (rad or m).
@@ -70,6 +136,12 @@ pub struct Actuator {
     pub elasticity: Option<f64>,
     /// Time from command to torque (s).
     pub delay_s: f64,
+    /// Time in which the torque covers 63 % of a step of its command (s).
+    pub lag_s: f64,
+    /// Position reported at true position zero (rad or m).
+    pub encoder_offset: f64,
+    /// True over reported position, and reported effort over true torque on top of the gain.
+    pub transmission_ratio: f64,
     /// Where the position is measured.
     pub sensing: SensingSide,
     /// What the log's effort is.
@@ -84,6 +156,11 @@ impl Default for Actuator {
             viscous: 0.0,
             coulomb_forward: 0.0,
             coulomb_backward: 0.0,
+            stribeck: None,
+            load_friction: 0.0,
+            presliding: None,
+            friction_wave: None,
+            ripple: None,
             spring_stiffness: 0.0,
             spring_rest: 0.0,
             torque_gain: 1.0,
@@ -91,6 +168,9 @@ impl Default for Actuator {
             backlash: 0.0,
             elasticity: None,
             delay_s: 0.0,
+            lag_s: 0.0,
+            encoder_offset: 0.0,
+            transmission_ratio: 1.0,
             sensing: SensingSide::default(),
             torque_source: TorqueSource::default(),
         }

@@ -4,7 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Actuator, Gain, Inertia, Loaded, Robot, RobotError, RobotWarning, SensingSide, TorqueSource,
+    Actuator, Gain, Inertia, Loaded, Ripple, Robot, RobotError, RobotWarning, SensingSide,
+    Stribeck, TorqueSource, Wave,
 };
 
 /// The keys of `robot.toml`: what a URDF cannot say.
@@ -70,6 +71,27 @@ pub(crate) struct JointEntry {
     /// Time from command to torque.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub actuator_delay_ms: Option<f64>,
+    /// Breakaway minus Coulomb friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stribeck_excess_nm: Option<f64>,
+    /// Velocity at which 1/e of that is left.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stribeck_velocity_rad_per_s: Option<f64>,
+    /// Dry friction per unit of torque carried.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_friction: Option<f64>,
+    /// Way over which dry friction builds up; a joint without it has it at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub presliding_rad: Option<f64>,
+    /// Time constant of the torque behind its command.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub actuator_lag_ms: Option<f64>,
+    /// Position reported at true position zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub encoder_offset_rad: Option<f64>,
+    /// True over reported position.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transmission_ratio: Option<f64>,
     /// Largest torque; `inf` where the URDF's limit does not hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limit_nm: Option<f64>,
@@ -81,6 +103,30 @@ pub(crate) struct JointEntry {
     pub kp_nm_per_rad: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kd_nm_s_per_rad: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_wave: Option<WaveEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torque_ripple: Option<RippleEntry>,
+}
+
+/// `friction_wave`: how the Coulomb level varies with position.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WaveEntry {
+    pub share: f64,
+    pub periods_per_turn: f64,
+    #[serde(default)]
+    pub phase_rad: f64,
+}
+
+/// `torque_ripple`: torque that the position of the motor decides.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RippleEntry {
+    pub amplitude_nm: f64,
+    pub periods_per_turn: f64,
+    #[serde(default)]
+    pub phase_rad: f64,
 }
 
 /// `[gains.<name>]`, one entry per joint, in the order of the robot.
@@ -221,36 +267,103 @@ impl JointEntry {
             ("torque_gain", self.torque_gain, Positive, &mut a.torque_gain),
             ("torque_offset_nm", self.torque_offset_nm, Finite, &mut a.torque_offset),
             ("backlash_rad", self.backlash_rad, NotNegative, &mut a.backlash),
+            ("load_friction", self.load_friction, NotNegative, &mut a.load_friction),
+            ("encoder_offset_rad", self.encoder_offset_rad, Finite, &mut a.encoder_offset),
+            ("transmission_ratio", self.transmission_ratio, Positive, &mut a.transmission_ratio),
         ] {
             if let Some(value) = value {
                 in_range(thing, key, value, range)?;
                 *field = value;
             }
         }
-        if let Some(stiffness) = self.elasticity_nm_per_rad {
-            in_range(thing, "elasticity_nm_per_rad", stiffness, Positive)?;
-            a.elasticity = Some(stiffness);
+        for (key, value, field) in [
+            ("elasticity_nm_per_rad", self.elasticity_nm_per_rad, &mut a.elasticity),
+            ("presliding_rad", self.presliding_rad, &mut a.presliding),
+        ] {
+            if let Some(value) = value {
+                in_range(thing, key, value, Positive)?;
+                *field = Some(value);
+            }
         }
-        if let Some(delay_ms) = self.actuator_delay_ms {
-            in_range(thing, "actuator_delay_ms", delay_ms, NotNegative)?;
-            a.delay_s = 1e-3 * delay_ms;
+        for (key, value_ms, field) in [
+            ("actuator_delay_ms", self.actuator_delay_ms, &mut a.delay_s),
+            ("actuator_lag_ms", self.actuator_lag_ms, &mut a.lag_s),
+        ] {
+            if let Some(value_ms) = value_ms {
+                in_range(thing, key, value_ms, NotNegative)?;
+                *field = 1e-3 * value_ms;
+            }
         }
+        a.stribeck = self.stribeck(thing)?.or(a.stribeck);
+        a.friction_wave = self.wave(thing)?.or(a.friction_wave);
+        a.ripple = self.ripple(thing)?.or(a.ripple);
         a.sensing = self.sensing.unwrap_or(a.sensing);
         a.torque_source = self.torque_source.unwrap_or(a.torque_source);
         Ok(())
     }
 
-    fn gain(&self, thing: &str) -> Result<Option<Gain>, RobotError> {
-        let lonely = |found, expected| {
-            Err(RobotError::KeysDisagree { thing: thing.to_owned(), found, expected })
+    fn stribeck(&self, thing: &str) -> Result<Option<Stribeck>, RobotError> {
+        let (excess, velocity) = match (self.stribeck_excess_nm, self.stribeck_velocity_rad_per_s) {
+            (None, None) => return Ok(None),
+            (Some(excess), Some(velocity)) => (excess, velocity),
+            (Some(_), None) => {
+                return lonely(
+                    thing,
+                    "stribeck_excess_nm is there alone",
+                    "stribeck_velocity_rad_per_s as well",
+                );
+            }
+            (None, Some(_)) => {
+                return lonely(
+                    thing,
+                    "stribeck_velocity_rad_per_s is there alone",
+                    "stribeck_excess_nm as well",
+                );
+            }
         };
+        in_range(thing, "stribeck_excess_nm", excess, Range::NotNegative)?;
+        in_range(thing, "stribeck_velocity_rad_per_s", velocity, Range::Positive)?;
+        Ok(Some(Stribeck { excess, velocity }))
+    }
+
+    fn wave(&self, thing: &str) -> Result<Option<Wave>, RobotError> {
+        let Some(WaveEntry { share, periods_per_turn, phase_rad }) = self.friction_wave else {
+            return Ok(None);
+        };
+        in_range(thing, "friction_wave.share", share, Range::Share)?;
+        in_range(thing, "friction_wave.periods_per_turn", periods_per_turn, Range::NotNegative)?;
+        in_range(thing, "friction_wave.phase_rad", phase_rad, Range::Finite)?;
+        Ok(Some(Wave { share, periods: periods_per_turn, phase: phase_rad }))
+    }
+
+    fn ripple(&self, thing: &str) -> Result<Option<Ripple>, RobotError> {
+        let Some(RippleEntry { amplitude_nm, periods_per_turn, phase_rad }) = self.torque_ripple
+        else {
+            return Ok(None);
+        };
+        in_range(thing, "torque_ripple.amplitude_nm", amplitude_nm, Range::NotNegative)?;
+        in_range(thing, "torque_ripple.periods_per_turn", periods_per_turn, Range::NotNegative)?;
+        in_range(thing, "torque_ripple.phase_rad", phase_rad, Range::Finite)?;
+        Ok(Some(Ripple { amplitude: amplitude_nm, periods: periods_per_turn, phase: phase_rad }))
+    }
+
+    fn gain(&self, thing: &str) -> Result<Option<Gain>, RobotError> {
         match (self.kp_nm_per_rad, self.kd_nm_s_per_rad) {
             (None, None) => Ok(None),
             (Some(kp), Some(kd)) => gain(thing, kp, kd).map(Some),
-            (Some(_), None) => lonely("kp_nm_per_rad is there alone", "kd_nm_s_per_rad as well"),
-            (None, Some(_)) => lonely("kd_nm_s_per_rad is there alone", "kp_nm_per_rad as well"),
+            (Some(_), None) => {
+                lonely(thing, "kp_nm_per_rad is there alone", "kd_nm_s_per_rad as well")
+            }
+            (None, Some(_)) => {
+                lonely(thing, "kd_nm_s_per_rad is there alone", "kp_nm_per_rad as well")
+            }
         }
     }
+}
+
+/// Refuses a key without the one that it needs.
+fn lonely<T>(thing: &str, found: &'static str, expected: &'static str) -> Result<T, RobotError> {
+    Err(RobotError::KeysDisagree { thing: thing.to_owned(), found, expected })
 }
 
 impl GainEntry {
@@ -342,6 +455,7 @@ enum Range {
     Finite,
     NotNegative,
     Positive,
+    Share,
 }
 
 fn in_range(
@@ -354,6 +468,7 @@ fn in_range(
         Range::Finite => (true, "a finite number"),
         Range::NotNegative => (value >= 0.0, "a finite number not below 0"),
         Range::Positive => (value > 0.0, "a finite number above 0"),
+        Range::Share => ((0.0..=1.0).contains(&value), "a number from 0 to 1"),
     };
     if inside && value.is_finite() {
         return Ok(());

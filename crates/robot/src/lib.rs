@@ -26,7 +26,7 @@ mod urdf;
 mod warning;
 mod write;
 
-pub use actuator::{Actuator, SensingSide, TorqueSource};
+pub use actuator::{Actuator, Ripple, SensingSide, Stribeck, TorqueSource, Wave};
 pub use control::{ControlSettings, Gain};
 pub use error::RobotError;
 pub use inertia::{Inertia, InertiaDefect};

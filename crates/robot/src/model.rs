@@ -125,6 +125,16 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
         a.torque_offset,
         a.backlash,
         a.delay_s,
+        a.load_friction,
+        a.lag_s,
+        a.encoder_offset,
+        a.transmission_ratio,
     ];
-    finite(&joint, "actuator parameter", drive.iter().chain(&a.elasticity))
+    let stribeck = a.stribeck.map(|s| [s.excess, s.velocity]);
+    let wave = a.friction_wave.map(|w| [w.share, w.periods, w.phase]);
+    let ripple = a.ripple.map(|r| [r.amplitude, r.periods, r.phase]);
+    let given = drive.iter().chain(&a.elasticity).chain(&a.presliding);
+    let given = given.chain(stribeck.as_slice().as_flattened());
+    let given = given.chain(wave.as_slice().as_flattened());
+    finite(&joint, "actuator parameter", given.chain(ripple.as_slice().as_flattened()))
 }

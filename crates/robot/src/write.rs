@@ -1,15 +1,16 @@
 use nalgebra::Vector3;
 
-use crate::description::{Description, GainEntry, InertiaEntry, JointEntry, LinkEntry};
+use crate::description::{
+    Description, GainEntry, InertiaEntry, JointEntry, LinkEntry, RippleEntry, WaveEntry,
+};
 use crate::{Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource};
 
 impl Loaded {
     /// A `robot.toml` that describes `robot`, this one or a changed copy of it.
     ///
     /// Holds what differs from the URDF, and the control settings. Loading it gives
-    /// `robot` again, every number to the last bit; only a delay that no number of milliseconds
-    /// is comes back rounded. `urdf` is the path of the URDF
-    /// as seen from the folder the text is written to.
+    /// `robot` again, every number to the last bit; only a delay or a lag that no number of
+    /// milliseconds is comes back rounded. `urdf` is the path of the URDF as seen from the folder the text is written to.
     ///
     /// # Errors
     ///
@@ -99,6 +100,13 @@ fn joint_entry(new: &Link, old: &Link, gain: Option<Gain>) -> JointEntry {
         backlash_rad: changed(a.backlash, b.backlash),
         elasticity_nm_per_rad: a.elasticity,
         actuator_delay_ms: changed(a.delay_s, b.delay_s).map(milliseconds),
+        stribeck_excess_nm: a.stribeck.map(|s| s.excess),
+        stribeck_velocity_rad_per_s: a.stribeck.map(|s| s.velocity),
+        load_friction: changed(a.load_friction, b.load_friction),
+        presliding_rad: a.presliding,
+        actuator_lag_ms: changed(a.lag_s, b.lag_s).map(milliseconds),
+        encoder_offset_rad: changed(a.encoder_offset, b.encoder_offset),
+        transmission_ratio: changed(a.transmission_ratio, b.transmission_ratio),
         torque_limit_nm: changed(
             new.joint.limits.effort.unwrap_or(f64::INFINITY),
             old.joint.limits.effort.unwrap_or(f64::INFINITY),
@@ -107,6 +115,16 @@ fn joint_entry(new: &Link, old: &Link, gain: Option<Gain>) -> JointEntry {
         torque_source: Some(a.torque_source).filter(|s| *s != TorqueSource::Unknown),
         kp_nm_per_rad: gain.map(|g| g.kp),
         kd_nm_s_per_rad: gain.map(|g| g.kd),
+        friction_wave: a.friction_wave.map(|w| WaveEntry {
+            share: w.share,
+            periods_per_turn: w.periods,
+            phase_rad: w.phase,
+        }),
+        torque_ripple: a.ripple.map(|r| RippleEntry {
+            amplitude_nm: r.amplitude,
+            periods_per_turn: r.periods,
+            phase_rad: r.phase,
+        }),
     }
 }
 
