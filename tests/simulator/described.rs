@@ -1,6 +1,6 @@
 //! What the robot's description says acts as the effect of the same name that is put in.
 
-use robot::{Actuator, Reading, Robot};
+use robot::{Actuator, Reading, Ripple, Robot, Stribeck, Wave};
 
 use crate::rig::{FINE, Row, STEPPING, flywheel, run, simulator};
 
@@ -50,6 +50,97 @@ fn a_described_arm_moves_bit_for_bit_as_one_with_the_effect_put_in() {
         assert_eq!(rows(&wheel(describe), "effect = []"), injected, "{toml}");
         let apart = (injected[499].q_true[0] - ideal[499].q_true[0]).abs();
         assert!(apart > 1e-4, "{toml} moves the wheel by {apart} rad only");
+    }
+}
+
+/// All that a drive can say beside its transmission and its delay, next to the scenario's way of
+/// saying it; the wheel has Coulomb friction of 0.5 N m where both have it.
+#[test]
+fn what_a_drive_says_moves_the_wheel_as_the_effect_put_in_does() {
+    let cases: [(&str, Describe); 8] = [
+        (
+            "stribeck_friction = { joint = 'joint', coulomb_nm = 0.5, breakaway_nm = 0.75, \
+             stribeck_velocity_rad_per_s = 0.25 }",
+            |a| a.stribeck = Some(Stribeck { excess: 0.25, velocity: 0.25 }),
+        ),
+        (
+            "load_dependent_friction = { joint = 'joint', coefficient = 0.3 }\n[[effect]]\n\
+             coulomb_friction = { joint = 'joint', level_nm = 0.5 }",
+            |a| a.load_friction = 0.3,
+        ),
+        (
+            "presliding_friction = { joint = 'joint', stiffness_nm_per_rad = 64.0, \
+             damping_nm_s_per_rad = 2.5298221281347035, level_nm = 0.5 }",
+            |a| a.presliding = Some(0.5 / 64.0),
+        ),
+        (
+            "position_dependent_friction = { joint = 'joint', level_nm = 0.5, share = 0.4, \
+             periods_per_turn = 40.0, phase_rad = 0.7 }",
+            |a| a.friction_wave = Some(Wave { share: 0.4, periods: 40.0, phase: 0.7 }),
+        ),
+        (
+            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+             torque_ripple = { joint = 'joint', amplitude_nm = 0.3, periods_per_turn = 50.0, \
+             phase_rad = 0.7 }",
+            |a| a.ripple = Some(Ripple { amplitude: 0.3, periods: 50.0, phase: 0.7 }),
+        ),
+        (
+            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+             actuator_lag = { joint = 'joint', time_constant_ms = 4.0 }",
+            |a| a.lag_s = 0.004,
+        ),
+        (
+            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+             encoder_offset = { joint = 'joint', offset_rad = 0.1 }",
+            |a| a.encoder_offset = 0.1,
+        ),
+        (
+            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+             transmission_ratio = { joint = 'joint', ratio = 1.1 }\n[[effect]]\n\
+             encoder_offset = { joint = 'joint', offset_rad = 0.1 }",
+            |a| (a.transmission_ratio, a.encoder_offset) = (1.1, 0.1),
+        ),
+    ];
+    let rough = |a: &mut Actuator| (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.5);
+    let ideal = rows(&wheel(rough), "effect = []");
+    for (effects, describe) in cases {
+        let injected = rows(&wheel(|_| ()), &format!("[[effect]]\n{effects}"));
+        let described = wheel(|a| {
+            rough(a);
+            describe(a);
+        });
+        assert_eq!(rows(&described, "effect = []"), injected, "{effects}");
+        let apart = |k: usize| (injected[k].q_true[0] - ideal[k].q_true[0]).abs();
+        let apart = (0..injected.len()).map(apart).fold(0.0, f64::max);
+        assert!(apart > 1e-3, "{effects} moves the wheel by {apart} rad only");
+    }
+}
+
+/// A wheel that has slid holds the sum of its levels while it turns on at constant speed:
+/// `tau = coulomb (1 + share) + excess / e` at the Stribeck velocity, where the wave has its top.
+#[test]
+fn oracle_described_dry_friction_adds_up_behind_one_set_of_bristles() {
+    let speed = 0.2;
+    let robot = wheel(|a| {
+        (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.3);
+        a.friction_wave = Some(Wave { share: 0.4, periods: 0.0, phase: 0.0 });
+        a.stribeck = Some(Stribeck { excess: 0.25, velocity: speed });
+        a.presliding = Some(0.002);
+    });
+    for (side, coulomb) in [(1.0, 0.5), (-1.0, 0.3)] {
+        let mut wheel = simulator(&robot, "effect = []", STEPPING).unwrap();
+        wheel.start_moving(&[0.0], &[side * speed]);
+        // Stiff enough against the fall of the friction with speed.
+        let hold = |r: &Reading| vec![40.0 * (side * speed - r.qd[0])];
+        let rows = run(&mut wheel, 2.0, hold).unwrap();
+        let last = rows.last().unwrap();
+        let excess = 0.25 * (-(last.qd_true[0] / speed).powi(2)).exp();
+        let expected = side * (1.4 * coulomb + excess);
+        let found = last.motor_torque_true[0];
+        assert!((found - expected).abs() < 1e-6, "{found}, not {expected} N m");
+        // It had slid from the start: it was never pushed without friction.
+        let fastest = rows.iter().map(|r| r.qd_true[0].abs()).fold(0.0, f64::max);
+        assert!(fastest <= speed * (1.0 + 1e-9), "{fastest} rad/s");
     }
 }
 

@@ -73,11 +73,18 @@ type Describe = fn(&mut Actuator);
 
 /// A robot that says what its elbow has goes with the record, one that does not drifts away.
 #[test]
-fn a_record_of_an_arm_with_play_or_delay_is_replayed_by_a_robot_that_says_so() {
+fn a_record_of_an_arm_with_an_effect_is_replayed_by_a_robot_that_says_so() {
     let elbow = "joint = 'j4_elbow_pitch'";
-    let cases: [(String, Describe); 2] = [
+    let cases: [(String, Describe); 5] = [
         (format!("actuator_delay = {{ {elbow}, delay_ms = 1.5 }}"), |a| a.delay_s = 0.0015),
         (format!("backlash = {{ {elbow}, gap_rad = 0.002 }}"), |a| a.backlash = 0.002),
+        (format!("actuator_lag = {{ {elbow}, time_constant_ms = 2.0 }}"), |a| a.lag_s = 0.002),
+        (format!("encoder_offset = {{ {elbow}, offset_rad = 0.05 }}"), |a| {
+            a.encoder_offset = 0.05;
+        }),
+        (format!("transmission_ratio = {{ {elbow}, ratio = 1.1 }}"), |a| {
+            a.transmission_ratio = 1.1;
+        }),
     ];
     let rigid = wam_with(TorqueSource::Commanded);
     for (effect, describe) in cases {
@@ -87,6 +94,24 @@ fn a_record_of_an_arm_with_play_or_delay_is_replayed_by_a_robot_that_says_so() {
         let [with, without] = [&described, &rigid].map(|robot| drift(robot, &record, 0.05)[3]);
         assert!(50.0 * with < without, "{effect}: {with:.2e} rad, {without:.2e} without");
     }
+}
+
+/// What the bristles hold at the start of a window is known where the joint has slid, and not
+/// within a way of the last reversal.
+#[test]
+fn a_record_of_an_arm_with_presliding_friction_is_replayed_as_one_that_slid_before() {
+    let bristles = "[[effect]]\npresliding_friction = { joint = 'j4_elbow_pitch', \
+                    stiffness_nm_per_rad = 1000.0, damping_nm_s_per_rad = 5.9, level_nm = 0.5 }";
+    let record = record("commanded", bristles);
+    let mut robot = wam_with(TorqueSource::Commanded);
+    let mut found = Vec::new();
+    for (coulomb, presliding) in [(0.0, None), (0.5, None), (0.5, Some(0.0005))] {
+        let a = &mut robot.link_mut(3).unwrap().actuator;
+        (a.coulomb_forward, a.coulomb_backward, a.presliding) = (coulomb, coulomb, presliding);
+        found.push(drift(&robot, &record, 0.05)[3]);
+    }
+    let [none, level, bent] = found[..] else { panic!("{found:?}") };
+    assert!(20.0 * bent < none && bent < level, "{found:?} rad");
 }
 
 /// A motor's torque is that of its instant, half of the command before and half of the next.

@@ -52,7 +52,10 @@ impl Transmission {
 ///
 /// The robot's actuators count: `viscous`, `coulomb_forward`, `coulomb_backward` and
 /// `rotor_inertia` act at the motor, the spring at the link, gain and offset in the drive:
-/// `effort = torque_gain tau + torque_offset`. A delay holds the command back on its way there.
+/// `effort = torque_gain tau + torque_offset`. What else the actuators say acts as the effect of
+/// the same name would: friction beyond the Coulomb level, presliding and ripple at the motor,
+/// delay and lag on the way of the command, ratio and offset of the encoder in what is reported.
+/// Bristles of presliding are damped with half of critical damping, for which there is no key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plant {
     /// Links, joints, actuators, gravity.

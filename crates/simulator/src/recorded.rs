@@ -9,8 +9,11 @@ pub(crate) struct State {
     pub qd: Vec<f64>,
 }
 
-/// Puts a simulation into the state of a sample: positions and velocities as measured, every
-/// transmission twisted by the load of that instant, and what was asked for before on its way.
+/// Time constants of a lag after which what was asked for before no longer counts: 0.1 % is left.
+const LAGS: f64 = 7.0;
+
+/// Puts a simulation into the state of a sample: positions and velocities as measured and
+/// corrected for what the encoders are known to be off, every transmission twisted by the load of that instant, and what was asked for before on its way.
 pub(crate) fn begin(simulator: &mut Simulator, robot: &Robot, record: &PreparedRun, sample: usize) {
     let (mut motor_q, mut motor_qd, mut twist) = (Vec::new(), Vec::new(), Vec::new());
     for (link, joint) in robot.links().iter().zip(&record.joints) {
@@ -18,12 +21,16 @@ pub(crate) fn begin(simulator: &mut Simulator, robot: &Robot, record: &PreparedR
         let load = load(drive, joint, sample, record.rate_hz);
         let behind = Transmission::described(drive).twist_under(load);
         let at_link = drive.sensing == SensingSide::Link;
-        motor_q.push(joint.q[sample] - if at_link { behind } else { 0.0 });
-        motor_qd.push(joint.qd[sample]);
+        motor_q.push(true_position(drive, joint.q[sample]) - if at_link { behind } else { 0.0 });
+        motor_qd.push(drive.transmission_ratio * joint.qd[sample]);
         twist.push(behind);
     }
     simulator.start_twisted(&motor_q, &motor_qd, &twist);
-    let longest_s = robot.links().iter().map(|l| delay_s(&l.actuator)).fold(0.0, f64::max);
+    let memory_s = |drive| {
+        let [delay_s, lag_s] = late_s(drive);
+        delay_s + LAGS * lag_s
+    };
+    let longest_s = robot.links().iter().map(|l| memory_s(&l.actuator)).fold(0.0, f64::max);
     if longest_s > 0.0 {
         let first = sample.saturating_sub((longest_s * record.rate_hz).ceil() as usize + 1);
         let past: Vec<Vec<f64>> = (first..sample).map(|k| held(robot, record, k)).collect();
@@ -34,27 +41,46 @@ pub(crate) fn begin(simulator: &mut Simulator, robot: &Robot, record: &PreparedR
 /// Torque through the transmission of a joint (N m or N):
 ///
 /// ```text
-/// load = (effort(t - delay) - offset) / gain - J qdd - viscous qd - coulomb sign(qd)
+/// tau  = (effort(t - delay - lag) - offset) / (ratio gain) - J qdd - viscous qd - ripple(q)
+/// load = tau - (level + load_friction |load|) sign(qd)
 /// ```
+///
+/// with `level` the dry friction of a joint without load that slides.
 fn load(drive: &Actuator, joint: &PreparedJoint, sample: usize, rate_hz: f64) -> f64 {
-    let [qd, qdd] = [joint.qd[sample], joint.qdd[sample]];
-    let late = (delay_s(drive) * rate_hz).round() as usize;
+    let ratio = drive.transmission_ratio;
+    let [qd, qdd] = [ratio * joint.qd[sample], ratio * joint.qdd[sample]];
+    let q = true_position(drive, joint.q[sample]);
+    let late = (late_s(drive).iter().sum::<f64>() * rate_hz).round() as usize;
     let effort = joint.effort[sample.saturating_sub(late)];
-    let friction = match qd {
-        qd if qd > 0.0 => drive.coulomb_forward,
-        qd if qd < 0.0 => -drive.coulomb_backward,
-        _ => 0.0,
+    let (coulomb, direction) = match qd {
+        qd if qd > 0.0 => (drive.coulomb_forward, 1.0),
+        qd if qd < 0.0 => (drive.coulomb_backward, -1.0),
+        _ => (0.0, 0.0),
     };
-    (effort - drive.torque_offset) / drive.torque_gain
+    let wave = drive.friction_wave.map_or(0.0, |w| w.share * (w.periods * q + w.phase).cos());
+    let excess = drive.stribeck.map_or(0.0, |s| s.excess * (-(qd / s.velocity).powi(2)).exp());
+    let ripple = drive.ripple.map_or(0.0, |r| r.amplitude * (r.periods * q + r.phase).sin());
+    let tau = (effort - drive.torque_offset) / (ratio * drive.torque_gain)
         - drive.rotor_inertia * qdd
         - drive.viscous * qd
-        - friction
+        - ripple
+        - direction * (coulomb * (1.0 + wave) + excess);
+    // The load has the sign of what is left, as long as less than all of it is lost.
+    tau / (1.0 + direction * drive.load_friction.min(0.9).copysign(tau))
 }
 
-/// How late the torque is after the effort of the log (s): what was measured has its delay
-/// behind it.
-pub(crate) fn delay_s(drive: &Actuator) -> f64 {
-    if drive.torque_source == TorqueSource::Commanded { drive.delay_s } else { 0.0 }
+/// How late the torque is after the effort of the log, delay and lag (s): what was measured has
+/// both behind it.
+pub(crate) fn late_s(drive: &Actuator) -> [f64; 2] {
+    match drive.torque_source {
+        TorqueSource::Commanded => [drive.delay_s, drive.lag_s],
+        _ => [0.0; 2],
+    }
+}
+
+/// Where a joint is when its encoder reports `q` (rad or m).
+fn true_position(drive: &Actuator, q: f64) -> f64 {
+    drive.transmission_ratio * (q - drive.encoder_offset)
 }
 
 /// What the robot's encoders would show.
@@ -67,10 +93,14 @@ pub(crate) fn seen(simulator: &Simulator, robot: &Robot) -> State {
         };
         sides.zip(link.iter().zip(motor)).map(of).collect()
     };
-    State {
-        q: pick(simulator.q_true(), simulator.motor_q_true()),
-        qd: pick(simulator.qd_true(), simulator.motor_qd_true()),
+    let mut q = pick(simulator.q_true(), simulator.motor_q_true());
+    let mut qd = pick(simulator.qd_true(), simulator.motor_qd_true());
+    for (link, (q, qd)) in robot.links().iter().zip(q.iter_mut().zip(&mut qd)) {
+        let a = &link.actuator;
+        *q = *q / a.transmission_ratio + a.encoder_offset;
+        *qd /= a.transmission_ratio;
     }
+    State { q, qd }
 }
 
 /// Torques from one sample to the next.

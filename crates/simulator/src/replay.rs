@@ -4,7 +4,7 @@ use logs::{Channels, PreparedRun, Run};
 use rayon::prelude::*;
 use robot::{Gain, Machine, MachineFault, Reading, Robot};
 
-use crate::recorded::{State, begin, between, delay_s, held, seen};
+use crate::recorded::{State, begin, between, held, late_s, seen};
 use crate::{Sensors, Simulator, SimulatorError, Stepping};
 
 /// Longest step of the engine where no other is given (s).
@@ -139,7 +139,8 @@ fn perfect(robot: &Robot, rate_hz: f64, longest_step_s: f64) -> Result<Simulator
     let mut robot = robot.clone();
     for i in 0..robot.joint_count() {
         if let Some(link) = robot.link_mut(i) {
-            link.actuator.delay_s = delay_s(&link.actuator);
+            let a = &mut link.actuator;
+            [a.delay_s, a.lag_s] = late_s(a);
         }
     }
     Simulator::new(&robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping)

@@ -1,7 +1,7 @@
 use robot::{Machine, MachineFault, Reading, Robot};
 
 use crate::arm::Arm;
-use crate::effects::described_delays;
+use crate::effects::described;
 use crate::inject::{Efforts, Inject, Moment};
 use crate::sensors::{EffortSource, PositionSide, Sensors};
 use crate::{Plant, SimulatorError};
@@ -60,7 +60,7 @@ struct Joint {
 }
 
 impl Simulator {
-    /// Builds a simulated arm; effects act in the order given, after the delays that the robot's
+    /// Builds a simulated arm; effects act in the order given, after those that the robot's
     /// description says.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl Simulator {
         sensors: Sensors,
         stepping: Stepping,
     ) -> Result<Self, SimulatorError> {
-        let mut effects: Vec<Box<dyn Inject>> = described_delays(robot).chain(effects).collect();
+        let mut effects: Vec<Box<dyn Inject>> = described(robot).chain(effects).collect();
         let mut plant = Plant::new(robot.clone());
         for effect in &mut effects {
             effect.on_build(&mut plant);

@@ -34,7 +34,7 @@ impl Effect for ActuatorDelay {
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
         within("delay_ms", self.delay_ms, 0.0, 1000.0)?;
-        Ok(delay(joint, 1e-3 * self.delay_ms))
+        Ok(acting(joint, 1e-3 * self.delay_ms))
     }
 
     /// The torque is off by about `delay d(tau)/dt`.
@@ -44,13 +44,8 @@ impl Effect for ActuatorDelay {
     }
 }
 
-/// The delays that the robot's description says, ready to act.
-pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
-    let joints = robot.links().iter().map(|l| l.actuator.delay_s).enumerate();
-    joints.filter(|(_, delay_s)| *delay_s > 0.0).map(|(joint, delay_s)| delay(joint, delay_s))
-}
-
-fn delay(joint: usize, delay_s: f64) -> Box<dyn Inject> {
+/// The delay of a joint, ready to act.
+pub(super) fn acting(joint: usize, delay_s: f64) -> Box<dyn Inject> {
     Box::new(Injected { joint, command: DelayLine::new(delay_s) })
 }
 

@@ -35,8 +35,7 @@ impl Effect for ActuatorLag {
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
         within("time_constant_ms", self.time_constant_ms, 0.0, 1000.0)?;
-        let time_constant_s = 1e-3 * self.time_constant_ms;
-        Ok(Box::new(Injected { joint, time_constant_s, last: None }))
+        Ok(acting(joint, 1e-3 * self.time_constant_ms))
     }
 
     /// The torque is late by `time_constant d(tau)/dt`.
@@ -44,6 +43,11 @@ impl Effect for ActuatorLag {
         let time_constant_ms = 1e3 * share * at.torque_rms / at.torque_rate_rms;
         Self { joint: at.joint_name(), time_constant_ms: time_constant_ms.min(1000.0) }
     }
+}
+
+/// The lag of a joint, ready to act.
+pub(super) fn acting(joint: usize, time_constant_s: f64) -> Box<dyn Inject> {
+    Box::new(Injected { joint, time_constant_s, last: None })
 }
 
 struct Injected {

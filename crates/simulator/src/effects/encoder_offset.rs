@@ -34,7 +34,7 @@ impl Effect for EncoderOffset {
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
         within("offset_rad", self.offset_rad, -10.0, 10.0)?;
-        Ok(Box::new(Injected { joint, offset: self.offset_rad }))
+        Ok(acting(joint, self.offset_rad))
     }
 
     /// The torque is off by about `offset d(tau)/dq`.
@@ -42,6 +42,11 @@ impl Effect for EncoderOffset {
         let offset = (share * at.torque_rms / at.torque_per_position()).min(10.0);
         Self { joint: at.joint_name(), offset_rad: if random.random() { offset } else { -offset } }
     }
+}
+
+/// The offset (rad or m) of a joint's encoder, ready to act.
+pub(super) fn acting(joint: usize, offset: f64) -> Box<dyn Inject> {
+    Box::new(Injected { joint, offset })
 }
 
 struct Injected {

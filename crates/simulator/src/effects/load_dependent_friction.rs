@@ -36,13 +36,18 @@ impl Effect for LoadDependentFriction {
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
         within("coefficient", self.coefficient, 0.0, MAX_COEFFICIENT)?;
-        Ok(Box::new(Injected { joint, coefficient: self.coefficient }))
+        Ok(acting(joint, self.coefficient))
     }
 
     /// The load is about the joint's torque, so the coefficient is the share.
     fn draw(at: &Surroundings<'_>, share: f64, _: &mut ChaCha8Rng) -> Self {
         Self { joint: at.joint_name(), coefficient: share.min(MAX_COEFFICIENT) }
     }
+}
+
+/// The friction of a joint under load, ready to act.
+pub(super) fn acting(joint: usize, coefficient: f64) -> Box<dyn Inject> {
+    Box::new(Injected { joint, coefficient })
 }
 
 struct Injected {

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::Robot;
+use robot::{Robot, Wave};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -52,13 +52,9 @@ impl Effect for PositionDependentFriction {
         within("share", self.share, 0.0, 1.0)?;
         within("periods_per_turn", self.periods_per_turn, 0.0, 10_000.0)?;
         within("phase_rad", self.phase_rad, -TAU, TAU)?;
-        Ok(Box::new(Injected {
-            joint,
-            level: self.level_nm,
-            share: self.share,
-            periods: self.periods_per_turn,
-            phase: self.phase_rad,
-        }))
+        let wave =
+            Wave { share: self.share, periods: self.periods_per_turn, phase: self.phase_rad };
+        Ok(Box::new(Injected { joint, level: self.level_nm, wave }))
     }
 
     /// A variation of 10 to 50 per cent with one to ten periods in a turn.
@@ -73,17 +69,38 @@ impl Effect for PositionDependentFriction {
     }
 }
 
+/// What makes the dry friction that a joint has so far vary with its position.
+pub(super) fn varying(joint: usize, wave: Wave) -> Box<dyn Inject> {
+    Box::new(Varying { joint, wave })
+}
+
+/// `1 + share cos(periods q + phase)`.
+fn over_mean(wave: &Wave, q: f64) -> f64 {
+    1.0 + wave.share * (wave.periods * q + wave.phase).cos()
+}
+
 struct Injected {
     joint: usize,
     level: f64,
-    share: f64,
-    periods: f64,
-    phase: f64,
+    wave: Wave,
 }
 
 impl Inject for Injected {
     fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
-        let angle = self.periods * moment.motor_q[self.joint] + self.phase;
-        efforts.add_dry(self.joint, self.level * (1.0 + self.share * angle.cos()));
+        let factor = over_mean(&self.wave, moment.motor_q[self.joint]);
+        efforts.add_dry(self.joint, self.level * factor);
+    }
+}
+
+struct Varying {
+    joint: usize,
+    wave: Wave,
+}
+
+impl Inject for Varying {
+    fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
+        let factor = over_mean(&self.wave, moment.motor_q[self.joint]);
+        efforts.dry_forward[self.joint] *= factor;
+        efforts.dry_backward[self.joint] *= factor;
     }
 }

@@ -1,12 +1,15 @@
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::Robot;
+use robot::{Actuator, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::{Efforts, Inject, Moment, Truth};
+
+/// Damping ratio of a rotor on bristles that a description gives: it has no key for it.
+const DAMPING_RATIO: f64 = 0.5;
 
 /// Dry friction that gives like a spring before it slides: the LuGre model without the Stribeck
 /// effect.
@@ -56,8 +59,7 @@ impl Effect for PreslidingFriction {
             stiffness: self.stiffness_nm_per_rad,
             damping: self.damping_nm_s_per_rad,
             level: self.level_nm,
-            deflection: 0.0,
-            last_q: 0.0,
+            bristles: Bristles { way: self.level_nm / self.stiffness_nm_per_rad, ..RELAXED },
         }))
     }
 
@@ -81,29 +83,86 @@ struct Injected {
     stiffness: f64,
     damping: f64,
     level: f64,
-    /// Deflection of the bristles (rad or m).
-    deflection: f64,
-    /// Position of the motor that it belongs to (rad or m).
+    bristles: Bristles,
+}
+
+/// Bristles by the share of their level that they hold:
+///
+/// ```text
+/// share = stiffness z / level,   d(share) = (dq - |dq| share) / way,   way = level / stiffness
+/// ```
+struct Bristles {
+    way: f64,
+    share: f64,
+    /// Position of the motor that the share belongs to (rad or m).
     last_q: f64,
+}
+
+const RELAXED: Bristles = Bristles { way: f64::INFINITY, share: 0.0, last_q: 0.0 };
+
+impl Bristles {
+    /// The share once the motor is at `q`.
+    fn follow(&mut self, q: f64) -> f64 {
+        let way = q - self.last_q;
+        self.last_q = q;
+        let slid = -(-way.abs() / self.way).exp_m1();
+        self.share += slid * (way.signum() - self.share);
+        self.share
+    }
 }
 
 impl Inject for Injected {
     fn on_start(&mut self, q: &[f64]) {
-        self.deflection = 0.0;
-        self.last_q = q[self.joint];
+        (self.bristles.share, self.bristles.last_q) = (0.0, q[self.joint]);
     }
 
     fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
-        let way = moment.motor_q[self.joint] - self.last_q;
-        self.last_q = moment.motor_q[self.joint];
-        let end = way.signum() * self.level / self.stiffness;
-        let slid = -(-self.stiffness * way.abs() / self.level).exp_m1();
-        self.deflection += slid * (end - self.deflection);
-
-        let torque = self.stiffness * self.deflection;
+        let share = self.bristles.follow(moment.motor_q[self.joint]);
         let direction = moment.motor_qd[self.joint].signum();
-        efforts.bristles[self.joint] -= torque;
-        efforts.viscous[self.joint] += self.damping * (1.0 - direction * torque / self.level);
+        efforts.bristles[self.joint] -= self.level * share;
+        efforts.viscous[self.joint] += self.damping * (1.0 - direction * share);
+    }
+
+    fn springs(&self) -> Vec<(usize, f64)> {
+        vec![(self.joint, self.stiffness)]
+    }
+}
+
+/// What bends all dry friction that a joint has so far over the way that its drive says.
+/// `stiffness` (N m/rad or N/m) is the most that the bristles come to.
+pub(super) fn bending(joint: usize, drive: &Actuator, stiffness: f64) -> Box<dyn Inject> {
+    let bristles = Bristles { way: drive.presliding.unwrap_or(f64::INFINITY), ..RELAXED };
+    let critical = 2.0 * (stiffness * drive.rotor_inertia).sqrt();
+    let damping = DAMPING_RATIO * critical;
+    Box::new(Bending { joint, stiffness, damping, bristles, has_started: false })
+}
+
+struct Bending {
+    joint: usize,
+    stiffness: f64,
+    damping: f64,
+    bristles: Bristles,
+    has_started: bool,
+}
+
+impl Inject for Bending {
+    fn on_start(&mut self, q: &[f64]) {
+        (self.bristles.last_q, self.has_started) = (q[self.joint], false);
+    }
+
+    fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
+        let j = self.joint;
+        let direction = moment.motor_qd[j].signum();
+        if !self.has_started {
+            // A joint that moves has slid before; what one at rest holds is not known.
+            let moves = moment.motor_qd[j].abs() > 0.0;
+            (self.bristles.share, self.has_started) = (if moves { direction } else { 0.0 }, true);
+        }
+        let share = self.bristles.follow(moment.motor_q[j]);
+        let level = if share > 0.0 { efforts.dry_forward[j] } else { efforts.dry_backward[j] };
+        (efforts.dry_forward[j], efforts.dry_backward[j]) = (0.0, 0.0);
+        efforts.bristles[j] -= level.max(0.0) * share;
+        efforts.viscous[j] += self.damping * (1.0 - direction * share);
     }
 
     fn springs(&self) -> Vec<(usize, f64)> {

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::Robot;
+use robot::{Robot, Stribeck};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -47,12 +47,9 @@ impl Effect for StribeckFriction {
         within("coulomb_nm", self.coulomb_nm, 0.0, 1000.0)?;
         within("breakaway_nm", self.breakaway_nm, self.coulomb_nm, 1000.0)?;
         within("stribeck_velocity_rad_per_s", self.stribeck_velocity_rad_per_s, 1e-4, 10.0)?;
-        Ok(Box::new(Injected {
-            joint,
-            coulomb: self.coulomb_nm,
-            excess: self.breakaway_nm - self.coulomb_nm,
-            stribeck_velocity: self.stribeck_velocity_rad_per_s,
-        }))
+        let excess = self.breakaway_nm - self.coulomb_nm;
+        let stribeck = Stribeck { excess, velocity: self.stribeck_velocity_rad_per_s };
+        Ok(acting(joint, self.coulomb_nm, stribeck))
     }
 
     /// Breakaway at 1.2 to 2 times the Coulomb level, gone between 0.01 and 0.1 rad/s.
@@ -67,16 +64,21 @@ impl Effect for StribeckFriction {
     }
 }
 
+/// A Coulomb level (N m or N) and what is beyond it near rest, ready to act.
+pub(super) fn acting(joint: usize, coulomb: f64, stribeck: Stribeck) -> Box<dyn Inject> {
+    Box::new(Injected { joint, coulomb, stribeck })
+}
+
 struct Injected {
     joint: usize,
     coulomb: f64,
-    excess: f64,
-    stribeck_velocity: f64,
+    stribeck: Stribeck,
 }
 
 impl Inject for Injected {
     fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
-        let speed = moment.motor_qd[self.joint] / self.stribeck_velocity;
-        efforts.add_dry(self.joint, self.coulomb + self.excess * (-speed * speed).exp());
+        let Stribeck { excess, velocity } = self.stribeck;
+        let speed = moment.motor_qd[self.joint] / velocity;
+        efforts.add_dry(self.joint, self.coulomb + excess * (-speed * speed).exp());
     }
 }

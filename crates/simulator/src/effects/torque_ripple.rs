@@ -3,7 +3,7 @@ use std::f64::consts::{PI, SQRT_2};
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::Robot;
+use robot::{Ripple, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,7 +51,8 @@ impl Effect for TorqueRipple {
         within("amplitude_nm", self.amplitude_nm, 0.0, 1000.0)?;
         within("periods_per_turn", self.periods_per_turn, 0.1, 1e5)?;
         within("phase_rad", self.phase_rad, -10.0, 10.0)?;
-        Ok(Box::new(Injected { joint, ripple: self.clone() }))
+        let [amplitude, periods] = [self.amplitude_nm, self.periods_per_turn];
+        Ok(acting(joint, Ripple { amplitude, periods, phase: self.phase_rad }))
     }
 
     /// As many periods in a turn as the WAM's motors have electrical ones, 39 to 252.
@@ -65,20 +66,25 @@ impl Effect for TorqueRipple {
     }
 }
 
+/// The ripple of a joint, ready to act.
+pub(super) fn acting(joint: usize, ripple: Ripple) -> Box<dyn Inject> {
+    Box::new(Injected { joint, ripple })
+}
+
 struct Injected {
     joint: usize,
-    ripple: TorqueRipple,
+    ripple: Ripple,
 }
 
 impl Inject for Injected {
     fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
-        let TorqueRipple { amplitude_nm, periods_per_turn, phase_rad, .. } = self.ripple;
-        let angle = periods_per_turn * moment.motor_q[self.joint] + phase_rad;
-        efforts.motor[self.joint] -= amplitude_nm * angle.sin();
+        let Ripple { amplitude, periods, phase } = self.ripple;
+        let angle = periods * moment.motor_q[self.joint] + phase;
+        efforts.motor[self.joint] -= amplitude * angle.sin();
     }
 
     /// The steepest slope of the ripple.
     fn springs(&self) -> Vec<(usize, f64)> {
-        vec![(self.joint, self.ripple.amplitude_nm * self.ripple.periods_per_turn)]
+        vec![(self.joint, self.ripple.amplitude * self.ripple.periods)]
     }
 }

@@ -34,7 +34,7 @@ impl Effect for TransmissionRatio {
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
         within("ratio", self.ratio, 0.1, 10.0)?;
-        Ok(Box::new(Injected { joint, ratio: self.ratio }))
+        Ok(acting(joint, self.ratio))
     }
 
     /// A ratio too high or too low by the share.
@@ -43,6 +43,11 @@ impl Effect for TransmissionRatio {
         let ratio = if random.random() { ratio } else { ratio.recip() };
         Self { joint: at.joint_name(), ratio }
     }
+}
+
+/// The ratio of a joint, ready to act.
+pub(super) fn acting(joint: usize, ratio: f64) -> Box<dyn Inject> {
+    Box::new(Injected { joint, ratio })
 }
 
 struct Injected {

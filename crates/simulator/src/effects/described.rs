@@ -1,0 +1,50 @@
+use robot::{Actuator, Robot};
+
+use super::{
+    actuator_delay, actuator_lag, encoder_offset, load_dependent_friction,
+    position_dependent_friction, presliding_friction, stribeck_friction, torque_ripple,
+    transmission_ratio,
+};
+use crate::Inject;
+
+/// The effects that the robot's description says of its drives, ready to act, apart from those
+/// that are part of the [`Plant`](crate::Plant).
+///
+/// Where several meet at a joint, dry friction is gathered before it is bent, and what is
+/// reported is `q / ratio + offset`.
+pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
+    robot.links().iter().enumerate().flat_map(|(joint, link)| {
+        let a = &link.actuator;
+        let effort_limit = link.joint.limits.effort.unwrap_or(0.0);
+        let [delay, lag, load, offset] =
+            [a.delay_s, a.lag_s, a.load_friction, a.encoder_offset].map(not_zero);
+        let ratio = Some(a.transmission_ratio).filter(|ratio| ratio.total_cmp(&1.0).is_ne());
+        [
+            delay.map(|delay_s| actuator_delay::acting(joint, delay_s)),
+            lag.map(|lag_s| actuator_lag::acting(joint, lag_s)),
+            a.friction_wave.map(|wave| position_dependent_friction::varying(joint, wave)),
+            a.stribeck.map(|excess| stribeck_friction::acting(joint, 0.0, excess)),
+            load.map(|coefficient| load_dependent_friction::acting(joint, coefficient)),
+            a.presliding.map(|way| {
+                presliding_friction::bending(joint, a, largest_dry(a, effort_limit) / way)
+            }),
+            a.ripple.map(|ripple| torque_ripple::acting(joint, ripple)),
+            ratio.map(|ratio| transmission_ratio::acting(joint, ratio)),
+            offset.map(|offset| encoder_offset::acting(joint, offset)),
+        ]
+        .into_iter()
+        .flatten()
+    })
+}
+
+fn not_zero(value: f64) -> Option<f64> {
+    (value.abs() > 0.0).then_some(value)
+}
+
+/// The most dry friction that a drive has while it carries no more than its limit (N m or N).
+fn largest_dry(drive: &Actuator, effort_limit: f64) -> f64 {
+    let wave = 1.0 + drive.friction_wave.map_or(0.0, |wave| wave.share);
+    drive.coulomb_forward.max(drive.coulomb_backward).max(0.0) * wave
+        + drive.stribeck.map_or(0.0, |s| s.excess)
+        + drive.load_friction * effort_limit
+}
