@@ -59,4 +59,26 @@ pub enum EvaluationError {
         /// The model.
         model: ModelKind,
     },
+    /// The folder of a trial is none.
+    #[error("{}: the folder of a trial cannot be read: {reason}", path.display())]
+    UnreadableFolder {
+        /// The folder.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: String,
+    },
+    /// A trial has nothing to diagnose.
+    #[error("{}: there is no log in it, a trial needs one *.parquet at least", path.display())]
+    NoLogs {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A trial cannot be scored.
+    #[error("{}: it does not tell what was put in: {reason}", path.display())]
+    UnreadableTruth {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system or the decoder said.
+        reason: String,
+    },
 }

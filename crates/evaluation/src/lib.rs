@@ -3,6 +3,7 @@
 //! ```text
 //! TrackingScenario --simulate--> logs --diagnose, learn--> Learned --track--> TrackedRun, Sweep
 //! logs, diagnosis --replay--> a recording of the measured arm beside the simulated one
+//! Trial --simulate, diagnose blind--> Score --many--> Tally
 //! ```
 //!
 //! The one place where the simulated arm and the models of it meet; what is learned is learned
@@ -21,6 +22,7 @@ mod sweep;
 mod track;
 mod tracking_scenario;
 mod tracking_spec;
+mod trials;
 mod words;
 
 pub use error::EvaluationError;
@@ -36,4 +38,7 @@ pub use tracking_scenario::TrackingScenario;
 pub use tracking_spec::{
     AheadSpec, ClockSpec, ErrorRateSpec, LearnSpec, Measured, PredictionSpec, PredictionTimeSpec,
     SweepSpec, TrackingControlSpec, TrackingSpec,
+};
+pub use trials::{
+    Estimated, Group, Hidden, Named, PutIn, Row, Score, Share, Size, SizeTally, Tally, Trial, judge,
 };

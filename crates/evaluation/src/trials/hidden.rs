@@ -1,0 +1,65 @@
+use std::fmt;
+use std::str::FromStr;
+
+use catalogue::{EffectKind, UnknownEffect};
+
+/// What is hidden in the arm of a trial; joint or link, size and shape follow from the seed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Hidden {
+    /// Nothing: whatever is named was made up.
+    Nothing,
+    /// One effect of a kind.
+    One(EffectKind),
+    /// Two effects, each drawn from the two kinds: it may be one kind at two places.
+    Two(EffectKind, EffectKind),
+}
+
+impl Hidden {
+    /// What a scenario is told, as `--set` takes it; nothing where nothing is hidden.
+    pub fn setting(self) -> Option<String> {
+        match self {
+            Self::Nothing => None,
+            Self::One(kind) => Some(format!("hidden={{ count=[1, 1], from=['{kind}'] }}")),
+            Self::Two(a, b) => Some(format!("hidden={{ count=[2, 2], from=['{a}', '{b}'] }}")),
+        }
+    }
+}
+
+/// Such as `clean`, `backlash` and `backlash+payload`: the folder of its trials.
+impl fmt::Display for Hidden {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => f.write_str("clean"),
+            Self::One(kind) => write!(f, "{kind}"),
+            Self::Two(a, b) => write!(f, "{a}+{b}"),
+        }
+    }
+}
+
+impl FromStr for Hidden {
+    type Err = UnknownEffect;
+
+    /// What [`fmt::Display`] writes; codes do for names.
+    fn from_str(text: &str) -> Result<Self, UnknownEffect> {
+        match text.split_once('+') {
+            None if text == "clean" => Ok(Self::Nothing),
+            None => Ok(Self::One(text.parse()?)),
+            Some((a, b)) => Ok(Self::Two(a.parse()?, b.parse()?)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_hidden_is_read_back_from_its_name() {
+        use EffectKind::{Backlash, Payload};
+        for hidden in [Hidden::Nothing, Hidden::One(Backlash), Hidden::Two(Backlash, Payload)] {
+            assert_eq!(hidden.to_string().parse(), Ok(hidden));
+        }
+        assert_eq!("TR01".parse(), Ok(Hidden::One(Backlash)));
+        assert_eq!("backlash+no".parse::<Hidden>(), Err(UnknownEffect("no".to_owned())));
+    }
+}
