@@ -1,8 +1,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use catalogue::EffectKind;
 use checks::arms::workspace_root;
-use evaluation::{Hidden, Score, Tally, Trial, judge};
+use evaluation::{EvaluationError, Hidden, Score, Tally, Trial, judge};
 use rayon::prelude::*;
 use robot::Robot;
 
@@ -65,4 +66,93 @@ fn trials_of_a_folder_are_scored() {
     };
     println!("\n{}", Tally::of(&scores).text());
     assert!(!scores.is_empty(), "{}: no trial is there", root.display());
+}
+
+/// Two short runs in long steps: a trial in a second or two.
+fn cheap(hidden: Hidden, seed: u64) -> Trial {
+    let run = |name: &str, seed: u64| {
+        let motion = "terms=3, lowest_hz=0.2, highest_hz=0.8, duration_s=8.0";
+        format!("{{ name='{name}', motion={{ sinusoids={{ seed={seed}, {motion} }} }} }}")
+    };
+    let mut settings =
+        vec![format!("run=[{}, {}]", run("a", 11), run("b", 12)), "engine.step_ms=0.5".to_owned()];
+    if hidden != Hidden::Nothing {
+        settings.push("hidden.torque_share=[0.2, 0.3]".to_owned());
+    }
+    Trial { scenario: workspace_root().join("scenarios/clean.toml"), hidden, seed, settings }
+}
+
+/// Seeds and kinds for which the answer is plain: what is tested here is the way through files.
+#[test]
+fn a_trial_goes_through_files_and_a_clean_one_names_nothing() {
+    let root = tempfile::tempdir().unwrap();
+    let friction = cheap(Hidden::One(EffectKind::CoulombFriction), 3);
+    let folder = friction.folder(root.path());
+    assert_eq!(folder, root.path().join("coulomb_friction/3"));
+    let score = friction.run(&folder).unwrap();
+    let mut files: Vec<_> =
+        fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    files.sort();
+    assert_eq!(files, ["a.parquet", "b.parquet", "scenario.toml", "truth.json"]);
+    assert_eq!((score.seed, score.put_in.len()), (3, 1));
+    assert_eq!(score.put_in[0].at.effect, EffectKind::CoulombFriction);
+    assert!(score.exactly, "{}", score.words());
+
+    let clean = cheap(Hidden::Nothing, 1);
+    let score = clean.run(&clean.folder(root.path())).unwrap();
+    assert!(score.exactly && score.put_in.is_empty(), "{}", score.words());
+    assert_eq!(sealed(root.path()), [root.path().join("clean/1"), folder]);
+}
+
+/// A truth that was changed since shows that nothing was simulated anew.
+#[test]
+fn logs_that_are_there_are_used_again_and_those_of_another_trial_are_not() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = root.path().join("logs");
+    let clean = cheap(Hidden::Nothing, 1);
+    assert!(clean.run(&folder).unwrap().put_in.is_empty());
+    let made_up = r#"{"seed": 1, "effects": [{"effect": "payload", "link": "palm", "parameters": {"mass": 1.0}}]}"#;
+    fs::write(folder.join("truth.json"), made_up).unwrap();
+    // A robot that lies elsewhere does not make it another scenario.
+    let scenario = folder.join("scenario.toml");
+    let text = fs::read_to_string(&scenario).unwrap();
+    let line = text.lines().find(|line| line.starts_with("robot = ")).unwrap();
+    fs::write(&scenario, text.replace(line, "robot = \"/elsewhere/robot.toml\"")).unwrap();
+    let again = clean.run(&folder).unwrap();
+    assert_eq!(again.put_in[0].at.effect, EffectKind::Payload);
+    assert!(again.findings.is_empty() && !again.exactly);
+
+    let other = cheap(Hidden::Nothing, 2).run(&folder).unwrap();
+    assert_eq!((other.seed, other.put_in.len()), (2, 0));
+    fs::write(folder.join("truth.json"), made_up).unwrap();
+    let mut longer = cheap(Hidden::Nothing, 2);
+    longer.settings.push("run.0.lead_in_s=0.5".to_owned());
+    assert!(longer.run(&folder).unwrap().put_in.is_empty());
+}
+
+#[test]
+fn what_cannot_be_scored_says_what_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let robot = Robot::load(&workspace_root().join("robots/wam7/robot.toml")).unwrap();
+    let none = folder.path().join("none");
+    let error = judge(&none, &robot).unwrap_err();
+    assert!(matches!(&error, EvaluationError::TrialFolder { path, .. } if *path == none));
+    let error = judge(folder.path(), &robot).unwrap_err();
+    assert!(matches!(&error, EvaluationError::NoLogs { path } if *path == folder.path()));
+
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let error = cheap(Hidden::Nothing, 1).run(&file).unwrap_err();
+    assert!(matches!(&error, EvaluationError::TrialFolder { path, .. } if *path == file));
+
+    cheap(Hidden::Nothing, 1).run(folder.path()).unwrap();
+    let truth = folder.path().join("truth.json");
+    for broken in [Some("{}"), Some("no"), None] {
+        match broken {
+            Some(text) => fs::write(&truth, text).unwrap(),
+            None => fs::remove_file(&truth).unwrap(),
+        }
+        let error = judge(folder.path(), &robot).unwrap_err();
+        assert!(matches!(&error, EvaluationError::UnreadableTruth { path, .. } if *path == truth));
+    }
 }

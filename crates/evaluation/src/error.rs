@@ -59,9 +59,9 @@ pub enum EvaluationError {
         /// The model.
         model: ModelKind,
     },
-    /// The folder of a trial is none.
-    #[error("{}: the folder of a trial cannot be read: {reason}", path.display())]
-    UnreadableFolder {
+    /// The folder of a trial can be neither made nor read.
+    #[error("{}: it cannot be the folder of a trial: {reason}", path.display())]
+    TrialFolder {
         /// The folder.
         path: PathBuf,
         /// What the operating system said.

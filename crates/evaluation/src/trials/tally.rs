@@ -42,7 +42,8 @@ pub struct Row {
     pub exactly: Share,
     /// Trials in which it was named first or a rival of what was.
     pub as_one_of: Share,
-    /// Trials in which all of it was named, or a rival of what was, first or not.
+    /// Trials in which all of it was named or a rival of what was, first or not; of none where
+    /// there was nothing to find.
     pub found: Share,
     /// Trials whose verdict leaves structure open and names nothing wrong.
     pub unknown: Share,
@@ -134,12 +135,13 @@ impl Row {
             let first = score.findings.first().map_or(NOTHING, |first| first.at.effect.code());
             *named_first.entry(first).or_default() += 1;
         }
+        let hiding: Vec<&&Score> = scores.iter().filter(|s| !s.put_in.is_empty()).collect();
         Self {
             put_in,
             trials: scores.len(),
             exactly: share(&|score| score.exactly),
             as_one_of: share(&|score| score.as_one_of),
-            found: share(&Score::found),
+            found: Share::of(&hiding, |score| score.found()),
             unknown: share(&Score::unknown),
             stray: share(&|score| !score.stray.is_empty()),
             named_first,

@@ -53,6 +53,7 @@ impl Trial {
     pub fn run(&self, folder: &Path) -> Result<Score, EvaluationError> {
         let scenario = self.scenario()?;
         if !holds(folder, &scenario) {
+            std::fs::create_dir_all(folder).map_err(unusable(folder))?;
             let simulation = simulator::simulate(&scenario, &|| {})?;
             simulator::write(folder, &scenario, &simulation, LogFormat::Parquet)?;
         }
@@ -87,18 +88,18 @@ pub fn judge(folder: &Path, robot: &Loaded) -> Result<Score, EvaluationError> {
 
 /// The logs of a folder, by name.
 fn logs_of(folder: &Path) -> Result<Vec<PathBuf>, EvaluationError> {
-    let unreadable = |error: std::io::Error| EvaluationError::UnreadableFolder {
-        path: folder.to_owned(),
-        reason: error.to_string(),
-    };
-    let entries = std::fs::read_dir(folder).map_err(unreadable)?.map(|e| e.map(|e| e.path()));
-    let mut paths = entries.collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
+    let entries = std::fs::read_dir(folder).map_err(unusable(folder))?.map(|e| e.map(|e| e.path()));
+    let mut paths = entries.collect::<Result<Vec<_>, _>>().map_err(unusable(folder))?;
     paths.retain(|path| path.extension().is_some_and(|e| e == LogFormat::Parquet.extension()));
     paths.sort();
     if paths.is_empty() {
         return Err(EvaluationError::NoLogs { path: folder.to_owned() });
     }
     Ok(paths)
+}
+
+fn unusable(folder: &Path) -> impl Fn(std::io::Error) -> EvaluationError {
+    |error| EvaluationError::TrialFolder { path: folder.to_owned(), reason: error.to_string() }
 }
 
 /// `truth.json`
