@@ -2,7 +2,7 @@
 //! neither can be tuned to the other. Not through a third crate and not in tests either.
 
 use crate::assert_kept;
-use crate::workspace::{Package, crates, reach};
+use crate::workspace::{Package, packages, reach};
 
 /// Crates of the one side and what they must not reach.
 const WALLS: [(&[&str], &[&str]); 2] = [
@@ -24,7 +24,7 @@ fn broken(crates: &[Package]) -> Vec<String> {
 
 #[test]
 fn simulator_and_models_never_see_each_other() {
-    assert_kept(&broken(&crates()));
+    assert_kept(&broken(&packages()));
 }
 
 #[test]
@@ -45,6 +45,18 @@ fn a_model_that_sees_the_simulator_is_reported_even_in_its_tests() {
         let made_up = [Package::made_up("simulator", 2, &[]), package];
         assert_eq!(broken(&made_up), [format!("{model} reaches simulator through the wall")]);
     }
+}
+
+#[test]
+fn a_model_whose_tests_see_the_simulator_through_those_of_all_is_reported() {
+    let mut diagnosis = Package::made_up("diagnosis", 4, &["checks"]);
+    diagnosis.dependencies[0].kind = Some("dev".to_owned());
+    let made_up = [
+        Package::made_up("simulator", 3, &[]),
+        Package::made_up("checks", 9, &["simulator"]),
+        diagnosis,
+    ];
+    assert_eq!(broken(&made_up), ["diagnosis reaches simulator through the wall"]);
 }
 
 #[test]

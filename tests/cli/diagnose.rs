@@ -133,6 +133,29 @@ fn the_same_command_writes_the_same_bytes() {
     }
 }
 
+/// A truth and a scenario beside the logs, which tell of another effect, change no byte.
+#[test]
+fn what_lies_beside_the_logs_is_not_looked_at() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let read = || FILES.map(|name| fs::read(folder.path().join("out").join(name)).unwrap());
+    let arguments = ["--robot", "arm.urdf", "--out", "out", "--quiet", "--no-recording"];
+    diagnose(folder.path(), &arguments);
+    let alone = read();
+    let truth = r#"{ "seed": 1, "effects": [{ "code": "IN01", "effect": "payload", "link": "fore",
+        "parameters": { "mass": 2.0, "com_x": 0.1, "com_y": 0.0, "com_z": 0.0 } }] }"#;
+    let scenario = "robot = \"arm.urdf\"\n[[effect]]\n\
+        payload = { link = \"fore\", mass_kg = 2.0, com_m = [0.1, 0.0, 0.0] }\n";
+    arm::write(folder.path(), "truth.json", truth);
+    arm::write(folder.path(), "scenario.toml", scenario);
+    fs::remove_dir_all(folder.path().join("out")).unwrap();
+    diagnose(folder.path(), &arguments);
+    for (name, (a, b)) in FILES.iter().zip(alone.iter().zip(&read())) {
+        assert!(a == b, "{name} differs");
+    }
+    let value = json(&folder.path().join("out/diagnosis.json"));
+    assert_eq!(value["findings"][0]["effect"], "coulomb_friction");
+}
+
 #[test]
 fn the_report_opens_offline_and_holds_the_same_json() {
     let folder = arm::folder(Gap::Friction(1.5));
