@@ -72,6 +72,7 @@ impl Tally {
             ]
         };
         let sizes = self.rows.iter().flat_map(|row| row.sizes.iter().map(move |size| (row, size)));
+        let sizes = sizes.filter(|(_, size)| size.estimates > 0);
         table(header.map(str::to_owned).to_vec(), sizes.map(row), 1)
     }
 }
