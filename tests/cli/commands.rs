@@ -81,13 +81,13 @@ fn effects_prints_for_programs_what_can_be_done_about_each() {
     let list: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
     assert_eq!(list["schema"], "plumbline.effects/1");
     let effects = list["effects"].as_array().unwrap();
-    let backlash = effects.iter().find(|e| e["name"] == "backlash");
+    let ripple = effects.iter().find(|e| e["name"] == "torque_ripple");
     let expected = serde_json::json!({
-        "code": "TR01", "name": "backlash", "family": "transmission",
-        "summary": "play between motor and link",
+        "code": "DR01", "name": "torque_ripple", "family": "drive",
+        "summary": "torque that varies with the motor angle",
         "diagnosed": false, "simulated": true, "compensated": true,
     });
-    assert_eq!((effects.len(), backlash), (26, Some(&expected)));
+    assert_eq!((effects.len(), ripple), (26, Some(&expected)));
 }
 
 #[test]

@@ -83,19 +83,17 @@ fn a_gap_without_a_name_and_a_log_without_motion_exit_with_one() {
     assert_eq!(value["verdict"], "data_inadequate");
 }
 
-/// Play, twist and delay are not followed along a log: the diagnosis says so and keeps them.
 #[test]
-fn what_the_robot_says_and_the_diagnosis_leaves_out_is_a_warning() {
+fn what_the_robot_says_of_play_and_delay_is_part_of_the_model_and_stays() {
     let folder = arm::folder(Gap::Friction(1.5));
-    let toml = "urdf = \"arm.urdf\"\n[joint.elbow]\nbacklash_rad = 0.0001\nactuator_delay_ms = 2.0";
+    let toml = "urdf = \"arm.urdf\"\n[joint.elbow]\nbacklash_rad = 0.0001\nactuator_delay_ms = 0.1";
     arm::write(folder.path(), "play.toml", toml);
     let answer = diagnose(folder.path(), &["--robot", "play.toml", "--out", "out"]);
     assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
     let value = json(&folder.path().join("out/diagnosis.json"));
-    let warning = "elbow: the expected effort leaves out backlash_rad and actuator_delay_ms";
-    assert!(value["warnings"][0].as_str().unwrap().starts_with(warning), "{value}");
+    assert_eq!(value["warnings"], serde_json::json!([]));
     let extended = fs::read_to_string(folder.path().join("out/extended.toml")).unwrap();
-    assert!(extended.contains("backlash_rad = 0.0001\nactuator_delay_ms = 2.0\n"), "{extended}");
+    assert!(extended.contains("backlash_rad = 0.0001\nactuator_delay_ms = 0.1\n"), "{extended}");
 }
 
 #[test]

@@ -2,8 +2,10 @@
 
 use checks::arms::wam;
 use effects::{Compensated, Compensation};
-use robot::{Machine, Reading, Robot, SensingSide};
-use simulator::{Sensors, Simulator, Stepping};
+use robot::{Actuator, Machine, Reading, Ripple, Robot, SensingSide, Stribeck, Wave};
+use simulator::{
+    EffortSource, JointSensor, PositionSide, Sensors, Simulator, Stepping, VelocitySource,
+};
 
 const PERIOD_S: f64 = 0.002;
 const STEPPING: Stepping = Stepping { step_s: 1e-4, steps_per_period: 20, stops: false };
@@ -24,6 +26,21 @@ fn worn() -> Robot {
     robot
 }
 
+/// The same with all else that a drive can say, at joints that give way and at joints that do not.
+fn worn_out() -> Robot {
+    let mut robot = worn();
+    for (j, level) in [(0, 1.6), (1, 0.5), (3, 0.6)] {
+        let a = &mut robot.link_mut(j).unwrap().actuator;
+        a.stribeck = Some(Stribeck { excess: 0.5 * level, velocity: 0.2 });
+        a.load_friction = 0.1;
+        a.friction_wave = Some(Wave { share: 0.4, periods: 5.0, phase: 1.0 });
+        a.ripple = Some(Ripple { amplitude: 0.3 * level, periods: 12.0, phase: 0.5 });
+        a.lag_s = 0.012;
+        (a.encoder_offset, a.transmission_ratio) = (0.02, 1.02);
+    }
+    robot
+}
+
 /// Every joint swings from rest at a rate of its own: `q = A (1 - cos(w t))`, about a pose in
 /// which gravity keeps elbow and shoulder loaded.
 fn motion(time_s: f64) -> [Vec<f64>; 3] {
@@ -39,20 +56,27 @@ fn motion(time_s: f64) -> [Vec<f64>; 3] {
 
 fn asked(compensation: &Compensation, time_s: f64) -> Compensated {
     let h = Compensation::SPACING_S;
-    let states = [time_s - h, time_s, time_s + h].map(motion);
+    let states = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| motion(time_s + k * h));
     let states: Vec<[&[f64]; 3]> =
         states.iter().map(|s| [0, 1, 2].map(|i| s[i].as_slice())).collect();
     let needed = compensation.states_needed();
     let mut out = Compensated::zero(7);
-    let first = (3 - needed) / 2;
+    let first = (Compensation::MOST_STATES - needed) / 2;
     compensation.fill(&mut compensation.workspace(), &states[first..first + needed], &mut out);
     out
 }
 
-/// Error of the links (rad), RMS from 1 s on, when the worn arm is asked for what undoes `known`.
-fn link_error(known: &Robot) -> Vec<f64> {
+/// Error of the links (rad), RMS from 1 s on, when an arm is asked for what undoes `known`.
+fn link_error(arm: &Robot, known: &Robot) -> Vec<f64> {
     let compensation = Compensation::new(known, vec![0.02; 7]);
-    let mut arm = Simulator::new(&worn(), Vec::new(), Sensors::perfect(7), STEPPING).unwrap();
+    let sensors = Sensors::new(
+        PositionSide::Motor,
+        EffortSource::Commanded,
+        VelocitySource::Ideal,
+        vec![JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 }; 7],
+        0,
+    );
+    let mut arm = Simulator::new(arm, Vec::new(), sensors, STEPPING).unwrap();
     arm.start(&motion(0.0)[0]);
     let (kp, kd) =
         ([20.0, 30.0, 10.0, 10.0, 1.0, 1.0, 0.25], [2.2, 4.7, 1.6, 0.8, 0.1, 0.1, 0.016]);
@@ -66,8 +90,8 @@ fn link_error(known: &Robot) -> Vec<f64> {
         let [q, qd, _] = motion(t);
         let effort: Vec<f64> = (0..7)
             .map(|j| {
-                let error = q[j] + lead.q_lead[j] - arm.motor_q_true()[j];
-                let error_rate = qd[j] + lead.qd_lead[j] - arm.motor_qd_true()[j];
+                let error = q[j] + lead.q_lead[j] - reading.q[j];
+                let error_rate = qd[j] + lead.qd_lead[j] - reading.qd[j];
                 tau[j] + kp[j] * error + kd[j] * error_rate
             })
             .collect();
@@ -84,15 +108,15 @@ fn link_error(known: &Robot) -> Vec<f64> {
 
 #[test]
 fn oracle_links_of_a_worn_arm_follow_at_low_gains_when_what_is_worn_is_known() {
-    let known = link_error(&worn());
-    let unknown = link_error(&wam());
+    let known = link_error(&worn(), &worn());
+    let unknown = link_error(&worn(), &wam());
     let rigid = {
         let mut robot = worn();
         for j in [1, 3] {
             let a = &mut robot.link_mut(j).unwrap().actuator;
             (a.elasticity, a.backlash) = (None, 0.0);
         }
-        link_error(&robot)
+        link_error(&worn(), &robot)
     };
     println!("known {known:?}\nrigid {rigid:?}\nunknown {unknown:?}");
     for j in 0..7 {
@@ -100,5 +124,32 @@ fn oracle_links_of_a_worn_arm_follow_at_low_gains_when_what_is_worn_is_known() {
     }
     for j in [1, 3] {
         assert!(2.0 * known[j] < rigid[j], "joint {j}: {} and {} rad", known[j], rigid[j]);
+    }
+}
+
+/// Each key alone counts: without it the joints that have it follow less well.
+#[test]
+fn oracle_links_of_an_arm_with_all_that_a_drive_can_say_follow_when_it_is_said() {
+    let worst = |errors: Vec<f64>| [0, 1, 3].map(|j| errors[j]).into_iter().fold(0.0, f64::max);
+    let known = worst(link_error(&worn_out(), &worn_out()));
+    type Silence = fn(&mut Actuator);
+    let silent: [(&str, Silence); 7] = [
+        ("stribeck_excess_nm", |a| a.stribeck = None),
+        ("load_friction", |a| a.load_friction = 0.0),
+        ("friction_wave", |a| a.friction_wave = None),
+        ("torque_ripple", |a| a.ripple = None),
+        ("actuator_lag_ms", |a| a.lag_s = 0.0),
+        ("encoder_offset_rad", |a| a.encoder_offset = 0.0),
+        ("transmission_ratio", |a| a.transmission_ratio = 1.0),
+    ];
+    println!("known {known}");
+    for (key, silence) in silent {
+        let mut robot = worn_out();
+        for j in 0..7 {
+            silence(&mut robot.link_mut(j).unwrap().actuator);
+        }
+        let without = worst(link_error(&worn_out(), &robot));
+        println!("without {key} {without}");
+        assert!(2.0 * known < without, "{key}: {known} rad, {without} rad without");
     }
 }

@@ -27,7 +27,7 @@ torque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
 [joint.elbow]
 coulomb_forward_nm = 1\ncoulomb_backward_nm = 2
 stribeck_excess_nm = 0.3\nstribeck_velocity_rad_per_s = 0.04\nload_friction = 0.05
-presliding_rad = 0.001\nactuator_lag_ms = 3\nencoder_offset_rad = -0.02
+presliding_rad = 0.001\nactuator_lag_ms = 3\neffort_skew_ms = -2\nencoder_offset_rad = -0.02
 transmission_ratio = 1.01
 friction_wave = { share = 0.2, periods_per_turn = 7, phase_rad = 0.5 }
 torque_ripple = { amplitude_nm = 0.06, periods_per_turn = 120 }\nsensing = \"link\"\ntorque_source = \"measured\"
@@ -56,6 +56,7 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((b.encoder_offset, b.transmission_ratio), (-0.02, 1.01));
     assert_eq!(b.friction_wave, Some(Wave { share: 0.2, periods: 7.0, phase: 0.5 }));
     assert_eq!(b.ripple, Some(Ripple { amplitude: 0.06, periods: 120.0, phase: 0.0 }));
+    assert_eq!((a.effort_skew_s, b.effort_skew_s), (0.0, -0.002));
     assert_eq!((a.load_friction, a.lag_s, a.encoder_offset), (0.0, 0.0, 0.0));
     assert_eq!((a.stribeck, a.friction_wave, a.ripple), (None, None, None));
     assert_eq!((a.presliding, a.transmission_ratio), (None, 1.0));
@@ -108,8 +109,8 @@ fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
          `coulomb_backward_nm`, `spring_stiffness_nm_per_rad`, `spring_rest_rad`, `torque_gain`, \
          `torque_offset_nm`, `backlash_rad`, `elasticity_nm_per_rad`, `actuator_delay_ms`, \
          `stribeck_excess_nm`, `stribeck_velocity_rad_per_s`, `load_friction`, `presliding_rad`, \
-         `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `torque_limit_nm`, \
-         `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`, `friction_wave`, \
+         `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `effort_skew_ms`, \
+         `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`, `friction_wave`, \
          `torque_ripple`"
     );
     assert_eq!(

@@ -105,6 +105,7 @@ proptest! {
         a.friction_wave = waves.map(|(share, periods, phase, _)| Wave { share, periods, phase });
         a.ripple = waves.map(|(_, periods, phase, amplitude)| Ripple { amplitude, periods, phase });
         a.lag_s = 1e-3 * sensor.0;
+        a.effort_skew_s = -2e-3 * sensor.0;
         (a.encoder_offset, a.transmission_ratio) = (sensor.1, sensor.2);
         a.sensing = [SensingSide::Motor, SensingSide::Link, SensingSide::Unknown][sides.0];
         a.torque_source = [TorqueSource::Measured, TorqueSource::Commanded, TorqueSource::Current, TorqueSource::Unknown][sides.1];

@@ -75,7 +75,7 @@ type Describe = fn(&mut Actuator);
 #[test]
 fn a_record_of_an_arm_with_an_effect_is_replayed_by_a_robot_that_says_so() {
     let elbow = "joint = 'j4_elbow_pitch'";
-    let cases: [(String, Describe); 5] = [
+    let cases: [(String, Describe); 6] = [
         (format!("actuator_delay = {{ {elbow}, delay_ms = 1.5 }}"), |a| a.delay_s = 0.0015),
         (format!("backlash = {{ {elbow}, gap_rad = 0.002 }}"), |a| a.backlash = 0.002),
         (format!("actuator_lag = {{ {elbow}, time_constant_ms = 2.0 }}"), |a| a.lag_s = 0.002),
@@ -85,6 +85,13 @@ fn a_record_of_an_arm_with_an_effect_is_replayed_by_a_robot_that_says_so() {
         (format!("transmission_ratio = {{ {elbow}, ratio = 1.1 }}"), |a| {
             a.transmission_ratio = 1.1;
         }),
+        (
+            format!(
+                "transmission_ratio = {{ {elbow}, ratio = 1.1 }}\n[[effect]]\n\
+                 encoder_offset = {{ {elbow}, offset_rad = 0.3 }}"
+            ),
+            |a| (a.transmission_ratio, a.encoder_offset) = (1.1, 0.3),
+        ),
     ];
     let rigid = wam_with(TorqueSource::Commanded);
     for (effect, describe) in cases {

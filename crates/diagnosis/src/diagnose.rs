@@ -49,7 +49,6 @@ pub fn diagnose(
     settings.check()?;
     progress.stage("preparing the logs", 2);
     let (runs, mut warnings) = distinct(robot, runs)?;
-    warnings.extend(effects::left_out(robot));
     let mut prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));

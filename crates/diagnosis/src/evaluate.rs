@@ -52,7 +52,7 @@ impl Evaluated {
             run.joints.iter().map(|j| decimate(pick(j), first)).collect()
         };
         let state = [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)];
-        let motion = Motion::new(robot, frame, state, &signals(|j| &j.qd_wide));
+        let motion = Motion::new(robot, frame, state, &signals(|j| &j.qd_wide), rate.recip());
         let filtered = |mut column: Column| {
             column.iter_mut().for_each(|p| p.values = finish(std::mem::take(&mut p.values)));
             column

@@ -10,6 +10,25 @@ use crate::settle::settle;
 /// Rounds of fitting anew about the extended robot.
 const ROUNDS: usize = 2;
 
+/// Whether the columns of an effect are those of a small change only, or follow from what the
+/// other findings change.
+fn is_tangent(kind: EffectKind) -> bool {
+    use EffectKind as K;
+    matches!(
+        kind,
+        K::TorqueConstant
+            | K::GravityDirection
+            | K::LoadDependentFriction
+            | K::EncoderOffset
+            | K::TransmissionRatio
+            | K::Backlash
+            | K::JointElasticity
+            | K::TimeSkew
+            | K::ActuatorDelay
+            | K::ActuatorLag
+    )
+}
+
 /// The robot changed by the weights of a model.
 pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &[f64]) -> Robot {
     let mut changed = robot.clone();
@@ -31,9 +50,8 @@ pub(crate) fn extended_anew(
     (model, weights): (&Model, &[f64]),
 ) -> Result<Robot, LogError> {
     let mut changed = extended(robot, problem.design, model, weights);
-    let kinds = model.iter().map(|&g| problem.design.groups[g].hypothesis.kind);
-    let tangent = |k| matches!(k, EffectKind::TorqueConstant | EffectKind::GravityDirection);
-    if !kinds.into_iter().any(tangent) {
+    let tangent = |&g: &usize| is_tangent(problem.design.groups[g].hypothesis.kind);
+    if !model.iter().any(tangent) {
         return Ok(changed);
     }
     for _ in 0..ROUNDS {

@@ -11,6 +11,10 @@ use crate::settle::settle;
 /// Least gain in log evidence for a hypothesis to enter or stay: odds of 20 to 1.
 const LEAST_EVIDENCE: f64 = 3.0;
 
+/// The same for an effect that is made of the model's own torque, which is wrong wherever
+/// something else is.
+const LEAST_EVIDENCE_OF_TORQUE: f64 = 10.0;
+
 /// Least share of what a link's inertia explains that a physical inertia must explain.
 const KEPT_BY_BODIES: f64 = 0.9;
 
@@ -48,7 +52,8 @@ impl Selection<'_> {
 
     /// Names a disputed cause by its plainer rival, where that has as much evidence: Coulomb
     /// friction with a torque offset for asymmetric friction (they differ only at
-    /// standstill), rotor inertia for the inertia of the link behind the same joint.
+    /// standstill), rotor inertia for the inertia of the link behind the same joint, a torque
+    /// constant for a gear ratio, Coulomb friction for one that grows with the load.
     fn plainer(&self, model: &mut Model) {
         for g in model.clone() {
             let plain = self.plainer_than(g);
@@ -69,7 +74,8 @@ impl Selection<'_> {
 
     fn plainer_than(&self, g: usize) -> Vec<usize> {
         use EffectKind::{
-            AsymmetricFriction, CoulombFriction, InertialParameters, RotorInertia, TorqueOffset,
+            AsymmetricFriction, CoulombFriction, InertialParameters, LoadDependentFriction,
+            RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
         };
         let design = self.problem.design;
         let Hypothesis { kind, place } = design.groups[g].hypothesis;
@@ -80,6 +86,8 @@ impl Selection<'_> {
             (InertialParameters, Place::Link(j)) => {
                 vec![Hypothesis { kind: RotorInertia, place: Place::Joint(j) }]
             }
+            (TransmissionRatio, _) => vec![Hypothesis { kind: TorqueConstant, place }],
+            (LoadDependentFriction, _) => vec![Hypothesis { kind: CoulombFriction, place }],
             _ => Vec::new(),
         };
         plain.into_iter().filter_map(|h| design.find(h)).collect()
@@ -112,9 +120,25 @@ impl Selection<'_> {
         let all = 0..self.problem.design.groups.len();
         let mut ranked: Vec<(usize, f64)> =
             all.filter(|g| !model.contains(g)).map(|g| (g, gain(g))).collect();
-        ranked.retain(|(_, gain)| *gain > LEAST_EVIDENCE);
+        ranked.retain(|(g, gain)| *gain > self.least_evidence(*g));
         ranked.sort_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(Ordering::Equal));
         ranked.into_iter().map(|(g, _)| g).collect()
+    }
+
+    /// Least gain in log evidence for hypothesis `g`.
+    fn least_evidence(&self, g: usize) -> f64 {
+        use EffectKind as K;
+        match self.problem.design.groups[g].hypothesis.kind {
+            K::LoadDependentFriction
+            | K::EncoderOffset
+            | K::TransmissionRatio
+            | K::Backlash
+            | K::JointElasticity
+            | K::TimeSkew
+            | K::ActuatorDelay
+            | K::ActuatorLag => LEAST_EVIDENCE_OF_TORQUE,
+            _ => LEAST_EVIDENCE,
+        }
     }
 
     /// Whether the model already holds another name for the same change, unless `g` says
@@ -220,8 +244,8 @@ impl Selection<'_> {
                 } else {
                     f64::NEG_INFINITY
                 };
-                let idle =
-                    loss < LEAST_EVIDENCE || !self.pays(&self.problem.held_out(&smaller), model, g);
+                let idle = loss < self.least_evidence(g)
+                    || !self.pays(&self.problem.held_out(&smaller), model, g);
                 if idle && worst.is_none_or(|(least, _)| loss < least) {
                     worst = Some((loss, g));
                 }

@@ -1,3 +1,4 @@
+use catalogue::EffectKind;
 use effects::Quantity;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
@@ -75,8 +76,12 @@ impl Uncertainty {
                 let sd = self.sd(&place, &gradient);
                 let before = gradient.component_mul(&prior).norm();
                 let mut estimate = estimate(quantity, sd * self.t, before * self.t);
-                let place = (linear[i].value, weights);
-                clip(&mut estimate, (own, &gradient), &design.bounds, place);
+                let at = (linear[i].value, weights);
+                clip(&mut estimate, (own, &gradient), &design.bounds, at);
+                if hypothesis.kind == EffectKind::JointElasticity {
+                    let half = self.t * self.sd(&place, &DVector::from_element(own.len(), 1.0));
+                    estimate.ci95 = between(estimate.value.recip(), half);
+                }
                 estimate
             })
             .collect()
@@ -160,6 +165,12 @@ fn clip(
     let (a, b) = (at(bounds[k].0), at(bounds[k].1));
     let [low, high] = estimate.ci95;
     estimate.ci95 = [low.max(a.min(b)).min(estimate.value), high.min(a.max(b)).max(estimate.value)];
+}
+
+/// Interval of the reciprocal of a number that is not negative and known to `half`: of a
+/// stiffness whose compliance is what the weights change.
+fn between(number: f64, half: f64) -> [f64; 2] {
+    [(number + half).recip(), (number - half).max(0.0).recip()]
 }
 
 /// An estimate with the half width `half` of its interval, which was `before` without data.

@@ -19,11 +19,8 @@ impl Explain for AsymmetricFriction {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        let (gain, direction) = (motion.gain[j], &motion.direction[j]);
-        vec![
-            at_joint(j, direction.iter().map(|s| gain * s)),
-            at_joint(j, direction.iter().map(|s| gain * s.abs())),
-        ]
+        let against = motion.coulomb(j).zip(&motion.direction[j]).map(|(c, s)| c * s.signum());
+        vec![at_joint(j, motion.coulomb(j)), at_joint(j, against)]
     }
 
     /// Levels as large as the effort itself.

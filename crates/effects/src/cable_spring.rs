@@ -1,7 +1,7 @@
 use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
-use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
+use crate::explain::{actuator_quantity, down_to_zero, every_joint};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `stiffness (q - rest)`: one weight a joint, the change of the stiffness.
@@ -28,7 +28,7 @@ impl Explain for CableSpring {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![at_joint(j, motion.q[j].iter().map(|q| motion.gain[j] * (q - motion.centre[j])))]
+        vec![vec![motion.carried(j, motion.link[0][j].iter().map(|q| q - motion.centre[j]))]]
     }
 
     /// A torque as large as the effort itself over the range of the joint.

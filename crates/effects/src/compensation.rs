@@ -18,17 +18,22 @@ const CROSSING_ACCELERATION: f64 = 1.0;
 /// ```text
 /// tau_link  = M(q) qdd + C(q, qd) qd + g(q) + spring_stiffness (q - spring_rest)
 /// q_motor   = q + tau_link / elasticity + (backlash / 2) tanh(tau_link / tau_0)
-/// tau_motor = tau_link + rotor_inertia qdd_motor + viscous qd_motor + coulomb(direction)
+/// tau_motor = tau_link + rotor_inertia qdd_motor + viscous qd_motor + ripple(q_motor)
+///             + level(q_motor, qd_motor, tau_link) direction
 /// direction = tanh(qd_motor / rest_speed)
-/// tau       = torque_gain tau_motor + torque_offset
+/// tau       = transmission_ratio torque_gain (tau_motor + lag d(tau_motor)/dt) + torque_offset
+/// q_seen    = q_motor / transmission_ratio + encoder_offset
 /// ```
+///
+/// with the level of dry friction and the ripple of [`Actuator`]. The way over which presliding
+/// friction builds up after a reversal is left out: only its level is asked for.
 ///
 /// `qd_motor` and `qdd_motor` are those of the motion plus central differences of
 /// `q_motor - q`. `tau_0 = M_jj(q) x 1 rad/s²` is the load that gives the links one unit of
 /// acceleration: beyond it the load knows its side of the gap. Damping of a transmission has no
 /// key in the description and is left out.
 ///
-/// Friction stays within its Coulomb levels, the lead within `backlash / 2` and the twist
+/// Friction stays within its levels, the lead within `backlash / 2` and the twist
 /// `|tau_link| / elasticity`, and both are smooth, so that no reversal makes them jump.
 ///
 /// Where an actuator is late, its `tau` is to be that of the motion
@@ -51,9 +56,9 @@ pub struct Compensation {
 pub struct Compensated {
     /// Effort to be asked for (N·m or N).
     pub tau: Vec<f64>,
-    /// What the position that is measured should be ahead of the reference (rad or m):
-    /// `q_motor - q`, zero where the link is measured. A side that is not stated counts as the
-    /// motor's.
+    /// What the position that is reported should be ahead of the reference (rad or m):
+    /// `q_seen - q`, where the link is measured with its position in place of the motor's. A
+    /// side that is not stated counts as the motor's.
     pub q_lead: Vec<f64>,
     /// The same for the velocity (rad/s or m/s).
     pub qd_lead: Vec<f64>,
@@ -63,8 +68,8 @@ pub struct Compensated {
 #[derive(Debug, Clone)]
 pub struct CompensationWorkspace {
     dynamics: Workspace,
-    /// Torque through the transmissions, of every instant.
-    tau_link: [Vec<f64>; 3],
+    /// Torque through the transmissions, `[instant][joint]`.
+    tau_link: Vec<Vec<f64>>,
     /// Row-major n x n.
     mass_matrix: Vec<f64>,
 }
@@ -82,6 +87,9 @@ impl Compensation {
     /// by `(w h)² / 12`, 1e-3 at 17 Hz.
     pub const SPACING_S: f64 = 1e-3;
 
+    /// Largest number of states that [`fill`](Self::fill) takes.
+    pub const MOST_STATES: usize = 5;
+
     /// The compensation for `robot`, whose joints count as at rest below `rest_speed` (rad/s or
     /// m/s, one entry a joint).
     ///
@@ -95,10 +103,19 @@ impl Compensation {
         Self { dynamics: Dynamics::new(robot), drives, rest_speed, delay_s }
     }
 
-    /// Number of states that [`fill`](Self::fill) takes: one when every transmission is rigid,
-    /// three otherwise.
+    /// Number of states that [`fill`](Self::fill) takes: the instant alone, and one more to each
+    /// side of it for transmissions that give way and for torques that lag.
     pub fn states_needed(&self) -> usize {
-        if self.drives.iter().all(is_rigid) { 1 } else { 3 }
+        let some = |has: fn(&Actuator) -> bool| 2 * usize::from(self.drives.iter().any(has));
+        1 + some(|drive| !is_rigid(drive)) + some(|drive| drive.lag_s > 0.0)
+    }
+
+    /// Whether what is reported can be ahead of the reference at any joint.
+    pub fn leads(&self) -> bool {
+        let truly = |a: &Actuator| {
+            a.transmission_ratio.total_cmp(&1.0).is_eq() && a.encoder_offset.abs() <= 0.0
+        };
+        !self.drives.iter().all(|drive| is_rigid(drive) && truly(drive))
     }
 
     /// How far ahead of the present each joint's torque is to be asked for (s).
@@ -111,7 +128,7 @@ impl Compensation {
         let n = self.drives.len();
         CompensationWorkspace {
             dynamics: self.dynamics.workspace(),
-            tau_link: [vec![0.0; n], vec![0.0; n], vec![0.0; n]],
+            tau_link: vec![vec![0.0; n]; self.states_needed()],
             mass_matrix: vec![0.0; n * n],
         }
     }
@@ -119,8 +136,8 @@ impl Compensation {
     /// Works out what to ask for at one instant; allocates nothing.
     ///
     /// `states` are `[q, qd, qdd]` (rad, rad/s, rad/s² or m, m/s, m/s²) of the motion that the
-    /// links should follow: of the instant alone, or, as [`states_needed`](Self::states_needed)
-    /// says, [`SPACING_S`](Self::SPACING_S) before, at and after it.
+    /// links should follow: as many as [`states_needed`](Self::states_needed) says,
+    /// [`SPACING_S`](Self::SPACING_S) apart, with the instant in their middle.
     ///
     /// # Panics
     ///
@@ -132,33 +149,48 @@ impl Compensation {
         out: &mut Compensated,
     ) {
         assert_eq!(states.len(), self.states_needed(), "states of the motion");
-        let [q_now, qd_now, qdd_now] = states[states.len() / 2];
+        let now = states.len() / 2;
+        let [q_now, qd_now, _] = states[now];
         let (dynamics, n) = (&mut ws.dynamics, self.drives.len());
         for (tau, [q, qd, qdd]) in ws.tau_link.iter_mut().zip(states) {
             self.dynamics.inverse_dynamics_into(dynamics, q, qd, qdd, tau);
             let joints = tau.iter_mut().zip(&self.drives).zip(*q);
             joints.for_each(|((tau, drive), q)| *tau += spring_torque(drive, *q));
         }
-        if states.len() > 1 {
+        if !self.drives.iter().all(is_rigid) {
             self.dynamics.mass_matrix_into(dynamics, q_now, &mut ws.mass_matrix);
         }
         for (j, drive) in self.drives.iter().enumerate() {
-            let tau_link = ws.tau_link[states.len() / 2][j];
-            let [q_lead, qd_lead, qdd_lead] = if is_rigid(drive) {
-                [0.0; 3]
-            } else {
-                let tau_0 = CROSSING_ACCELERATION * ws.mass_matrix[j * n + j];
-                differences([0, 1, 2].map(|t| lead(drive, ws.tau_link[t][j], tau_0)))
+            let tau_0 = CROSSING_ACCELERATION * ws.mass_matrix[j * n + j];
+            let motor = |at: usize| {
+                let lead = if is_rigid(drive) {
+                    [0.0; 3]
+                } else {
+                    differences([at - 1, at, at + 1].map(|t| lead(drive, ws.tau_link[t][j], tau_0)))
+                };
+                let [q, qd, qdd] = states[at];
+                let state = [q[j] + lead[0], qd[j] + lead[1], qdd[j] + lead[2]];
+                (self.motor_torque(j, state, ws.tau_link[at][j]), lead)
             };
-            let qd_motor = qd_now[j] + qd_lead;
-            let direction = (qd_motor / self.rest_speed[j].max(f64::MIN_POSITIVE)).tanh();
-            let tau_motor =
-                tau_link + motor_torque(drive, [qd_motor, qdd_now[j] + qdd_lead], direction);
-            out.tau[j] = drive.torque_gain * tau_motor + drive.torque_offset;
-            let seen = if drive.sensing == SensingSide::Link { 0.0 } else { 1.0 };
-            out.q_lead[j] = seen * q_lead;
-            out.qd_lead[j] = seen * qd_lead;
+            let (mut tau_motor, [q_lead, qd_lead, _]) = motor(now);
+            if drive.lag_s > 0.0 {
+                tau_motor += drive.lag_s * rate(motor(now - 1).0, motor(now + 1).0);
+            }
+            let ratio = drive.transmission_ratio;
+            out.tau[j] = ratio * drive.torque_gain * tau_motor + drive.torque_offset;
+            let seen = if drive.sensing == SensingSide::Link { 0.0 } else { ratio.recip() };
+            let stretch = ratio.recip() - 1.0;
+            out.q_lead[j] = seen * q_lead + drive.encoder_offset + stretch * q_now[j];
+            out.qd_lead[j] = seen * qd_lead + stretch * qd_now[j];
         }
+    }
+
+    /// What motor `j` has to give in its state `q, qd, qdd` while its link takes `tau_link`
+    /// (N·m or N).
+    fn motor_torque(&self, j: usize, [q, qd, qdd]: [f64; 3], tau_link: f64) -> f64 {
+        let drive = &self.drives[j];
+        let direction = (qd / self.rest_speed[j].max(f64::MIN_POSITIVE)).tanh();
+        tau_link + motor_torque(drive, [q, qd, qdd], direction, tau_link)
     }
 }
 
@@ -179,7 +211,12 @@ fn lead(drive: &Actuator, tau: f64, tau_0: f64) -> f64 {
 /// Value and first two derivatives at the middle of three instants, by central differences.
 fn differences([before, now, after]: [f64; 3]) -> [f64; 3] {
     const H: f64 = Compensation::SPACING_S;
-    [now, (after - before) / (2.0 * H), (after - 2.0 * now + before) / (H * H)]
+    [now, rate(before, after), (after - 2.0 * now + before) / (H * H)]
+}
+
+/// Derivative between two instants that are two spacings apart.
+fn rate(before: f64, after: f64) -> f64 {
+    (after - before) / (2.0 * Compensation::SPACING_S)
 }
 
 #[cfg(test)]
@@ -188,7 +225,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use proptest::prelude::*;
-    use robot::Robot;
+    use robot::{Ripple, Robot, Stribeck, Wave};
 
     use super::*;
     use crate::drive_torque;
@@ -227,11 +264,12 @@ mod tests {
     fn along(robot: &Robot, motion: impl Fn(f64) -> [f64; 3], time_s: f64) -> [f64; 3] {
         let compensation = Compensation::new(robot, vec![REST]);
         let mut out = Compensated::zero(1);
-        let states = [time_s - H, time_s, time_s + H].map(&motion);
+        let side = i32::try_from(compensation.states_needed() / 2).unwrap();
+        let at = |k: i32| motion(time_s + f64::from(k) * H);
+        let states: Vec<[f64; 3]> = (-side..=side).map(at).collect();
         let states: Vec<[&[f64]; 3]> =
             states.iter().map(|s| [0, 1, 2].map(|i| &s[i..=i])).collect();
-        let states = if compensation.states_needed() == 1 { &states[1..2] } else { &states[..] };
-        compensation.fill(&mut compensation.workspace(), states, &mut out);
+        compensation.fill(&mut compensation.workspace(), &states, &mut out);
         [out.tau[0], out.q_lead[0], out.qd_lead[0]]
     }
 
@@ -315,11 +353,90 @@ mod tests {
             let [q, qd, qdd] = sine(0.4, 8.0)(t);
             let rigid_body = INERTIA * qdd - WEIGHT * q.cos();
             let drive = &robot.links()[0].actuator;
-            let torque = rigid_body + drive_torque(drive, [q, qd, qdd], (qd / REST).tanh());
+            let direction = (qd / REST).tanh();
+            let torque = rigid_body + drive_torque(drive, [q, qd, qdd], direction, rigid_body);
             let [tau, lead, rate] = along(&robot, sine(0.4, 8.0), t);
             assert!((tau - (1.1 * torque + 0.05)).abs() < 1e-12, "{tau} at {t} s");
             assert_eq!([lead, rate], [0.0; 2]);
         }
+    }
+
+    /// Held against its weight `w` while it creeps: with `x = periods q + phase`,
+    ///
+    /// ```text
+    /// tau = w + (coulomb (1 + share cos(x)) + excess exp(-(qd / velocity)²) + c |w|) direction
+    ///       + amplitude sin(x)
+    /// ```
+    #[test]
+    fn friction_beyond_the_coulomb_level_and_ripple_are_asked_for_as_the_closed_form_says() {
+        let robot = hinge("0 1 0", |a| {
+            (a.coulomb_forward, a.coulomb_backward) = (0.6, 0.4);
+            a.stribeck = Some(Stribeck { excess: 0.3, velocity: 0.05 });
+            a.load_friction = 0.04;
+            a.friction_wave = Some(Wave { share: 0.3, periods: 3.0, phase: 0.5 });
+            a.ripple = Some(Ripple { amplitude: 0.2, periods: 40.0, phase: -1.0 });
+        });
+        for qd in [-0.2_f64, -0.01, 0.0, 0.01, 0.2] {
+            let q = 0.7_f64;
+            let load = -WEIGHT * q.cos();
+            let coulomb = if qd > 0.0 { 0.6 } else { 0.4 };
+            let level = coulomb * (1.0 + 0.3 * (3.0 * q + 0.5).cos())
+                + 0.3 * (-(qd / 0.05).powi(2)).exp()
+                + 0.04 * load.abs();
+            let expected = load + level * (qd / REST).tanh() + 0.2 * (40.0 * q - 1.0).sin();
+            let [tau, ..] = along(&robot, |_| [q, qd, 0.0], 0.0);
+            assert!((tau - expected).abs() < 1e-12, "{tau}, not {expected}, at {qd} rad/s");
+        }
+    }
+
+    /// A wheel needs `tau = -I A w² sin(w t)` and behind a lag `T` has to be asked for
+    /// `tau + T d(tau)/dt`; on a spring as well, where the motor's way is `1 - I w² / k` of it.
+    #[test]
+    fn a_torque_that_lags_is_asked_for_with_its_rate() {
+        let (lag, amplitude, rotor, stiffness) = (0.004, 0.4, 0.1, 500.0);
+        for elasticity in [None, Some(stiffness)] {
+            let wheel = hinge("0 0 1", |a| {
+                (a.lag_s, a.rotor_inertia, a.elasticity) = (lag, rotor, elasticity);
+            });
+            let needed = if elasticity.is_none() { 3 } else { 5 };
+            assert_eq!(Compensation::new(&wheel, vec![REST]).states_needed(), needed);
+            for omega in [1.0, 10.0, 30.0] {
+                let motor = 1.0 - elasticity.map_or(0.0, |k| INERTIA * omega * omega / k);
+                let peak = -omega * omega * amplitude * (INERTIA + rotor * motor);
+                for step in 0..20 {
+                    let t = 0.1 * f64::from(step) / omega * TAU;
+                    let (sin, cos) = (omega * t).sin_cos();
+                    let expected = peak * (sin + lag * omega * cos);
+                    let [tau, ..] = along(&wheel, sine(amplitude, omega), t);
+                    // What central differences take off.
+                    let allowed = peak.abs() * (omega * H).powi(2) / 6.0 + 1e-9;
+                    assert!((tau - expected).abs() <= allowed, "{tau}, not {expected}");
+                }
+            }
+        }
+    }
+
+    /// The motor is to stand at `q + twist` where its encoder says `(q + twist) / ratio + offset`.
+    #[test]
+    fn an_encoder_that_errs_is_led_to_what_it_says_of_the_motion() {
+        let (ratio, offset, stiffness) = (1.25, 0.1, 500.0);
+        for (sensing, share) in [(SensingSide::Motor, 1.0), (SensingSide::Link, 0.0)] {
+            let robot = hinge("0 1 0", |a| {
+                (a.transmission_ratio, a.encoder_offset) = (ratio, offset);
+                (a.elasticity, a.sensing) = (Some(stiffness), sensing);
+            });
+            assert!(Compensation::new(&robot, vec![REST]).leads());
+            let (q, qd) = (0.7_f64, 0.3);
+            let load = -WEIGHT * q.cos();
+            let [tau, q_lead, qd_lead] = along(&robot, |t| [q + qd * t, qd, 0.0], 0.0);
+            let said = (q + share * load / stiffness) / ratio + offset;
+            assert!((q_lead - (said - q)).abs() < 1e-12, "{q_lead}");
+            let load_rate = WEIGHT * q.sin() * qd;
+            let rate = (qd + share * load_rate / stiffness) / ratio;
+            assert!((qd_lead - (rate - qd)).abs() < 1e-6, "{qd_lead}");
+            assert!((tau - ratio * load).abs() < 1e-9, "{tau}");
+        }
+        assert!(!Compensation::new(&hinge("0 1 0", |a| a.lag_s = 0.01), vec![REST]).leads());
     }
 
     /// Ten times finer steps make the largest change ten times smaller: there is no jump.

@@ -18,7 +18,7 @@ impl Explain for CoulombFriction {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![at_joint(j, motion.direction[j].iter().map(|s| motion.gain[j] * s))]
+        vec![at_joint(j, motion.coulomb(j))]
     }
 
     /// A level as large as the effort itself.

@@ -3,7 +3,7 @@ use nalgebra::{Rotation3, Vector3};
 use robot::Robot;
 
 use crate::motion::tilt_axes;
-use crate::{Column, Explain, Frame, Motion, Part, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `G(q) (g - g_nominal)`: two weights, the tilt of gravity about two horizontal axes (rad).
 ///
@@ -28,9 +28,8 @@ impl Explain for GravityDirection {
 
     fn columns(&self, _: Place, motion: &Motion) -> Vec<Column> {
         let column = |axis: usize| {
-            let part = |(joint, tilt): (usize, &[Vec<f64>; 2])| Part {
-                joint,
-                values: tilt[axis].iter().map(|v| motion.gain[joint] * v).collect(),
+            let part = |(joint, tilt): (usize, &[Vec<f64>; 2])| {
+                motion.carried(joint, tilt[axis].iter().copied())
             };
             motion.tilt.iter().enumerate().map(part).collect()
         };

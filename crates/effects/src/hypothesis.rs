@@ -41,7 +41,11 @@ impl Hypothesis {
 
     /// See [`Explain::columns`].
     pub fn columns(self, motion: &Motion) -> Vec<Column> {
-        self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default()
+        let mut columns = self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default();
+        for part in columns.iter_mut().flatten() {
+            part.values = motion.timed(part.joint, std::mem::take(&mut part.values));
+        }
+        columns
     }
 
     /// See [`Explain::prior`].

@@ -3,7 +3,7 @@ use dynamics::PARAMETERS_PER_LINK;
 use robot::{Inertia, Robot};
 
 use crate::explain::{down_to_zero, unbounded};
-use crate::{Column, Explain, Frame, Motion, Part, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
 /// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
@@ -23,9 +23,8 @@ impl Explain for InertialParameters {
         let column = |parameter: usize| {
             let carriers =
                 motion.regressor.iter().enumerate().filter(|(_, row)| !row[link].is_empty());
-            let part = |(joint, row): (usize, &Vec<Vec<Vec<f64>>>)| Part {
-                joint,
-                values: row[link][parameter].iter().map(|y| motion.gain[joint] * y).collect(),
+            let part = |(joint, row): (usize, &Vec<Vec<Vec<f64>>>)| {
+                motion.carried(joint, row[link][parameter].iter().copied())
             };
             carriers.map(part).collect()
         };

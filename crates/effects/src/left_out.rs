@@ -1,11 +1,10 @@
 use robot::{Actuator, Robot, TorqueSource};
 
-/// What the robot says of its drives and the expected effort along a log leaves out, one
-/// sentence a joint.
+/// What the robot says of its drives and a torque of one state alone leaves out, one sentence a
+/// joint: what needs the past, the motion of the other side of a transmission, or other times.
 ///
-/// Free play, twist and delay are states that would have to be followed along the log; what they
-/// do to the effort counts as something that the robot does not say. An effort that was measured
-/// has the delay behind it.
+/// What they do to the effort counts as something that the robot does not say. An effort that
+/// was measured has delay and lag behind it.
 pub fn left_out(robot: &Robot) -> Vec<String> {
     let sentence = |(name, drive): (&str, &Actuator)| {
         let measured =
@@ -14,6 +13,11 @@ pub fn left_out(robot: &Robot) -> Vec<String> {
             ("backlash_rad", drive.backlash > 0.0),
             ("elasticity_nm_per_rad", drive.elasticity.is_some()),
             ("actuator_delay_ms", drive.delay_s > 0.0 && !measured),
+            ("presliding_rad", drive.presliding.is_some()),
+            ("actuator_lag_ms", drive.lag_s > 0.0 && !measured),
+            ("encoder_offset_rad", drive.encoder_offset.abs() > 0.0),
+            ("transmission_ratio", drive.transmission_ratio.total_cmp(&1.0).is_ne()),
+            ("effort_skew_ms", drive.effort_skew_s.abs() > 0.0),
         ];
         let keys: Vec<&str> = said.iter().filter(|(_, is)| *is).map(|(key, _)| *key).collect();
         let keys = keys.join(" and ");
@@ -55,5 +59,27 @@ mod tests {
         assert_eq!(left_out(&robot), [expected.replace(" and actuator_delay_ms", "")]);
         robot.link_mut(0).unwrap().actuator.elasticity = Some(100.0);
         assert_eq!(left_out(&robot).len(), 2);
+    }
+
+    #[test]
+    fn all_that_a_drive_can_say_beyond_the_expected_effort_is_named() {
+        let urdf = r#"<robot name="arm"><link name="base"/><link name="a"><inertial>
+            <mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+            </link><joint name="j" type="continuous"><parent link="base"/><child link="a"/>
+            </joint></robot>"#;
+        type Describe = fn(&mut Actuator);
+        let cases: [(&str, Describe); 5] = [
+            ("presliding_rad", |a| a.presliding = Some(0.001)),
+            ("actuator_lag_ms", |a| a.lag_s = 0.001),
+            ("encoder_offset_rad", |a| a.encoder_offset = -0.1),
+            ("transmission_ratio", |a| a.transmission_ratio = 0.9),
+            ("effort_skew_ms", |a| a.effort_skew_s = -0.001),
+        ];
+        for (key, describe) in cases {
+            let mut robot = Robot::from_urdf(urdf).unwrap();
+            describe(&mut robot.link_mut(0).unwrap().actuator);
+            let start = format!("j: the expected effort leaves out {key} of the robot;");
+            assert!(left_out(&robot)[0].starts_with(&start), "{key}");
+        }
     }
 }

@@ -9,23 +9,35 @@
 //! says what an effect without one would need. [`Compensation`] asks the motors for what undoes
 //! the effects that a robot's description holds, and [`remedy`] says which those are.
 
+mod actuator_delay;
+mod actuator_lag;
 mod asymmetric_friction;
+mod backlash;
 mod cable_spring;
 mod compensation;
 mod coulomb_friction;
+mod dry_friction;
+mod encoder_offset;
 mod explain;
 mod gravity_direction;
 mod hypothesis;
 mod inertial_parameters;
+mod joint_elasticity;
 mod left_out;
+mod load_dependent_friction;
 mod model;
 mod motion;
 mod payload;
 mod remedy;
 mod rotor_inertia;
 mod scale;
+mod slopes;
+mod time_skew;
+mod timing;
 mod torque_constant;
 mod torque_offset;
+mod transmission;
+mod transmission_ratio;
 mod viscous_friction;
 
 pub use compensation::{Compensated, Compensation, CompensationWorkspace};

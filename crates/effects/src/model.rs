@@ -3,7 +3,7 @@ use catalogue::EffectKind;
 use crate::Explain;
 
 /// The effects that have a model, in the order in which hypotheses are laid out.
-pub const MODELLED: [EffectKind; 10] = [
+pub const MODELLED: [EffectKind; 18] = [
     EffectKind::ViscousFriction,
     EffectKind::CoulombFriction,
     EffectKind::AsymmetricFriction,
@@ -14,6 +14,14 @@ pub const MODELLED: [EffectKind; 10] = [
     EffectKind::CableSpring,
     EffectKind::GravityDirection,
     EffectKind::TorqueConstant,
+    EffectKind::LoadDependentFriction,
+    EffectKind::EncoderOffset,
+    EffectKind::TransmissionRatio,
+    EffectKind::Backlash,
+    EffectKind::JointElasticity,
+    EffectKind::TimeSkew,
+    EffectKind::ActuatorDelay,
+    EffectKind::ActuatorLag,
 ];
 
 /// The model side of `kind`; where there is none, what it would need.
@@ -33,6 +41,14 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
         EffectKind::CableSpring => &crate::cable_spring::CableSpring,
         EffectKind::GravityDirection => &crate::gravity_direction::GravityDirection,
         EffectKind::TorqueConstant => &crate::torque_constant::TorqueConstant,
+        EffectKind::LoadDependentFriction => &crate::load_dependent_friction::LoadDependentFriction,
+        EffectKind::EncoderOffset => &crate::encoder_offset::EncoderOffset,
+        EffectKind::TransmissionRatio => &crate::transmission_ratio::TransmissionRatio,
+        EffectKind::Backlash => &crate::backlash::Backlash,
+        EffectKind::JointElasticity => &crate::joint_elasticity::JointElasticity,
+        EffectKind::TimeSkew => &crate::time_skew::TimeSkew,
+        EffectKind::ActuatorDelay => &crate::actuator_delay::ActuatorDelay,
+        EffectKind::ActuatorLag => &crate::actuator_lag::ActuatorLag,
         EffectKind::StribeckFriction => {
             return Err("the speed at which it falls is not a factor of a signal of the log, \
                         and only factors are solved for");
@@ -41,17 +57,9 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
             return Err("its period is not a factor of a signal of the log, \
                         and only factors are solved for");
         }
-        EffectKind::PreslidingFriction | EffectKind::Backlash => {
+        EffectKind::PreslidingFriction => {
             return Err("it remembers where the joint last turned back: \
                         its state must be followed along the log");
-        }
-        EffectKind::JointElasticity => {
-            return Err("motor and link move apart: \
-                        the motion of the one must be solved from that of the other");
-        }
-        EffectKind::LoadDependentFriction => {
-            return Err("the load it grows with depends on every other finding: \
-                        the two must be solved for together");
         }
         EffectKind::FrictionTemperatureDrift => {
             return Err("it depends on the time since the drive was cold, which runs do not share");
@@ -60,15 +68,8 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
             return Err("the ratio of the pair is not a factor of a signal of the log, \
                         and only factors are solved for");
         }
-        EffectKind::ActuatorLag | EffectKind::ActuatorDelay | EffectKind::TimeSkew => {
-            return Err("it moves torque in time: it needs the torque of neighbouring samples");
-        }
         EffectKind::TorqueSaturation => {
             return Err("it needs the command and the torque side by side, a log has one effort");
-        }
-        EffectKind::EncoderOffset | EffectKind::TransmissionRatio => {
-            return Err("the arm is in another pose than the log says: \
-                        every torque must be evaluated there anew");
         }
         EffectKind::ExternalDisturbance => {
             return Err("it keeps to the clock, and only what follows the motion is looked for");

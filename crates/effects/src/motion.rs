@@ -1,21 +1,30 @@
 use dynamics::{Dynamics, PARAMETERS_PER_LINK};
 use nalgebra::{UnitVector3, Vector3};
-use robot::{Actuator, Robot};
+use rayon::prelude::*;
+use robot::{Actuator, Robot, SensingSide};
+
+use crate::dry_friction::dry_friction;
+use crate::slopes::Slopes;
+use crate::timing::{Timing, rate};
+use crate::transmission::{Parted, corrected};
+use crate::{Column, Part};
 
 /// The motion of one run and what the nominal robot makes of it.
 ///
 /// All signals are indexed `[joint][sample]`.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    /// Position (rad or m).
+    /// Position of the motor, seen at the joint (rad or m).
     pub q: Vec<Vec<f64>>,
-    /// Velocity (rad/s or m/s).
+    /// Velocity of the motor, seen at the joint (rad/s or m/s).
     pub qd: Vec<Vec<f64>>,
-    /// Acceleration (rad/s² or m/s²).
+    /// Acceleration of the motor, seen at the joint (rad/s² or m/s²).
     pub qdd: Vec<Vec<f64>>,
     /// Direction of motion, in [-1, 1]: the sign of the velocity, in proportion to it below
-    /// the rest speed.
+    /// the rest speed; with presliding, the share of dry friction that the bristles hold.
     pub direction: Vec<Vec<f64>>,
+    /// Torque that the transmission carries to the link (N·m or N).
+    pub load: Vec<Vec<f64>>,
     /// Torque of the nominal robot before its gain and offset (N·m or N).
     pub torque: Vec<Vec<f64>>,
     /// Effort that the nominal robot expects in the log (N·m or N).
@@ -24,11 +33,24 @@ pub struct Motion {
     pub centre: Vec<f64>,
     /// Reported effort per unit of torque, nominal.
     pub gain: Vec<f64>,
+    /// Time between samples (s).
+    pub period_s: f64,
+    /// Position, velocity and acceleration of the links.
+    pub(crate) link: State,
     /// `[joint][link]` to the ten regressor signals, empty where the joint does not carry the link.
     pub(crate) regressor: Vec<Vec<Vec<Vec<f64>>>>,
     /// `[joint][tilt]`: torque per radian of tilt about the two horizontal axes.
     pub(crate) tilt: Vec<[Vec<f64>; 2]>,
+    /// What moving the link of each joint changes.
+    pub(crate) slopes: Vec<Slopes>,
+    /// The drives of the nominal robot.
+    pub(crate) drives: Vec<Actuator>,
+    /// Load of the links if they moved as was measured, where motor and link part.
+    tight_load: Option<Vec<Vec<f64>>>,
 }
+
+/// Position, velocity and acceleration, each `[joint][sample]`.
+pub(crate) type State = [Vec<Vec<f64>>; 3];
 
 /// What all runs of a diagnosis share.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,13 +62,18 @@ pub struct Frame {
 }
 
 impl Motion {
-    /// Evaluates the nominal robot along `q`, `qd`, `qdd` (each `[joint][sample]`), with
-    /// directions from `swift`, a velocity that is filtered less.
+    /// Evaluates the nominal robot along `reading`: `q`, `qd`, `qdd` as reported (each
+    /// `[joint][sample]`, every `period_s`), with directions from `swift`, a velocity that is
+    /// filtered less.
     ///
     /// ```text
-    /// torque = Y pi + rotor_inertia qdd + viscous qd + coulomb(direction) + stiffness (q - rest)
-    /// effort = torque_gain torque + torque_offset
+    /// q = transmission_ratio (q reported - encoder_offset)
+    /// load   = Y pi + stiffness (q_link - rest)
+    /// torque = load + rotor_inertia qdd + viscous qd + dry friction
+    /// effort(t) = transmission_ratio torque_gain torque(t + delay - skew) + torque_offset
     /// ```
+    ///
+    /// Motor and link part by twist and play as [`transmission`](crate::transmission) says.
     ///
     /// # Panics
     ///
@@ -54,30 +81,42 @@ impl Motion {
     pub fn new(
         robot: &Robot,
         frame: &Frame,
-        [q, qd, qdd]: [Vec<Vec<f64>>; 3],
+        reading: [Vec<Vec<f64>>; 3],
         swift: &[Vec<f64>],
+        period_s: f64,
     ) -> Self {
-        let direction = swift
-            .iter()
-            .zip(&frame.rest_speed)
-            .map(|(v, rest)| v.iter().map(|v| (v / rest).clamp(-1.0, 1.0)).collect())
-            .collect();
         let joints = robot.joint_count();
-        let gain = robot.links().iter().map(|l| l.actuator.torque_gain).collect();
+        let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
+        let Parted { motor, link, tight_load } =
+            Parted::new(robot, corrected(robot, reading), period_s);
+        let slopes = (0..joints).into_par_iter().map(|j| Slopes::new(robot, &link, j)).collect();
+        let [q, qd, qdd] = motor;
+        let direction = (0..joints).map(|j| {
+            let settled = |v: &f64| (v / frame.rest_speed[j]).clamp(-1.0, 1.0);
+            let way = drives[j].presliding;
+            way.map_or_else(|| swift[j].iter().map(settled).collect(), |way| bristles(&q[j], way))
+        });
+        let direction = direction.collect();
         let mut motion = Self {
             q,
             qd,
             qdd,
             direction,
+            load: vec![Vec::new(); joints],
             torque: vec![Vec::new(); joints],
             effort: vec![Vec::new(); joints],
             centre: frame.centre.clone(),
-            gain,
+            gain: drives.iter().map(|a| a.transmission_ratio * a.torque_gain).collect(),
+            period_s,
+            link,
             regressor: Vec::new(),
             tilt: Vec::new(),
+            slopes,
+            drives,
+            tight_load,
         };
         motion.rigid_body(robot);
-        motion.drives(robot);
+        motion.drive();
         motion
     }
 
@@ -86,7 +125,7 @@ impl Motion {
         self.q.first().map_or(0, Vec::len)
     }
 
-    /// Fills the regressor, the tilt signals and the rigid-body torque.
+    /// Fills the regressor, the tilt signals and the rigid-body part of the load.
     fn rigid_body(&mut self, robot: &Robot) {
         let (n, samples) = (robot.joint_count(), self.samples());
         let width = PARAMETERS_PER_LINK * n;
@@ -97,7 +136,7 @@ impl Motion {
         };
         self.regressor = (0..n).map(|i| (0..n).map(|j| signals(i, j)).collect()).collect();
         self.tilt = vec![[vec![0.0; samples], vec![0.0; samples]]; n];
-        self.torque = vec![vec![0.0; samples]; n];
+        self.load = vec![vec![0.0; samples]; n];
         let pi: Vec<f64> = robot.links().iter().flat_map(|l| l.inertia.parameters()).collect();
         let gravity = robot.gravity_in_base();
         let turned = tilt_axes(gravity).map(|axis| axis.cross(&gravity));
@@ -106,14 +145,14 @@ impl Motion {
         let (mut y, mut g) = (vec![0.0; n * width], vec![0.0; 3 * n]);
         let mut state = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
         for t in 0..samples {
-            for (x, signal) in state.iter_mut().zip([&self.q, &self.qd, &self.qdd]) {
+            for (x, signal) in state.iter_mut().zip(&self.link) {
                 x.iter_mut().zip(signal).for_each(|(x, s)| *x = s[t]);
             }
             dynamics.torque_regressor_into(&mut ws, &state[0], &state[1], &state[2], &mut y);
             dynamics.gravity_regressor_into(&mut ws, &state[0], &mut g);
             for i in 0..n {
                 let row = &y[i * width..(i + 1) * width];
-                self.torque[i][t] = row.iter().zip(&pi).map(|(y, p)| y * p).sum();
+                self.load[i][t] = row.iter().zip(&pi).map(|(y, p)| y * p).sum();
                 for (j, block) in self.regressor[i].iter_mut().enumerate() {
                     let entries = &row[j * PARAMETERS_PER_LINK..];
                     block.iter_mut().zip(entries).for_each(|(signal, y)| signal[t] = *y);
@@ -124,39 +163,135 @@ impl Motion {
         }
     }
 
-    /// Adds what the drives do, then gain and offset.
-    fn drives(&mut self, robot: &Robot) {
-        for (i, link) in robot.links().iter().enumerate() {
-            let a = &link.actuator;
-            for (t, torque) in self.torque[i].iter_mut().enumerate() {
-                let state = [self.q[i][t], self.qd[i][t], self.qdd[i][t]];
-                *torque += drive_torque(a, state, self.direction[i][t]);
-            }
-            let reported = |torque: &f64| a.torque_gain * torque + a.torque_offset;
-            self.effort[i] = self.torque[i].iter().map(reported).collect();
+    /// Adds what the drives do, then gain, offset and time.
+    fn drive(&mut self) {
+        for (i, a) in self.drives.iter().enumerate() {
+            let spring = |(load, q): (&mut f64, &f64)| *load += spring_torque(a, *q);
+            self.load[i].iter_mut().zip(&self.link[0][i]).for_each(spring);
+            let torque = |t: usize| {
+                let (state, load) =
+                    ([self.q[i][t], self.qd[i][t], self.qdd[i][t]], self.load[i][t]);
+                load + motor_torque(a, state, self.direction[i][t], load)
+            };
+            self.torque[i] = (0..self.samples()).map(torque).collect();
+            let scaled = self.torque[i].iter().map(|torque| self.gain[i] * torque).collect();
+            let timed = self.timed(i, scaled);
+            self.effort[i] = timed.into_iter().map(|effort| effort + a.torque_offset).collect();
         }
+    }
+
+    /// Effort of joint `j` at the times at which the log has it.
+    pub(crate) fn timed(&self, j: usize, effort: Vec<f64>) -> Vec<f64> {
+        Timing::of(&self.drives[j]).reported(effort, self.period_s)
+    }
+
+    /// Effort per unit of the load of joint `j` in sample `t`: friction may grow with it.
+    fn load_gain(&self, j: usize, t: usize) -> f64 {
+        let pressed = self.load[j][t].signum() * self.direction[j][t];
+        self.gain[j] * (1.0 + self.drives[j].load_friction * pressed)
+    }
+
+    /// Effort of joint `j` per unit of its Coulomb level, which may vary with position.
+    pub(crate) fn coulomb(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
+        let level = move |q: &f64| {
+            let wave = self.drives[j].friction_wave;
+            1.0 + wave.map_or(0.0, |w| w.share * (w.periods * q + w.phase).cos())
+        };
+        let levels = self.q[j].iter().map(level);
+        levels.zip(&self.direction[j]).map(move |(level, s)| self.gain[j] * level * s)
+    }
+
+    /// What a change of the load of joint `j` changes in its effort.
+    pub(crate) fn carried(&self, j: usize, load: impl Iterator<Item = f64>) -> Part {
+        let values = load.enumerate().map(|(t, load)| self.load_gain(j, t) * load);
+        Part { joint: j, values: values.collect() }
+    }
+
+    /// Load of joint `j` if motor and link moved as one.
+    pub(crate) fn tight_load(&self, j: usize) -> &[f64] {
+        self.tight_load.as_ref().map_or(&self.load[j], |tight| &tight[j])
+    }
+
+    /// What changes in the efforts where motor and link of joint `j` part by `twist`,
+    /// `theta - q`: the one that was not measured moves otherwise.
+    pub(crate) fn twisted(&self, j: usize, twist: &[f64]) -> Column {
+        let first = rate(twist, self.period_s);
+        let second = rate(&first, self.period_s);
+        let drive = &self.drives[j];
+        if drive.sensing == SensingSide::Link {
+            let motor = |(v, a): (&f64, &f64)| drive.viscous * v + drive.rotor_inertia * a;
+            let values = first.iter().zip(&second).map(|state| self.gain[j] * motor(state));
+            return vec![Part { joint: j, values: values.collect() }];
+        }
+        let mut column = self.displaced(j, [twist, &first, &second]);
+        column.iter_mut().flat_map(|part| &mut part.values).for_each(|v| *v = -*v);
+        column
+    }
+
+    /// What changes in the effort of every joint where the link of joint `j` lies by `s`, with
+    /// `sd`, `sdd`, from where it is taken to be.
+    ///
+    /// ```text
+    /// d load / dq s + d load / dqd sd + d load / dqdd sdd
+    /// ```
+    pub(crate) fn displaced(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
+        let part = |i: usize| {
+            let [dq, dqd, dqdd] = &self.slopes[j].of[i];
+            let load = |t: usize| dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t];
+            self.carried(i, (0..s.len()).map(load))
+        };
+        (0..self.q.len()).map(part).collect()
     }
 }
 
 /// Torque that a joint's drive needs beside the rigid bodies (N·m or N), in the state
-/// `q, qd, qdd` and with `direction` of motion in [-1, 1]:
+/// `q, qd, qdd`, with `direction` of motion in [-1, 1] and `tau_rb` the rigid bodies' torque:
 ///
 /// ```text
-/// rotor_inertia qdd + viscous qd + coulomb(direction) + stiffness (q - rest)
+/// load = tau_rb + stiffness (q - rest)
+/// rotor_inertia qdd + viscous qd + dry friction(q, qd, direction, load) + ripple(q)
+///     + stiffness (q - rest)
 /// ```
-pub fn drive_torque(drive: &Actuator, [q, qd, qdd]: [f64; 3], direction: f64) -> f64 {
-    motor_torque(drive, [qd, qdd], direction) + spring_torque(drive, q)
+pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f64) -> f64 {
+    let spring = spring_torque(drive, state[0]);
+    spring + motor_torque(drive, state, direction, tau_rb + spring)
 }
 
-/// The part of the drive's torque that is spent at the motor (N·m or N).
-pub(crate) fn motor_torque(drive: &Actuator, [qd, qdd]: [f64; 2], direction: f64) -> f64 {
-    let level = if direction > 0.0 { drive.coulomb_forward } else { drive.coulomb_backward };
-    drive.rotor_inertia * qdd + drive.viscous * qd + level * direction
+/// The part of the drive's torque that is spent at the motor (N·m or N), under the `load` that
+/// its transmission carries.
+pub(crate) fn motor_torque(
+    drive: &Actuator,
+    [q, qd, qdd]: [f64; 3],
+    direction: f64,
+    load: f64,
+) -> f64 {
+    let ripple = drive.ripple.map_or(0.0, |r| r.amplitude * (r.periods * q + r.phase).sin());
+    let friction = drive.viscous * qd + dry_friction(drive, [q, qd], direction, load);
+    drive.rotor_inertia * qdd + friction + ripple
 }
 
 /// The part of the drive's torque that is spent at the link (N·m or N).
 pub(crate) fn spring_torque(drive: &Actuator, q: f64) -> f64 {
     drive.spring_stiffness * (q - drive.spring_rest)
+}
+
+/// The share of dry friction that bristles hold, in [-1, 1], of a joint that follows `q`:
+///
+/// ```text
+/// ds = (dq - |dq| s) / way
+/// ```
+///
+/// exact for a position that is linear between samples; slack at the start.
+pub(crate) fn bristles(q: &[f64], way: f64) -> Vec<f64> {
+    let mut held = 0.0;
+    let mut before = q.first().copied().unwrap_or(0.0);
+    let step = |&q: &f64| {
+        let moved = q - std::mem::replace(&mut before, q);
+        let end = if moved < 0.0 { -1.0 } else { 1.0 };
+        held = end + (held - end) * (-moved.abs() / way).exp();
+        held
+    };
+    q.iter().map(step).collect()
 }
 
 /// Two horizontal axes, unit vectors orthogonal to gravity and to each other.

@@ -10,9 +10,17 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
     use EffectKind as K;
     match kind {
         K::ViscousFriction => Ok("its torque at the velocity of the motor"),
-        K::CoulombFriction | K::AsymmetricFriction => {
+        K::CoulombFriction
+        | K::AsymmetricFriction
+        | K::StribeckFriction
+        | K::LoadDependentFriction
+        | K::PositionDependentFriction => {
             Ok("its level in the direction of the motor, eased through rest: tanh(qd / rest speed)")
         }
+        K::PreslidingFriction => {
+            Ok("its level as that of Coulomb friction, not the way over which it builds up")
+        }
+        K::TorqueRipple => Ok("its torque at the position of the motor"),
         K::Backlash => {
             Ok("half the gap on the side of the load, eased where the load changes sign")
         }
@@ -25,20 +33,14 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
         K::TorqueConstant => Ok("asking for as much more or less"),
         K::TorqueOffset => Ok("asking for the offset as well"),
         K::ActuatorDelay => Ok("asking for the torque of the motion that much ahead"),
-        K::StribeckFriction
-        | K::PreslidingFriction
-        | K::LoadDependentFriction
-        | K::PositionDependentFriction
-        | K::TorqueRipple
-        | K::ActuatorLag => Err("the description of a robot has no key for it"),
+        K::ActuatorLag => Ok("asking for the rate of the torque as well, times the time constant"),
+        K::EncoderOffset => Ok("a reference that is off as the encoder is"),
+        K::TransmissionRatio => Ok("reference and torque in the units that the drive believes in"),
         K::FrictionTemperatureDrift => Err("the temperature of a drive is not known"),
         K::DifferentialCoupling => {
             Err("the description of a robot has friction at joints, not at motors they share")
         }
         K::TorqueSaturation => Err("a motor cannot be asked for more than it has"),
-        K::EncoderOffset | K::TransmissionRatio => {
-            Err("the reference itself is measured wrongly: the reading is to be corrected")
-        }
         K::TimeSkew => Err("it is in the log, not in the arm"),
         K::ExternalDisturbance => Err("it does not follow the motion: it is left to feedback"),
     }
@@ -47,7 +49,7 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
-    use robot::{Actuator, Robot};
+    use robot::{Actuator, Ripple, Robot, Stribeck, Wave};
 
     use super::*;
     use crate::{Compensated, Compensation};
@@ -78,6 +80,22 @@ mod tests {
             K::TorqueConstant => |a| a.torque_gain = 1.1,
             K::TorqueOffset => |a| a.torque_offset = 0.2,
             K::ActuatorDelay => |a| a.delay_s = 0.004,
+            K::StribeckFriction => |a| a.stribeck = Some(Stribeck { excess: 0.3, velocity: 1.0 }),
+            K::PreslidingFriction => |a| {
+                (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.5);
+                a.presliding = Some(0.001);
+            },
+            K::LoadDependentFriction => |a| a.load_friction = 0.05,
+            K::PositionDependentFriction => |a| {
+                (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.5);
+                a.friction_wave = Some(Wave { share: 0.3, periods: 3.0, phase: 0.0 });
+            },
+            K::TorqueRipple => {
+                |a| a.ripple = Some(Ripple { amplitude: 0.1, periods: 60.0, phase: 0.0 })
+            }
+            K::EncoderOffset => |a| a.encoder_offset = 0.01,
+            K::ActuatorLag => |a| a.lag_s = 0.004,
+            K::TransmissionRatio => |a| a.transmission_ratio = 1.02,
             K::Payload | K::InertialParameters => {
                 robot.link_mut(0)?.inertia.mass += 0.5;
                 return Some(robot);
@@ -91,9 +109,16 @@ mod tests {
 
     fn asked(robot: &Robot) -> (Compensated, Vec<f64>) {
         let compensation = Compensation::new(robot, vec![0.02]);
-        let state: [&[f64]; 3] = [&[0.4], &[0.7], &[-3.0]];
+        let count = compensation.states_needed();
+        let (qd, qdd): (f64, f64) = (0.7, -3.0);
+        let at = |k: usize| {
+            let t = Compensation::SPACING_S * (k as f64 - (count / 2) as f64);
+            [[0.4 + t * (qd + 0.5 * t * qdd)], [qd + t * qdd], [qdd]]
+        };
+        let states: Vec<[[f64; 1]; 3]> = (0..count).map(at).collect();
+        let states: Vec<[&[f64]; 3]> =
+            states.iter().map(|s| [0, 1, 2].map(|i| &s[i][..])).collect();
         let mut out = Compensated::zero(1);
-        let states = vec![state; compensation.states_needed()];
         compensation.fill(&mut compensation.workspace(), &states, &mut out);
         (out, compensation.delay_s().to_vec())
     }

@@ -28,7 +28,7 @@ impl Explain for TorqueConstant {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![at_joint(j, motion.torque[j].iter().copied())]
+        vec![at_joint(j, motion.torque[j].iter().map(|t| motion.drives[j].transmission_ratio * t))]
     }
 
     fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {

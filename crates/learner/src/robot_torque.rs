@@ -48,7 +48,7 @@ impl RobotTorque {
         for (j, (tau, link)) in tau.iter_mut().zip(self.robot.links()).enumerate() {
             let drive = &link.actuator;
             let direction = (qd[j] / self.rest_speed[j]).clamp(-1.0, 1.0);
-            let torque = *tau + drive_torque(drive, [q[j], qd[j], qdd[j]], direction);
+            let torque = *tau + drive_torque(drive, [q[j], qd[j], qdd[j]], direction, *tau);
             *tau = drive.torque_gain * torque + drive.torque_offset;
         }
     }

@@ -90,7 +90,8 @@ pub fn sizes(finding: &Finding) -> Vec<String> {
 /// The size of one of `count` parameters.
 pub(crate) fn size(parameter: &Estimate, count: usize) -> String {
     let name = if count == 1 { String::new() } else { parameter.name.replace('_', " ") + " " };
-    let was = if parameter.nominal.abs() > 0.0 {
+    // What was rigid had no stiffness to tell.
+    let was = if parameter.nominal.abs() > 0.0 && parameter.nominal.is_finite() {
         format!(", was {}", significant(parameter.nominal, 3))
     } else {
         String::new()

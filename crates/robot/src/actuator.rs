@@ -101,6 +101,8 @@ pub struct Ripple {
 /// ```text
 /// q_reported = q / transmission_ratio + encoder_offset,   qd_reported = qd / transmission_ratio
 /// ```
+///
+/// and the log may hold efforts of another time, `effort_logged(t) = effort(t - effort_skew)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Actuator {
     /// Inertia of rotor and gear seen at the joint (kg m² or kg).
@@ -142,6 +144,8 @@ pub struct Actuator {
     pub encoder_offset: f64,
     /// True over reported position, and reported effort over true torque on top of the gain.
     pub transmission_ratio: f64,
+    /// Time by which the log has effort later than position (s).
+    pub effort_skew_s: f64,
     /// Where the position is measured.
     pub sensing: SensingSide,
     /// What the log's effort is.
@@ -171,6 +175,7 @@ impl Default for Actuator {
             lag_s: 0.0,
             encoder_offset: 0.0,
             transmission_ratio: 1.0,
+            effort_skew_s: 0.0,
             sensing: SensingSide::default(),
             torque_source: TorqueSource::default(),
         }

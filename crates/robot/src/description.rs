@@ -92,6 +92,9 @@ pub(crate) struct JointEntry {
     /// True over reported position.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub transmission_ratio: Option<f64>,
+    /// Time by which the log has effort later than position.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub effort_skew_ms: Option<f64>,
     /// Largest torque; `inf` where the URDF's limit does not hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limit_nm: Option<f64>,
@@ -285,20 +288,27 @@ impl JointEntry {
                 *field = Some(value);
             }
         }
-        for (key, value_ms, field) in [
-            ("actuator_delay_ms", self.actuator_delay_ms, &mut a.delay_s),
-            ("actuator_lag_ms", self.actuator_lag_ms, &mut a.lag_s),
-        ] {
-            if let Some(value_ms) = value_ms {
-                in_range(thing, key, value_ms, NotNegative)?;
-                *field = 1e-3 * value_ms;
-            }
-        }
+        self.times(thing, a)?;
         a.stribeck = self.stribeck(thing)?.or(a.stribeck);
         a.friction_wave = self.wave(thing)?.or(a.friction_wave);
         a.ripple = self.ripple(thing)?.or(a.ripple);
         a.sensing = self.sensing.unwrap_or(a.sensing);
         a.torque_source = self.torque_source.unwrap_or(a.torque_source);
+        Ok(())
+    }
+
+    fn times(&self, thing: &str, a: &mut Actuator) -> Result<(), RobotError> {
+        use Range::{Finite, NotNegative};
+        for (key, value_ms, range, field) in [
+            ("actuator_delay_ms", self.actuator_delay_ms, NotNegative, &mut a.delay_s),
+            ("actuator_lag_ms", self.actuator_lag_ms, NotNegative, &mut a.lag_s),
+            ("effort_skew_ms", self.effort_skew_ms, Finite, &mut a.effort_skew_s),
+        ] {
+            if let Some(value_ms) = value_ms {
+                in_range(thing, key, value_ms, range)?;
+                *field = 1e-3 * value_ms;
+            }
+        }
         Ok(())
     }
 

@@ -127,6 +127,7 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
         a.delay_s,
         a.load_friction,
         a.lag_s,
+        a.effort_skew_s,
         a.encoder_offset,
         a.transmission_ratio,
     ];

@@ -9,7 +9,7 @@ impl Loaded {
     /// A `robot.toml` that describes `robot`, this one or a changed copy of it.
     ///
     /// Holds what differs from the URDF, and the control settings. Loading it gives
-    /// `robot` again, every number to the last bit; only a delay or a lag that no number of
+    /// `robot` again, every number to the last bit; only a time that no number of
     /// milliseconds is comes back rounded. `urdf` is the path of the URDF as seen from the folder the text is written to.
     ///
     /// # Errors
@@ -105,6 +105,7 @@ fn joint_entry(new: &Link, old: &Link, gain: Option<Gain>) -> JointEntry {
         load_friction: changed(a.load_friction, b.load_friction),
         presliding_rad: a.presliding,
         actuator_lag_ms: changed(a.lag_s, b.lag_s).map(milliseconds),
+        effort_skew_ms: changed(a.effort_skew_s, b.effort_skew_s).map(milliseconds),
         encoder_offset_rad: changed(a.encoder_offset, b.encoder_offset),
         transmission_ratio: changed(a.transmission_ratio, b.transmission_ratio),
         torque_limit_nm: changed(

@@ -127,3 +127,49 @@ pub(crate) fn between(
     let qd = (va + part * (2.0 * second + 3.0 * part * third)) / interval_s;
     [q, qd]
 }
+
+#[cfg(test)]
+mod tests {
+    use robot::{Ripple, Stribeck, Wave};
+
+    use super::*;
+
+    /// The effort that carries a load is worked out forwards and given to what works backwards.
+    #[test]
+    fn a_load_is_found_behind_all_that_a_drive_can_say() {
+        let drive = Actuator {
+            rotor_inertia: 0.1,
+            viscous: 0.3,
+            coulomb_forward: 0.6,
+            coulomb_backward: 0.4,
+            stribeck: Some(Stribeck { excess: 0.2, velocity: 0.1 }),
+            load_friction: 0.1,
+            friction_wave: Some(Wave { share: 0.3, periods: 3.0, phase: 0.5 }),
+            ripple: Some(Ripple { amplitude: 0.2, periods: 40.0, phase: -1.0 }),
+            torque_gain: 1.1,
+            torque_offset: 0.05,
+            encoder_offset: 0.02,
+            transmission_ratio: 1.25,
+            ..Actuator::default()
+        };
+        let (q, qdd) = (0.7_f64, -2.0);
+        for (qd, coulomb) in [(0.1_f64, 0.6), (-0.1, 0.4)] {
+            for carried in [-5.0, -0.01, 0.01, 5.0_f64] {
+                let level = coulomb * (1.0 + 0.3 * (3.0 * q + 0.5).cos())
+                    + 0.2 * (-1.0_f64).exp()
+                    + 0.1 * carried.abs();
+                let ripple = 0.2 * (40.0 * q - 1.0).sin();
+                let tau = carried + 0.1 * qdd + 0.3 * qd + ripple + level * qd.signum();
+                let joint = PreparedJoint {
+                    q: vec![q / 1.25 + 0.02],
+                    qd: vec![qd / 1.25],
+                    qdd: vec![qdd / 1.25],
+                    qd_wide: vec![qd / 1.25],
+                    effort: vec![1.25 * 1.1 * tau + 0.05],
+                };
+                let found = load(&drive, &joint, 0, 500.0);
+                assert!((found - carried).abs() < 1e-12, "{found}, not {carried} N m");
+            }
+        }
+    }
+}

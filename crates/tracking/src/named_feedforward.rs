@@ -56,16 +56,10 @@ impl NamedFeedforward {
             let offset = i as f64 - middle as f64;
             motion.sample(time_s + offset * Compensation::SPACING_S, state);
         }
-        match self.states.as_slice() {
-            [a, b, c] => {
-                let states = [signals(a), signals(b), signals(c)];
-                self.compensation.fill(&mut self.workspace, &states, &mut self.found);
-            }
-            states => {
-                let state = states.first().map_or([&[][..]; 3], signals);
-                self.compensation.fill(&mut self.workspace, &[state], &mut self.found);
-            }
-        }
+        let mut found = [[&[][..]; 3]; Compensation::MOST_STATES];
+        found.iter_mut().zip(&self.states).for_each(|(found, state)| *found = signals(state));
+        let states = &found[..self.states.len()];
+        self.compensation.fill(&mut self.workspace, states, &mut self.found);
     }
 }
 
@@ -92,8 +86,7 @@ impl Feedforward for NamedFeedforward {
                 }
             }
         }
-        // Rigid drives have no lead.
-        if self.states.len() > 1 {
+        if self.compensation.leads() {
             self.find(motion, time_s);
         }
         prediction.q_lead.copy_from_slice(&self.found.q_lead);
@@ -170,6 +163,20 @@ mod tests {
         let found = predicted(&robot, &motion, 4.0);
         let twist = INERTIA * motion.at(4.0).qdd[0] / 50.0;
         assert!((found.q_lead[0] - twist).abs() < 1e-12, "{} and {twist}", found.q_lead[0]);
+        assert!(found.q_lead[1].abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_encoder_of_a_rigid_joint_is_led_by_what_it_is_off_at_present() {
+        let mut robot = wheels();
+        let actuator = &mut robot.link_mut(0).unwrap().actuator;
+        (actuator.delay_s, actuator.encoder_offset) = (0.02, 0.1);
+        (actuator.transmission_ratio, actuator.lag_s) = (1.25, 0.005);
+        let motion = swing(&robot);
+        let found = predicted(&robot, &motion, 4.0);
+        let now = motion.at(4.0);
+        assert!((found.q_lead[0] - (0.1 - 0.2 * now.q[0])).abs() < 1e-12);
+        assert!((found.qd_lead[0] + 0.2 * now.qd[0]).abs() < 1e-12);
         assert!(found.q_lead[1].abs() < 1e-15);
     }
 

@@ -10,7 +10,7 @@ pub struct Share {
     pub count: usize,
     /// Of how many.
     pub of: usize,
-    /// 95 per cent score interval of Wilson for the share, none where there were none:
+    /// 95 per cent score interval (Wilson 1927) for the share, none where there were none:
     ///
     /// ```text
     /// (p + z²/2n ± z sqrt(p (1 - p) / n + z²/4n²)) / (1 + z²/n),   p = count / n, n = of

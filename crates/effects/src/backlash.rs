@@ -1,0 +1,68 @@
+use catalogue::EffectKind;
+use robot::Robot;
+
+use crate::explain::{actuator_quantity, down_to_zero, every_joint};
+use crate::transmission::play;
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+
+/// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
+/// of the gap (rad or m).
+///
+/// How long the link takes from side to side depends on the gap itself. The column is that of a
+/// small gap in a robot without, and the difference of two gaps in a robot with one.
+pub(crate) struct Backlash;
+
+/// Gap for which the column of a robot without one is made (rad or m).
+const SMALL: f64 = 0.005;
+
+/// Relative difference of the gaps whose motions are compared.
+const STEP: f64 = 0.1;
+
+/// Standard deviation of a gap before any data (rad or m): gears have tenths of a milliradian,
+/// worn joints some ten.
+const GAP_SD: f64 = 0.01;
+
+impl Explain for Backlash {
+    fn kind(&self) -> EffectKind {
+        EffectKind::Backlash
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let inertia = &motion.slopes[j].of[j][2];
+        let at = |gap: f64| play(motion.tight_load(j), inertia, gap, motion.period_s);
+        let gap = motion.drives[j].backlash;
+        let twist: Vec<f64> = if gap > 0.0 {
+            let (wide, narrow) = (at((1.0 + STEP) * gap), at((1.0 - STEP) * gap));
+            wide.iter().zip(narrow).map(|(w, n)| (w - n) / (2.0 * STEP * gap)).collect()
+        } else {
+            at(SMALL).iter().map(|x| x / SMALL).collect()
+        };
+        vec![motion.twisted(j, &twist)]
+    }
+
+    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+        vec![GAP_SD]
+    }
+
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        down_to_zero(robot.links()[j].actuator.backlash)
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let (Place::Joint(j), [change]) = (place, weights) else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.backlash += change;
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.backlash)]
+    }
+}

@@ -1,0 +1,62 @@
+use catalogue::{EffectKind, Parameter};
+use robot::{Actuator, Robot};
+
+use crate::explain::{actuator_quantity, down_to_zero, every_joint};
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+
+/// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
+/// `1 / stiffness`.
+pub(crate) struct JointElasticity;
+
+/// Twist under the RMS effort that is believed beforehand (rad or m).
+const TWIST_SD: f64 = 0.01;
+
+fn compliance(drive: &Actuator) -> f64 {
+    drive.elasticity.map_or(0.0, f64::recip)
+}
+
+impl Explain for JointElasticity {
+    fn kind(&self) -> EffectKind {
+        EffectKind::JointElasticity
+    }
+
+    /// The stiffness: damping acts only at frequencies that the motion does not reach.
+    fn parameters(&self) -> &'static [Parameter] {
+        let all = self.kind().entry().parameters;
+        all.get(..1).unwrap_or(all)
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![motion.twisted(j, motion.tight_load(j))]
+    }
+
+    fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let effort = scale.effort.get(j).copied().unwrap_or(0.0);
+        vec![if effort > 0.0 { TWIST_SD / effort } else { 0.0 }]
+    }
+
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        down_to_zero(compliance(&robot.links()[j].actuator))
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let (Place::Joint(j), [change]) = (place, weights) else { return };
+        let Some(link) = robot.link_mut(j) else { return };
+        let compliance = compliance(&link.actuator) + change;
+        link.actuator.elasticity = (compliance > 0.0).then(|| compliance.recip());
+    }
+
+    /// A rigid transmission has an infinite stiffness.
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let stiffness = |a: &Actuator| a.elasticity.unwrap_or(f64::INFINITY);
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], stiffness)]
+    }
+}

@@ -1,0 +1,47 @@
+use catalogue::EffectKind;
+use robot::Robot;
+
+use crate::explain::{actuator_quantity, unbounded};
+use crate::timing::{TIME_SD, torque_rate};
+use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+
+/// `tau(t - skew) - tau(t)` at every joint: one weight, the change of the skew (s).
+pub(crate) struct TimeSkew;
+
+impl Explain for TimeSkew {
+    fn kind(&self) -> EffectKind {
+        EffectKind::TimeSkew
+    }
+
+    fn places(&self, _: &Robot) -> Vec<Place> {
+        vec![Place::Base]
+    }
+
+    fn columns(&self, _: Place, motion: &Motion) -> Vec<Column> {
+        let joints = 0..motion.torque.len();
+        let mut column: Column = joints.flat_map(|j| torque_rate(motion, j)).collect();
+        column.iter_mut().flat_map(|part| &mut part.values).for_each(|v| *v = -*v);
+        vec![column]
+    }
+
+    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+        vec![TIME_SD]
+    }
+
+    fn bounds(&self, _: Place, _: &Robot) -> Vec<(f64, f64)> {
+        unbounded(1)
+    }
+
+    fn extend(&self, _: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [change] = weights else { return };
+        for j in 0..robot.joint_count() {
+            if let Some(link) = robot.link_mut(j) {
+                link.actuator.effort_skew_s += change;
+            }
+        }
+    }
+
+    fn quantities(&self, _: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        vec![actuator_quantity(self.kind(), 0, 0, [nominal, extended], |a| a.effort_skew_s)]
+    }
+}

@@ -1,0 +1,123 @@
+use dynamics::Dynamics;
+use robot::{Actuator, Robot, SensingSide};
+
+use crate::motion::State;
+use crate::timing::rate;
+
+/// The motion of the motors behind what their encoders report:
+/// `q = transmission_ratio (reported - encoder_offset)`.
+pub(crate) fn corrected(robot: &Robot, mut reading: State) -> State {
+    for (i, link) in robot.links().iter().enumerate() {
+        let (ratio, offset) = (link.actuator.transmission_ratio, link.actuator.encoder_offset);
+        reading[0][i].iter_mut().for_each(|q| *q = ratio * (*q - offset));
+        reading[1..].iter_mut().for_each(|x| x[i].iter_mut().for_each(|v| *v *= ratio));
+    }
+    reading
+}
+
+/// Motion of the motors and of the links, of which one was measured.
+///
+/// ```text
+/// theta - q = load / elasticity + x,  |x| <= backlash / 2
+/// ```
+///
+/// with the load that the links would need if they moved as was measured.
+#[derive(Debug)]
+pub(crate) struct Parted {
+    pub motor: State,
+    pub link: State,
+    /// That load; none where motors and links move as one.
+    pub tight_load: Option<Vec<Vec<f64>>>,
+}
+
+impl Parted {
+    /// Parts what was `measured` every `period_s`.
+    pub fn new(robot: &Robot, measured: State, period_s: f64) -> Self {
+        let drives: Vec<&Actuator> = robot.links().iter().map(|l| &l.actuator).collect();
+        let (mut motor, mut link) = (measured.clone(), measured);
+        if drives.iter().all(|a| a.elasticity.is_none() && a.backlash <= 0.0) {
+            return Self { motor, link, tight_load: None };
+        }
+        let (load, inertia) = loads(robot, &motor);
+        for (i, drive) in drives.into_iter().enumerate() {
+            let compliance = drive.elasticity.map_or(0.0, f64::recip);
+            let mut twist: Vec<f64> = load[i].iter().map(|load| compliance * load).collect();
+            if drive.backlash > 0.0 {
+                let play = play(&load[i], &inertia[i], drive.backlash, period_s);
+                twist.iter_mut().zip(play).for_each(|(t, x)| *t += x);
+            }
+            let at_link = drive.sensing == SensingSide::Link;
+            let (moved, sign) = if at_link { (&mut motor, 1.0) } else { (&mut link, -1.0) };
+            let first = rate(&twist, period_s);
+            let second = rate(&first, period_s);
+            for (x, change) in moved.iter_mut().zip([twist, first, second]) {
+                x[i].iter_mut().zip(change).for_each(|(x, change)| *x += sign * change);
+            }
+        }
+        Self { motor, link, tight_load: Some(load) }
+    }
+}
+
+/// Torque and inertia of the links of every joint along a motion, all other joints held to it.
+fn loads(robot: &Robot, state: &State) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+    let n = robot.joint_count();
+    let samples = state[0].first().map_or(0, Vec::len);
+    let dynamics = Dynamics::new(robot);
+    let mut ws = dynamics.workspace();
+    let (mut load, mut inertia) = (vec![vec![0.0; samples]; n], vec![vec![0.0; samples]; n]);
+    let mut at = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+    let (mut tau, mut mass) = (vec![0.0; n], vec![0.0; n * n]);
+    for t in 0..samples {
+        for (x, signal) in at.iter_mut().zip(state) {
+            x.iter_mut().zip(signal).for_each(|(x, s)| *x = s[t]);
+        }
+        dynamics.inverse_dynamics_into(&mut ws, &at[0], &at[1], &at[2], &mut tau);
+        dynamics.mass_matrix_into(&mut ws, &at[0], &mut mass);
+        for (i, link) in robot.links().iter().enumerate() {
+            load[i][t] = tau[i] + crate::motion::spring_torque(&link.actuator, at[0][i]);
+            inertia[i][t] = mass[i * n + i];
+        }
+    }
+    (load, inertia)
+}
+
+/// Where the motor stands in a gap: `x = theta - q` with `|x| <= gap / 2`, at the side that
+/// carries the load. When the load changes sign the link is free until the other side meets it,
+/// and does not bounce:
+///
+/// ```text
+/// inertia xdd = load,  xd = 0 at the ends
+/// ```
+pub(crate) fn play(load: &[f64], inertia: &[f64], gap: f64, period_s: f64) -> Vec<f64> {
+    let half = 0.5 * gap;
+    let mut x = half * load.first().copied().unwrap_or(0.0).signum();
+    let mut xd = 0.0;
+    let mut step = |(load, inertia): (&f64, &f64)| {
+        xd += period_s * load / inertia.max(f64::MIN_POSITIVE);
+        let next = x + period_s * xd;
+        x = next.clamp(-half, half);
+        if next.abs() >= half {
+            xd = 0.0;
+        }
+        x
+    };
+    load.iter().zip(inertia).map(&mut step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A load that grows as `c t` crosses the gap in `(6 gap inertia / c)^(1/3)`.
+    #[test]
+    fn a_link_crosses_its_play_as_it_falls() {
+        let (gap, inertia, c, period_s) = (0.01, 0.2, 3.0, 1e-4);
+        let time = |t: usize| (t as f64 - 1000.0) * period_s;
+        let load: Vec<f64> = (0..6000).map(|t| c * time(t)).collect();
+        let x = play(&load, &vec![inertia; 6000], gap, period_s);
+        let crossed = x.iter().position(|x| *x >= 0.5 * gap).unwrap();
+        let expected = (6.0 * gap * inertia / c).cbrt();
+        assert!((time(crossed) - expected).abs() < 3.0 * period_s, "{} s", time(crossed));
+        assert!((x[0] + 0.5 * gap).abs() < 1e-15 && (x[5999] - 0.5 * gap).abs() < 1e-15);
+    }
+}
