@@ -13,12 +13,17 @@ const ROUNDS: usize = 2;
 /// Whether the columns of an effect are those of a small change only, or follow from what the
 /// other findings change.
 fn is_tangent(kind: EffectKind) -> bool {
+    is_made_of_torque(kind)
+        || matches!(kind, EffectKind::TorqueConstant | EffectKind::GravityDirection)
+}
+
+/// Whether the columns of an effect are made of the model's own torque, which is wrong wherever
+/// something else is.
+pub(crate) fn is_made_of_torque(kind: EffectKind) -> bool {
     use EffectKind as K;
     matches!(
         kind,
-        K::TorqueConstant
-            | K::GravityDirection
-            | K::LoadDependentFriction
+        K::LoadDependentFriction
             | K::EncoderOffset
             | K::TransmissionRatio
             | K::Backlash

@@ -4,6 +4,7 @@ use catalogue::EffectKind;
 use effects::{Hypothesis, Place};
 use robot::Robot;
 
+use crate::extend::is_made_of_torque;
 use crate::fit::Fit;
 use crate::problem::{HeldOut, Model, Problem};
 use crate::settle::settle;
@@ -127,18 +128,8 @@ impl Selection<'_> {
 
     /// Least gain in log evidence for hypothesis `g`.
     fn least_evidence(&self, g: usize) -> f64 {
-        use EffectKind as K;
-        match self.problem.design.groups[g].hypothesis.kind {
-            K::LoadDependentFriction
-            | K::EncoderOffset
-            | K::TransmissionRatio
-            | K::Backlash
-            | K::JointElasticity
-            | K::TimeSkew
-            | K::ActuatorDelay
-            | K::ActuatorLag => LEAST_EVIDENCE_OF_TORQUE,
-            _ => LEAST_EVIDENCE,
-        }
+        let kind = self.problem.design.groups[g].hypothesis.kind;
+        if is_made_of_torque(kind) { LEAST_EVIDENCE_OF_TORQUE } else { LEAST_EVIDENCE }
     }
 
     /// Whether the model already holds another name for the same change, unless `g` says

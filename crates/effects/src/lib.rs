@@ -5,12 +5,11 @@
 //! effort - nominal effort = sum over hypotheses of columns(motion) weights + noise
 //! ```
 //!
-//! One file an effect, under the name it has in `catalogue`; [`model`] finds it, or
+//! One file an effect, under the name it has in `catalogue` (delay and lag are `late_torque`);
+//! [`model`] finds it, or
 //! says what an effect without one would need. [`Compensation`] asks the motors for what undoes
 //! the effects that a robot's description holds, and [`remedy`] says which those are.
 
-mod actuator_delay;
-mod actuator_lag;
 mod asymmetric_friction;
 mod backlash;
 mod cable_spring;
@@ -23,6 +22,7 @@ mod gravity_direction;
 mod hypothesis;
 mod inertial_parameters;
 mod joint_elasticity;
+mod late_torque;
 mod left_out;
 mod load_dependent_friction;
 mod model;

@@ -47,8 +47,8 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
         EffectKind::Backlash => &crate::backlash::Backlash,
         EffectKind::JointElasticity => &crate::joint_elasticity::JointElasticity,
         EffectKind::TimeSkew => &crate::time_skew::TimeSkew,
-        EffectKind::ActuatorDelay => &crate::actuator_delay::ActuatorDelay,
-        EffectKind::ActuatorLag => &crate::actuator_lag::ActuatorLag,
+        EffectKind::ActuatorDelay => &crate::late_torque::LateTorque::Delay,
+        EffectKind::ActuatorLag => &crate::late_torque::LateTorque::Lag,
         EffectKind::StribeckFriction => {
             return Err("the speed at which it falls is not a factor of a signal of the log, \
                         and only factors are solved for");

@@ -73,7 +73,8 @@ impl Motion {
     /// effort(t) = transmission_ratio torque_gain torque(t + delay - skew) + torque_offset
     /// ```
     ///
-    /// Motor and link part by twist and play as [`transmission`](crate::transmission) says.
+    /// Motor and link part by twist and play: `theta - q = load / elasticity + x`,
+    /// `|x| <= backlash / 2`.
     ///
     /// # Panics
     ///

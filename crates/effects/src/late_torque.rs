@@ -1,16 +1,39 @@
 use catalogue::EffectKind;
-use robot::Robot;
+use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, down_to_zero};
 use crate::timing::{TIME_SD, commanded, torque_rate};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
-/// `tau(t + delay) - tau(t)`: one weight a joint, the change of the delay (s).
-pub(crate) struct ActuatorDelay;
+/// Torque that comes later than its command: one weight a joint, the change of a time (s).
+///
+/// ```text
+/// tau(t + delay) - tau(t)                 delay
+/// time_constant d(tau)/dt                 lag
+/// ```
+///
+/// To first order both have the column `d(tau)/dt`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LateTorque {
+    Delay,
+    Lag,
+}
 
-impl Explain for ActuatorDelay {
+impl LateTorque {
+    fn time(self, drive: &Actuator) -> f64 {
+        match self {
+            Self::Delay => drive.delay_s,
+            Self::Lag => drive.lag_s,
+        }
+    }
+}
+
+impl Explain for LateTorque {
     fn kind(&self) -> EffectKind {
-        EffectKind::ActuatorDelay
+        match self {
+            Self::Delay => EffectKind::ActuatorDelay,
+            Self::Lag => EffectKind::ActuatorLag,
+        }
     }
 
     /// Joints whose log has a command, or may have: a measured torque has it behind it.
@@ -29,18 +52,20 @@ impl Explain for ActuatorDelay {
 
     fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
         let Place::Joint(j) = place else { return Vec::new() };
-        down_to_zero(robot.links()[j].actuator.delay_s)
+        down_to_zero(self.time(&robot.links()[j].actuator))
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
         let (Place::Joint(j), [change]) = (place, weights) else { return };
-        if let Some(link) = robot.link_mut(j) {
-            link.actuator.delay_s += change;
+        let Some(link) = robot.link_mut(j) else { return };
+        match self {
+            Self::Delay => link.actuator.delay_s += change,
+            Self::Lag => link.actuator.lag_s += change,
         }
     }
 
     fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.delay_s)]
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| self.time(a))]
     }
 }
