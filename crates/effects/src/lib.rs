@@ -6,9 +6,9 @@
 //! ```
 //!
 //! One file an effect, under the name it has in `catalogue` (delay and lag are `late_torque`);
-//! [`model`] finds it, or
-//! says what an effect without one would need. [`Compensation`] asks the motors for what undoes
-//! the effects that a robot's description holds, and [`remedy`] says which those are.
+//! [`model`] finds it, or says what an effect without one would need. [`Compensation`] asks the
+//! motors for what undoes the effects that a robot's description holds, and [`remedy`] says
+//! which those are.
 
 mod asymmetric_friction;
 mod backlash;
