@@ -1,7 +1,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    diagnose, effects, explain, learn, log_info, replay, robot_check, schema, simulate, track, view,
+    design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema, simulate,
+    track, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -49,6 +50,25 @@ The output folder holds
   figure.svg      the answer in one figure
   diagnosis.json  the whole answer for programs
   extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it";
+
+const DESIGN_EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  no motion settles what is open: nothing is written
+  2  usage: arguments, or an output folder that cannot be made
+  3  unusable data: a robot, a diagnosis or a log, or nothing is open in the diagnosis";
+
+const DESIGN_EXAMPLES: &str = "\
+Examples:
+  plumbline design --robot robot.toml --diagnosis out --out next
+  plumbline design --robot robot.toml --diagnosis out --separate FR01@elbow --from FR02@elbow --out next
+
+The output folder holds
+  motion.csv      time (s) and <joint>.position, .velocity, .acceleration and .effort, the effort
+                  that the robot as described needs
+  motion.parquet  the same
+  motion.toml     the motion as a scenario, for simulate; to run it on another arm extend both:
+                  extends = [\"arm.toml\", \"next/motion.toml\"]";
 
 const SIMULATE_EXAMPLES: &str = "\
 Examples:
@@ -125,6 +145,9 @@ pub enum Command {
     /// Names what a model gets wrong in logs, writes the extended model, a report and a figure
     #[command(after_help = format!("{DIAGNOSE_EXAMPLES}\n\n{EXIT_CODES}"))]
     Diagnose(diagnose::Arguments),
+    /// Searches the motion that tells apart what a diagnosis could not, within the robot's limits
+    #[command(after_help = format!("{DESIGN_EXAMPLES}\n\n{DESIGN_EXIT_CODES}"))]
+    Design(design::Arguments),
     /// Looks at a robot description: joints, limits, masses, consistency
     #[command(subcommand)]
     Robot(RobotCommand),

@@ -11,6 +11,7 @@ use report::ReportError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
+use crate::commands::design::DesignError;
 use crate::commands::view::INSTALLATION;
 
 /// Why a command did not run to its end.
@@ -125,6 +126,9 @@ pub enum CliError {
         /// The nearest name, or all of them.
         hint: String,
     },
+    /// No motion can be designed.
+    #[error(transparent)]
+    Design(#[from] DesignError),
     /// The standard output cannot be written.
     #[error("the standard output cannot be written: {0}")]
     Output(#[from] io::Error),
@@ -162,6 +166,7 @@ impl CliError {
                 | LearnerError::Memory { .. } => 2,
                 _ => 3,
             },
+            Self::Design(error) => error.exit_code(),
             Self::Document(_) | Self::Simulator(_) => 3,
             Self::Evaluation(error) => match **error {
                 EvaluationError::NoModel { .. }

@@ -25,7 +25,8 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     Ok(Outcome::Good)
 }
 
-fn find(name: &str) -> Result<EffectKind, CliError> {
+/// The effect of a name or a code.
+pub fn find(name: &str) -> Result<EffectKind, CliError> {
     let plain = name.to_lowercase().replace(['-', ' '], "_");
     plain.parse().map_err(|_| {
         let named = |kind: &EffectKind| format!("{} {kind}", kind.code());

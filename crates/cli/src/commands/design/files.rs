@@ -1,0 +1,176 @@
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use effects::{Frame, Motion as Along};
+use logs::{Channels, Prepared, Run};
+use motion::{MotionSpec, State};
+use next_motion::{Design, Designed, Goal, Prospect, Question, TELLS_APART};
+use robot::Robot;
+use serde::Serialize;
+
+use super::{Arguments, cause};
+use crate::error::CliError;
+use crate::output::{create_folder, shown, table};
+
+/// Columns of a sentence.
+const WIDTH: usize = 96;
+
+/// What the motion is for and what it brings, goal by goal.
+pub fn words(design: &Design, question: &Question, logs: &Prepared) -> String {
+    let logged: f64 = logs.runs.iter().map(|run| run.time.len() as f64 / run.rate_hz).sum();
+    let length = design.motion.as_ref().map_or(0.0, |m| m.motion.duration_s());
+    let of = |prospect: &Prospect| {
+        let (title, help) = titles(prospect.goal, question.robot);
+        let sentence = sentence(prospect, [logged, length], help);
+        let lines = report::packed(sentence.split_whitespace(), " ", WIDTH - 2);
+        format!("{title}\n  {}\n", lines.join("\n  "))
+    };
+    design.prospects.iter().map(of).collect()
+}
+
+/// What a goal is, and what else than a motion would serve it.
+fn titles(goal: Goal, robot: &Robot) -> (String, &'static str) {
+    let words = |c| cause::words(c, robot);
+    match goal {
+        Goal::Separate { finding, rival } => {
+            (format!("{} or {}", words(finding), words(rival)), finding.kind.entry().told_apart_by)
+        }
+        Goal::Determine { finding } => {
+            (format!("the size of {}", words(finding)), finding.kind.entry().needs)
+        }
+    }
+}
+
+fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> String {
+    let shown = |nats: f64| report::significant(nats, 2);
+    let before = prospect.before;
+    let Some(after) = prospect.after else {
+        return match prospect.goal {
+            Goal::Separate { .. } => format!(
+                "no motion tells them apart: what one adds the other can add whatever the joints \
+                 do. What helps: {help}"
+            ),
+            Goal::Determine { .. } => format!("no motion shows it. What helps: {help}"),
+        };
+    };
+    match (prospect.goal, prospect.runs()) {
+        (Goal::Separate { .. }, None) => format!(
+            "no motion of {length:.0} s within the robot's limits was found that tells them apart: \
+             the best is worth {} nats of log evidence, {TELLS_APART} are needed. What may help: \
+             {help}",
+            shown(after)
+        ),
+        (Goal::Separate { .. }, Some(runs)) => format!(
+            "this motion tells them apart{}: its {length:.0} s are worth {} nats of log evidence, \
+             {TELLS_APART} are needed; {length:.0} s of the logs were worth {} ({} times less)",
+            if runs > 1 { format!(", run {runs} times") } else { String::new() },
+            shown(after),
+            shown(before * length / logged),
+            shown(after / before * logged / length),
+        ),
+        (Goal::Determine { .. }, runs) => format!(
+            "{length:.0} s of {} motion halve the width of an interval {:.1} times",
+            if runs.is_some() { "this" } else { "the best" },
+            (after - before) / std::f64::consts::LN_2
+        ),
+    }
+}
+
+/// A scenario with nothing but a robot and a motion.
+#[derive(Serialize)]
+struct Scenario<'a> {
+    robot: PathBuf,
+    run: [OneRun<'a>; 1],
+}
+
+#[derive(Serialize)]
+struct OneRun<'a> {
+    name: &'static str,
+    motion: &'a MotionSpec,
+}
+
+/// Writes the motion as a log of what is asked for and as a scenario, and says where.
+pub fn write(
+    arguments: &Arguments,
+    text: &str,
+    question: &Question,
+    designed: &Designed,
+    rate_hz: f64,
+) -> Result<String, CliError> {
+    let out = &arguments.out;
+    create_folder(out)?;
+    let run = sampled(question.robot, designed, rate_hz);
+    logs::write_csv(&out.join("motion.csv"), &run)?;
+    logs::write_parquet(&out.join("motion.parquet"), &run)?;
+    let robot = arguments.robot.canonicalize().unwrap_or_else(|_| arguments.robot.clone());
+    let scenario = Scenario { robot, run: [OneRun { name: "motion", motion: &designed.spec }] };
+    let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
+    let comment: String = text.lines().map(|line| format!("# {line}\n")).collect();
+    std::fs::write(out.join("motion.toml"), format!("{comment}\n{toml}"))?;
+    Ok(format!(
+        "\n{}\nObstacles are not known here: look at the motion before it is run.\n\n\
+         motion    {}, {} (position, velocity, acceleration and expected effort, {rate_hz:.0} Hz)\n\
+         scenario  {} (plumbline simulate; or extend it)\n",
+        summary(question.robot, &run),
+        shown(&out.join("motion.csv")),
+        shown(&out.join("motion.parquet")),
+        shown(&out.join("motion.toml")),
+    ))
+}
+
+/// Where each joint goes, how fast, and with how much effort.
+fn summary(robot: &Robot, run: &Run) -> String {
+    let rows = run.joints.iter().zip(robot.links()).map(|(channels, link)| {
+        let low = channels.position.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = channels.position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let largest = |x: &[f64]| x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let speed = channels.velocity.as_deref().map_or(0.0, largest);
+        let first = channels.position.first().copied().unwrap_or(0.0);
+        let (way, torque) =
+            if link.joint.kind.is_rotation() { ("rad", "N·m") } else { ("m", "N") };
+        vec![
+            channels.name.clone(),
+            format!("{first:.2} {way}"),
+            format!("{low:.2} to {high:.2} {way}"),
+            format!("{speed:.2} {way}/s"),
+            format!("{:.1} {torque}", largest(&channels.effort)),
+        ]
+    });
+    table(&["joint", ">starts at", ">moves over", ">fastest", ">most effort"], rows)
+}
+
+/// The motion as a log: positions, velocities, accelerations and the effort that the robot as
+/// described needs.
+fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
+    let samples = (designed.motion.duration_s() * rate_hz).floor() as usize + 1;
+    let time: Vec<f64> = (0..samples).map(|k| k as f64 / rate_hz).collect();
+    let states: Vec<State> = time.iter().map(|&t| designed.motion.at(t)).collect();
+    let joints = robot.joint_count();
+    let signal = |pick: fn(&State) -> &Vec<f64>| -> Vec<Vec<f64>> {
+        (0..joints).map(|j| states.iter().map(|s| pick(s)[j]).collect()).collect()
+    };
+    let [q, qd, qdd] = [signal(|s| &s.q), signal(|s| &s.qd), signal(|s| &s.qdd)];
+    let frame = Frame { rest_speed: vec![REST_SPEED; joints], centre: vec![0.0; joints] };
+    let along =
+        Along::new(robot, &frame, [q.clone(), qd.clone(), qdd.clone()], &qd, rate_hz.recip());
+    let channels = |(j, name): (usize, &str)| Channels {
+        name: name.to_owned(),
+        position: q[j].clone(),
+        velocity: Some(qd[j].clone()),
+        acceleration: Some(qdd[j].clone()),
+        effort: along.effort[j].clone(),
+        ..Channels::default()
+    };
+    Run {
+        name: "motion".to_owned(),
+        source: PathBuf::new(),
+        sha256: String::new(),
+        is_torn: false,
+        time,
+        joints: robot.joint_names().enumerate().map(channels).collect(),
+        extra: BTreeMap::new(),
+    }
+}
+
+/// Speed below which a joint that is asked to move counts as at rest (rad/s or m/s).
+const REST_SPEED: f64 = 1e-6;

@@ -1,0 +1,180 @@
+use catalogue::EffectKind;
+use effects::{Hypothesis, Scale};
+use nalgebra::{DMatrix, DVector};
+use robot::Robot;
+
+use crate::information::{Information, Layout};
+
+/// What a motion is wanted for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Goal {
+    /// To tell which of two causes it is.
+    Separate {
+        /// The cause that was named.
+        finding: Hypothesis,
+        /// The one that it cannot be told from.
+        rival: Hypothesis,
+    },
+    /// To narrow down the parameters of a cause.
+    Determine {
+        /// The cause.
+        finding: Hypothesis,
+    },
+}
+
+/// What is asked of a motion, and of which robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// What the motion is wanted for, all of it by the same motion.
+    pub goals: Vec<Goal>,
+    /// All causes that were named: those that a goal does not concern are free in it.
+    pub findings: Vec<Hypothesis>,
+    /// Noise of each joint: variance of what is left of its effort times the autocorrelation
+    /// time ((N·m)² s or N² s). Joints for which it is zero or no number tell nothing.
+    pub noise: Vec<f64>,
+    /// Cut-off of the low-pass of the diagnosis (Hz).
+    pub cutoff_hz: f64,
+}
+
+impl Question<'_> {
+    /// Every hypothesis that has a part in it, once.
+    pub(crate) fn layout(&self) -> Layout {
+        let mut hypotheses = self.findings.clone();
+        for goal in &self.goals {
+            match *goal {
+                Goal::Separate { finding, rival } => {
+                    hypotheses.extend([finding, rival]);
+                    hypotheses.extend(symmetric_part(finding));
+                }
+                Goal::Determine { finding } => hypotheses.push(finding),
+            }
+        }
+        hypotheses.sort_unstable();
+        hypotheses.dedup();
+        let noise = self.noise.iter().map(|&n| (n > 0.0 && n.is_finite()).then_some(n));
+        Layout { hypotheses, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
+    }
+
+    /// Findings that are neither `one` nor `other`, nor change the same numbers.
+    fn besides(&self, one: Hypothesis, other: Hypothesis) -> Vec<Hypothesis> {
+        let concerned =
+            |h: &Hypothesis| [one, other].into_iter().any(|own| *h == own || h.excludes(own));
+        self.findings.iter().copied().filter(|h| !concerned(h)).collect()
+    }
+}
+
+/// Of asymmetric friction only the asymmetry is disputed: its rivals have Coulomb friction too.
+fn symmetric_part(finding: Hypothesis) -> Option<Hypothesis> {
+    (finding.kind == EffectKind::AsymmetricFriction)
+        .then_some(Hypothesis { kind: EffectKind::CoulombFriction, place: finding.place })
+}
+
+/// One way to reach a goal that can be counted in nats.
+#[derive(Debug, Clone)]
+pub(crate) enum Aim<'a> {
+    /// That a model cannot imitate a cause: half the deviance it leaves.
+    Apart { truth: Vec<usize>, weights: DVector<f64>, model: Vec<usize> },
+    /// That weights are known, by the logs and a motion together: half the logarithm of the
+    /// determinant of `1 + S M S`, with `M` the information and `S` what is believed without any.
+    Sure { columns: Vec<usize>, others: Vec<usize>, prior: Vec<f64>, logs: &'a Information },
+}
+
+impl<'a> Aim<'a> {
+    /// The aims of a goal: a pair of rivals is to be told apart whichever is true, each at the
+    /// size at which it explains the logs best.
+    pub fn of(goal: Goal, question: &Question, layout: &Layout, logs: &'a Logs) -> Vec<Self> {
+        let index = |h: &Hypothesis| layout.hypotheses.iter().position(|own| own == h);
+        let columns = |hypotheses: &[Hypothesis]| {
+            let indices: Vec<usize> = hypotheses.iter().filter_map(index).collect();
+            logs.information.columns(&indices)
+        };
+        match goal {
+            Goal::Separate { finding, rival } => {
+                let besides = question.besides(finding, rival);
+                let mut others = besides.clone();
+                others.extend(symmetric_part(finding));
+                let prior = |of: &[Hypothesis]| -> Vec<f64> {
+                    of.iter().flat_map(|h| h.prior(question.robot, &logs.scale)).collect()
+                };
+                let one_way = |truth: Hypothesis, model: Hypothesis, free: &[Hypothesis]| {
+                    let fitted = [&[truth], free].concat();
+                    let all = logs.information.weights(&columns(&fitted), &prior(&fitted));
+                    let (truth, free) = (columns(&[truth]), columns(free));
+                    let weights = all.rows(0, truth.len()).into_owned();
+                    Self::Apart { truth, weights, model: [columns(&[model]), free].concat() }
+                };
+                vec![one_way(finding, rival, &others), one_way(rival, finding, &besides)]
+            }
+            Goal::Determine { finding } => vec![Self::Sure {
+                columns: columns(&[finding]),
+                others: columns(&question.besides(finding, finding)),
+                prior: finding.prior(question.robot, &logs.scale),
+                logs: &logs.information,
+            }],
+        }
+    }
+
+    /// What the logs have brought (nats).
+    pub fn nats_before(&self, logs: &Information) -> f64 {
+        match self {
+            Self::Apart { .. } => self.nats(logs),
+            Self::Sure { columns, others, prior, logs } => learned(logs, columns, others, prior),
+        }
+    }
+
+    /// What a motion brings (nats).
+    pub fn nats(&self, motion: &Information) -> f64 {
+        match self {
+            Self::Apart { truth, weights, model } => {
+                0.5 * motion.deviance(&motion.left(truth, weights, model))
+            }
+            Self::Sure { columns, others, prior, logs } => {
+                let both = Information::joined(&[(*logs).clone(), motion.clone()]);
+                both.map_or(0.0, |both| learned(&both, columns, others, prior))
+            }
+        }
+    }
+
+    /// What is left of it without the stretch of the motion that brings most: what a single
+    /// stretch says may be chance.
+    pub fn spread_nats(&self, motion: &Information, stretches: &[Information]) -> f64 {
+        match self {
+            Self::Apart { truth, weights, model } => {
+                let left = motion.left(truth, weights, model);
+                let parts = stretches.iter().map(|part| part.deviance(&left));
+                0.5 * (motion.deviance(&left) - parts.fold(0.0, f64::max))
+            }
+            Self::Sure { .. } => self.nats(motion),
+        }
+    }
+
+    /// Share of the cause that no part of the model imitates in a motion.
+    pub fn unlike(&self, motion: &Information) -> f64 {
+        match self {
+            Self::Apart { truth, weights, model } => {
+                let whole = motion.deviance(&motion.spread(truth, weights));
+                let left = motion.deviance(&motion.left(truth, weights, model));
+                if whole > 0.0 { left / whole } else { 0.0 }
+            }
+            Self::Sure { .. } => 1.0,
+        }
+    }
+}
+
+/// Half the logarithm of the determinant of `1 + S M S` (nats).
+fn learned(known: &Information, columns: &[usize], others: &[usize], prior: &[f64]) -> f64 {
+    let known = known.about(columns, others);
+    let scaled =
+        DMatrix::from_fn(prior.len(), prior.len(), |i, k| known[(i, k)] * prior[i] * prior[k]);
+    let values = scaled.symmetric_eigenvalues();
+    0.5 * values.iter().map(|v| v.max(0.0).ln_1p()).sum::<f64>()
+}
+
+/// What the logs say.
+#[derive(Debug, Clone)]
+pub(crate) struct Logs {
+    pub information: Information,
+    pub scale: Scale,
+}

@@ -1,0 +1,396 @@
+use effects::{Frame, Scale};
+use logs::{LowPass, Prepared, PreparedJoint, PreparedRun, rest_speeds};
+use motion::{Motion, MotionSpec};
+use robot::Robot;
+
+use crate::aim::{Aim, Logs};
+use crate::information::{Information, Layout};
+use crate::limits::usable;
+use crate::record::Record;
+use crate::search::{Candidate, EVALUATION_RATE, Search};
+use crate::{Goal, NextMotionError, Question};
+
+/// How a motion is searched.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Length of the motion (s).
+    pub duration_s: f64,
+    /// Seed of every random draw.
+    pub seed: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { duration_s: 20.0, seed: 1 }
+    }
+}
+
+/// The answer to a [`Question`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// One entry a goal.
+    pub prospects: Vec<Prospect>,
+    /// The motion, unless none helps any goal.
+    pub motion: Option<Designed>,
+}
+
+/// A motion that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Designed {
+    /// As a scenario says it.
+    pub spec: MotionSpec,
+    /// As it is run.
+    pub motion: Motion,
+}
+
+/// What the logs and the motion say of one goal.
+///
+/// Of rivals, the expected log evidence against the wrong one (nats). Of a cause to determine,
+/// what is learned of its parameters (nats): every `ln 2` halves the width of one interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prospect {
+    /// The goal.
+    pub goal: Goal,
+    /// By the logs.
+    pub before: f64,
+    /// By the motion, of a cause to determine by both together; none where every motion leaves
+    /// it open.
+    pub after: Option<f64>,
+}
+
+/// Log evidence at which the diagnosis tells rivals apart nineteen times in twenty (nats).
+///
+/// With `D` twice the expected log evidence, what a log says is `D` with a standard deviation
+/// of `2 sqrt(D)`, and the diagnosis asks for twice that: `D - 1.64 2 sqrt(D) = 2 2 sqrt(D)`.
+pub const TELLS_APART: f64 = 26.6;
+
+/// Most times that one would run a motion.
+const MOST_RUNS: f64 = 10.0;
+
+impl Prospect {
+    /// How many times the motion is to be run to reach the goal; none where it does not help.
+    pub fn runs(&self) -> Option<usize> {
+        let after = self.after?;
+        let runs = match self.goal {
+            Goal::Separate { .. } => (TELLS_APART / after).ceil(),
+            // One interval of half the width.
+            Goal::Determine { .. } if after - self.before >= std::f64::consts::LN_2 => 1.0,
+            Goal::Determine { .. } => return None,
+        };
+        (runs <= MOST_RUNS).then_some(runs as usize)
+    }
+}
+
+/// The motion that serves the goals of a question best, the one served worst counting.
+///
+/// Rivals are taken at the sizes at which they explain `logs` best. The same input and seed
+/// give the same motion, whatever the number of threads.
+///
+/// # Errors
+///
+/// [`NextMotionError`] for goals, logs or settings that cannot be used, and where no motion
+/// keeps to the effort limits. Goals that no motion serves are no error.
+pub fn design(
+    question: &Question,
+    logs: &Prepared,
+    settings: &Settings,
+) -> Result<Design, NextMotionError> {
+    check(question, logs, settings)?;
+    let layout = question.layout();
+    let frame = Frame { rest_speed: rest_speeds(logs), centre: centres(logs) };
+    let information = along_logs(question.robot, &layout, &frame, logs)?;
+    let logs = Logs { information, scale: scale(question.robot, logs) };
+    let search = Search {
+        robot: question.robot,
+        layout: &layout,
+        frame: &frame,
+        usable: &usable(question.robot),
+        duration_s: settings.duration_s,
+        seed: settings.seed,
+    };
+    let drawn = search.draw()?;
+    let aims: Vec<Vec<Aim>> =
+        question.goals.iter().map(|&goal| Aim::of(goal, question, &layout, &logs)).collect();
+    let open: Vec<Vec<&Aim>> = aims.iter().map(|a| search.within_reach(a, &drawn)).collect();
+    let all: Vec<&Aim> = open.iter().flatten().copied().collect();
+    let best = if all.is_empty() { None } else { search.improve(&all, drawn)? };
+    let found = best.as_ref().and_then(Candidate::information);
+    let prospect = |(goal, aims): (&Goal, &Vec<&Aim>)| {
+        let before = aims.iter().map(|aim| aim.nats_before(&logs.information)).reduce(f64::min);
+        let after = |found| aims.iter().map(|aim| aim.nats(found)).reduce(f64::min);
+        Prospect { goal: *goal, before: before.unwrap_or(0.0), after: found.and_then(after) }
+    };
+    Ok(Design {
+        prospects: question.goals.iter().zip(&open).map(prospect).collect(),
+        motion: best.map(|c| Designed { spec: c.spec, motion: c.motion }),
+    })
+}
+
+fn check(question: &Question, logs: &Prepared, settings: &Settings) -> Result<(), NextMotionError> {
+    let expected = question.robot.joint_count();
+    let wrong =
+        |what: String, found: usize| Err(NextMotionError::WrongJoints { what, found, expected });
+    if question.goals.is_empty() {
+        return Err(NextMotionError::NoGoal);
+    }
+    if logs.runs.is_empty() {
+        return Err(NextMotionError::NoRuns);
+    }
+    if question.noise.len() != expected {
+        return wrong("the noise".to_owned(), question.noise.len());
+    }
+    if let Some(run) = logs.runs.iter().find(|run| run.joints.len() != expected) {
+        return wrong(format!("run {}", run.name), run.joints.len());
+    }
+    let refuse = |name, found, expected| Err(NextMotionError::Setting { name, found, expected });
+    if !(1.0..=600.0).contains(&settings.duration_s) {
+        return refuse("duration", settings.duration_s, "1 to 600 s");
+    }
+    if !question.noise.iter().any(|&noise| noise > 0.0 && noise.is_finite()) {
+        let found = question.noise.iter().copied().fold(0.0, f64::max);
+        return refuse("noise", found, "a positive number at one joint at least");
+    }
+    if !(question.cutoff_hz > 0.0 && question.cutoff_hz.is_finite()) {
+        return refuse("cut-off", question.cutoff_hz, "a positive number of hertz");
+    }
+    Ok(())
+}
+
+/// What all runs together say of the columns and of the effort that they are to explain.
+fn along_logs(
+    robot: &Robot,
+    layout: &Layout,
+    frame: &Frame,
+    logs: &Prepared,
+) -> Result<Information, NextMotionError> {
+    let mut all = Vec::new();
+    for run in &logs.runs {
+        let stride = (run.rate_hz / (EVALUATION_RATE * layout.cutoff_hz)).max(1.0) as usize;
+        let motion = Record::of_run(run, stride).evaluate(robot, frame);
+        let filter = LowPass::new(4, layout.cutoff_hz, run.rate_hz)?;
+        let effort = |joint: &PreparedJoint| {
+            let mut effort = joint.effort.clone();
+            filter.apply(&mut effort);
+            effort.into_iter().step_by(stride).collect::<Vec<f64>>()
+        };
+        let measured: Vec<Vec<f64>> = run.joints.iter().map(effort).collect();
+        all.extend(layout.along(&motion, Some(&measured), 1)?);
+    }
+    Information::joined(&all).ok_or(NextMotionError::NoRuns)
+}
+
+/// Middle of the range of each joint over all runs (rad or m).
+fn centres(logs: &Prepared) -> Vec<f64> {
+    spans(logs).into_iter().map(|[low, high]| 0.5 * (low + high)).collect()
+}
+
+fn spans(logs: &Prepared) -> Vec<[f64; 2]> {
+    let joints = logs.runs.first().map_or(0, |run| run.joints.len());
+    let span = |j: usize| {
+        let q = logs.runs.iter().flat_map(|run| &run.joints[j].q);
+        q.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &q| [l.min(q), h.max(q)])
+    };
+    (0..joints).map(span).collect()
+}
+
+/// How large things are in the logs.
+fn scale(robot: &Robot, logs: &Prepared) -> Scale {
+    let joints = 0..robot.joint_count();
+    let all = |j: usize, pick: fn(&PreparedJoint) -> &Vec<f64>| {
+        logs.runs.iter().flat_map(move |run: &PreparedRun| pick(&run.joints[j]).iter().copied())
+    };
+    let largest = |j, pick| all(j, pick).fold(0.0, |m: f64, x| m.max(x.abs()));
+    let rms = |j| {
+        let (n, sum) = all(j, |p| &p.effort).fold((0, 0.0), |(n, s), x| (n + 1, s + x * x));
+        (sum / f64::from(n.max(1))).sqrt()
+    };
+    let links = robot.links();
+    let n = links.len().max(1) as f64;
+    let lengths = links.iter().map(|l| l.joint.parent_from_joint.translation.vector.norm());
+    Scale {
+        effort: joints.clone().map(rms).collect(),
+        speed: joints.clone().map(|j| largest(j, |p| &p.qd)).collect(),
+        acceleration: joints.map(|j| largest(j, |p| &p.qdd)).collect(),
+        range: spans(logs).into_iter().map(|[low, high]| high - low).collect(),
+        link_mass: links.iter().map(|l| l.inertia.mass.max(0.0)).sum::<f64>() / n,
+        link_length: (lengths.sum::<f64>() / n).max(0.05),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use catalogue::EffectKind;
+    use effects::{Hypothesis, Place};
+
+    use super::*;
+    use crate::testing::{arm, turntable};
+
+    const RATE_HZ: f64 = 100.0;
+
+    fn at(kind: EffectKind, joint: usize) -> Hypothesis {
+        Hypothesis { kind, place: Place::Joint(joint) }
+    }
+
+    /// A log of one sine at every joint with the torque of the robot as described and, at the
+    /// last joint, `extra(qd)`.
+    fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
+        let joints = robot.joint_count();
+        let w = std::f64::consts::TAU * 0.25;
+        let wave = |derivative: i32| -> Vec<f64> {
+            let quarter = f64::from(derivative) * std::f64::consts::FRAC_PI_2;
+            let at =
+                |k: u32| 0.3 * w.powi(derivative) * (w * f64::from(k) / RATE_HZ + quarter).sin();
+            (0..3000).map(at).collect()
+        };
+        let [q, qd, qdd] = [wave(0), wave(1), wave(2)];
+        let mut run = PreparedRun {
+            name: "run".to_owned(),
+            rate_hz: RATE_HZ,
+            time: (0..q.len()).map(|k| k as f64 / RATE_HZ).collect(),
+            joints: Vec::new(),
+        };
+        let joint = PreparedJoint { q, qd: qd.clone(), qdd, qd_wide: qd, effort: vec![0.0; 3000] };
+        run.joints = vec![joint; joints];
+        let frame = Frame { rest_speed: vec![1e-3; joints], centre: vec![0.0; joints] };
+        let motion = Record::of_run(&run, 1).evaluate(robot, &frame);
+        for (joint, effort) in run.joints.iter_mut().zip(&motion.effort) {
+            joint.effort.clone_from(effort);
+        }
+        let last = &mut run.joints[joints - 1];
+        last.effort.iter_mut().zip(&last.qd).for_each(|(e, v)| *e += extra(*v));
+        Prepared {
+            runs: vec![run],
+            cutoff_hz: 4.0,
+            cutoff_reason: String::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    fn question(robot: &Robot, goal: Goal) -> Question<'_> {
+        let (Goal::Separate { finding, .. } | Goal::Determine { finding }) = goal;
+        Question {
+            robot,
+            goals: vec![goal],
+            findings: vec![finding],
+            noise: vec![1e-3; robot.joint_count()],
+            cutoff_hz: 4.0,
+        }
+    }
+
+    fn friction(joint: usize) -> Goal {
+        Goal::Separate {
+            finding: at(EffectKind::ViscousFriction, joint),
+            rival: at(EffectKind::CoulombFriction, joint),
+        }
+    }
+
+    const SHORT: Settings = Settings { duration_s: 8.0, seed: 3 };
+
+    #[test]
+    fn a_motion_tells_viscous_from_coulomb_friction_within_the_limits_of_the_arm() {
+        let robot = arm();
+        let logs = log(&robot, |v| 0.2 * v);
+        let found = design(&question(&robot, friction(1)), &logs, &SHORT).unwrap();
+        let [prospect] = found.prospects.try_into().unwrap();
+        let after = prospect.after.unwrap();
+        // The log is 30 s long.
+        assert!(after / 8.0 > 4.0 * prospect.before / 30.0, "{prospect:?}");
+        let motion = found.motion.unwrap().motion;
+        let frame = Frame { rest_speed: vec![1e-3; 2], centre: vec![0.0; 2] };
+        let along = Record::of_motion(&motion, 500.0).evaluate(&robot, &frame);
+        for (torque, link) in along.torque.iter().zip(robot.links()) {
+            let largest = torque.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
+            assert!(largest < 0.81 * link.joint.limits.effort.unwrap(), "{largest}");
+        }
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_motion_on_any_number_of_threads() {
+        let robot = turntable();
+        let logs = log(&robot, |v| 0.2 * v);
+        let with = |threads: usize, seed: u64| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let settings = Settings { seed, ..SHORT };
+            pool.install(|| design(&question(&robot, friction(0)), &logs, &settings)).unwrap()
+        };
+        let one = with(1, 3);
+        assert_eq!(one, with(3, 3));
+        assert_ne!(one, with(1, 4));
+    }
+
+    #[test]
+    fn what_adds_the_same_torque_is_told_apart_by_no_motion() {
+        let robot = arm();
+        let goal = Goal::Separate {
+            finding: Hypothesis { kind: EffectKind::Payload, place: Place::Link(1) },
+            rival: Hypothesis { kind: EffectKind::InertialParameters, place: Place::Link(1) },
+        };
+        let found = design(&question(&robot, goal), &log(&robot, |_| 0.3), &SHORT).unwrap();
+        assert!(found.motion.is_none() && found.prospects[0].after.is_none());
+        assert_eq!(found.prospects[0].runs(), None);
+    }
+
+    /// One weight believed to be 0 give or take `s` is learned by `1/2 ln(1 + s^2 / sd^2)` nats.
+    #[test]
+    fn what_is_learned_of_one_weight_is_the_closed_form() {
+        let robot = turntable();
+        let logs = log(&robot, |v| 0.2 * v);
+        let finding = at(EffectKind::ViscousFriction, 0);
+        let goal = Goal::Determine { finding };
+        let found = design(&question(&robot, goal), &logs, &SHORT).unwrap();
+        let qd = &logs.runs[0].joints[0].qd;
+        let power = qd.iter().map(|v| v * v).sum::<f64>() / RATE_HZ / 1e-3;
+        let s = finding.prior(&robot, &scale(&robot, &logs))[0];
+        let expected = 0.5 * (s * s * power).ln_1p();
+        let [prospect] = found.prospects.try_into().unwrap();
+        assert!((prospect.before - expected).abs() < 1e-3, "{prospect:?} {expected}");
+        assert!(prospect.after.unwrap() > prospect.before && prospect.runs() == Some(1));
+    }
+
+    #[test]
+    fn an_arm_that_cannot_hold_itself_has_no_motion() {
+        let mut robot = arm();
+        for joint in 0..2 {
+            robot.link_mut(joint).unwrap().joint.limits.effort = Some(1e-3);
+        }
+        let logs = log(&robot, |v| 0.2 * v);
+        let found = design(&question(&robot, friction(1)), &logs, &SHORT);
+        assert!(matches!(found, Err(NextMotionError::TooHeavy { share }) if share > 1.0));
+    }
+
+    #[test]
+    fn questions_that_cannot_be_answered_are_refused() {
+        let robot = turntable();
+        let logs = log(&robot, |v| v);
+        let whole = question(&robot, friction(0));
+        let refused = |question: Question, logs: &Prepared, settings: Settings| {
+            design(&question, logs, &settings).unwrap_err().to_string()
+        };
+        let none = Question { goals: vec![], ..whole.clone() };
+        assert!(refused(none, &logs, SHORT).starts_with("no goal was given"));
+        let deaf = Question { noise: vec![f64::NAN], ..whole.clone() };
+        assert!(refused(deaf, &logs, SHORT).starts_with("noise: found 0"));
+        let wide = Question { noise: vec![1.0; 2], ..whole.clone() };
+        assert!(refused(wide, &logs, SHORT).starts_with("the noise has 2 joints"));
+        let empty = Prepared { runs: vec![], ..logs.clone() };
+        assert!(refused(whole.clone(), &empty, SHORT).starts_with("no log was given"));
+        for duration_s in [f64::NAN, 0.5, 1e9] {
+            let settings = Settings { duration_s, ..SHORT };
+            assert!(refused(whole.clone(), &logs, settings).starts_with("duration: found"));
+        }
+        let still = Question { cutoff_hz: 0.0, ..whole };
+        assert!(refused(still, &logs, SHORT).starts_with("cut-off: found 0"));
+    }
+
+    /// `D` and its standard deviation `2 sqrt(D)`: nineteen times in twenty above twice that.
+    #[test]
+    fn the_evidence_needed_is_where_the_margin_meets_the_test() {
+        let d = 2.0 * TELLS_APART;
+        assert!((d - 1.645 * 2.0 * d.sqrt() - 2.0 * 2.0 * d.sqrt()).abs() < 0.1);
+        let goal = friction(0);
+        let runs = |after| Prospect { goal, before: 1.0, after }.runs();
+        assert_eq!(runs(Some(30.0)), Some(1));
+        assert_eq!(runs(Some(9.0)), Some(3));
+        assert_eq!((runs(Some(2.0)), runs(Some(0.0)), runs(None)), (None, None, None));
+    }
+}

@@ -1,0 +1,25 @@
+//! The motion to run next: the one that tells rival causes apart, or determines a cause.
+//!
+//! ```text
+//! D(motion) = min_w sum_j 1/noise_j  integral (columns_A w_A - columns_B,others w)_j^2 dt
+//! ```
+//!
+//! is twice the log evidence that is expected against `B` where `A` is true (T-optimality,
+//! Atkinson & Fedorov 1975). [`design`] fits both rivals to the logs that could not tell them
+//! apart, and searches a motion within the robot's limits for which the smallest `D` of all
+//! pairs, each taken both ways, is as large as can be.
+
+mod aim;
+mod design;
+mod error;
+mod information;
+mod limits;
+mod record;
+mod search;
+mod steps;
+#[cfg(test)]
+mod testing;
+
+pub use aim::{Goal, Question};
+pub use design::{Design, Designed, Prospect, Settings, TELLS_APART, design};
+pub use error::NextMotionError;

@@ -1,0 +1,51 @@
+use effects::{Frame, Motion};
+use logs::PreparedRun;
+use robot::Robot;
+
+/// Positions, velocities and accelerations of all joints on a uniform clock, recorded or
+/// planned, each `[joint][sample]`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Record {
+    /// Position, velocity, acceleration.
+    pub state: [Vec<Vec<f64>>; 3],
+    /// Velocity that says the direction of motion.
+    pub swift: Vec<Vec<f64>>,
+    /// Time between samples (s).
+    pub period_s: f64,
+}
+
+impl Record {
+    /// A run, every `stride`-th sample.
+    pub fn of_run(run: &PreparedRun, stride: usize) -> Self {
+        let every = |x: &Vec<f64>| x.iter().step_by(stride).copied().collect::<Vec<f64>>();
+        Self {
+            state: [
+                run.joints.iter().map(|j| every(&j.q)).collect(),
+                run.joints.iter().map(|j| every(&j.qd)).collect(),
+                run.joints.iter().map(|j| every(&j.qdd)).collect(),
+            ],
+            swift: run.joints.iter().map(|j| every(&j.qd_wide)).collect(),
+            period_s: stride as f64 / run.rate_hz,
+        }
+    }
+
+    /// A planned motion, which is exact.
+    pub fn of_motion(motion: &motion::Motion, rate_hz: f64) -> Self {
+        let samples = (motion.duration_s() * rate_hz).floor() as usize + 1;
+        let empty = || vec![Vec::with_capacity(samples); motion.joint_count()];
+        let mut signals = [empty(), empty(), empty()];
+        let mut state = motion::State::default();
+        for k in 0..samples {
+            motion.sample(k as f64 / rate_hz, &mut state);
+            for (signal, now) in signals.iter_mut().zip([&state.q, &state.qd, &state.qdd]) {
+                signal.iter_mut().zip(now).for_each(|(x, value)| x.push(*value));
+            }
+        }
+        Self { swift: signals[1].clone(), state: signals, period_s: rate_hz.recip() }
+    }
+
+    /// The nominal robot along it.
+    pub fn evaluate(self, robot: &Robot, frame: &Frame) -> Motion {
+        Motion::new(robot, frame, self.state, &self.swift, self.period_s)
+    }
+}

@@ -1,0 +1,179 @@
+use std::path::Path;
+
+use effects::Frame;
+use logs::LogError;
+use motion::{Motion, MotionSpec};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use robot::Robot;
+
+use crate::NextMotionError;
+use crate::aim::Aim;
+use crate::information::{Information, Layout};
+use crate::limits::Usable;
+use crate::record::Record;
+use crate::steps::Steps;
+
+/// Motions drawn at random.
+const DRAWS: u64 = 64;
+/// The best of them, which are improved.
+const STARTS: usize = 8;
+/// Changes tried on each.
+const CHANGES: usize = 120;
+
+/// Stretches of a motion of which none may be all that counts.
+const STRETCHES: usize = 5;
+
+/// Rate at which motions are evaluated, in cut-off frequencies.
+pub(crate) const EVALUATION_RATE: f64 = 16.0;
+
+/// Share of a cause below which a model counts as imitating it: what rounding leaves.
+const UNLIKE: f64 = 1e-6;
+
+/// What a motion is searched in.
+#[derive(Debug)]
+pub(crate) struct Search<'a> {
+    pub robot: &'a Robot,
+    pub layout: &'a Layout,
+    pub frame: &'a Frame,
+    pub usable: &'a [Usable],
+    pub duration_s: f64,
+    pub seed: u64,
+}
+
+/// A motion and what it brings.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidate {
+    steps: Steps,
+    pub spec: MotionSpec,
+    pub motion: Motion,
+    pub outcome: Outcome,
+}
+
+/// Whether a motion can be run, and what it says then.
+#[derive(Debug, Clone)]
+pub(crate) enum Outcome {
+    /// Largest effort over what is usable.
+    TooHeavy(f64),
+    /// What it says, in all and in stretches.
+    Says { whole: Box<Information>, stretches: Vec<Information> },
+}
+
+impl Candidate {
+    /// The least that it brings to any aim; a motion that cannot be run is worth less, the more
+    /// the more effort it needs.
+    fn worth(&self, aims: &[&Aim]) -> f64 {
+        match &self.outcome {
+            Outcome::TooHeavy(share) => -share,
+            Outcome::Says { whole, stretches } => {
+                let nats = aims.iter().map(|aim| aim.spread_nats(whole, stretches));
+                nats.fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// Largest effort over what is usable, 0 where it is not above.
+    fn heaviest(&self) -> f64 {
+        match self.outcome {
+            Outcome::TooHeavy(share) => share,
+            Outcome::Says { .. } => 0.0,
+        }
+    }
+
+    /// What it says, if it can be run.
+    pub fn information(&self) -> Option<&Information> {
+        match &self.outcome {
+            Outcome::TooHeavy(_) => None,
+            Outcome::Says { whole, .. } => Some(whole),
+        }
+    }
+}
+
+impl Search<'_> {
+    /// Random motions, of which one at least can be run.
+    pub fn draw(&self) -> Result<Vec<Candidate>, NextMotionError> {
+        let one = |k: u64| {
+            let steps = Steps::draw(self.usable.len(), self.duration_s, &mut self.rng(k));
+            self.candidate(steps)
+        };
+        let drawn: Result<Vec<Candidate>, _> = (0..DRAWS).into_par_iter().map(one).collect();
+        let drawn = drawn?;
+        let share = drawn.iter().map(Candidate::heaviest).fold(f64::INFINITY, f64::min);
+        if share > 1.0 { Err(NextMotionError::TooHeavy { share }) } else { Ok(drawn) }
+    }
+
+    /// The aims that some of the motions reach.
+    pub fn within_reach<'b>(&self, aims: &'b [Aim<'b>], drawn: &[Candidate]) -> Vec<&'b Aim<'b>> {
+        let reaches = |aim: &&Aim| {
+            drawn.iter().filter_map(Candidate::information).any(|i| aim.unlike(i) > UNLIKE)
+        };
+        aims.iter().filter(reaches).collect()
+    }
+
+    /// The best motion that comes of improving the best of those drawn.
+    pub fn improve(
+        &self,
+        aims: &[&Aim],
+        drawn: Vec<Candidate>,
+    ) -> Result<Option<Candidate>, NextMotionError> {
+        let mut starts: Vec<(f64, Candidate)> =
+            drawn.into_iter().map(|c| (c.worth(aims), c)).collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        starts.truncate(STARTS);
+        let climbed: Result<Vec<(f64, Candidate)>, NextMotionError> = starts
+            .into_par_iter()
+            .enumerate()
+            .map(|(k, start)| self.climb(aims, start, DRAWS + k as u64))
+            .collect();
+        // The first of equals, so that the order of the threads is no part of the answer.
+        let best = climbed?.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a });
+        Ok(best.map(|(_, candidate)| candidate))
+    }
+
+    fn climb(
+        &self,
+        aims: &[&Aim],
+        (mut worth, mut best): (f64, Candidate),
+        stream: u64,
+    ) -> Result<(f64, Candidate), NextMotionError> {
+        let mut rng = self.rng(stream);
+        for _ in 0..CHANGES {
+            let next = self.candidate(best.steps.varied(&mut rng))?;
+            let found = next.worth(aims);
+            if found > worth {
+                (worth, best) = (found, next);
+            }
+        }
+        Ok((worth, best))
+    }
+
+    fn rng(&self, stream: u64) -> ChaCha8Rng {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        rng.set_stream(stream);
+        rng
+    }
+
+    fn candidate(&self, steps: Steps) -> Result<Candidate, NextMotionError> {
+        let spec = steps.spec(self.robot, self.usable, self.duration_s);
+        let motion = spec.build(self.robot, Path::new("."))?;
+        let outcome = self.outcome(&motion)?;
+        Ok(Candidate { steps, spec, motion, outcome })
+    }
+
+    fn outcome(&self, motion: &Motion) -> Result<Outcome, LogError> {
+        let rate_hz = EVALUATION_RATE * self.layout.cutoff_hz;
+        let along = Record::of_motion(motion, rate_hz).evaluate(self.robot, self.frame);
+        let share = |(torque, usable): (&Vec<f64>, &Usable)| {
+            torque.iter().fold(0.0, |m: f64, t| m.max(t.abs())) / usable.effort
+        };
+        let heaviest = along.torque.iter().zip(self.usable).map(share).fold(0.0, f64::max);
+        if heaviest > 1.0 {
+            return Ok(Outcome::TooHeavy(heaviest));
+        }
+        let stretches = self.layout.along(&along, None, STRETCHES)?;
+        let whole = Information::joined(&stretches).map(Box::new);
+        Ok(whole
+            .map_or(Outcome::TooHeavy(f64::INFINITY), |whole| Outcome::Says { whole, stretches }))
+    }
+}
