@@ -12,6 +12,9 @@ use super::{Arguments, cause};
 use crate::error::CliError;
 use crate::output::{create_folder, shown, table};
 
+/// Names of the files: twice the signals, and the scenario.
+const FILES: [&str; 3] = ["motion.csv", "motion.parquet", "motion.toml"];
+
 /// Columns of a sentence.
 const WIDTH: usize = 96;
 
@@ -56,8 +59,8 @@ fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> Stri
     match (prospect.goal, prospect.runs()) {
         (Goal::Separate { .. }, None) => format!(
             "no motion of {length:.0} s within the robot's limits was found that tells them apart: \
-             the best is worth {} nats of log evidence, {TELLS_APART} are needed. What may help: \
-             {help}",
+             at the sizes that the logs give them the best is worth {} nats of log evidence, \
+             {TELLS_APART} are needed. What may help: {help}",
             shown(after)
         ),
         (Goal::Separate { .. }, Some(runs)) => format!(
@@ -100,21 +103,21 @@ pub fn write(
     let out = &arguments.out;
     create_folder(out)?;
     let run = sampled(question.robot, designed, rate_hz);
-    logs::write_csv(&out.join("motion.csv"), &run)?;
-    logs::write_parquet(&out.join("motion.parquet"), &run)?;
+    logs::write_csv(&out.join(FILES[0]), &run)?;
+    logs::write_parquet(&out.join(FILES[1]), &run)?;
     let robot = arguments.robot.canonicalize().unwrap_or_else(|_| arguments.robot.clone());
     let scenario = Scenario { robot, run: [OneRun { name: "motion", motion: &designed.spec }] };
     let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
     let comment: String = text.lines().map(|line| format!("# {line}\n")).collect();
-    std::fs::write(out.join("motion.toml"), format!("{comment}\n{toml}"))?;
+    std::fs::write(out.join(FILES[2]), format!("{comment}\n{toml}"))?;
+    let [csv, parquet, toml] = FILES.map(|name| shown(&out.join(name)));
     Ok(format!(
         "\n{}\nObstacles are not known here: look at the motion before it is run.\n\n\
-         motion    {}, {} (position, velocity, acceleration and expected effort, {rate_hz:.0} Hz)\n\
-         scenario  {} (plumbline simulate; or extend it)\n",
+         motion    {csv} and {parquet}:\n          \
+         position, velocity, acceleration and the effort to expect, {rate_hz:.0} Hz\n\
+         scenario  {toml} (plumbline simulate)\n\
+         then      diagnose its log together with those that were diagnosed\n",
         summary(question.robot, &run),
-        shown(&out.join("motion.csv")),
-        shown(&out.join("motion.parquet")),
-        shown(&out.join("motion.toml")),
     ))
 }
 
