@@ -7,7 +7,7 @@ use crate::aim::{Aim, Logs};
 use crate::information::{Information, Layout};
 use crate::limits::usable;
 use crate::record::Record;
-use crate::search::{Candidate, EVALUATION_RATE, Search};
+use crate::search::{EVALUATION_RATE, Search};
 use crate::{Goal, NextMotionError, Question};
 
 /// How a motion is searched.
@@ -114,11 +114,15 @@ pub fn design(
     let open: Vec<Vec<&Aim>> = aims.iter().map(|a| search.within_reach(a, &drawn)).collect();
     let all: Vec<&Aim> = open.iter().flatten().copied().collect();
     let best = if all.is_empty() { None } else { search.improve(&all, drawn)? };
-    let found = best.as_ref().and_then(Candidate::information);
+    let found = best.as_ref().map(|c| search.says(&c.motion)).transpose()?.flatten();
     let prospect = |(goal, aims): (&Goal, &Vec<&Aim>)| {
         let before = aims.iter().map(|aim| aim.nats_before(&logs.information)).reduce(f64::min);
         let after = |found| aims.iter().map(|aim| aim.nats(found)).reduce(f64::min);
-        Prospect { goal: *goal, before: before.unwrap_or(0.0), after: found.and_then(after) }
+        Prospect {
+            goal: *goal,
+            before: before.unwrap_or(0.0),
+            after: found.as_ref().and_then(after),
+        }
     };
     Ok(Design {
         prospects: question.goals.iter().zip(&open).map(prospect).collect(),

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use effects::Frame;
+use effects::{Frame, Motion as Along};
 use logs::LogError;
 use motion::{Motion, MotionSpec};
 use rand::SeedableRng;
@@ -25,8 +25,12 @@ const CHANGES: usize = 120;
 /// Stretches of a motion of which none may be all that counts.
 const STRETCHES: usize = 5;
 
-/// Rate at which motions are evaluated, in cut-off frequencies.
+/// Rate at which logs and the motion that is found are evaluated, in cut-off frequencies: that
+/// of the diagnosis.
 pub(crate) const EVALUATION_RATE: f64 = 16.0;
+
+/// Rate at which motions are compared, in cut-off frequencies.
+const SEARCH_RATE: f64 = 8.0;
 
 /// Share of a cause below which a model counts as imitating it: what rounding leaves.
 const UNLIKE: f64 = 1e-6;
@@ -82,7 +86,7 @@ impl Candidate {
     }
 
     /// What it says, if it can be run.
-    pub fn information(&self) -> Option<&Information> {
+    fn information(&self) -> Option<&Information> {
         match &self.outcome {
             Outcome::TooHeavy(_) => None,
             Outcome::Says { whole, .. } => Some(whole),
@@ -109,6 +113,17 @@ impl Search<'_> {
             drawn.iter().filter_map(Candidate::information).any(|i| aim.unlike(i) > UNLIKE)
         };
         aims.iter().filter(reaches).collect()
+    }
+
+    /// What a motion says at the rate of the diagnosis.
+    pub fn says(&self, motion: &Motion) -> Result<Option<Information>, LogError> {
+        let along = self.along(motion, EVALUATION_RATE);
+        Ok(Information::joined(&self.layout.along(&along, None, 1)?))
+    }
+
+    fn along(&self, motion: &Motion, rate: f64) -> Along {
+        let rate_hz = rate * self.layout.cutoff_hz;
+        Record::of_motion(motion, rate_hz).evaluate(self.robot, self.frame)
     }
 
     /// The best motion that comes of improving the best of those drawn.
@@ -162,8 +177,7 @@ impl Search<'_> {
     }
 
     fn outcome(&self, motion: &Motion) -> Result<Outcome, LogError> {
-        let rate_hz = EVALUATION_RATE * self.layout.cutoff_hz;
-        let along = Record::of_motion(motion, rate_hz).evaluate(self.robot, self.frame);
+        let along = self.along(motion, SEARCH_RATE);
         let share = |(torque, usable): (&Vec<f64>, &Usable)| {
             torque.iter().fold(0.0, |m: f64, t| m.max(t.abs())) / usable.effort
         };
