@@ -134,6 +134,23 @@ fn the_motion_is_written_for_programs_for_the_simulator_and_for_a_controller() {
     assert!(before == ["motion.csv", "motion.parquet", "motion.toml"].map(read));
 }
 
+/// Before any log: of the arm only the joint in question moves.
+#[test]
+fn a_pair_that_is_asked_for_needs_no_diagnosis() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    arm::write(path, "arm.urdf", arm::URDF);
+    let pair = ["--separate", "FR01@elbow", "--from", "coulomb-friction@elbow"];
+    let base = ["design", "--robot", "arm.urdf", "--out", "next", "--duration-s", "10"];
+    let answer = good(path, &[&base[..], &pair].concat());
+    assert!(answer.out.contains("over a noise of 1 % of the effort limits"), "{}", answer.out);
+    let rests = |joint: &str| {
+        let line = answer.out.lines().find(|line| line.trim_start().starts_with(joint));
+        line.unwrap().contains(" rests ")
+    };
+    assert!(rests("shoulder") && !rests("elbow"), "{}", answer.out);
+}
+
 #[test]
 fn where_no_motion_helps_nothing_is_written_and_it_is_said_what_would() {
     let folder = folder(VISCOUS);

@@ -1,9 +1,11 @@
 use catalogue::EffectKind;
-use effects::{Hypothesis, Scale};
+use effects::Hypothesis;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
 use crate::information::{Information, Layout};
+use crate::known::Known;
+use crate::limits::efforts;
 
 /// What a motion is wanted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +40,22 @@ pub struct Question<'a> {
     pub cutoff_hz: f64,
 }
 
-impl Question<'_> {
+/// Noise without a log: the standard deviation as a share of a joint's effort limit, and its
+/// autocorrelation time (s).
+const SUPPOSED_NOISE: (f64, f64) = (0.01, 0.05);
+
+/// Cut-off without a log (Hz).
+const SUPPOSED_CUTOFF_HZ: f64 = 5.0;
+
+impl<'a> Question<'a> {
+    /// A question before there is any log: nothing is found yet, the noise is supposed to be 1
+    /// per cent of the effort limits.
+    pub fn without_logs(robot: &'a Robot, goals: Vec<Goal>) -> Self {
+        let (share, time_s) = SUPPOSED_NOISE;
+        let noise = efforts(robot).into_iter().map(|effort| (share * effort).powi(2) * time_s);
+        let noise = noise.collect();
+        Self { robot, goals, findings: Vec::new(), noise, cutoff_hz: SUPPOSED_CUTOFF_HZ }
+    }
     /// Every hypothesis that has a part in it, once.
     pub(crate) fn layout(&self) -> Layout {
         let mut hypotheses = self.findings.clone();
@@ -54,7 +71,8 @@ impl Question<'_> {
         hypotheses.sort_unstable();
         hypotheses.dedup();
         let noise = self.noise.iter().map(|&n| (n > 0.0 && n.is_finite()).then_some(n));
-        Layout { hypotheses, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
+        let widths = hypotheses.iter().map(|h| h.bounds(self.robot).len()).collect();
+        Layout { hypotheses, widths, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
     }
 
     /// Findings that are neither `one` nor `other`, nor change the same numbers.
@@ -82,36 +100,26 @@ pub(crate) enum Aim<'a> {
 }
 
 impl<'a> Aim<'a> {
-    /// The aims of a goal: a pair of rivals is to be told apart whichever is true, each at the
-    /// size at which it explains the logs best.
-    pub fn of(goal: Goal, question: &Question, layout: &Layout, logs: &'a Logs) -> Vec<Self> {
-        let index = |h: &Hypothesis| layout.hypotheses.iter().position(|own| own == h);
-        let columns = |hypotheses: &[Hypothesis]| {
-            let indices: Vec<usize> = hypotheses.iter().filter_map(index).collect();
-            logs.information.columns(&indices)
-        };
+    /// The aims of a goal: a pair of rivals is to be told apart whichever is true.
+    pub fn of(goal: Goal, question: &Question, layout: &Layout, known: &'a Known) -> Vec<Self> {
         match goal {
             Goal::Separate { finding, rival } => {
                 let besides = question.besides(finding, rival);
                 let mut others = besides.clone();
                 others.extend(symmetric_part(finding));
-                let prior = |of: &[Hypothesis]| -> Vec<f64> {
-                    of.iter().flat_map(|h| h.prior(question.robot, &logs.scale)).collect()
-                };
                 let one_way = |truth: Hypothesis, model: Hypothesis, free: &[Hypothesis]| {
-                    let fitted = [&[truth], free].concat();
-                    let all = logs.information.weights(&columns(&fitted), &prior(&fitted));
-                    let (truth, free) = (columns(&[truth]), columns(free));
-                    let weights = all.rows(0, truth.len()).into_owned();
-                    Self::Apart { truth, weights, model: [columns(&[model]), free].concat() }
+                    let weights = known.weights(layout, question.robot, &[&[truth], free].concat());
+                    let (truth, free) = (layout.columns(&[truth]), layout.columns(free));
+                    let weights = weights.rows(0, truth.len()).into_owned();
+                    Self::Apart { truth, weights, model: [layout.columns(&[model]), free].concat() }
                 };
                 vec![one_way(finding, rival, &others), one_way(rival, finding, &besides)]
             }
             Goal::Determine { finding } => vec![Self::Sure {
-                columns: columns(&[finding]),
-                others: columns(&question.besides(finding, finding)),
-                prior: finding.prior(question.robot, &logs.scale),
-                logs: &logs.information,
+                columns: layout.columns(&[finding]),
+                others: layout.columns(&question.besides(finding, finding)),
+                prior: finding.prior(question.robot, &known.scale),
+                logs: &known.information,
             }],
         }
     }
@@ -170,11 +178,4 @@ fn learned(known: &Information, columns: &[usize], others: &[usize], prior: &[f6
         DMatrix::from_fn(prior.len(), prior.len(), |i, k| known[(i, k)] * prior[i] * prior[k]);
     let values = scaled.symmetric_eigenvalues();
     0.5 * values.iter().map(|v| v.max(0.0).ln_1p()).sum::<f64>()
-}
-
-/// What the logs say.
-#[derive(Debug, Clone)]
-pub(crate) struct Logs {
-    pub information: Information,
-    pub scale: Scale,
 }

@@ -1,13 +1,10 @@
-use effects::{Frame, Scale};
-use logs::{LowPass, Prepared, PreparedJoint, PreparedRun, rest_speeds};
+use logs::{Prepared, PreparedRun};
 use motion::{Motion, MotionSpec};
-use robot::Robot;
 
-use crate::aim::{Aim, Logs};
-use crate::information::{Information, Layout};
+use crate::aim::Aim;
+use crate::known::Known;
 use crate::limits::usable;
-use crate::record::Record;
-use crate::search::{EVALUATION_RATE, Search};
+use crate::search::Search;
 use crate::{Goal, NextMotionError, Question};
 
 /// How a motion is searched.
@@ -51,7 +48,7 @@ pub struct Designed {
 pub struct Prospect {
     /// The goal.
     pub goal: Goal,
-    /// By the logs.
+    /// By the logs; 0 without any.
     pub before: f64,
     /// By the motion, of a cause to determine by both together; none where every motion leaves
     /// it open.
@@ -83,7 +80,8 @@ impl Prospect {
 
 /// The motion that serves the goals of a question best, the one served worst counting.
 ///
-/// Rivals are taken at the sizes at which they explain `logs` best. The same input and seed
+/// Rivals are taken at the sizes at which they explain `logs` best, without logs at a tenth of
+/// what is believed possible before there are any. The same input and seed
 /// give the same motion, whatever the number of threads.
 ///
 /// # Errors
@@ -92,31 +90,32 @@ impl Prospect {
 /// keeps to the effort limits. Goals that no motion serves are no error.
 pub fn design(
     question: &Question,
-    logs: &Prepared,
+    logs: Option<&Prepared>,
     settings: &Settings,
 ) -> Result<Design, NextMotionError> {
     check(question, logs, settings)?;
     let layout = question.layout();
-    let frame = Frame { rest_speed: rest_speeds(logs), centre: centres(logs) };
-    let information = along_logs(question.robot, &layout, &frame, logs)?;
-    let logs = Logs { information, scale: scale(question.robot, logs) };
+    let known = match logs {
+        Some(logs) => Known::of_logs(question.robot, &layout, logs)?,
+        None => Known::of_limits(question.robot, &layout),
+    };
     let search = Search {
         robot: question.robot,
         layout: &layout,
-        frame: &frame,
+        frame: &known.frame,
         usable: &usable(question.robot),
         duration_s: settings.duration_s,
         seed: settings.seed,
     };
     let drawn = search.draw()?;
     let aims: Vec<Vec<Aim>> =
-        question.goals.iter().map(|&goal| Aim::of(goal, question, &layout, &logs)).collect();
+        question.goals.iter().map(|&goal| Aim::of(goal, question, &layout, &known)).collect();
     let open: Vec<Vec<&Aim>> = aims.iter().map(|a| search.within_reach(a, &drawn)).collect();
     let all: Vec<&Aim> = open.iter().flatten().copied().collect();
     let best = if all.is_empty() { None } else { search.improve(&all, drawn)? };
     let found = best.as_ref().map(|c| search.says(&c.motion)).transpose()?.flatten();
     let prospect = |(goal, aims): (&Goal, &Vec<&Aim>)| {
-        let before = aims.iter().map(|aim| aim.nats_before(&logs.information)).reduce(f64::min);
+        let before = aims.iter().map(|aim| aim.nats_before(&known.information)).reduce(f64::min);
         let after = |found| aims.iter().map(|aim| aim.nats(found)).reduce(f64::min);
         Prospect {
             goal: *goal,
@@ -130,20 +129,26 @@ pub fn design(
     })
 }
 
-fn check(question: &Question, logs: &Prepared, settings: &Settings) -> Result<(), NextMotionError> {
+fn check(
+    question: &Question,
+    logs: Option<&Prepared>,
+    settings: &Settings,
+) -> Result<(), NextMotionError> {
     let expected = question.robot.joint_count();
     let wrong =
         |what: String, found: usize| Err(NextMotionError::WrongJoints { what, found, expected });
     if question.goals.is_empty() {
         return Err(NextMotionError::NoGoal);
     }
-    if logs.runs.is_empty() {
+    let runs = logs.map(|logs| logs.runs.as_slice());
+    if runs.is_some_and(<[PreparedRun]>::is_empty) {
         return Err(NextMotionError::NoRuns);
     }
     if question.noise.len() != expected {
         return wrong("the noise".to_owned(), question.noise.len());
     }
-    if let Some(run) = logs.runs.iter().find(|run| run.joints.len() != expected) {
+    let mut runs = runs.unwrap_or_default().iter();
+    if let Some(run) = runs.find(|run| run.joints.len() != expected) {
         return wrong(format!("run {}", run.name), run.joints.len());
     }
     let refuse = |name, found, expected| Err(NextMotionError::Setting { name, found, expected });
@@ -160,73 +165,16 @@ fn check(question: &Question, logs: &Prepared, settings: &Settings) -> Result<()
     Ok(())
 }
 
-/// What all runs together say of the columns and of the effort that they are to explain.
-fn along_logs(
-    robot: &Robot,
-    layout: &Layout,
-    frame: &Frame,
-    logs: &Prepared,
-) -> Result<Information, NextMotionError> {
-    let mut all = Vec::new();
-    for run in &logs.runs {
-        let stride = (run.rate_hz / (EVALUATION_RATE * layout.cutoff_hz)).max(1.0) as usize;
-        let motion = Record::of_run(run, stride).evaluate(robot, frame);
-        let filter = LowPass::new(4, layout.cutoff_hz, run.rate_hz)?;
-        let effort = |joint: &PreparedJoint| {
-            let mut effort = joint.effort.clone();
-            filter.apply(&mut effort);
-            effort.into_iter().step_by(stride).collect::<Vec<f64>>()
-        };
-        let measured: Vec<Vec<f64>> = run.joints.iter().map(effort).collect();
-        all.extend(layout.along(&motion, Some(&measured), 1)?);
-    }
-    Information::joined(&all).ok_or(NextMotionError::NoRuns)
-}
-
-/// Middle of the range of each joint over all runs (rad or m).
-fn centres(logs: &Prepared) -> Vec<f64> {
-    spans(logs).into_iter().map(|[low, high]| 0.5 * (low + high)).collect()
-}
-
-fn spans(logs: &Prepared) -> Vec<[f64; 2]> {
-    let joints = logs.runs.first().map_or(0, |run| run.joints.len());
-    let span = |j: usize| {
-        let q = logs.runs.iter().flat_map(|run| &run.joints[j].q);
-        q.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &q| [l.min(q), h.max(q)])
-    };
-    (0..joints).map(span).collect()
-}
-
-/// How large things are in the logs.
-fn scale(robot: &Robot, logs: &Prepared) -> Scale {
-    let joints = 0..robot.joint_count();
-    let all = |j: usize, pick: fn(&PreparedJoint) -> &Vec<f64>| {
-        logs.runs.iter().flat_map(move |run: &PreparedRun| pick(&run.joints[j]).iter().copied())
-    };
-    let largest = |j, pick| all(j, pick).fold(0.0, |m: f64, x| m.max(x.abs()));
-    let rms = |j| {
-        let (n, sum) = all(j, |p| &p.effort).fold((0, 0.0), |(n, s), x| (n + 1, s + x * x));
-        (sum / f64::from(n.max(1))).sqrt()
-    };
-    let links = robot.links();
-    let n = links.len().max(1) as f64;
-    let lengths = links.iter().map(|l| l.joint.parent_from_joint.translation.vector.norm());
-    Scale {
-        effort: joints.clone().map(rms).collect(),
-        speed: joints.clone().map(|j| largest(j, |p| &p.qd)).collect(),
-        acceleration: joints.map(|j| largest(j, |p| &p.qdd)).collect(),
-        range: spans(logs).into_iter().map(|[low, high]| high - low).collect(),
-        link_mass: links.iter().map(|l| l.inertia.mass.max(0.0)).sum::<f64>() / n,
-        link_length: (lengths.sum::<f64>() / n).max(0.05),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use catalogue::EffectKind;
-    use effects::{Hypothesis, Place};
+    use effects::{Frame, Hypothesis, Place};
+    use logs::PreparedJoint;
+    use robot::Robot;
 
     use super::*;
+    use crate::known::scale;
+    use crate::record::Record;
     use crate::testing::{arm, turntable};
 
     const RATE_HZ: f64 = 100.0;
@@ -294,18 +242,31 @@ mod tests {
     fn a_motion_tells_viscous_from_coulomb_friction_within_the_limits_of_the_arm() {
         let robot = arm();
         let logs = log(&robot, |v| 0.2 * v);
-        let found = design(&question(&robot, friction(1)), &logs, &SHORT).unwrap();
+        let found = design(&question(&robot, friction(1)), Some(&logs), &SHORT).unwrap();
         let [prospect] = found.prospects.try_into().unwrap();
         let after = prospect.after.unwrap();
         // The log is 30 s long.
         assert!(after / 8.0 > 4.0 * prospect.before / 30.0, "{prospect:?}");
         let motion = found.motion.unwrap().motion;
+        let shoulder: Vec<f64> = (0..80).map(|k| motion.at(0.1 * f64::from(k)).q[0]).collect();
+        assert!(shoulder.iter().all(|q| (q - shoulder[0]).abs() < 1e-12), "it need not move");
         let frame = Frame { rest_speed: vec![1e-3; 2], centre: vec![0.0; 2] };
         let along = Record::of_motion(&motion, 500.0).evaluate(&robot, &frame);
         for (torque, link) in along.torque.iter().zip(robot.links()) {
             let largest = torque.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
             assert!(largest < 0.81 * link.joint.limits.effort.unwrap(), "{largest}");
         }
+    }
+
+    /// Before there is a log: the motion is worth something, a log nothing.
+    #[test]
+    fn a_pair_is_told_apart_without_logs_at_supposed_sizes() {
+        let robot = arm();
+        let question = Question::without_logs(&robot, vec![friction(1)]);
+        let found = design(&question, None, &SHORT).unwrap();
+        let [prospect] = found.prospects.try_into().unwrap();
+        assert!(prospect.before <= 0.0 && prospect.after > Some(TELLS_APART), "{prospect:?}");
+        assert!(found.motion.is_some());
     }
 
     #[test]
@@ -315,7 +276,7 @@ mod tests {
         let with = |threads: usize, seed: u64| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let settings = Settings { seed, ..SHORT };
-            pool.install(|| design(&question(&robot, friction(0)), &logs, &settings)).unwrap()
+            pool.install(|| design(&question(&robot, friction(0)), Some(&logs), &settings)).unwrap()
         };
         let one = with(1, 3);
         assert_eq!(one, with(3, 3));
@@ -329,7 +290,7 @@ mod tests {
             finding: Hypothesis { kind: EffectKind::Payload, place: Place::Link(1) },
             rival: Hypothesis { kind: EffectKind::InertialParameters, place: Place::Link(1) },
         };
-        let found = design(&question(&robot, goal), &log(&robot, |_| 0.3), &SHORT).unwrap();
+        let found = design(&question(&robot, goal), Some(&log(&robot, |_| 0.3)), &SHORT).unwrap();
         assert!(found.motion.is_none() && found.prospects[0].after.is_none());
         assert_eq!(found.prospects[0].runs(), None);
     }
@@ -341,7 +302,7 @@ mod tests {
         let logs = log(&robot, |v| 0.2 * v);
         let finding = at(EffectKind::ViscousFriction, 0);
         let goal = Goal::Determine { finding };
-        let found = design(&question(&robot, goal), &logs, &SHORT).unwrap();
+        let found = design(&question(&robot, goal), Some(&logs), &SHORT).unwrap();
         let qd = &logs.runs[0].joints[0].qd;
         let power = qd.iter().map(|v| v * v).sum::<f64>() / RATE_HZ / 1e-3;
         let s = finding.prior(&robot, &scale(&robot, &logs))[0];
@@ -358,7 +319,7 @@ mod tests {
             robot.link_mut(joint).unwrap().joint.limits.effort = Some(1e-3);
         }
         let logs = log(&robot, |v| 0.2 * v);
-        let found = design(&question(&robot, friction(1)), &logs, &SHORT);
+        let found = design(&question(&robot, friction(1)), Some(&logs), &SHORT);
         assert!(matches!(found, Err(NextMotionError::TooHeavy { share }) if share > 1.0));
     }
 
@@ -368,7 +329,7 @@ mod tests {
         let logs = log(&robot, |v| v);
         let whole = question(&robot, friction(0));
         let refused = |question: Question, logs: &Prepared, settings: Settings| {
-            design(&question, logs, &settings).unwrap_err().to_string()
+            design(&question, Some(logs), &settings).unwrap_err().to_string()
         };
         let none = Question { goals: vec![], ..whole.clone() };
         assert!(refused(none, &logs, SHORT).starts_with("no goal was given"));

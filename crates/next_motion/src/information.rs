@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use effects::{Column, Hypothesis, Motion};
+use effects::{Hypothesis, Motion};
 use logs::{LogError, LowPass};
 use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
@@ -15,6 +15,8 @@ const RANK: f64 = 1e-10;
 pub(crate) struct Layout {
     /// The hypotheses.
     pub hypotheses: Vec<Hypothesis>,
+    /// Number of columns of each.
+    pub widths: Vec<usize>,
     /// Noise of each joint: variance times autocorrelation time ((N·m)² s); none where
     /// nothing is known of the joint.
     pub noise: Vec<Option<f64>>,
@@ -31,11 +33,23 @@ pub(crate) struct Layout {
 pub(crate) struct Information {
     pub xx: DMatrix<f64>,
     pub xy: DVector<f64>,
-    /// Where the columns of each hypothesis stand.
-    pub places: Vec<Range<usize>>,
 }
 
 impl Layout {
+    /// The columns of some hypotheses.
+    pub fn columns(&self, hypotheses: &[Hypothesis]) -> Vec<usize> {
+        let start = |at: usize| self.widths[..at].iter().sum::<usize>();
+        let index = |h: &Hypothesis| self.hypotheses.iter().position(|own| own == h);
+        let places = hypotheses.iter().filter_map(index);
+        places.flat_map(|at| start(at)..start(at + 1)).collect()
+    }
+
+    /// What is known before any motion.
+    pub fn nothing(&self) -> Information {
+        let width = self.widths.iter().sum();
+        Information { xx: DMatrix::zeros(width, width), xy: DVector::zeros(width) }
+    }
+
     /// What a motion says of the columns, in equal stretches of it; `measured` is the low-passed
     /// effort of each joint, if there is any, of which they are to explain what the nominal
     /// robot does not.
@@ -46,22 +60,15 @@ impl Layout {
         stretches: usize,
     ) -> Result<Vec<Information>, LogError> {
         let filter = LowPass::new(ORDER, self.cutoff_hz, motion.period_s.recip())?;
-        let columns: Vec<Vec<Column>> = self.hypotheses.iter().map(|h| h.columns(motion)).collect();
-        let mut places = Vec::new();
-        let mut width = 0;
-        for own in &columns {
-            places.push(width..width + own.len());
-            width += own.len();
-        }
+        let columns = self.hypotheses.iter().flat_map(|h| h.columns(motion));
         let mut signals: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); self.noise.len()];
-        for (index, column) in columns.into_iter().flatten().enumerate() {
+        for (index, column) in columns.enumerate() {
             for mut part in column {
                 filter.apply(&mut part.values);
                 signals[part.joint].push((index, part.values));
             }
         }
-        let empty = Information::empty(width, places);
-        let mut sums = vec![empty; stretches];
+        let mut sums = vec![self.nothing(); stretches];
         for (j, signals) in signals.iter().enumerate() {
             let Some(noise) = self.noise[j] else { continue };
             let target = measured.map(|measured| {
@@ -81,10 +88,6 @@ impl Layout {
 }
 
 impl Information {
-    fn empty(width: usize, places: Vec<Range<usize>>) -> Self {
-        Self { xx: DMatrix::zeros(width, width), xy: DVector::zeros(width), places }
-    }
-
     fn add(
         &mut self,
         signals: &[(usize, Vec<f64>)],
@@ -118,11 +121,6 @@ impl Information {
             sum.xy += &other.xy;
             sum
         }))
-    }
-
-    /// The columns of some hypotheses.
-    pub fn columns(&self, hypotheses: &[usize]) -> Vec<usize> {
-        hypotheses.iter().flat_map(|&h| self.places[h].clone()).collect()
     }
 
     /// The weights of `columns` that explain the residual best where each is believed to be zero
@@ -244,6 +242,7 @@ mod tests {
         let at = |kind| Hypothesis { kind, place: Place::Joint(0) };
         let layout = Layout {
             hypotheses: vec![at(EffectKind::CableSpring), at(EffectKind::RotorInertia)],
+            widths: vec![1, 1],
             noise: vec![Some(NOISE)],
             cutoff_hz: 40.0,
         };

@@ -13,6 +13,7 @@ mod aim;
 mod design;
 mod error;
 mod information;
+mod known;
 mod limits;
 mod record;
 mod search;

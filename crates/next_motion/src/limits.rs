@@ -1,4 +1,4 @@
-use robot::{Joint, Robot};
+use robot::{Joint, Link, Robot};
 
 /// Share of every limit that a designed motion uses: a robot does not follow exactly.
 const SHARE: f64 = 0.8;
@@ -8,6 +8,9 @@ const REACH: f64 = 0.5;
 
 /// Speed of a joint without a velocity limit (rad/s or m/s).
 const SPEED: f64 = 1.0;
+
+/// Effort that stands for that of a joint without an effort limit (N·m or N).
+const EFFORT: f64 = 10.0;
 
 /// Time in which a joint may come to its speed (s).
 const RISE_S: f64 = 0.2;
@@ -54,6 +57,12 @@ impl Usable {
 /// What a designed motion may use of every joint.
 pub(crate) fn usable(robot: &Robot) -> Vec<Usable> {
     robot.links().iter().map(|link| Usable::of(&link.joint)).collect()
+}
+
+/// How strong the joints are (N·m or N).
+pub(crate) fn efforts(robot: &Robot) -> Vec<f64> {
+    let effort = |link: &Link| link.joint.limits.effort.unwrap_or(EFFORT);
+    robot.links().iter().map(effort).collect()
 }
 
 #[cfg(test)]

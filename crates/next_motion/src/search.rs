@@ -22,6 +22,9 @@ const STARTS: usize = 8;
 /// Changes tried on each.
 const CHANGES: usize = 120;
 
+/// Share of what a motion brings that it must keep where a joint rests instead.
+const CALM: f64 = 0.95;
+
 /// Stretches of a motion of which none may be all that counts.
 const STRETCHES: usize = 5;
 
@@ -143,7 +146,22 @@ impl Search<'_> {
             .collect();
         // The first of equals, so that the order of the threads is no part of the answer.
         let best = climbed?.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a });
-        Ok(best.map(|(_, candidate)| candidate))
+        best.map(|best| self.calmed(aims, best)).transpose()
+    }
+
+    /// The same motion with every joint at rest that need not move.
+    fn calmed(
+        &self,
+        aims: &[&Aim],
+        (worth, mut best): (f64, Candidate),
+    ) -> Result<Candidate, NextMotionError> {
+        for joint in 0..self.usable.len() {
+            let calmer = self.candidate(best.steps.without(joint))?;
+            if calmer.worth(aims) > CALM * worth {
+                best = calmer;
+            }
+        }
+        Ok(best)
     }
 
     fn climb(

@@ -83,6 +83,15 @@ impl Steps {
         varied
     }
 
+    /// The same with a joint that stays where it begins.
+    pub fn without(&self, joint: usize) -> Self {
+        let mut calm = self.clone();
+        for to in calm.moves.iter_mut().filter_map(|m| m.to.as_mut()) {
+            to[joint] = self.start[joint];
+        }
+        calm
+    }
+
     /// The motion within what is usable: a move that would be too fast does not lead as far.
     ///
     /// Times are rounded to milliseconds, positions to 1e-4 rad, so that the file that holds

@@ -18,6 +18,9 @@ use crate::input::{ColumnArguments, positive};
 use crate::output::print;
 use crate::progress::Line;
 
+/// Rate of a motion where neither log nor robot says one (Hz).
+const RATE_HZ: f64 = 500.0;
+
 /// Arguments of `design`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -25,15 +28,15 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
     /// The diagnosis: its folder or its diagnosis.json
-    #[arg(long, value_name = "DIR")]
-    diagnosis: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "separate")]
+    diagnosis: Option<PathBuf>,
     /// The logs that were diagnosed; those that the diagnosis names when left out
-    #[arg(long = "log", value_name = "FILE", num_args = 1..)]
+    #[arg(long = "log", value_name = "FILE", num_args = 1.., requires = "diagnosis")]
     logs: Vec<PathBuf>,
     #[command(flatten)]
     columns: ColumnArguments,
-    /// A cause to tell from that of --from instead of what the diagnosis left open, such as
-    /// FR01@elbow or payload@hand
+    /// A cause to tell from that of --from, such as FR01@elbow or payload@hand, instead of what
+    /// the diagnosis left open; also before there is a diagnosis
     #[arg(long, value_name = "EFFECT@PLACE", requires = "from")]
     separate: Option<String>,
     /// The cause to tell it from
@@ -60,53 +63,56 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     }
     let loaded = Robot::load(&arguments.robot)?;
     let robot = &loaded.robot;
-    let diagnosis = DiagnosisFile::read(&arguments.diagnosis, robot)?;
-    let question = Question {
-        robot,
-        goals: goals(arguments, &diagnosis, robot)?,
-        findings: diagnosis.findings(robot)?,
-        noise: diagnosis.noise(),
-        cutoff_hz: diagnosis.cutoff_hz(),
+    let asked = asked(arguments, robot)?;
+    let (question, logs) = match &arguments.diagnosis {
+        None => (Question::without_logs(robot, asked), None),
+        Some(path) => {
+            let diagnosis = DiagnosisFile::read(path, robot)?;
+            let logs = prepared(arguments, &diagnosis, &loaded)?;
+            let question = Question {
+                robot,
+                goals: if asked.is_empty() { diagnosis.goals(robot)? } else { asked },
+                findings: diagnosis.findings(robot)?,
+                noise: diagnosis.noise(),
+                cutoff_hz: diagnosis.cutoff_hz(),
+            };
+            if question.goals.is_empty() {
+                return Err(DesignError::NothingOpen { path: path.clone() }.into());
+            }
+            (question, Some(logs))
+        }
     };
-    let logs = prepared(arguments, &diagnosis, &loaded)?;
     let settings = Settings { duration_s: arguments.duration_s, seed: arguments.seed };
     let line = Line::new();
     if !arguments.quiet {
         line.say("searching a motion");
     }
-    let design = next_motion::design(&question, &logs, &settings);
+    let design = next_motion::design(&question, logs.as_ref(), &settings);
     line.finish();
     let design = design.map_err(DesignError::from)?;
     let useful = design.prospects.iter().any(|p| p.runs().is_some());
-    let text = files::words(&design, &question, &logs);
+    let text = files::words(&design, robot, logs.as_ref());
     let Some(motion) = design.motion.as_ref().filter(|_| useful) else {
         if !arguments.quiet {
             print(&text)?;
         }
         return Ok(Outcome::Gap);
     };
-    let written = files::write(arguments, &text, &question, motion, rate_hz(&logs))?;
+    let rate_hz = rate_hz(&loaded, logs.as_ref());
+    let written = files::write(arguments, &text, robot, (motion, rate_hz))?;
     if !arguments.quiet {
         print(&format!("{text}{written}"))?;
     }
     Ok(Outcome::Good)
 }
 
-/// What the motion is wanted for.
-fn goals(
-    arguments: &Arguments,
-    diagnosis: &DiagnosisFile,
-    robot: &Robot,
-) -> Result<Vec<Goal>, CliError> {
-    if let (Some(one), Some(other)) = (&arguments.separate, &arguments.from) {
-        let [finding, rival] = [cause::typed(one, robot)?, cause::typed(other, robot)?];
-        return Ok(vec![Goal::Separate { finding, rival }]);
-    }
-    let goals = diagnosis.goals(robot)?;
-    if goals.is_empty() {
-        return Err(DesignError::NothingOpen { path: arguments.diagnosis.clone() }.into());
-    }
-    Ok(goals)
+/// The pair that is asked for, if any.
+fn asked(arguments: &Arguments, robot: &Robot) -> Result<Vec<Goal>, CliError> {
+    let (Some(one), Some(other)) = (&arguments.separate, &arguments.from) else {
+        return Ok(Vec::new());
+    };
+    let [finding, rival] = [cause::typed(one, robot)?, cause::typed(other, robot)?];
+    Ok(vec![Goal::Separate { finding, rival }])
 }
 
 /// The logs that were diagnosed, prepared as they were then.
@@ -127,7 +133,8 @@ fn prepared(
     Ok(prepared)
 }
 
-/// Rate of the logs (Hz), at which the motion is written too.
-fn rate_hz(logs: &Prepared) -> f64 {
-    logs.runs.iter().map(|run| run.rate_hz).fold(0.0, f64::max)
+/// Rate at which the motion is written (Hz): that of the logs, or else of the controller.
+fn rate_hz(loaded: &Loaded, logs: Option<&Prepared>) -> f64 {
+    let of_logs = logs.and_then(|l| l.runs.iter().map(|run| run.rate_hz).reduce(f64::max));
+    of_logs.or(loaded.control.rate_hz).unwrap_or(RATE_HZ)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use effects::{Frame, Motion as Along};
 use logs::{Channels, Prepared, Run};
 use motion::{MotionSpec, State};
-use next_motion::{Design, Designed, Goal, Prospect, Question, TELLS_APART};
+use next_motion::{Design, Designed, Goal, Prospect, TELLS_APART};
 use robot::Robot;
 use serde::Serialize;
 
@@ -19,11 +19,12 @@ const FILES: [&str; 3] = ["motion.csv", "motion.parquet", "motion.toml"];
 const WIDTH: usize = 96;
 
 /// What the motion is for and what it brings, goal by goal.
-pub fn words(design: &Design, question: &Question, logs: &Prepared) -> String {
-    let logged: f64 = logs.runs.iter().map(|run| run.time.len() as f64 / run.rate_hz).sum();
+pub fn words(design: &Design, robot: &Robot, logs: Option<&Prepared>) -> String {
+    let runs = logs.map_or_else(Default::default, |logs| logs.runs.as_slice());
+    let logged: f64 = runs.iter().map(|run| run.time.len() as f64 / run.rate_hz).sum();
     let length = design.motion.as_ref().map_or(0.0, |m| m.motion.duration_s());
     let of = |prospect: &Prospect| {
-        let (title, help) = titles(prospect.goal, question.robot);
+        let (title, help) = titles(prospect.goal, robot);
         let sentence = sentence(prospect, [logged, length], help);
         let lines = report::packed(sentence.split_whitespace(), " ", WIDTH - 2);
         format!("{title}\n  {}\n", lines.join("\n  "))
@@ -56,20 +57,33 @@ fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> Stri
             Goal::Determine { .. } => format!("no motion shows it. What helps: {help}"),
         };
     };
+    let sizes = if logged > 0.0 {
+        "at the sizes that the logs give them"
+    } else {
+        "at a tenth of what is believed possible, over a noise of 1 % of the effort limits"
+    };
     match (prospect.goal, prospect.runs()) {
         (Goal::Separate { .. }, None) => format!(
             "no motion of {length:.0} s within the robot's limits was found that tells them apart: \
-             at the sizes that the logs give them the best is worth {} nats of log evidence, \
-             {TELLS_APART} are needed. What may help: {help}",
+             {sizes} the best is worth {} nats of log evidence, {TELLS_APART} are needed. What may \
+             help: {help}",
             shown(after)
         ),
         (Goal::Separate { .. }, Some(runs)) => format!(
-            "this motion tells them apart{}: its {length:.0} s are worth {} nats of log evidence, \
-             {TELLS_APART} are needed; {length:.0} s of the logs were worth {} ({} times less)",
+            "this motion tells them apart{}: its {length:.0} s are worth {} nats of log evidence \
+             {sizes}, {TELLS_APART} are needed{}",
             if runs > 1 { format!(", run {runs} times") } else { String::new() },
             shown(after),
-            shown(before * length / logged),
-            shown(after / before * logged / length),
+            if logged > 0.0 {
+                let [same, times] = [before * length / logged, after / before * logged / length];
+                format!(
+                    "; {length:.0} s of the logs were worth {} ({} times less)",
+                    shown(same),
+                    shown(times)
+                )
+            } else {
+                String::new()
+            }
         ),
         (Goal::Determine { .. }, runs) => format!(
             "{length:.0} s of {} motion halve the width of an interval {:.1} times",
@@ -96,17 +110,17 @@ struct OneRun<'a> {
 pub fn write(
     arguments: &Arguments,
     text: &str,
-    question: &Question,
-    designed: &Designed,
-    rate_hz: f64,
+    robot: &Robot,
+    (designed, rate_hz): (&Designed, f64),
 ) -> Result<String, CliError> {
     let out = &arguments.out;
     create_folder(out)?;
-    let run = sampled(question.robot, designed, rate_hz);
+    let run = sampled(robot, designed, rate_hz);
     logs::write_csv(&out.join(FILES[0]), &run)?;
     logs::write_parquet(&out.join(FILES[1]), &run)?;
-    let robot = arguments.robot.canonicalize().unwrap_or_else(|_| arguments.robot.clone());
-    let scenario = Scenario { robot, run: [OneRun { name: "motion", motion: &designed.spec }] };
+    let path = arguments.robot.canonicalize().unwrap_or_else(|_| arguments.robot.clone());
+    let scenario =
+        Scenario { robot: path, run: [OneRun { name: "motion", motion: &designed.spec }] };
     let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
     let comment: String = text.lines().map(|line| format!("# {line}\n")).collect();
     std::fs::write(out.join(FILES[2]), format!("{comment}\n{toml}"))?;
@@ -116,8 +130,8 @@ pub fn write(
          motion    {csv} and {parquet}:\n          \
          position, velocity, acceleration and the effort to expect, {rate_hz:.0} Hz\n\
          scenario  {toml} (plumbline simulate)\n\
-         then      diagnose its log together with those that were diagnosed\n",
-        summary(question.robot, &run),
+         then      plumbline diagnose, its log together with those there are\n",
+        summary(robot, &run),
     ))
 }
 
@@ -131,13 +145,12 @@ fn summary(robot: &Robot, run: &Run) -> String {
         let first = channels.position.first().copied().unwrap_or(0.0);
         let (way, torque) =
             if link.joint.kind.is_rotation() { ("rad", "N·m") } else { ("m", "N") };
-        vec![
-            channels.name.clone(),
-            format!("{first:.2} {way}"),
-            format!("{low:.2} to {high:.2} {way}"),
-            format!("{speed:.2} {way}/s"),
-            format!("{:.1} {torque}", largest(&channels.effort)),
-        ]
+        let (moves, fastest) = match speed > 0.0 {
+            true => (format!("{low:.2} to {high:.2} {way}"), format!("{speed:.2} {way}/s")),
+            false => ("rests".to_owned(), String::new()),
+        };
+        let effort = format!("{:.1} {torque}", largest(&channels.effort));
+        vec![channels.name.clone(), format!("{first:.2} {way}"), moves, fastest, effort]
     });
     table(&["joint", ">starts at", ">moves over", ">fastest", ">most effort"], rows)
 }

@@ -1,0 +1,145 @@
+use effects::{Frame, Hypothesis, Scale};
+use logs::{LowPass, Prepared, PreparedJoint, PreparedRun, rest_speeds};
+use nalgebra::DVector;
+use robot::Robot;
+
+use crate::NextMotionError;
+use crate::information::{Information, Layout};
+use crate::limits::{Usable, efforts, usable};
+use crate::record::Record;
+use crate::search::EVALUATION_RATE;
+
+/// Share of what is believed possible of a cause that it is taken to have where no log says how
+/// large it is.
+const SUPPOSED: f64 = 0.1;
+
+/// Share of its largest speed below which a joint counts as at rest, where no log says it.
+const REST_SHARE: f64 = 1e-3;
+
+/// What is known before the motion.
+#[derive(Debug, Clone)]
+pub(crate) struct Known {
+    pub frame: Frame,
+    /// How large things are.
+    pub scale: Scale,
+    /// What the logs say, nothing where there are none.
+    pub information: Information,
+    source: Source,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Logs,
+    Limits,
+}
+
+impl Known {
+    /// By logs.
+    pub fn of_logs(
+        robot: &Robot,
+        layout: &Layout,
+        logs: &Prepared,
+    ) -> Result<Self, NextMotionError> {
+        let frame = Frame { rest_speed: rest_speeds(logs), centre: centres(logs) };
+        let information = along_logs(robot, layout, &frame, logs)?;
+        Ok(Self { frame, scale: scale(robot, logs), information, source: Source::Logs })
+    }
+
+    /// By what the joints can do, before there is any log.
+    pub fn of_limits(robot: &Robot, layout: &Layout) -> Self {
+        let usable = usable(robot);
+        let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
+        let [link_mass, link_length] = links(robot);
+        Self {
+            frame: Frame { rest_speed: each(|u| REST_SHARE * u.speed), centre: each(|u| u.middle) },
+            scale: Scale {
+                effort: efforts(robot),
+                speed: each(|u| u.speed),
+                acceleration: each(|u| u.acceleration),
+                range: each(|u| 2.0 * u.half),
+                link_mass,
+                link_length,
+            },
+            information: layout.nothing(),
+            source: Source::Limits,
+        }
+    }
+
+    /// The weights of the columns of some causes: those that explain the logs best, or else a
+    /// tenth of what is believed possible.
+    pub fn weights(&self, layout: &Layout, robot: &Robot, causes: &[Hypothesis]) -> DVector<f64> {
+        let prior: Vec<f64> = causes.iter().flat_map(|h| h.prior(robot, &self.scale)).collect();
+        match self.source {
+            Source::Logs => self.information.weights(&layout.columns(causes), &prior),
+            Source::Limits => SUPPOSED * DVector::from_vec(prior),
+        }
+    }
+}
+
+/// What all runs together say of the columns and of the effort that they are to explain.
+fn along_logs(
+    robot: &Robot,
+    layout: &Layout,
+    frame: &Frame,
+    logs: &Prepared,
+) -> Result<Information, NextMotionError> {
+    let mut all = Vec::new();
+    for run in &logs.runs {
+        let stride = (run.rate_hz / (EVALUATION_RATE * layout.cutoff_hz)).max(1.0) as usize;
+        let motion = Record::of_run(run, stride).evaluate(robot, frame);
+        let filter = LowPass::new(4, layout.cutoff_hz, run.rate_hz)?;
+        let effort = |joint: &PreparedJoint| {
+            let mut effort = joint.effort.clone();
+            filter.apply(&mut effort);
+            effort.into_iter().step_by(stride).collect::<Vec<f64>>()
+        };
+        let measured: Vec<Vec<f64>> = run.joints.iter().map(effort).collect();
+        all.extend(layout.along(&motion, Some(&measured), 1)?);
+    }
+    Information::joined(&all).ok_or(NextMotionError::NoRuns)
+}
+
+/// Middle of the range of each joint over all runs (rad or m).
+fn centres(logs: &Prepared) -> Vec<f64> {
+    spans(logs).into_iter().map(|[low, high]| 0.5 * (low + high)).collect()
+}
+
+fn spans(logs: &Prepared) -> Vec<[f64; 2]> {
+    let joints = logs.runs.first().map_or(0, |run| run.joints.len());
+    let span = |j: usize| {
+        let q = logs.runs.iter().flat_map(|run| &run.joints[j].q);
+        q.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &q| [l.min(q), h.max(q)])
+    };
+    (0..joints).map(span).collect()
+}
+
+/// How large things are in the logs.
+pub(crate) fn scale(robot: &Robot, logs: &Prepared) -> Scale {
+    let joints = 0..robot.joint_count();
+    let all = |j: usize, pick: fn(&PreparedJoint) -> &Vec<f64>| {
+        logs.runs.iter().flat_map(move |run: &PreparedRun| pick(&run.joints[j]).iter().copied())
+    };
+    let largest = |j, pick| all(j, pick).fold(0.0, |m: f64, x| m.max(x.abs()));
+    let rms = |j| {
+        let (n, sum) = all(j, |p| &p.effort).fold((0, 0.0), |(n, s), x| (n + 1, s + x * x));
+        (sum / f64::from(n.max(1))).sqrt()
+    };
+    let [link_mass, link_length] = links(robot);
+    Scale {
+        effort: joints.clone().map(rms).collect(),
+        speed: joints.clone().map(|j| largest(j, |p| &p.qd)).collect(),
+        acceleration: joints.map(|j| largest(j, |p| &p.qdd)).collect(),
+        range: spans(logs).into_iter().map(|[low, high]| high - low).collect(),
+        link_mass,
+        link_length,
+    }
+}
+
+/// Mean mass of a moving link (kg) and mean distance between neighbouring joints (m).
+fn links(robot: &Robot) -> [f64; 2] {
+    let links = robot.links();
+    let n = links.len().max(1) as f64;
+    let lengths = links.iter().map(|l| l.joint.parent_from_joint.translation.vector.norm());
+    let mass = links.iter().map(|l| l.inertia.mass.max(0.0)).sum::<f64>() / n;
+    [mass, (lengths.sum::<f64>() / n).max(0.05)]
+}
