@@ -179,3 +179,32 @@ fn learned(known: &Information, columns: &[usize], others: &[usize], prior: &[f6
     let values = scaled.symmetric_eigenvalues();
     0.5 * values.iter().map(|v| v.max(0.0).ln_1p()).sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn power(xx: f64) -> Information {
+        Information { xx: DMatrix::from_element(1, 1, xx), xy: DVector::zeros(1) }
+    }
+
+    /// A cause with weight 3 that nothing imitates is worth `9/2 xx`.
+    #[test]
+    fn the_stretch_that_says_most_does_not_count_twice() {
+        let weights = DVector::from_element(1, 3.0);
+        let aim = Aim::Apart { truth: vec![0], weights, model: vec![] };
+        let stretches = [power(1.0), power(6.0), power(2.0)];
+        let whole = power(9.0);
+        assert!((aim.nats(&whole) - 40.5).abs() < 1e-12);
+        assert!((aim.spread_nats(&whole, &stretches) - 13.5).abs() < 1e-12);
+        assert!((aim.unlike(&whole) - 1.0).abs() < 1e-12 && aim.unlike(&power(0.0)) <= 0.0);
+    }
+
+    #[test]
+    fn what_logs_and_motion_tell_of_a_weight_is_added_before_it_is_counted() {
+        let logs = power(3.0);
+        let aim = Aim::Sure { columns: vec![0], others: vec![], prior: vec![2.0], logs: &logs };
+        assert!((aim.nats_before(&logs) - 0.5 * 13.0_f64.ln()).abs() < 1e-12);
+        assert!((aim.nats(&power(5.0)) - 0.5 * 33.0_f64.ln()).abs() < 1e-12);
+    }
+}

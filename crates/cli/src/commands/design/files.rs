@@ -1,6 +1,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use catalogue::EffectKind;
 use effects::{Frame, Motion as Along};
 use logs::{Channels, Prepared, Run};
 use motion::{MotionSpec, State};
@@ -37,7 +38,10 @@ fn titles(goal: Goal, robot: &Robot) -> (String, &'static str) {
     let words = |c| cause::words(c, robot);
     match goal {
         Goal::Separate { finding, rival } => {
-            (format!("{} or {}", words(finding), words(rival)), finding.kind.entry().told_apart_by)
+            // As the diagnosis says it: of a payload only a second log tells.
+            let payload = [finding, rival].into_iter().find(|c| c.kind == EffectKind::Payload);
+            let help = payload.unwrap_or(finding).kind.entry().told_apart_by;
+            (format!("{} or {}", words(finding), words(rival)), help)
         }
         Goal::Determine { finding } => {
             (format!("the size of {}", words(finding)), finding.kind.entry().needs)
@@ -74,7 +78,7 @@ fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> Stri
              {sizes}, {TELLS_APART} are needed{}",
             if runs > 1 { format!(", run {runs} times") } else { String::new() },
             shown(after),
-            if logged > 0.0 {
+            if before > 0.0 {
                 let [same, times] = [before * length / logged, after / before * logged / length];
                 format!(
                     "; {length:.0} s of the logs were worth {} ({} times less)",
