@@ -61,7 +61,7 @@ Exit codes:
 const DESIGN_EXAMPLES: &str = "\
 Examples:
   plumbline design --robot robot.toml --diagnosis out --out next
-  plumbline design --robot robot.toml --diagnosis out --separate FR01@elbow --from FR02@elbow --out next
+  plumbline design --robot robot.toml --separate FR01@elbow --from FR02@elbow --out next
 
 The output folder holds
   motion.csv      time (s) and <joint>.position, .velocity, .acceleration and .effort, the effort

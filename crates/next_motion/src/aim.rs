@@ -182,7 +182,51 @@ fn learned(known: &Information, columns: &[usize], others: &[usize], prior: &[f6
 
 #[cfg(test)]
 mod tests {
+    use effects::Place;
+
     use super::*;
+    use crate::testing::turntable;
+
+    fn at(kind: EffectKind) -> Hypothesis {
+        Hypothesis { kind, place: Place::Joint(0) }
+    }
+
+    /// Columns of truth and model of every aim of a pair, as hypotheses.
+    fn aims(finding: EffectKind, rival: EffectKind) -> Vec<[Vec<EffectKind>; 2]> {
+        let robot = turntable();
+        let goal = Goal::Separate { finding: at(finding), rival: at(rival) };
+        let mut question = Question::without_logs(&robot, vec![goal]);
+        question.findings = vec![at(finding), at(EffectKind::CableSpring)];
+        let layout = question.layout();
+        let known = Known::of_limits(&robot, &layout);
+        let kinds = |columns: &Vec<usize>| -> Vec<EffectKind> {
+            let of = |h: &&Hypothesis| layout.columns(&[**h]).iter().any(|k| columns.contains(k));
+            layout.hypotheses.iter().filter(of).map(|h| h.kind).collect()
+        };
+        let both = |aim: Aim| match aim {
+            Aim::Apart { truth, model, .. } => [kinds(&truth), kinds(&model)],
+            Aim::Sure { columns, others, .. } => [kinds(&columns), kinds(&others)],
+        };
+        Aim::of(goal, &question, &layout, &known).into_iter().map(both).collect()
+    }
+
+    #[test]
+    fn either_rival_may_be_true_and_the_other_findings_are_free() {
+        use EffectKind::{
+            AsymmetricFriction, CableSpring, CoulombFriction, TorqueOffset, ViscousFriction,
+        };
+        let expected = [
+            [vec![ViscousFriction], vec![CoulombFriction, CableSpring]],
+            [vec![CoulombFriction], vec![ViscousFriction, CableSpring]],
+        ];
+        assert_eq!(aims(ViscousFriction, CoulombFriction), expected);
+        // Only the asymmetry is in dispute.
+        let expected = [
+            [vec![AsymmetricFriction], vec![CoulombFriction, CableSpring, TorqueOffset]],
+            [vec![TorqueOffset], vec![AsymmetricFriction, CableSpring]],
+        ];
+        assert_eq!(aims(AsymmetricFriction, TorqueOffset), expected);
+    }
 
     fn power(xx: f64) -> Information {
         Information { xx: DMatrix::from_element(1, 1, xx), xy: DVector::zeros(1) }

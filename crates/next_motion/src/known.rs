@@ -143,3 +143,33 @@ fn links(robot: &Robot) -> [f64; 2] {
     let mass = links.iter().map(|l| l.inertia.mass.max(0.0)).sum::<f64>() / n;
     [mass, (lengths.sum::<f64>() / n).max(0.05)]
 }
+
+#[cfg(test)]
+mod tests {
+    use catalogue::EffectKind;
+    use effects::Place;
+
+    use super::*;
+    use crate::testing::{log, turntable};
+
+    #[test]
+    fn a_cause_has_the_size_at_which_it_explains_the_logs() {
+        let mut robot = turntable();
+        robot.link_mut(0).unwrap().actuator.viscous = 0.5;
+        let cause = Hypothesis { kind: EffectKind::ViscousFriction, place: Place::Joint(0) };
+        let layout = Layout {
+            hypotheses: vec![cause],
+            widths: vec![1],
+            noise: vec![Some(1e-6)],
+            cutoff_hz: 4.0,
+        };
+        let of_logs = Known::of_logs(&robot, &layout, &log(&robot, |v| 0.2 * v)).unwrap();
+        let found = of_logs.weights(&layout, &robot, &[cause]);
+        assert!((found[0] - 0.2).abs() < 1e-4, "{found}");
+        // Without logs, a tenth of the effort limit at the largest usable speed.
+        let of_limits = Known::of_limits(&robot, &layout);
+        let found = of_limits.weights(&layout, &robot, &[cause]);
+        assert!((found[0] - 0.1 * 50.0 / 2.4).abs() < 1e-12, "{found}");
+        assert!(of_limits.information.xx.iter().all(|x| x.abs() <= 0.0));
+    }
+}

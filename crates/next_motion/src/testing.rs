@@ -1,6 +1,13 @@
 //! Robots for the tests of this crate.
 
+use effects::Frame;
+use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::Robot;
+
+use crate::record::Record;
+
+/// Rate of [`log`] (Hz).
+pub(crate) const RATE_HZ: f64 = 100.0;
 
 /// One joint that turns about the vertical: no gravity, no limits but those of the joint.
 pub(crate) fn turntable() -> Robot {
@@ -29,4 +36,33 @@ pub(crate) fn arm() -> Robot {
     <limit lower="-2.9" upper="2.9" effort="20" velocity="6"/></joint></robot>"#,
     )
     .unwrap()
+}
+
+/// A log of one sine at every joint with the torque of the robot as described and, at the
+/// last joint, `extra(qd)`.
+pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
+    let joints = robot.joint_count();
+    let w = std::f64::consts::TAU * 0.25;
+    let wave = |derivative: i32| -> Vec<f64> {
+        let quarter = f64::from(derivative) * std::f64::consts::FRAC_PI_2;
+        let at = |k: u32| 0.3 * w.powi(derivative) * (w * f64::from(k) / RATE_HZ + quarter).sin();
+        (0..3000).map(at).collect()
+    };
+    let [q, qd, qdd] = [wave(0), wave(1), wave(2)];
+    let mut run = PreparedRun {
+        name: "run".to_owned(),
+        rate_hz: RATE_HZ,
+        time: (0..q.len()).map(|k| k as f64 / RATE_HZ).collect(),
+        joints: Vec::new(),
+    };
+    let joint = PreparedJoint { q, qd: qd.clone(), qdd, qd_wide: qd, effort: vec![0.0; 3000] };
+    run.joints = vec![joint; joints];
+    let frame = Frame { rest_speed: vec![1e-3; joints], centre: vec![0.0; joints] };
+    let motion = Record::of_run(&run, 1).evaluate(robot, &frame);
+    for (joint, effort) in run.joints.iter_mut().zip(&motion.effort) {
+        joint.effort.clone_from(effort);
+    }
+    let last = &mut run.joints[joints - 1];
+    last.effort.iter_mut().zip(&last.qd).for_each(|(e, v)| *e += extra(*v));
+    Prepared { runs: vec![run], cutoff_hz: 4.0, cutoff_reason: String::new(), warnings: Vec::new() }
 }
