@@ -180,7 +180,7 @@ fn what_cannot_be_designed_is_refused_in_a_sentence() {
     refused(&pair("FR04@elbow", "FR02@elbow"), 2, "FR04 Stribeck friction: it is not diagnosed");
     refused(&pair("FR99@elbow", "FR02@elbow"), 2, "effect FR99: it is not in the catalogue");
     refused(&["--separate", "FR01@elbow"], 2, "--from");
-    refused(&["--duration-s", "1000"], 2, "duration: found 1000, 1 to 600 s was expected");
+    refused(&["--duration-s", "1000"], 2, "duration: found 1000, 1 to 120 s was expected");
     refused(&["--log", "arm.urdf"], 3, "arm.urdf");
 
     // A log that is another by now, a diagnosis of nothing, and none.

@@ -1,3 +1,5 @@
+use std::ops::RangeInclusive;
+
 use logs::{Prepared, PreparedRun};
 use motion::{Motion, MotionSpec};
 
@@ -7,10 +9,13 @@ use crate::limits::usable;
 use crate::search::Search;
 use crate::{Goal, NextMotionError, Question};
 
+/// Lengths of a motion (s): one that is to say more is run more than once.
+const DURATION_S: RangeInclusive<f64> = 1.0..=120.0;
+
 /// How a motion is searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Length of the motion (s).
+    /// Length of the motion (s), 1 to 120.
     pub duration_s: f64,
     /// Seed of every random draw.
     pub seed: u64,
@@ -152,8 +157,8 @@ fn check(
         return wrong(format!("run {}", run.name), run.joints.len());
     }
     let refuse = |name, found, expected| Err(NextMotionError::Setting { name, found, expected });
-    if !(1.0..=600.0).contains(&settings.duration_s) {
-        return refuse("duration", settings.duration_s, "1 to 600 s");
+    if !DURATION_S.contains(&settings.duration_s) {
+        return refuse("duration", settings.duration_s, "1 to 120 s");
     }
     if !question.noise.iter().any(|&noise| noise > 0.0 && noise.is_finite()) {
         let found = question.noise.iter().copied().fold(0.0, f64::max);

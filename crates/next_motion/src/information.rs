@@ -5,7 +5,7 @@ use logs::{LogError, LowPass};
 use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 /// Order of the low-pass filter, before it runs forward and backward.
-const ORDER: usize = 4;
+pub(crate) const ORDER: usize = 4;
 
 /// Eigenvalue of the normalised normal equations below which a direction counts as none.
 const RANK: f64 = 1e-10;

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use robot::Robot;
 
 use crate::NextMotionError;
-use crate::information::{Information, Layout};
+use crate::information::{Information, Layout, ORDER};
 use crate::limits::{Usable, efforts, usable};
 use crate::record::Record;
 use crate::search::EVALUATION_RATE;
@@ -87,7 +87,7 @@ fn along_logs(
     for run in &logs.runs {
         let stride = (run.rate_hz / (EVALUATION_RATE * layout.cutoff_hz)).max(1.0) as usize;
         let motion = Record::of_run(run, stride).evaluate(robot, frame);
-        let filter = LowPass::new(4, layout.cutoff_hz, run.rate_hz)?;
+        let filter = LowPass::new(ORDER, layout.cutoff_hz, run.rate_hz)?;
         let effort = |joint: &PreparedJoint| {
             let mut effort = joint.effort.clone();
             filter.apply(&mut effort);

@@ -5,9 +5,13 @@
 //! ```
 //!
 //! is twice the log evidence that is expected against `B` where `A` is true (T-optimality,
-//! Atkinson & Fedorov 1975). [`design`] fits both rivals to the logs that could not tell them
-//! apart, and searches a motion within the robot's limits for which the smallest `D` of all
-//! pairs, each taken both ways, is as large as can be.
+//! Atkinson & Fedorov 1975), `noise` the variance of what is left of an effort times its
+//! autocorrelation time. [`design`] fits both rivals to the logs that could not tell them apart,
+//! and searches a motion within the robot's limits for which the smallest `D` of all pairs, each
+//! taken both ways, is as large as can be. Before there are logs it supposes their sizes.
+//!
+//! A motion goes from rest to rest, slow and fast, short and long, and rests: what tells friction
+//! of one kind from another is a change of pace.
 
 mod aim;
 mod design;

@@ -55,12 +55,12 @@ pub(crate) struct Candidate {
     steps: Steps,
     pub spec: MotionSpec,
     pub motion: Motion,
-    pub outcome: Outcome,
+    outcome: Outcome,
 }
 
 /// Whether a motion can be run, and what it says then.
 #[derive(Debug, Clone)]
-pub(crate) enum Outcome {
+enum Outcome {
     /// Largest effort over what is usable.
     TooHeavy(f64),
     /// What it says, in all and in stretches.

@@ -17,6 +17,19 @@ const LEAST_MOVE_S: f64 = 0.25;
 /// Share of the moves that are rests.
 const RESTS: f64 = 0.2;
 
+/// Smallest and largest part of the range that a motion is drawn in.
+const REACH: [f64; 2] = [0.3, 1.0];
+
+/// Least and greatest unevenness of the times of the moves of a motion: standard deviation of
+/// their logarithm.
+const UNEVENNESS: [f64; 2] = [0.2, 1.2];
+
+/// Change of the logarithm of a time, standard deviation.
+const CHANGE_OF_TIME: f64 = 0.7;
+
+/// Change of a position, standard deviation, as a share of half the range.
+const CHANGE_OF_PLACE: f64 = 0.4;
+
 /// A motion from rest to rest to rest: moves slow and fast, short and long, and rests.
 ///
 /// Positions are shares of the usable range, times shares of the whole duration.
@@ -39,16 +52,15 @@ impl Steps {
     /// A random motion for `joints` joints.
     pub fn draw(joints: usize, duration_s: f64, rng: &mut ChaCha8Rng) -> Self {
         // A part of the range about a place in it: steps in amplitude and in offset.
-        let reach = rng.random_range(0.3..=1.0);
+        let reach = between(REACH, rng);
         let about: Vec<f64> = posture(joints, 1.0 - reach, rng);
         let near = |rng: &mut ChaCha8Rng| {
             let mut to = posture(joints, reach, rng);
             to.iter_mut().zip(&about).for_each(|(to, about)| *to += about);
             to
         };
-        let spread = rng.random_range(0.2..=1.2);
-        let [short, long] = MEAN_MOVE_S.map(f64::ln);
-        let mean_s = rng.random_range(short..=long).exp();
+        let spread = between(UNEVENNESS, rng);
+        let mean_s = between(MEAN_MOVE_S.map(f64::ln), rng).exp();
         let count = (duration_s / mean_s).ceil().max(2.0) as usize;
         let start = near(rng);
         let draw = |_| {
@@ -59,14 +71,15 @@ impl Steps {
         Self { start, moves: (0..count).map(draw).collect() }
     }
 
-    /// The same with one move changed.
+    /// The same with one move changed: its time, whether it is a rest, or, as often as both,
+    /// where it leads.
     pub fn varied(&self, rng: &mut ChaCha8Rng) -> Self {
         let mut varied = self.clone();
         let k = rng.random_range(0..varied.moves.len());
         let joints = self.start.len();
         let own = &mut varied.moves[k];
         match rng.random_range(0..4) {
-            0 => own.log_time += 0.7 * normal(rng),
+            0 => own.log_time += CHANGE_OF_TIME * normal(rng),
             1 => {
                 own.to = match own.to {
                     Some(_) => None,
@@ -76,7 +89,7 @@ impl Steps {
             _ => {
                 let to = own.to.get_or_insert_with(|| posture(joints, 1.0, rng));
                 for x in to {
-                    *x = (*x + 0.4 * normal(rng)).clamp(-1.0, 1.0);
+                    *x = (*x + CHANGE_OF_PLACE * normal(rng)).clamp(-1.0, 1.0);
                 }
             }
         }
@@ -133,6 +146,10 @@ fn posture(joints: usize, reach: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
 
 fn normal(rng: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(rng)
+}
+
+fn between([low, high]: [f64; 2], rng: &mut ChaCha8Rng) -> f64 {
+    rng.random_range(low..=high)
 }
 
 fn rounded(x: f64, steps: f64) -> f64 {
