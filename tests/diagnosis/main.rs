@@ -1,15 +1,18 @@
 //! The diagnosis on logs whose cause is known, and on recorded ones.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a broken fixture should stop the test")]
 
+mod before_and_after;
 mod blind;
 mod clean;
 mod extended;
 mod false_alarms;
 mod found;
+mod grafts;
 mod intervals;
 mod recorded;
 mod repeatable;
 mod rivals;
 mod together;
+mod transplants;
 mod trials;
 mod world;
