@@ -170,6 +170,51 @@ fn a_model_that_is_saved_and_read_again_predicts_the_same() {
     }
 }
 
+/// Every key of a drive that its torque, or what undoes it, depends on.
+#[test]
+fn a_saved_model_keeps_all_that_the_extended_robot_says_of_its_drives() {
+    let mut robot = named();
+    let drive = &mut robot.link_mut(1).unwrap().actuator;
+    drive.stribeck = Some(robot::Stribeck { excess: 0.2, velocity: 0.05 });
+    drive.friction_wave = Some(robot::Wave { share: 0.3, periods: 5.0, phase: 0.7 });
+    drive.ripple = Some(robot::Ripple { amplitude: 0.1, periods: 40.0, phase: 0.2 });
+    (drive.load_friction, drive.presliding) = (0.07, Some(0.001));
+    (drive.coulomb_forward, drive.coulomb_backward) = (0.5, 0.4);
+    (drive.backlash, drive.elasticity) = (0.002, Some(900.0));
+    (drive.delay_s, drive.lag_s, drive.effort_skew_s) = (0.003, 0.001, -0.002);
+    (drive.encoder_offset, drive.transmission_ratio) = (0.01, 1.02);
+    let torque = learner::RobotTorque::new(robot.clone(), vec![0.01; 2]);
+    let mean = learner::Mean::Robot(Box::new(torque));
+    let model = Model::new(ModelKind::Named, &arm::robot(), mean, vec![0.1; 2]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("named.parquet");
+    model.save(&path).unwrap();
+    let learner::Mean::Robot(read) = Model::load(&path, &arm::robot()).unwrap().mean else {
+        panic!("the mean is a robot");
+    };
+    assert_eq!(read.robot().links()[1].actuator, robot.links()[1].actuator);
+}
+
+#[test]
+fn a_joint_without_its_process_is_predicted_by_the_mean_with_the_given_noise() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = &all().iter().find(|f| f.model.kind == ModelKind::NamedGp).unwrap().model;
+    let mut model = whole.clone();
+    model.drop_process(1, 0.3).unwrap();
+    let mut bare = whole.clone();
+    bare.process = None;
+    let path = folder.path().join("model.parquet");
+    model.save(&path).unwrap();
+    let read = Model::load(&path, &arm::robot()).unwrap().with_variance().unwrap();
+    for model in [model, read] {
+        let (found, expected) = (torque(&model, NEAR), torque(whole, NEAR));
+        assert_eq!(found, [expected[0], torque(&bare, NEAR)[1]]);
+        assert_ne!(found[1], expected[1]);
+        let (found, expected) = (variance(&model, NEAR), variance(whole, NEAR));
+        assert!((found[0] / expected[0] - 1.0).abs() < 1e-9 && (found[1] - 0.3).abs() < 1e-15);
+    }
+}
+
 #[test]
 fn a_file_that_is_no_model_of_this_robot_is_refused_in_one_sentence() {
     let folder = tempfile::tempdir().unwrap();

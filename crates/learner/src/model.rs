@@ -8,10 +8,13 @@ use robot::Robot;
 
 use crate::spread::Spread;
 use crate::torque_model::{TorqueModel, Workspace, each};
-use crate::{Inputs, ModelKind, RobotTorque, Samples, State};
+use crate::{Inputs, LearnerError, ModelKind, RobotTorque, Samples, State};
 
 /// Queries whose variance is worked out together.
 const BLOCK: usize = 64;
+
+/// Signal variance of a process that is none; a kernel must have one.
+const NO_SIGNAL: f64 = 1e-100;
 
 /// A learned model of the torque of every joint:
 ///
@@ -76,6 +79,24 @@ impl Model {
     /// The robot it is a model of.
     pub fn robot(&self) -> &Robot {
         &self.robot
+    }
+
+    /// Takes the process away at one joint, whose torque is then that of the mean, with a noise
+    /// of `noise_variance` (N² m² or N²).
+    ///
+    /// # Errors
+    ///
+    /// [`LearnerError::GaussianProcess`] where that is no number.
+    pub fn drop_process(&mut self, joint: usize, noise_variance: f64) -> Result<(), LearnerError> {
+        let Some(process) = &mut self.process else { return Ok(()) };
+        let Process { inputs, sum, .. } = process;
+        let mut kernels = sum.kernels().to_vec();
+        let mut alpha: Vec<Vec<f64>> = (0..kernels.len()).map(|k| sum.alpha(k)).collect();
+        kernels[joint].signal_variance = NO_SIGNAL;
+        alpha[joint].fill(0.0);
+        *sum = KernelSum::new(&sum.points(), inputs.width(), &kernels, &alpha)?;
+        self.noise_variance[joint] = noise_variance;
+        Ok(())
     }
 
     /// Fills `ws.rows` with the rows of the regressor, where the mean has any.

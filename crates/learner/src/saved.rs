@@ -1,7 +1,7 @@
 use dynamics::ColumnSet;
 use faer::Mat;
 use gaussian_process::{GaussianKernel, InducingPosterior};
-use robot::{Inertia, Robot};
+use robot::{Actuator, Inertia, Robot};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -9,7 +9,7 @@ use crate::spread::Spread;
 use crate::{Inputs, Mean, Model, RobotTorque};
 
 /// Version of the format; a file of another one is refused.
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
 
 /// What a model file says beside its table of points.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -46,19 +46,14 @@ pub(crate) struct Families {
     offset: bool,
 }
 
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SavedLink {
     mass: f64,
     com_in_link: [f64; 3],
     /// Row by row.
     about_com: [f64; 9],
-    rotor_inertia: f64,
-    viscous: f64,
-    coulomb: [f64; 2],
-    spring: [f64; 2],
-    torque_gain: f64,
-    torque_offset: f64,
+    drive: Actuator,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -162,19 +157,14 @@ impl SavedMean {
 
 impl SavedLink {
     fn of(link: &robot::Link) -> Self {
-        let (inertia, drive) = (&link.inertia, &link.actuator);
+        let inertia = &link.inertia;
         let mut about_com = [0.0; 9];
         about_com.iter_mut().zip(inertia.about_com.transpose().iter()).for_each(|(a, b)| *a = *b);
         Self {
             mass: inertia.mass,
             com_in_link: inertia.com_in_link.into(),
             about_com,
-            rotor_inertia: drive.rotor_inertia,
-            viscous: drive.viscous,
-            coulomb: [drive.coulomb_forward, drive.coulomb_backward],
-            spring: [drive.spring_stiffness, drive.spring_rest],
-            torque_gain: drive.torque_gain,
-            torque_offset: drive.torque_offset,
+            drive: link.actuator.clone(),
         }
     }
 
@@ -184,13 +174,7 @@ impl SavedLink {
             com_in_link: self.com_in_link.into(),
             about_com: nalgebra::Matrix3::from_row_slice(&self.about_com),
         };
-        let drive = &mut link.actuator;
-        drive.rotor_inertia = self.rotor_inertia;
-        drive.viscous = self.viscous;
-        [drive.coulomb_forward, drive.coulomb_backward] = self.coulomb;
-        [drive.spring_stiffness, drive.spring_rest] = self.spring;
-        drive.torque_gain = self.torque_gain;
-        drive.torque_offset = self.torque_offset;
+        link.actuator = self.drive.clone();
     }
 }
 

@@ -33,7 +33,8 @@ pub enum TorqueSource {
 /// ```text
 /// excess exp(-(qd / velocity)²)
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stribeck {
     /// Breakaway minus Coulomb level, not below 0 (N·m or N).
     pub excess: f64,
@@ -46,7 +47,8 @@ pub struct Stribeck {
 /// ```text
 /// 1 + share cos(periods q + phase)
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Wave {
     /// Amplitude over the mean, from 0 to 1.
     pub share: f64,
@@ -61,7 +63,8 @@ pub struct Wave {
 /// ```text
 /// amplitude sin(periods q + phase)
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Ripple {
     /// Amplitude (N·m or N).
     pub amplitude: f64,
@@ -103,7 +106,8 @@ pub struct Ripple {
 /// ```
 ///
 /// and the log may hold efforts of another time, `effort_logged(t) = effort(t - effort_skew)`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Actuator {
     /// Inertia of rotor and gear seen at the joint (kg m² or kg).
     pub rotor_inertia: f64,
