@@ -1,6 +1,9 @@
 use std::fs;
 use std::path::Path;
 
+use learner::{Model, Samples, Score, TorqueModel};
+use logs::{PrepareSettings, ReadOptions};
+use robot::Robot;
 use serde_json::Value;
 
 use crate::arm::{self, Gap};
@@ -81,6 +84,62 @@ fn a_gap_without_a_name_and_a_log_without_motion_exit_with_one() {
     assert_eq!(answer.code, 1, "{}{}", answer.out, answer.err);
     let value = json(&folder.path().join("still/diagnosis.json"));
     assert_eq!(value["verdict"], "data_inadequate");
+}
+
+/// RMS errors of a model on run 5, of which no log was given (N m).
+fn rms_on_another_run(folder: &Path, model: &dyn TorqueModel, robot: &Robot) -> Vec<f64> {
+    arm::write(folder, "run_5.csv", &arm::log(5, Gap::Ripple(1.5)));
+    let run = logs::read_run(&folder.join("run_5.csv"), robot, &ReadOptions::default()).unwrap();
+    let prepared = logs::prepare(&[run], &PrepareSettings::default()).unwrap();
+    Score::of(model, &Samples::new(&prepared)).rmse
+}
+
+/// The ripple has no name; the process learns it, and leaves the other joint alone.
+#[test]
+fn a_residual_model_predicts_what_has_no_name_where_it_is_and_nowhere_else() {
+    let folder = arm::folder(Gap::Ripple(1.5));
+    let arguments = ["--robot", "arm.urdf", "--out", "out", "--no-recording"];
+    let answer = diagnose(folder.path(), &[&arguments[..], &["--residual", "gp"]].concat());
+    assert_eq!(answer.code, 1, "{}{}", answer.out, answer.err);
+    assert!(answer.out.contains("Of what is left a Gaussian process predicts "), "{}", answer.out);
+    assert!(answer.out.contains("bends most with position of elbow ("), "{}", answer.out);
+    let out = folder.path().join("out");
+    let path = out.join("models/named-gp.parquet");
+    assert!(
+        answer
+            .out
+            .ends_with("\nresidual model out/models/named-gp.parquet (for track --learned)\n")
+    );
+
+    let residual = &json(&out.join("diagnosis.json"))["residual_model"];
+    assert_eq!(residual["file"], "models/named-gp.parquet");
+    let [shoulder, elbow] = [&residual["joints"][0], &residual["joints"][1]];
+    assert_eq!((&shoulder["is_used"], &elbow["is_used"]), (&false.into(), &true.into()));
+    assert!(elbow["share"].as_f64().unwrap() > 0.8, "{elbow}");
+    assert!(fs::read_to_string(out.join("report.html")).unwrap().contains("The residual model"));
+
+    let robot = Robot::load(&folder.path().join("arm.urdf")).unwrap().robot;
+    let model = Model::load(&path, &robot).unwrap();
+    let mut extended = model.clone();
+    extended.process = None;
+    let before = rms_on_another_run(folder.path(), &extended, &robot);
+    let after = rms_on_another_run(folder.path(), &model, &robot);
+    assert!(after[1] < 0.3 * before[1], "{before:?} {after:?}");
+    assert!((after[0] - before[0]).abs() < 1e-12, "{before:?} {after:?}");
+
+    // The model of an earlier diagnosis is not left beside another extended robot.
+    diagnose(folder.path(), &arguments);
+    assert!(!path.exists());
+    assert!(json(&out.join("diagnosis.json")).get("residual_model").is_none());
+}
+
+#[test]
+fn a_residual_model_of_another_kind_is_a_mistake_of_usage() {
+    let folder = arm::folder(Gap::None);
+    let answer =
+        diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "o", "--residual", "nn"]);
+    assert_eq!(answer.code, 2);
+    assert!(answer.err.contains("[possible values: gp]"), "{}", answer.err);
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod extended;
 mod false_alarms;
 mod found;
 mod grafts;
+mod held_out;
 mod intervals;
 mod recorded;
 mod repeatable;

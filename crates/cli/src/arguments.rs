@@ -40,6 +40,7 @@ const DIAGNOSE_EXAMPLES: &str = "\
 Examples:
   plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out out
   plumbline diagnose --robot out/extended.toml --log run_3.csv --out check
+  plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --residual gp --out out
 
 Logs have a column time (s) and the columns <joint>.position (rad or m) and <joint>.effort
 (N m or N), and <joint>.velocity, <joint>.acceleration where they were recorded.
@@ -49,7 +50,9 @@ The output folder holds
   recording.rrd   the measured arm beside the simulated one, for rerun's viewer: plumbline view out
   figure.svg      the answer in one figure
   diagnosis.json  the whole answer for programs
-  extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it";
+  extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it
+  models/named-gp.parquet
+                  the same with a process of what is left, for track --learned; with --residual";
 
 const DESIGN_EXIT_CODES: &str = "\
 Exit codes:

@@ -1,9 +1,10 @@
-use logs::{PrepareSettings, Run, centre_commands, duplicate_of, prepare};
+use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
 
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extent::inadequate;
+use crate::held_out::HeldOut;
 use crate::progress::Progress;
 use crate::result::{Diagnosis, RunSummary};
 use crate::settings::Settings;
@@ -19,6 +20,10 @@ pub struct Outcome {
     pub traces: Vec<RunTraces>,
     /// The robot with its findings.
     pub extended: Robot,
+    /// The logs as they were diagnosed.
+    pub prepared: Prepared,
+    /// What was held out in turn, by stretches of `prepared`; empty unless the settings ask.
+    pub held_out: Vec<HeldOut>,
 }
 
 /// Finds what `robot` gets wrong in `runs`, names it, and measures what naming it buys.
@@ -59,10 +64,10 @@ pub fn diagnose(
     progress.step();
     let study =
         Study { robot, settings, prepared: &prepared, design: &design, inadequate: &inadequate };
-    let (mut diagnosis, traces, extended) = study.run(progress)?;
+    let (mut diagnosis, traces, extended, held_out) = study.run(progress)?;
     diagnosis.data.runs = runs.iter().map(summary).collect();
     diagnosis.warnings = warnings;
-    Ok(Outcome { diagnosis, traces, extended })
+    Ok(Outcome { diagnosis, traces, extended, prepared, held_out })
 }
 
 /// The runs without those that repeat another sample by sample.

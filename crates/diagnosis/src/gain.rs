@@ -1,5 +1,9 @@
+use logs::{LogError, Prepared};
 use rayon::prelude::*;
 
+use crate::blocks::Fold;
+use crate::extend::extended_anew;
+use crate::held_out::{HeldOut, spans};
 use crate::problem::Problem;
 use crate::progress::Progress;
 use crate::result::{FoldGain, InverseGain};
@@ -13,23 +17,37 @@ pub(crate) struct HeldOutGain {
     pub inverse: InverseGain,
     /// Weights selected and fitted without each fold of the whole record's problem.
     pub weights: Vec<Vec<f64>>,
+    /// The folds, each with the robot that its weights make, where it was asked for.
+    pub parts: Vec<HeldOut>,
 }
 
 impl HeldOutGain {
-    /// Searches anew without each fold of `whole` and predicts that fold.
-    pub fn new(record: &Record, whole: &Problem, progress: &dyn Progress) -> Self {
+    /// Searches anew without each fold of `whole`, predicts that fold, and makes the robot of
+    /// each search where the logs behind the columns are given.
+    pub fn new(
+        record: &Record,
+        whole: &Problem,
+        prepared: Option<&Prepared>,
+        progress: &dyn Progress,
+    ) -> Result<Self, LogError> {
         progress.stage("testing on held-out data", whole.folds.len());
-        let weights: Vec<Vec<f64>> = whole
-            .folds
-            .par_iter()
-            .map(|fold| {
-                let (problem, model) = record.search(&fold.train);
-                let weights = settle(&problem, &model, &problem.info, record.robot);
-                progress.step();
-                weights
-            })
-            .collect();
-        Self { inverse: inverse(record, whole, &weights), weights }
+        let without = |fold: &Fold| {
+            let (problem, model) = record.search(&fold.train);
+            let weights = settle(&problem, &model, &problem.info, record.robot);
+            let part = prepared.map(|prepared| {
+                let settled = (&model, weights.as_slice());
+                let extended = extended_anew(record.robot, prepared, &problem, settled)?;
+                let spans = |of: &[usize]| spans(record.design, record.blocks, of);
+                Ok(HeldOut { test: spans(&fold.test), train: spans(&fold.train), extended })
+            });
+            progress.step();
+            Ok((weights, part.transpose()?))
+        };
+        let found: Vec<(Vec<f64>, Option<HeldOut>)> =
+            whole.folds.par_iter().map(without).collect::<Result<_, LogError>>()?;
+        let (weights, parts): (Vec<Vec<f64>>, Vec<Option<HeldOut>>) = found.into_iter().unzip();
+        let parts = parts.into_iter().flatten().collect();
+        Ok(Self { inverse: inverse(record, whole, &weights), weights, parts })
     }
 }
 
@@ -43,7 +61,7 @@ fn inverse(record: &Record, whole: &Problem, weights: &[Vec<f64>]) -> InverseGai
         };
         (0..joints).map(of).collect()
     };
-    let fold = |(f, fold): (usize, &crate::blocks::Fold)| FoldGain {
+    let fold = |(f, fold): (usize, &Fold)| FoldGain {
         name: name(whole, f),
         torque_rms_nm: (0..joints).map(|j| measured(record, &fold.test, j).0).collect(),
         rms_before_nm: rms(&fold.test, &nothing),

@@ -22,6 +22,7 @@ mod flip_test;
 mod floor;
 mod gain;
 mod gram;
+mod held_out;
 mod noise;
 mod problem;
 mod progress;
@@ -43,10 +44,11 @@ mod verdict;
 
 pub use diagnose::{Outcome, diagnose};
 pub use error::DiagnosisError;
+pub use held_out::{HeldOut, Span};
 pub use progress::{Progress, Silent};
 pub use result::{
     DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
     JointReport, NoiseFloorSource, RuledOut, RunSummary, SCHEMA, Unexplained, Verdict,
 };
-pub use settings::Settings;
+pub use settings::{HeldOutRobots, Settings};
 pub use traces::{JointTraces, RunTraces};

@@ -1,5 +1,15 @@
 use crate::DiagnosisError;
 
+/// Whether the robot with what is found without each held-out part is made: some time that
+/// only what is tested on those parts needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HeldOutRobots {
+    /// It is not.
+    NotMade,
+    /// It is.
+    Made,
+}
+
 /// How a diagnosis is made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -15,6 +25,8 @@ pub struct Settings {
     pub sign_flips: usize,
     /// Least held-out fall of a joint's RMS error that counts, as a share of its effort RMS.
     pub practical_share: f64,
+    /// Whether [`crate::Outcome::held_out`] is filled.
+    pub held_out: HeldOutRobots,
 }
 
 impl Default for Settings {
@@ -27,6 +39,7 @@ impl Default for Settings {
             // The least p-value, 1e-4, times a hundred and some hypotheses is still below 0.05.
             sign_flips: 9999,
             practical_share: 0.005,
+            held_out: HeldOutRobots::NotMade,
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::findings::{Evidence, Found};
 use crate::floor::Floors;
 use crate::gain::{HeldOutGain, measured};
 use crate::gram::Grams;
+use crate::held_out::HeldOut;
 use crate::noise::integrated_time;
 use crate::problem::Problem;
 use crate::progress::Progress;
@@ -17,7 +18,7 @@ use crate::result::{
     DataSummary, Diagnosis, Gain, JointReport, RuledOut, SCHEMA, Unexplained, Verdict,
 };
 use crate::search::Record;
-use crate::settings::Settings;
+use crate::settings::{HeldOutRobots, Settings};
 use crate::settle::settle;
 use crate::significance::significant;
 use crate::structure::{Probe, Structure};
@@ -54,7 +55,7 @@ impl Study<'_> {
     pub fn run(
         &self,
         progress: &dyn Progress,
-    ) -> Result<(Diagnosis, Vec<RunTraces>, Robot), DiagnosisError> {
+    ) -> Result<(Diagnosis, Vec<RunTraces>, Robot, Vec<HeldOut>), DiagnosisError> {
         progress.stage("searching for causes", 3);
         let blocks = self.blocks()?;
         progress.step();
@@ -70,7 +71,7 @@ impl Study<'_> {
         let answer = self.answer(&record, progress)?;
         let diagnosis = self.report(&record, &answer);
         let traces = traces(self.design, &answer.by_run, &answer.gain.weights);
-        Ok((diagnosis, traces, answer.extended))
+        Ok((diagnosis, traces, answer.extended, answer.gain.parts))
     }
 
     /// Blocks of at least five autocorrelation times of what a model of everything leaves.
@@ -127,7 +128,7 @@ impl Study<'_> {
         };
         progress.step();
         let by_run = problem.refolded(Folding::ByRun);
-        let gain = HeldOutGain::new(record, &by_run, progress);
+        let gain = HeldOutGain::new(record, &by_run, self.behind_parts(), progress)?;
         let evidence = Evidence {
             selection: &record.selection(&problem),
             model: &model,
@@ -209,6 +210,11 @@ impl Study<'_> {
             range: range(self.prepared, j),
         };
         (report, Structure { share: situation.unexplained(), ..structure })
+    }
+
+    /// The logs, if the robot of every held-out part is to be made.
+    fn behind_parts(&self) -> Option<&Prepared> {
+        (self.settings.held_out == HeldOutRobots::Made).then_some(self.prepared)
     }
 
     /// What the extended model leaves at joint `j` where it was held out, `[run][sample]`.

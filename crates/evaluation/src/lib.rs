@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! TrackingScenario --simulate--> logs --diagnose, learn--> Learned --track--> TrackedRun, Sweep
+//! logs, diagnosis --learn--> Residual: a process of what the findings leave
 //! logs, diagnosis --replay--> a recording of the measured arm beside the simulated one
 //! Trial --simulate, diagnose blind--> Score --many--> Tally
 //! ```
@@ -16,7 +17,9 @@ mod median_time;
 mod predictions;
 mod progress;
 mod record_diagnosis;
+mod relevance;
 mod replayed;
+mod residual;
 mod stream;
 mod sweep;
 mod track;
@@ -31,6 +34,8 @@ pub use learned::Learned;
 pub use median_time::median_time_s;
 pub use progress::Progress;
 pub use record_diagnosis::{Diagnosed, record_diagnosis};
+pub use relevance::Relevance;
+pub use residual::{Residual, ResidualJoint, learn_residual};
 pub use stream::Written;
 pub use sweep::{GainSweep, SweptModel, sweep};
 pub use track::{Outputs, TrackedRun, simulated_logs, track_all};

@@ -4,9 +4,10 @@ use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 use crate::figures::figures_of;
 use crate::numbers::{percent, significant};
 use crate::places::listed;
+use crate::residual::{ResidualRow, residual_rows};
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::tables::{Cause, JointRow, RuledOutRow, cause, class_of, joint_rows, ruled_out};
-use crate::{Chart, Provenance, Report, ReportError, json};
+use crate::{Chart, Provenance, Report, ReportError, ResidualModel, json};
 
 /// Joints whose figures are shown without a click; never one whose data are inadequate.
 const OPEN_JOINTS: usize = 3;
@@ -34,6 +35,8 @@ struct Page<'a> {
     causes: Vec<Cause>,
     figures: Vec<JointSection>,
     left: Vec<Left>,
+    residual: Option<&'a ResidualModel>,
+    residual_rows: Vec<ResidualRow>,
     ruled_out: Vec<(String, Vec<RuledOutRow>)>,
     data: &'a DataSummary,
     held_out: &'a str,
@@ -99,6 +102,8 @@ impl<'a> Page<'a> {
             causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
             figures: sections(report),
             left: left(diagnosis),
+            residual: report.residual,
+            residual_rows: residual_rows(report),
             ruled_out: ruled_out(report),
             data: &diagnosis.data,
             held_out: &diagnosis.gain.inverse.held_out,
@@ -200,6 +205,24 @@ mod tests {
         let sections: Vec<&str> = page.split(r#"<details class="joint""#).skip(1).collect();
         assert!(sections[0].starts_with(" open><summary>elbow"));
         assert!(sections[1].starts_with("><summary>shoulder"));
+    }
+
+    #[test]
+    fn the_residual_model_has_a_table_where_there_is_one() {
+        let sample = sample::arm();
+        let without = super::html(&sample.report()).unwrap();
+        assert!(!without.contains("residual model"));
+        let residual = sample::residual();
+        let report = crate::Report { residual: Some(&residual), ..sample.report() };
+        let page = super::html(&report).unwrap();
+        for expected in [
+            "<p>Of what is left a Gaussian process predicts 59 % at elbow",
+            "<code>models/named-gp.parquet</code>",
+            "position of elbow (21 % of its range)",
+            "<li>one thing to know</li>",
+        ] {
+            assert!(page.contains(expected), "{expected} is missing");
+        }
     }
 
     #[test]

@@ -1,10 +1,9 @@
 use diagnosis::{
-    DataSummary, Diagnosis, EffectAt, Estimate, Finding, Gain, JointReport, RuledOut, Unexplained,
-    Verdict,
+    DataSummary, EffectAt, Estimate, Finding, Gain, JointReport, RuledOut, Unexplained, Verdict,
 };
 use serde::{Serialize, Serializer};
 
-use crate::{Provenance, Report, ReportError};
+use crate::{Provenance, Report, ReportError, ResidualModel};
 
 /// `diagnosis.json`: the diagnosis in the schema [`diagnosis::SCHEMA`], with provenance.
 ///
@@ -14,7 +13,7 @@ use crate::{Provenance, Report, ReportError};
 ///
 /// [`ReportError::Format`].
 pub fn json(report: &Report) -> Result<String, ReportError> {
-    let document = Document::new(report.diagnosis, report.provenance);
+    let document = Document::new(report);
     pretty(&document)
 }
 
@@ -48,6 +47,8 @@ struct Document<'a> {
     unexplained: &'a [Unexplained],
     ruled_out: &'a [RuledOut],
     gain: &'a Gain,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_model: Option<&'a ResidualModel>,
     data: &'a DataSummary,
     warnings: &'a [String],
     provenance: &'a Provenance,
@@ -71,7 +72,8 @@ struct FindingByName<'a> {
 }
 
 impl<'a> Document<'a> {
-    fn new(diagnosis: &'a Diagnosis, provenance: &'a Provenance) -> Self {
+    fn new(report: &Report<'a>) -> Self {
+        let diagnosis = report.diagnosis;
         Self {
             schema: diagnosis.schema,
             robot: &diagnosis.robot,
@@ -81,9 +83,10 @@ impl<'a> Document<'a> {
             unexplained: &diagnosis.unexplained,
             ruled_out: &diagnosis.ruled_out,
             gain: &diagnosis.gain,
+            residual_model: report.residual,
             data: &diagnosis.data,
             warnings: &diagnosis.warnings,
-            provenance,
+            provenance: report.provenance,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What was found, for people and for programs: a page, a figure, a text for the terminal, JSON.
 //!
 //! ```text
-//! Report { diagnosis, traces, robot, provenance }      -> json(), html(), figure(), text(), markdown()
+//! Report { diagnosis, traces, robot, residual, .. }     -> json(), html(), figure(), text(), markdown()
 //! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
@@ -28,6 +28,7 @@ mod numbers;
 mod places;
 mod poster;
 mod provenance;
+mod residual;
 #[cfg(test)]
 mod sample;
 mod sentence;
@@ -50,6 +51,7 @@ pub use markdown::markdown;
 pub use numbers::{interval, percent, significant, unit};
 pub use poster::figure;
 pub use provenance::{FileHash, Provenance};
+pub use residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use sentence::{bottom_line, verdict_sentence};
 pub use tables::sizes;
 pub use terminal::text;
@@ -68,6 +70,8 @@ pub struct Report<'a> {
     pub traces: &'a [diagnosis::RunTraces],
     /// The robot as it was given, for units and for the joint of a link.
     pub robot: &'a robot::Robot,
+    /// The model of what the findings leave, where one was learned.
+    pub residual: Option<&'a ResidualModel>,
     /// Where the answer comes from.
     pub provenance: &'a Provenance,
 }

@@ -10,7 +10,7 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 
-use crate::{FileHash, Provenance, Report};
+use crate::{FileHash, LengthScale, Provenance, Report, ResidualJoint, ResidualModel};
 
 /// What a [`Report`] borrows.
 pub struct Sample {
@@ -26,6 +26,7 @@ impl Sample {
             diagnosis: &self.diagnosis,
             traces: &self.traces,
             robot: &self.robot,
+            residual: None,
             provenance: &self.provenance,
         }
     }
@@ -51,6 +52,40 @@ pub fn arm() -> Sample {
             }],
             seed: Some(1),
         },
+    }
+}
+
+/// A residual model of [`arm`] that is used at the elbow.
+pub fn residual() -> ResidualModel {
+    let unused = ResidualJoint {
+        name: "shoulder".into(),
+        extended_rms_nm: 0.4,
+        with_residual_rms_nm: 0.5,
+        share: -0.5625,
+        better_in: 1,
+        is_used: false,
+        length_scales: Vec::new(),
+    };
+    let used = ResidualJoint {
+        name: "elbow".into(),
+        extended_rms_nm: 0.5,
+        with_residual_rms_nm: 0.32,
+        share: 0.5904,
+        better_in: 3,
+        is_used: true,
+        length_scales: vec![LengthScale {
+            signal: "position of elbow".into(),
+            share_of_range: 0.21,
+        }],
+    };
+    ResidualModel {
+        model: "named-gp",
+        words: "Gaussian process, mean by the robot with its named effects",
+        file: "models/named-gp.parquet".into(),
+        points: 600,
+        parts: 3,
+        joints: vec![unused, used],
+        remarks: vec!["one thing to know".into()],
     }
 }
 

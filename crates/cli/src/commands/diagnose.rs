@@ -1,16 +1,20 @@
+mod residual;
+
 use std::path::{Path, PathBuf};
 
 use anstyle::AnsiColor;
-use diagnosis::{Diagnosis, Progress, Settings, Silent, Verdict};
+use diagnosis::{Diagnosis, HeldOutRobots, Progress, Settings, Silent, Verdict};
 use evaluation::Diagnosed;
 use report::{Report, ReportError};
 use robot::{Loaded, Robot};
+
+use residual::Learned;
 
 use crate::Outcome;
 use crate::error::CliError;
 use crate::input::{ColumnArguments, hashes_of, positive, provenance, share};
 use crate::output::{print, shown};
-use crate::progress::Bar;
+use crate::progress::{Bar, Line};
 
 /// Columns of a comment in `extended.toml`.
 const COMMENT_WIDTH: usize = 95;
@@ -41,6 +45,10 @@ pub struct Arguments {
     /// Seed of every random draw
     #[arg(long, default_value_t = Settings::default().seed)]
     seed: u64,
+    /// Learn a model of what the findings leave as well, and keep it where it predicts data that
+    /// it has not seen
+    #[arg(long, value_enum, value_name = "MODEL")]
+    residual: Option<ResidualKind>,
     /// Leave recording.rrd out
     #[arg(long)]
     no_recording: bool,
@@ -50,6 +58,13 @@ pub struct Arguments {
     /// Print nothing but errors, and the JSON if it is asked for
     #[arg(long)]
     quiet: bool,
+}
+
+/// A model of what the findings leave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum ResidualKind {
+    /// A Gaussian process about the extended robot
+    Gp,
 }
 
 /// Diagnoses the logs, writes the output folder and prints the verdict.
@@ -64,6 +79,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         control_rate_hz: loaded.control.rate_hz,
         false_discovery_rate: arguments.fdr,
         seed: arguments.seed,
+        held_out: match arguments.residual {
+            None => HeldOutRobots::NotMade,
+            Some(ResidualKind::Gp) => HeldOutRobots::Made,
+        },
         ..Settings::default()
     };
     let bar = Bar::new();
@@ -72,6 +91,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     bar.finish();
     let outcome = outcome?;
 
+    let learn = |ResidualKind::Gp| {
+        residual::learn(&loaded.robot, &outcome, (!arguments.quiet).then(Line::new))
+    };
+    let residual = arguments.residual.map(learn).transpose()?;
+
     let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map.as_deref())?;
     provenance.files.extend(hashes_of(&runs));
     provenance.seed = Some(arguments.seed);
@@ -79,21 +103,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         diagnosis: &outcome.diagnosis,
         traces: &outcome.traces,
         robot: &loaded.robot,
+        residual: residual.as_ref().map(|learned| &learned.said),
         provenance: &provenance,
     };
     let json = report::json(&report)?;
-    let extended = extended_toml(&loaded, &outcome.extended, &outcome.diagnosis)?;
-    let urdf = read(&loaded.urdf_path)?;
-    report::write_folder(
-        &arguments.out,
-        &[
-            ("diagnosis.json", json.as_bytes()),
-            ("report.html", report::html(&report)?.as_bytes()),
-            ("figure.svg", report::figure(&report)?.as_bytes()),
-            ("extended.toml", extended.as_bytes()),
-            ("robot.urdf", &urdf),
-        ],
-    )?;
+    write(arguments, &loaded, &outcome, (&report, &json), residual.as_ref())?;
     let diagnosed = Diagnosed {
         loaded: &loaded,
         runs: &runs,
@@ -106,6 +120,33 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Verdict::Consistent | Verdict::Explained => Outcome::Good,
         Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => Outcome::Gap,
     })
+}
+
+/// Writes the output folder, all but the recording.
+fn write(
+    arguments: &Arguments,
+    loaded: &Loaded,
+    outcome: &diagnosis::Outcome,
+    (report, json): (&Report, &str),
+    residual: Option<&Learned>,
+) -> Result<(), CliError> {
+    let extended = extended_toml(loaded, &outcome.extended, &outcome.diagnosis)?;
+    let (html, figure) = (report::html(report)?, report::figure(report)?);
+    let urdf = read(&loaded.urdf_path)?;
+    let mut files = vec![
+        ("diagnosis.json", json.as_bytes()),
+        ("report.html", html.as_bytes()),
+        ("figure.svg", figure.as_bytes()),
+        ("extended.toml", extended.as_bytes()),
+        ("robot.urdf", &urdf),
+    ];
+    files.extend(residual.map(|learned| (residual::FILE, learned.bytes.as_slice())));
+    report::write_folder(&arguments.out, &files)?;
+    if residual.is_none() {
+        // One of an earlier diagnosis would be about another extended robot.
+        let _ = std::fs::remove_file(arguments.out.join(residual::FILE));
+    }
+    Ok(())
 }
 
 /// Writes the recording and names it; one that cannot be written is a warning, as all the rest
@@ -166,8 +207,11 @@ fn say(
     let recording = recording.map_or_else(String::new, |path| {
         format!("recording      {} (plumbline view {})\n", shown(path), shown(out))
     });
+    let residual = report.residual.map_or_else(String::new, |model| {
+        format!("residual model {} (for track --learned)\n", shown(&out.join(&model.file)))
+    });
     let closing = format!(
-        "report         {} (open it in a browser)\n{recording}figure         {}\nextended model {} (for --robot)\n",
+        "report         {} (open it in a browser)\n{recording}figure         {}\nextended model {} (for --robot)\n{residual}",
         shown(&out.join("report.html")),
         shown(&out.join("figure.svg")),
         shown(&out.join("extended.toml"))
