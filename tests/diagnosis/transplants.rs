@@ -170,6 +170,10 @@ impl Case<'_> {
 fn recorded_logs_with_an_effect_put_in_are_told_from_those_without() {
     let Some(folder) = folder() else { return };
     let arms: Vec<Arm> = ARMS.par_iter().map(|arm| Arm::read(&folder, *arm)).collect();
+    for arm in &arms {
+        let named: Vec<String> = arm.untouched.findings.iter().map(|f| f.at.words()).collect();
+        println!("{} untouched: {named:?}", arm.name);
+    }
     let cases: Vec<Case> = arms.iter().flat_map(Arm::cases).collect();
     let seen: Vec<Seen> = cases.par_iter().map(Case::seen).collect();
     for (case, seen) in cases.iter().zip(&seen) {

@@ -1,8 +1,9 @@
-use diagnosis::{Outcome, Span, Verdict};
+use diagnosis::{HeldOut, Outcome, Span, Verdict};
 use learner::{
     Fitted, Mean, Model, ModelKind, RobotTorque, Samples, TorqueModel, TrainSettings, Training,
 };
 use logs::{LogError, LowPass, Prepared, PreparedJoint, PreparedRun, rest_speeds};
+use rayon::prelude::*;
 use robot::Robot;
 
 use crate::relevance::{Relevance, relevance};
@@ -75,14 +76,15 @@ pub fn learn_residual(
 ) -> Result<Residual, EvaluationError> {
     let logs = Logs { robot, prepared: &outcome.prepared, rest: rest_speeds(&outcome.prepared) };
     let parts = outcome.held_out.len();
+    progress.begin(&format!("process of what is left, without each of {parts} parts"));
+    let tested: Vec<[Vec<Vec<f64>>; 2]> = outcome
+        .held_out
+        .par_iter()
+        .map(|part| logs.tested(part, progress))
+        .collect::<Result<_, _>>()?;
     let mut errors = vec![Errors::default(); robot.joint_count()];
-    for (k, part) in outcome.held_out.iter().enumerate() {
-        progress.begin(&format!("process of what is left, without part {} of {parts}", k + 1));
-        let fitted = logs.fit(&part.extended, &logs.samples(&part.train), progress)?;
-        let alone = logs.named(&part.extended);
-        let before = logs.left(&alone, &part.test)?;
-        let after = logs.left(&fitted.model, &part.test)?;
-        errors.iter_mut().zip(before.iter().zip(&after)).for_each(|(e, (b, a))| e.add(b, a));
+    for [before, after] in &tested {
+        errors.iter_mut().zip(before.iter().zip(after)).for_each(|(e, (b, a))| e.add(b, a));
     }
     let verdicts = outcome.diagnosis.joints.iter().map(|joint| joint.verdict);
     let mut joints: Vec<ResidualJoint> =
@@ -121,6 +123,18 @@ impl Logs<'_> {
         let settings = TrainSettings { points: POINTS, ..TrainSettings::default() };
         let training = Training::new(self.robot, samples, self.rest.clone(), &settings, progress)?;
         Ok(training.with_named(extended).fit(ModelKind::NamedGp)?)
+    }
+
+    /// What the extended robot of a held-out part leaves there, without and with a process that
+    /// does not know it.
+    fn tested(
+        &self,
+        part: &HeldOut,
+        progress: &dyn Progress,
+    ) -> Result<[Vec<Vec<f64>>; 2], EvaluationError> {
+        let fitted = self.fit(&part.extended, &self.samples(&part.train), progress)?;
+        let alone = self.named(&part.extended);
+        Ok([self.left(&alone, &part.test)?, self.left(&fitted.model, &part.test)?])
     }
 
     /// An extended robot as a model.
