@@ -4,7 +4,6 @@ use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
 use crate::evaluate::Evaluated;
-use crate::extent::{frame, scale};
 use crate::fit::Beliefs;
 use crate::repeats::motions;
 
@@ -78,8 +77,8 @@ impl JointDesign {
 impl Design {
     /// Evaluates every hypothesis about `robot` along the prepared runs.
     pub fn new(robot: &Robot, prepared: &Prepared, moved: &[bool]) -> Result<Self, LogError> {
-        let frame = frame(prepared);
-        let scale = scale(robot, prepared);
+        let frame = Frame::of_logs(prepared);
+        let scale = Scale::of_logs(robot, prepared);
         let relevant = |h: &Hypothesis| h.joint().is_none_or(|j| moved[j]);
         let hypotheses: Vec<_> = hypotheses(robot).into_iter().filter(relevant).collect();
         let evaluated: Vec<Evaluated> = prepared

@@ -1,4 +1,5 @@
 use dynamics::{Dynamics, PARAMETERS_PER_LINK};
+use logs::{Prepared, rest_speeds};
 use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
 use robot::{Actuator, Robot, SensingSide};
@@ -59,6 +60,18 @@ pub struct Frame {
     pub rest_speed: Vec<f64>,
     /// Middle of the range of each joint over all runs (rad or m).
     pub centre: Vec<f64>,
+}
+
+impl Frame {
+    /// What the runs of some logs share.
+    pub fn of_logs(logs: &Prepared) -> Self {
+        let rest_speed = rest_speeds(logs);
+        let middle = |j| {
+            let (low, high) = logs.span(j);
+            0.5 * (low + high)
+        };
+        Self { centre: (0..rest_speed.len()).map(middle).collect(), rest_speed }
+    }
 }
 
 impl Motion {

@@ -1,3 +1,6 @@
+use logs::{Prepared, PreparedJoint, PreparedRun};
+use robot::Robot;
+
 /// How large things are in a set of logs: what the priors of the weights are made from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
@@ -16,6 +19,42 @@ pub struct Scale {
 }
 
 impl Scale {
+    /// How large things are in some logs.
+    pub fn of_logs(robot: &Robot, logs: &Prepared) -> Self {
+        let joints = 0..robot.joint_count();
+        let all = |j: usize, pick: fn(&PreparedJoint) -> &Vec<f64>| {
+            logs.runs.iter().flat_map(move |run: &PreparedRun| pick(&run.joints[j]).iter().copied())
+        };
+        let largest = |j, pick| all(j, pick).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let rms = |j| {
+            let (n, sum) = all(j, |p| &p.effort).fold((0, 0.0), |(n, s), x| (n + 1, s + x * x));
+            (sum / f64::from(n.max(1))).sqrt()
+        };
+        let range = |j| {
+            let (low, high) = logs.span(j);
+            high - low
+        };
+        let [link_mass, link_length] = Self::of_links(robot);
+        Self {
+            effort: joints.clone().map(rms).collect(),
+            speed: joints.clone().map(|j| largest(j, |p| &p.qd)).collect(),
+            acceleration: joints.clone().map(|j| largest(j, |p| &p.qdd)).collect(),
+            range: joints.map(range).collect(),
+            link_mass,
+            link_length,
+        }
+    }
+
+    /// Mean mass of a moving link (kg) and mean distance between neighbouring joints, at least
+    /// 0.05 (m).
+    pub fn of_links(robot: &Robot) -> [f64; 2] {
+        let links = robot.links();
+        let n = links.len().max(1) as f64;
+        let lengths = links.iter().map(|l| l.joint.parent_from_joint.translation.vector.norm());
+        let mass = links.iter().map(|l| l.inertia.mass.max(0.0)).sum::<f64>() / n;
+        [mass, (lengths.sum::<f64>() / n).max(0.05)]
+    }
+
     /// Effort of `joint` per unit of `of`, zero for a joint that did not move.
     pub(crate) fn effort_per(&self, joint: usize, of: &[f64]) -> f64 {
         let unit = of.get(joint).copied().unwrap_or(0.0);

@@ -1,5 +1,5 @@
 use diagnosis::Progress;
-use logs::{PreparedJoint, PreparedRun};
+use logs::PreparedRun;
 use robot::Robot;
 use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
 
@@ -107,19 +107,5 @@ fn middle_drift(replays: &[Result<ForwardReplay, SimulatorError>]) -> Option<f64
 
 /// A record up to some time after its start (s).
 fn first(record: &PreparedRun, duration_s: f64) -> PreparedRun {
-    let kept = (duration_s * record.rate_hz) as usize + 1;
-    let cut = |x: &[f64]| x[..kept.min(x.len())].to_vec();
-    let joint = |j: &PreparedJoint| PreparedJoint {
-        q: cut(&j.q),
-        qd: cut(&j.qd),
-        qdd: cut(&j.qdd),
-        qd_wide: cut(&j.qd_wide),
-        effort: cut(&j.effort),
-    };
-    PreparedRun {
-        name: record.name.clone(),
-        rate_hz: record.rate_hz,
-        time: cut(&record.time),
-        joints: record.joints.iter().map(joint).collect(),
-    }
+    record.part(0..(duration_s * record.rate_hz) as usize + 1)
 }

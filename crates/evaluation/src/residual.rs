@@ -2,7 +2,7 @@ use diagnosis::{HeldOut, Outcome, Span, Verdict};
 use learner::{
     Fitted, Mean, Model, ModelKind, RobotTorque, Samples, TorqueModel, TrainSettings, Training,
 };
-use logs::{LogError, LowPass, Prepared, PreparedJoint, PreparedRun, rest_speeds};
+use logs::{LogError, LowPass, Prepared, PreparedRun, rest_speeds};
 use rayon::prelude::*;
 use robot::Robot;
 
@@ -179,21 +179,7 @@ impl Logs<'_> {
     fn samples(&self, spans: &[Span]) -> Samples {
         let cut = |span: &Span| {
             let run = &self.prepared.runs[span.run];
-            let samples = samples_in(run, span);
-            let part = |x: &Vec<f64>| x[samples.clone()].to_vec();
-            let joint = |j: &PreparedJoint| PreparedJoint {
-                q: part(&j.q),
-                qd: part(&j.qd),
-                qdd: part(&j.qdd),
-                qd_wide: part(&j.qd_wide),
-                effort: part(&j.effort),
-            };
-            PreparedRun {
-                name: run.name.clone(),
-                rate_hz: run.rate_hz,
-                time: part(&run.time),
-                joints: run.joints.iter().map(joint).collect(),
-            }
+            run.part(samples_in(run, span))
         };
         Samples::new(&self.with(spans.iter().map(cut).collect()))
     }

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 #[cfg(doc)]
 use crate::{Agreement, differentiate};
 use crate::{
@@ -109,6 +111,36 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
     }
     let ends = pieces.into_iter().zip(filtered).map(|(piece, f)| without_ends(piece, f));
     Ok(Prepared { runs: ends.collect(), cutoff_hz, cutoff_reason, warnings })
+}
+
+impl Prepared {
+    /// Lowest and highest position of joint `j` over all runs (rad or m).
+    pub fn span(&self, j: usize) -> (f64, f64) {
+        let q = self.runs.iter().flat_map(|run| &run.joints[j].q);
+        q.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &q| (l.min(q), h.max(q)))
+    }
+}
+
+impl PreparedRun {
+    /// The run's `samples` alone; what lies beyond its end is left out.
+    pub fn part(&self, samples: Range<usize>) -> Self {
+        let end = samples.end.min(self.time.len());
+        let samples = samples.start.min(end)..end;
+        let part = |x: &[f64]| x[samples.clone()].to_vec();
+        let joint = |j: &PreparedJoint| PreparedJoint {
+            q: part(&j.q),
+            qd: part(&j.qd),
+            qdd: part(&j.qdd),
+            qd_wide: part(&j.qd_wide),
+            effort: part(&j.effort),
+        };
+        Self {
+            name: self.name.clone(),
+            rate_hz: self.rate_hz,
+            time: part(&self.time),
+            joints: self.joints.iter().map(joint).collect(),
+        }
+    }
 }
 
 /// The shortest piece that is of use (s): a third of it is left between the ends.

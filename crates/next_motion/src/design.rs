@@ -177,7 +177,6 @@ mod tests {
     use robot::Robot;
 
     use super::*;
-    use crate::known::scale;
     use crate::record::Record;
     use crate::testing::{RATE_HZ, arm, log, turntable};
 
@@ -285,7 +284,7 @@ mod tests {
         let found = design(&question(&robot, goal), Some(&logs), &SHORT).unwrap();
         let qd = &logs.runs[0].joints[0].qd;
         let power = qd.iter().map(|v| v * v).sum::<f64>() / RATE_HZ / 1e-3;
-        let s = finding.prior(&robot, &scale(&robot, &logs))[0];
+        let s = finding.prior(&robot, &effects::Scale::of_logs(&robot, &logs))[0];
         let expected = 0.5 * (s * s * power).ln_1p();
         let [prospect] = found.prospects.try_into().unwrap();
         assert!((prospect.before - expected).abs() < 1e-3, "{prospect:?} {expected}");

@@ -1,5 +1,5 @@
 use effects::{Frame, Hypothesis, Scale};
-use logs::{LowPass, Prepared, PreparedJoint, PreparedRun, rest_speeds};
+use logs::{LowPass, Prepared, PreparedJoint};
 use nalgebra::DVector;
 use robot::Robot;
 
@@ -40,16 +40,16 @@ impl Known {
         layout: &Layout,
         logs: &Prepared,
     ) -> Result<Self, NextMotionError> {
-        let frame = Frame { rest_speed: rest_speeds(logs), centre: centres(logs) };
+        let frame = Frame::of_logs(logs);
         let information = along_logs(robot, layout, &frame, logs)?;
-        Ok(Self { frame, scale: scale(robot, logs), information, source: Source::Logs })
+        Ok(Self { frame, scale: Scale::of_logs(robot, logs), information, source: Source::Logs })
     }
 
     /// By what the joints can do, before there is any log.
     pub fn of_limits(robot: &Robot, layout: &Layout) -> Self {
         let usable = usable(robot);
         let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
-        let [link_mass, link_length] = links(robot);
+        let [link_mass, link_length] = Scale::of_links(robot);
         Self {
             frame: Frame { rest_speed: each(|u| REST_SHARE * u.speed), centre: each(|u| u.middle) },
             scale: Scale {
@@ -97,51 +97,6 @@ fn along_logs(
         all.extend(layout.along(&motion, Some(&measured), 1)?);
     }
     Information::joined(&all).ok_or(NextMotionError::NoRuns)
-}
-
-/// Middle of the range of each joint over all runs (rad or m).
-fn centres(logs: &Prepared) -> Vec<f64> {
-    spans(logs).into_iter().map(|[low, high]| 0.5 * (low + high)).collect()
-}
-
-fn spans(logs: &Prepared) -> Vec<[f64; 2]> {
-    let joints = logs.runs.first().map_or(0, |run| run.joints.len());
-    let span = |j: usize| {
-        let q = logs.runs.iter().flat_map(|run| &run.joints[j].q);
-        q.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &q| [l.min(q), h.max(q)])
-    };
-    (0..joints).map(span).collect()
-}
-
-/// How large things are in the logs.
-pub(crate) fn scale(robot: &Robot, logs: &Prepared) -> Scale {
-    let joints = 0..robot.joint_count();
-    let all = |j: usize, pick: fn(&PreparedJoint) -> &Vec<f64>| {
-        logs.runs.iter().flat_map(move |run: &PreparedRun| pick(&run.joints[j]).iter().copied())
-    };
-    let largest = |j, pick| all(j, pick).fold(0.0, |m: f64, x| m.max(x.abs()));
-    let rms = |j| {
-        let (n, sum) = all(j, |p| &p.effort).fold((0, 0.0), |(n, s), x| (n + 1, s + x * x));
-        (sum / f64::from(n.max(1))).sqrt()
-    };
-    let [link_mass, link_length] = links(robot);
-    Scale {
-        effort: joints.clone().map(rms).collect(),
-        speed: joints.clone().map(|j| largest(j, |p| &p.qd)).collect(),
-        acceleration: joints.map(|j| largest(j, |p| &p.qdd)).collect(),
-        range: spans(logs).into_iter().map(|[low, high]| high - low).collect(),
-        link_mass,
-        link_length,
-    }
-}
-
-/// Mean mass of a moving link (kg) and mean distance between neighbouring joints (m).
-fn links(robot: &Robot) -> [f64; 2] {
-    let links = robot.links();
-    let n = links.len().max(1) as f64;
-    let lengths = links.iter().map(|l| l.joint.parent_from_joint.translation.vector.norm());
-    let mass = links.iter().map(|l| l.inertia.mass.max(0.0)).sum::<f64>() / n;
-    [mass, (lengths.sum::<f64>() / n).max(0.05)]
 }
 
 #[cfg(test)]
