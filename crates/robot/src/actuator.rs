@@ -74,6 +74,28 @@ pub struct Ripple {
     pub phase: f64,
 }
 
+/// A differential: two motors that drive this joint and another one together.
+///
+/// ```text
+/// w_sum = qd + ratio qd_other,   w_difference = qd - ratio qd_other
+/// friction(w) = viscous w + level sign(w) + inertia wd
+/// tau       += friction_sum + friction_difference
+/// tau_other += ratio (friction_sum - friction_difference)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coupling {
+    /// Index of the other joint.
+    pub other: usize,
+    /// Turn of a motor by the other joint over that by this one.
+    pub ratio: f64,
+    /// Dry friction of the motors that turn with the sum and with the difference, seen at this
+    /// joint (N·m or N).
+    pub level: [f64; 2],
+    /// Their viscous friction (N·m·s/rad or N·s/m).
+    pub viscous: [f64; 2],
+}
+
 /// What the drive of one joint adds to the rigid-body torque, and how it is measured.
 ///
 /// The effort that the model expects in a log is, with `tau_rb` the rigid-body torque,
@@ -128,6 +150,8 @@ pub struct Actuator {
     pub friction_wave: Option<Wave>,
     /// Torque ripple of the motor; `None` without.
     pub ripple: Option<Ripple>,
+    /// Friction of motors that it shares with another joint; `None` without.
+    pub coupling: Option<Coupling>,
     /// Stiffness of a hose or cable along the joint (N·m/rad or N/m).
     pub spring_stiffness: f64,
     /// Position at which that spring is slack (rad or m).
@@ -169,6 +193,7 @@ impl Default for Actuator {
             presliding: None,
             friction_wave: None,
             ripple: None,
+            coupling: None,
             spring_stiffness: 0.0,
             spring_rest: 0.0,
             torque_gain: 1.0,

@@ -136,6 +136,9 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
     let ripple = a.ripple.map(|r| [r.amplitude, r.periods, r.phase]);
     let given = drive.iter().chain(&a.elasticity).chain(&a.presliding);
     let given = given.chain(stribeck.as_slice().as_flattened());
+    let coupling =
+        a.coupling.map(|c| [c.ratio, c.level[0], c.level[1], c.viscous[0], c.viscous[1]]);
+    let given = given.chain(coupling.as_slice().as_flattened());
     let given = given.chain(wave.as_slice().as_flattened());
     finite(&joint, "actuator parameter", given.chain(ripple.as_slice().as_flattened()))
 }

@@ -1,8 +1,7 @@
 use nalgebra::Vector3;
 
-use crate::description::{
-    Description, GainEntry, InertiaEntry, JointEntry, LinkEntry, RippleEntry, WaveEntry,
-};
+use crate::description::{Description, GainEntry, InertiaEntry, LinkEntry};
+use crate::joint_entry::{CouplingEntry, JointEntry, RippleEntry, WaveEntry};
 use crate::{Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource};
 
 impl Loaded {
@@ -36,8 +35,9 @@ impl Loaded {
             differentials: control.differentials.iter().map(|p| p.map(joint_name)).collect(),
             ..Description::default()
         };
+        let names: Vec<&str> = robot.joint_names().collect();
         for (i, (new, old)) in robot.links().iter().zip(old.links()).enumerate() {
-            let entry = joint_entry(new, old, control.gains.get(i).copied().flatten());
+            let entry = joint_entry([new, old], &names, control.gains.get(i).copied().flatten());
             if entry != JointEntry::default() {
                 description.joint.insert(new.joint.name.clone(), entry);
             }
@@ -80,7 +80,7 @@ fn gravity(new: &Robot, old: &Robot) -> Option<[f64; 3]> {
     (gravity != old.gravity_in_base()).then_some(gravity.into())
 }
 
-fn joint_entry(new: &Link, old: &Link, gain: Option<Gain>) -> JointEntry {
+fn joint_entry([new, old]: [&Link; 2], names: &[&str], gain: Option<Gain>) -> JointEntry {
     let (a, b) = (&new.actuator, &old.actuator);
     let (forward, backward) = (
         changed(a.coulomb_forward, b.coulomb_forward),
@@ -120,6 +120,14 @@ fn joint_entry(new: &Link, old: &Link, gain: Option<Gain>) -> JointEntry {
             share: w.share,
             periods_per_turn: w.periods,
             phase_rad: w.phase,
+        }),
+        coupling: a.coupling.map(|c| CouplingEntry {
+            with: names.get(c.other).copied().unwrap_or_default().to_owned(),
+            ratio: c.ratio,
+            coulomb_sum_nm: c.level[0],
+            coulomb_difference_nm: c.level[1],
+            viscous_sum_nm_s_per_rad: c.viscous[0],
+            viscous_difference_nm_s_per_rad: c.viscous[1],
         }),
         torque_ripple: a.ripple.map(|r| RippleEntry {
             amplitude_nm: r.amplitude,

@@ -1,11 +1,15 @@
 use robot::{Actuator, Robot};
 
 use super::{
-    actuator_delay, actuator_lag, encoder_offset, load_dependent_friction,
+    actuator_delay, actuator_lag, differential_coupling, encoder_offset, load_dependent_friction,
     position_dependent_friction, presliding_friction, stribeck_friction, torque_ripple,
     transmission_ratio,
 };
 use crate::Inject;
+
+/// Inertia of a rotor that holds the bristles of a shared motor where the robot names none
+/// (kg m² or kg).
+const LEAST_ROTOR: f64 = 1e-3;
 
 /// The effects that the robot's description says of its drives, ready to act, apart from those
 /// that are part of the [`Plant`](crate::Plant).
@@ -13,7 +17,11 @@ use crate::Inject;
 /// Where several meet at a joint, dry friction is gathered before it is bent, and what is
 /// reported is `q / ratio + offset`.
 pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
-    robot.links().iter().enumerate().flat_map(|(joint, link)| {
+    let rotor = |j: usize| {
+        let known = robot.links().get(j).map_or(0.0, |link| link.actuator.rotor_inertia);
+        known.max(LEAST_ROTOR)
+    };
+    robot.links().iter().enumerate().flat_map(move |(joint, link)| {
         let a = &link.actuator;
         let effort_limit = link.joint.limits.effort.unwrap_or(0.0);
         let [delay, lag, load, offset] =
@@ -29,6 +37,8 @@ pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> 
                 presliding_friction::bending(joint, a, largest_dry(a, effort_limit) / way)
             }),
             a.ripple.map(|ripple| torque_ripple::acting(joint, ripple)),
+            a.coupling
+                .map(|c| differential_coupling::acting(joint, [joint, c.other].map(rotor), c)),
             ratio.map(|ratio| transmission_ratio::acting(joint, ratio)),
             offset.map(|offset| encoder_offset::acting(joint, offset)),
         ]

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::Robot;
+use robot::{Coupling, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +57,8 @@ impl Effect for DifferentialCoupling {
             ("ratio", self.ratio),
             ("level_sum", self.level_sum_nm),
             ("level_difference", self.level_difference_nm),
+            ("viscous_sum", 0.0),
+            ("viscous_difference", 0.0),
         ];
         Truth::at_joint(Self::KIND, &self.joint_a, &parameters)
     }
@@ -72,16 +74,9 @@ impl Effect for DifferentialCoupling {
             return Err(Mistake { key: "joint_b", found });
         }
 
-        let inertia = rotor_a.min(rotor_b / (self.ratio * self.ratio));
-        let omega = TAU * BRISTLE_HZ;
-        let motors = [(self.level_sum_nm, self.ratio), (self.level_difference_nm, -self.ratio)];
-        Ok(Box::new(Injected {
-            joint_a,
-            joint_b,
-            stiffness: 0.5 * inertia * omega * omega,
-            damping: DAMPING_RATIO * inertia * omega,
-            motors: motors.map(|(level, ratio)| Motor { level, ratio, deflection: 0.0, last: 0.0 }),
-        }))
+        let level = [self.level_sum_nm, self.level_difference_nm];
+        let coupling = Coupling { other: joint_b, ratio: self.ratio, level, viscous: [0.0; 2] };
+        Ok(acting(joint_a, [rotor_a, rotor_b], coupling))
     }
 
     /// A pair with the next joint, or the one before if it is the last, and two motors whose
@@ -98,6 +93,25 @@ impl Effect for DifferentialCoupling {
             level_difference_nm: level * random.random_range(0.8..1.2),
         }
     }
+}
+
+/// The friction of motors that `joint_a` shares, whose rotors and that of the other joint have
+/// the inertias `rotors` (kg m² or kg), ready to act.
+pub(super) fn acting(joint_a: usize, rotors: [f64; 2], coupling: Coupling) -> Box<dyn Inject> {
+    let Coupling { other, ratio, level, viscous } = coupling;
+    let inertia = rotors[0].min(rotors[1] / (ratio * ratio));
+    let omega = TAU * BRISTLE_HZ;
+    let motor = |k: usize, ratio: f64| {
+        let (level, viscous) = (level[k], viscous[k]);
+        Motor { level, viscous, ratio, deflection: 0.0, last: 0.0 }
+    };
+    Box::new(Injected {
+        joint_a,
+        joint_b: other,
+        stiffness: 0.5 * inertia * omega * omega,
+        damping: DAMPING_RATIO * inertia * omega,
+        motors: [motor(0, ratio), motor(1, -ratio)],
+    })
 }
 
 /// A joint that a scenario names, and the inertia of its rotor (kg m² or kg).
@@ -127,6 +141,8 @@ struct Injected {
 struct Motor {
     /// Dry friction (N m).
     level: f64,
+    /// Viscous friction (N m s/rad).
+    viscous: f64,
     /// Turn by joint b over turn by joint a.
     ratio: f64,
     /// Deflection of the bristle (rad).
@@ -152,7 +168,7 @@ impl Inject for Injected {
             motor.last = position;
 
             let torque = self.stiffness * motor.deflection + self.damping * speed;
-            let torque = torque.clamp(-motor.level, motor.level);
+            let torque = torque.clamp(-motor.level, motor.level) + motor.viscous * speed;
             efforts.bristles[self.joint_a] -= torque;
             efforts.bristles[self.joint_b] -= motor.ratio * torque;
         }
