@@ -85,7 +85,7 @@ fn effects_prints_for_programs_what_can_be_done_about_each() {
     let expected = serde_json::json!({
         "code": "DR01", "name": "torque_ripple", "family": "drive",
         "summary": "torque that varies with the motor angle",
-        "diagnosed": false, "simulated": true, "compensated": true,
+        "diagnosed": true, "simulated": true, "compensated": true,
     });
     assert_eq!((effects.len(), ripple), (26, Some(&expected)));
 }

@@ -21,7 +21,7 @@ pub enum Named {
 pub struct Seen {
     pub named: Named,
     /// Findings that are new, and neither the effect nor what may as well be it.
-    pub strays: Vec<String>,
+    pub strays: Vec<EffectAt>,
     size: f64,
     change: Option<Change>,
 }
@@ -45,7 +45,8 @@ impl Seen {
     pub fn words(&self) -> String {
         let found = self.change.map_or("-".to_owned(), |c| format!("{:.4} +- {:.4}", c.by, c.half));
         let named = format!("{:?}", self.named);
-        format!("{:>8.4}  {found:<18}  {named:<6}  {}", self.size, self.strays.join(", "))
+        let strays: Vec<String> = self.strays.iter().map(EffectAt::words).collect();
+        format!("{:>8.4}  {found:<18}  {named:<6}  {}", self.size, strays.join(", "))
     }
 }
 
@@ -113,5 +114,5 @@ pub fn seen(two: [&Diagnosis; 2], at: &EffectAt, (parameter, size): (Size, f64))
         f.at == *at || f.not_separable_from.contains(at) || rival_of_own
     };
     let strays = changed.iter().filter(|f| is_new(before, f) && !is_it(f));
-    Seen { named, strays: strays.map(|f| f.at.words()).collect(), size, change }
+    Seen { named, strays: strays.map(|f| f.at.clone()).collect(), size, change }
 }

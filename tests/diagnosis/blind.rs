@@ -72,7 +72,7 @@ fn check_named(kind: &str, seed: u64) {
 }
 
 /// What is hidden, with the seed of its draw.
-pub const HIDDEN: [(EffectKind, u64); 14] = [
+pub const HIDDEN: [(EffectKind, u64); 20] = [
     (EffectKind::CoulombFriction, 1),
     (EffectKind::RotorInertia, 1),
     (EffectKind::TorqueConstant, 1),
@@ -83,6 +83,12 @@ pub const HIDDEN: [(EffectKind, u64); 14] = [
     (EffectKind::EncoderOffset, 1),
     (EffectKind::TransmissionRatio, 1),
     (EffectKind::Backlash, 1),
+    (EffectKind::StribeckFriction, 1),
+    (EffectKind::PreslidingFriction, 101),
+    (EffectKind::PositionDependentFriction, 101),
+    (EffectKind::DifferentialCoupling, 1),
+    (EffectKind::TorqueRipple, 1),
+    (EffectKind::ExternalDisturbance, 1),
     (EffectKind::JointElasticity, 1),
     (EffectKind::TimeSkew, 1),
     // Below 4 ms two runs of 15 s show nothing: another draw.
@@ -93,6 +99,20 @@ pub const HIDDEN: [(EffectKind, u64); 14] = [
 #[test]
 fn blind_effects_are_named_first() {
     HIDDEN.par_iter().for_each(|(kind, seed)| check_named(kind.name(), *seed));
+}
+
+/// A limit is stated, not drawn: most draws of one make the arm run away.
+#[test]
+fn blind_a_drive_that_ends_at_a_limit_is_named_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let limit = "effect=[{ torque_saturation={ joint='j4_elbow_pitch', limit_nm=5.3 } }]";
+    simulate(folder.path(), &[limit]);
+    let diagnosis = look(folder.path());
+    let finding = &diagnosis.findings[0];
+    println!("{} {:?}", finding.at.words(), finding.parameters);
+    assert_eq!(finding.at.effect, EffectKind::TorqueSaturation);
+    assert_eq!(finding.at.joint.as_deref(), Some("j4_elbow_pitch"));
+    assert!((finding.parameters[0].value / 5.3 - 1.0).abs() < 0.05, "{:?}", finding.parameters);
 }
 
 /// Commands are held for 2 ms, so they act 1 ms later than they are logged. Taken as they stand,

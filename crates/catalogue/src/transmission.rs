@@ -75,6 +75,18 @@ pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
             "friction of the motor that turns with the difference, at joint a",
             (0.15, 1.3),
         ),
+        parameter(
+            "viscous_sum",
+            ["N m s/rad", "N s/m"],
+            "viscous friction of the motor that turns with the sum, at joint a",
+            (0.0, 2.4),
+        ),
+        parameter(
+            "viscous_difference",
+            ["N m s/rad", "N s/m"],
+            "viscous friction of the motor that turns with the difference, at joint a",
+            (0.0, 2.4),
+        ),
     ],
     signature: "friction at one joint of a pair changes when the other begins to move",
     needs: "both joints of a differential pair in motion, together and alone",

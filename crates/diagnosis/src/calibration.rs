@@ -12,6 +12,7 @@ use crate::design::Design;
 use crate::extent::inadequate;
 use crate::flip_test::p_value;
 use crate::gram::Grams;
+use crate::log::Log;
 use crate::problem::{Model, Problem};
 use crate::search::Record;
 
@@ -55,7 +56,9 @@ fn p_values(robot: &Robot, files: &[PathBuf]) -> Vec<f64> {
     let runs: Vec<_> = files.iter().map(read).collect();
     let prepared = prepare(&runs, &PrepareSettings::default()).unwrap();
     let moved: Vec<bool> = inadequate(robot, &prepared).iter().map(Option::is_none).collect();
-    let design = Design::new(robot, &prepared, &moved).unwrap();
+    let design =
+        Design::new(robot, &Log { prepared: &prepared, moved: &moved, tones: &[], limits: &[] })
+            .unwrap();
     let blocks = blocks(&design, 1.0);
     let grams = Grams::new(&design, &blocks);
     let practical = vec![0.0; design.joints()];

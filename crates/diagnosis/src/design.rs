@@ -1,10 +1,11 @@
 use effects::{Frame, Hypothesis, Scale, hypotheses};
-use logs::{LogError, Prepared};
+use logs::LogError;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
-use crate::evaluate::Evaluated;
+use crate::evaluate::{Along, Evaluated};
 use crate::fit::Beliefs;
+use crate::log::Log;
 use crate::repeats::motions;
 
 /// A hypothesis and its columns in the design.
@@ -61,6 +62,8 @@ pub(crate) struct JointDesign {
     pub x: DMatrix<f64>,
     /// Measured effort (N·m or N).
     pub measured: Vec<f64>,
+    /// What tones have in it and what became no torque (N·m or N); empty where there is neither.
+    pub known: Vec<f64>,
     /// Nominal effort (N·m or N).
     pub nominal: Vec<f64>,
     /// Position, velocity and acceleration.
@@ -69,23 +72,32 @@ pub(crate) struct JointDesign {
 
 impl JointDesign {
     /// Measured minus nominal effort (N·m or N).
-    pub fn residual(&self) -> impl Iterator<Item = f64> + '_ {
+    pub fn gap(&self) -> impl Iterator<Item = f64> + '_ {
         self.measured.iter().zip(&self.nominal).map(|(m, n)| m - n)
+    }
+
+    /// The same without the tones and without what became no torque.
+    pub fn residual(&self) -> impl Iterator<Item = f64> + '_ {
+        let known = self.known.iter().copied().chain(std::iter::repeat(0.0));
+        self.gap().zip(known).map(|(gap, known)| gap - known)
     }
 }
 
 impl Design {
     /// Evaluates every hypothesis about `robot` along the prepared runs.
-    pub fn new(robot: &Robot, prepared: &Prepared, moved: &[bool]) -> Result<Self, LogError> {
-        let frame = Frame::of_logs(prepared);
-        let scale = Scale::of_logs(robot, prepared);
-        let relevant = |h: &Hypothesis| h.joint().is_none_or(|j| moved[j]);
-        let hypotheses: Vec<_> = hypotheses(robot).into_iter().filter(relevant).collect();
-        let evaluated: Vec<Evaluated> = prepared
-            .runs
-            .iter()
-            .map(|run| Evaluated::new(robot, &frame, run, prepared.cutoff_hz, &hypotheses))
-            .collect::<Result<_, _>>()?;
+    pub fn new(robot: &Robot, log: &Log) -> Result<Self, LogError> {
+        let relevant = |h: &Hypothesis| h.joint().is_none_or(|j| log.moved[j]);
+        let all: Vec<_> = hypotheses(robot).into_iter().filter(relevant).collect();
+        Self::of(robot, log, &all)
+    }
+
+    /// Evaluates some hypotheses about `robot` along the prepared runs.
+    pub fn of(robot: &Robot, log: &Log, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
+        let (frame, scale) = (Frame::of_logs(log.prepared), Scale::of_logs(robot, log.prepared));
+        let along = log.along(robot, &frame)?;
+        let evaluated = |along: &Along| Evaluated::new(along, hypotheses);
+        let evaluated: Vec<Evaluated> =
+            along.iter().map(evaluated).collect::<Result<_, LogError>>()?;
         let mut design = Self {
             groups: Vec::new(),
             width: 0,
@@ -95,10 +107,10 @@ impl Design {
             runs: Vec::new(),
             rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
             frame,
-            moved: moved.to_vec(),
+            moved: log.moved.to_vec(),
             motion: Vec::new(),
         };
-        let origins = design.lay_out(robot, &hypotheses, &scale, &evaluated);
+        let origins = design.lay_out(robot, hypotheses, &scale, &evaluated);
         design.runs = evaluated.iter().map(|e| e.to_run(&design.local, &origins)).collect();
         design.motion = motions(&design);
         Ok(design)

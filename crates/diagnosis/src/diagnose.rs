@@ -1,3 +1,4 @@
+use effects::Frame;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
 
@@ -5,11 +6,19 @@ use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extent::inadequate;
 use crate::held_out::HeldOut;
+use crate::limits::limits;
+use crate::log::Log;
 use crate::progress::Progress;
 use crate::result::{Diagnosis, RunSummary};
 use crate::settings::Settings;
+use crate::shapes::sown;
 use crate::study::Study;
+use crate::tone::Tone;
+use crate::tones::{BAND, tones};
 use crate::traces::RunTraces;
+
+/// Least width of the band in which tones are looked for, in cut-offs of the motion.
+const WIDE: f64 = 1.5;
 
 /// A diagnosis and what goes with it.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,14 +69,63 @@ pub fn diagnose(
     progress.step();
     let inadequate = inadequate(robot, &prepared);
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
-    let design = Design::new(robot, &prepared, &moved)?;
+    let quiet = Log { prepared: &prepared, moved: &moved, tones: &[], limits: &[] };
+    let limits = limits(robot, &quiet)?;
+    let quiet = Log { limits: &limits, ..quiet };
+    let (mut sown, mut design) = tangents(robot, &quiet)?;
+    let study = Study {
+        nominal: robot,
+        robot: &sown,
+        settings,
+        log: quiet,
+        design: &design,
+        inadequate: &inadequate,
+    };
+    let tones = heard(&study, &runs)?;
+    let log = Log { tones: &tones, ..quiet };
+    if !tones.is_empty() {
+        (sown, design) = tangents(robot, &log)?;
+    }
     progress.step();
-    let study =
-        Study { robot, settings, prepared: &prepared, design: &design, inadequate: &inadequate };
+    let study = Study {
+        nominal: robot,
+        robot: &sown,
+        settings,
+        log,
+        design: &design,
+        inadequate: &inadequate,
+    };
     let (mut diagnosis, traces, extended, held_out) = study.run(progress)?;
     diagnosis.data.runs = runs.iter().map(summary).collect();
     diagnosis.warnings = warnings;
     Ok(Outcome { diagnosis, traces, extended, prepared, held_out })
+}
+
+/// The robot with the germs of effects, and the design about it.
+fn tangents(robot: &Robot, log: &Log) -> Result<(Robot, Design), DiagnosisError> {
+    let sown = sown(robot, log)?;
+    let design = Design::new(&sown, log)?;
+    Ok((sown, design))
+}
+
+/// The oscillations in what a first search leaves, in a band much wider than the motion's.
+fn heard(study: &Study, runs: &[Run]) -> Result<Vec<Tone>, DiagnosisError> {
+    let (prepared, settings) = (study.log.prepared, study.settings);
+    let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
+    let wide_hz = BAND * slowest;
+    if wide_hz < WIDE * prepared.cutoff_hz {
+        return Ok(Vec::new());
+    }
+    let extended = study.extended()?;
+    let mut wide = prepare(runs, &PrepareSettings { cutoff_hz: Some(wide_hz) })?;
+    let known = |name: &String| prepared.runs.iter().any(|r| r.name == *name);
+    wide.runs.retain(|run| known(&run.name));
+    centre_commands(&extended, &mut wide.runs, settings.control_rate_hz);
+    // What is as slow as the motion may be its, and what is faster too where it repeats.
+    let motions = &study.design.motion;
+    let all_differ = motions.len() >= 2 && motions.iter().enumerate().all(|(r, m)| *m == r);
+    let slowest_hz = if all_differ { prepared.motion_hz() } else { prepared.cutoff_hz };
+    Ok(tones(&extended, &wide, &Frame::of_logs(&wide), (&study.log, slowest_hz))?)
 }
 
 /// The runs without those that repeat another sample by sample.

@@ -5,6 +5,9 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::design::{JointDesign, RunDesign};
+use crate::limits::Limit;
+use crate::tone::Tone;
+use crate::tones::Rest;
 
 /// Rate at which effects are evaluated, in cut-off frequencies: the harmonics that a sign
 /// or a product makes of a signal limited to the cut-off stay far from folding into the band.
@@ -16,6 +19,125 @@ const REGRESSION_RATE: f64 = 2.5;
 /// Order of the low-pass filter, before it runs forward and backward.
 const ORDER: usize = 4;
 
+/// One run at the rate at which effects are evaluated, and how its signals are brought to that
+/// of the regression.
+pub(crate) struct Along<'a> {
+    /// The motion about a robot.
+    pub motion: Motion,
+    run: &'a PreparedRun,
+    /// Index of the run.
+    index: usize,
+    tones: &'a [Tone],
+    limits: &'a [Limit],
+    cutoff_hz: f64,
+    low_pass: LowPass,
+    /// Samples of the run to one of the motion, and of the motion to one of the regression.
+    strides: [usize; 2],
+    /// Rate of the regression (Hz).
+    rate_hz: f64,
+}
+
+impl<'a> Along<'a> {
+    /// Evaluates `robot` along run `index`, whose efforts have tones in them and go beyond limits.
+    pub fn new(
+        robot: &Robot,
+        frame: &Frame,
+        (index, run): (usize, &'a PreparedRun),
+        cutoff_hz: f64,
+        (tones, limits): (&'a [Tone], &'a [Limit]),
+    ) -> Result<Self, LogError> {
+        let first = stride(run.rate_hz, EVALUATION_RATE * cutoff_hz);
+        let rate = run.rate_hz / first as f64;
+        let second = stride(rate, REGRESSION_RATE * cutoff_hz);
+        let signals = |pick: fn(&PreparedJoint) -> &Vec<f64>| -> Vec<Vec<f64>> {
+            run.joints.iter().map(|j| decimate(pick(j), first)).collect()
+        };
+        let state = [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)];
+        let motion = Motion::new(robot, frame, state, &signals(|j| &j.qd_wide), rate.recip());
+        let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
+        let (strides, rate_hz) = ([first, second], rate / second as f64);
+        Ok(Self { motion, run, index, tones, limits, cutoff_hz, low_pass, strides, rate_hz })
+    }
+
+    /// A signal of the motion, low-passed, at the rate of the regression.
+    fn finish(&self, mut x: Vec<f64>) -> Vec<f64> {
+        self.low_pass.apply(&mut x);
+        decimate(&x, self.strides[1])
+    }
+
+    /// The columns of one effect, low-passed, at the rate of the regression.
+    pub fn finished(&self, columns: Vec<Column>) -> Vec<Column> {
+        let filtered = |mut column: Column| {
+            column.iter_mut().for_each(|p| p.values = self.finish(std::mem::take(&mut p.values)));
+            column
+        };
+        columns.into_iter().map(filtered).collect()
+    }
+
+    /// The efforts of the log.
+    fn measured(&self) -> Result<Vec<Vec<f64>>, LogError> {
+        self.all_thinned(self.run.joints.iter().map(|j| j.effort.clone()).collect())
+    }
+
+    /// The effort of joint `j` in the log (N·m or N).
+    pub fn effort(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
+        self.run.joints[j].effort.iter().copied()
+    }
+
+    /// The part of the effort at the joint of `limit` that became no torque.
+    pub fn beyond(&self, limit: &Limit) -> Result<Vec<f64>, LogError> {
+        let beyond = self.effort(limit.joint).map(|effort| limit.beyond(effort)).collect();
+        self.thinned(beyond)
+    }
+
+    /// The tones in them and what became no torque; nothing where there is neither.
+    fn known(&self) -> Result<Vec<Vec<f64>>, LogError> {
+        let mut sum: Vec<Vec<f64>> = self.run.joints.iter().map(|j| vec![0.0; j.q.len()]).collect();
+        if self.tones.is_empty() && self.limits.is_empty() {
+            return Ok(vec![Vec::new(); sum.len()]);
+        }
+        for limit in self.limits {
+            let values = self.effort(limit.joint).map(|effort| limit.beyond(effort));
+            sum[limit.joint].iter_mut().zip(values).for_each(|(sum, x)| *sum += x);
+        }
+        for tone in self.tones {
+            let samples = self.run.time.iter().zip(&self.run.joints[tone.joint].q);
+            let values = samples.map(|(t, q)| tone.effort(self.index, *t, *q));
+            sum[tone.joint].iter_mut().zip(values).for_each(|(sum, x)| *sum += x);
+        }
+        self.all_thinned(sum)
+    }
+
+    /// What the robot leaves of the efforts, with the positions and speeds of the motors.
+    pub fn rest(&self) -> Result<Rest, LogError> {
+        let [first, second] = self.strides;
+        let nominal = self.motion.effort.iter().map(|e| self.finish(e.clone()));
+        let left = |(m, n): (Vec<f64>, Vec<f64>)| m.iter().zip(n).map(|(m, n)| m - n).collect();
+        let thin = |x: &Vec<Vec<f64>>| x.iter().map(|x| decimate(x, second)).collect();
+        Ok(Rest {
+            time: decimate(&decimate(&self.run.time, first), second),
+            q: thin(&self.motion.q),
+            qd: thin(&self.motion.qd),
+            left: self.measured()?.into_iter().zip(nominal).map(left).collect(),
+        })
+    }
+
+    /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects
+    /// are evaluated at a lower rate than the log's, noise is kept from folding into the band by
+    /// a filter that leaves the band itself alone (1e-5 at the cut-off).
+    fn all_thinned(&self, efforts: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, LogError> {
+        efforts.into_par_iter().map(|e| self.thinned(e)).collect()
+    }
+
+    fn thinned(&self, mut x: Vec<f64>) -> Result<Vec<f64>, LogError> {
+        if self.strides[0] > 1 {
+            LowPass::new(ORDER, 4.0 * self.cutoff_hz, self.run.rate_hz)?.apply(&mut x);
+            x = decimate(&x, self.strides[0]);
+        }
+        Ok(self.finish(x))
+    }
+}
+
 /// All columns of one run and the effort, low-passed alike and at the rate of the regression.
 pub(crate) struct Evaluated {
     /// `[hypothesis][weight]`.
@@ -25,47 +147,27 @@ pub(crate) struct Evaluated {
     name: String,
     time: Vec<f64>,
     measured: Vec<Vec<f64>>,
+    known: Vec<Vec<f64>>,
     nominal: Vec<Vec<f64>>,
     state: [Vec<Vec<f64>>; 3],
 }
 
 impl Evaluated {
-    /// Evaluates `hypotheses` about `robot` along `run`.
+    /// Evaluates `hypotheses` along a run.
     ///
     /// Every signal passes the same filter: effort, nominal effort and columns.
-    pub fn new(
-        robot: &Robot,
-        frame: &Frame,
-        run: &PreparedRun,
-        cutoff_hz: f64,
-        hypotheses: &[Hypothesis],
-    ) -> Result<Self, LogError> {
-        let first = stride(run.rate_hz, EVALUATION_RATE * cutoff_hz);
-        let rate = run.rate_hz / first as f64;
-        let second = stride(rate, REGRESSION_RATE * cutoff_hz);
-        let parallel = LowPass::new(ORDER, cutoff_hz, rate)?;
-        let finish = |mut x: Vec<f64>| {
-            parallel.apply(&mut x);
-            decimate(&x, second)
-        };
-        let signals = |pick: fn(&PreparedJoint) -> &Vec<f64>| -> Vec<Vec<f64>> {
-            run.joints.iter().map(|j| decimate(pick(j), first)).collect()
-        };
-        let state = [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)];
-        let motion = Motion::new(robot, frame, state, &signals(|j| &j.qd_wide), rate.recip());
-        let filtered = |mut column: Column| {
-            column.iter_mut().for_each(|p| p.values = finish(std::mem::take(&mut p.values)));
-            column
-        };
-        let columns = |h: &Hypothesis| h.columns(&motion).into_iter().map(filtered).collect();
-        let measured = efforts(run, cutoff_hz, first)?.into_iter().map(finish).collect();
+    pub fn new(along: &Along, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
+        let motion = &along.motion;
+        let [first, second] = along.strides;
+        let columns = |h: &Hypothesis| along.finished(h.columns(motion));
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
-            rate_hz: rate / second as f64,
-            name: run.name.clone(),
-            time: decimate(&decimate(&run.time, first), second),
-            measured,
-            nominal: motion.effort.iter().map(|e| finish(e.clone())).collect(),
+            rate_hz: along.rate_hz,
+            name: along.run.name.clone(),
+            time: decimate(&decimate(&along.run.time, first), second),
+            measured: along.measured()?,
+            known: along.known()?,
+            nominal: motion.effort.iter().map(|e| along.finish(e.clone())).collect(),
             state: [&motion.q, &motion.qd, &motion.qdd]
                 .map(|s| s.iter().map(|x| decimate(x, second)).collect()),
         })
@@ -84,6 +186,7 @@ impl Evaluated {
             JointDesign {
                 x,
                 measured: self.measured[j].clone(),
+                known: self.known[j].clone(),
                 nominal: self.nominal[j].clone(),
                 state: [0, 1, 2].map(|s| self.state[s][j].clone()),
             }
@@ -91,20 +194,6 @@ impl Evaluated {
         let joints = (0..local.len()).map(joint).collect();
         RunDesign { name: self.name.clone(), time: self.time.clone(), joints }
     }
-}
-
-/// The efforts at the evaluation rate. Where that is below the log's, noise is kept from
-/// folding into the band by a filter that leaves the band itself alone (1e-5 at the cut-off).
-fn efforts(run: &PreparedRun, cutoff_hz: f64, stride: usize) -> Result<Vec<Vec<f64>>, LogError> {
-    let mut efforts: Vec<_> = run.joints.iter().map(|j| j.effort.clone()).collect();
-    if stride > 1 {
-        let filter = LowPass::new(ORDER, 4.0 * cutoff_hz, run.rate_hz)?;
-        efforts.par_iter_mut().for_each(|e| {
-            filter.apply(e);
-            *e = decimate(e, stride);
-        });
-    }
-    Ok(efforts)
 }
 
 fn stride(rate: f64, wanted: f64) -> usize {

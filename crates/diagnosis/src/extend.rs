@@ -1,29 +1,38 @@
 use catalogue::EffectKind;
-use logs::{LogError, Prepared};
+use effects::Hypothesis;
+use logs::LogError;
 use robot::Robot;
 
 use crate::design::Design;
 use crate::gram::Grams;
+use crate::log::Log;
 use crate::problem::{Model, Problem};
 use crate::settle::settle;
+use crate::uncertainty::Fitted;
 
-/// Rounds of fitting anew about the extended robot.
-const ROUNDS: usize = 2;
+/// Most rounds of fitting anew about the extended robot.
+const ROUNDS: usize = 8;
+
+/// Relative fall of what is left below which a round has changed nothing.
+const SETTLED: f64 = 1e-4;
 
 /// Whether the columns of an effect are those of a small change only, or follow from what the
 /// other findings change.
 fn is_tangent(kind: EffectKind) -> bool {
-    is_made_of_torque(kind)
-        || matches!(kind, EffectKind::TorqueConstant | EffectKind::GravityDirection)
+    is_doubtful(kind) || matches!(kind, EffectKind::TorqueConstant | EffectKind::GravityDirection)
 }
 
 /// Whether the columns of an effect are made of the model's own torque, which is wrong wherever
-/// something else is.
-pub(crate) fn is_made_of_torque(kind: EffectKind) -> bool {
+/// something else is, or have a shape that was chosen among many.
+pub(crate) fn is_doubtful(kind: EffectKind) -> bool {
     use EffectKind as K;
     matches!(
         kind,
-        K::LoadDependentFriction
+        K::StribeckFriction
+            | K::PreslidingFriction
+            | K::PositionDependentFriction
+            | K::DifferentialCoupling
+            | K::LoadDependentFriction
             | K::EncoderOffset
             | K::TransmissionRatio
             | K::Backlash
@@ -45,29 +54,80 @@ pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &
     changed
 }
 
+/// The fit about a robot that already has the findings, where columns are tangents only.
+#[derive(Debug)]
+pub(crate) struct Refit {
+    /// The robot that it is about.
+    pub about: Robot,
+    pub design: Design,
+    pub grams: Grams,
+    pub model: Model,
+    /// What is still changed.
+    pub weights: Vec<f64>,
+}
+
+/// The robot with the findings of a model.
+#[derive(Debug)]
+pub(crate) struct Solved {
+    /// Weights of the model about the robot without them.
+    pub weights: Vec<f64>,
+    pub robot: Robot,
+    /// None where every column is the same however large the effect.
+    pub refit: Option<Refit>,
+}
+
+impl Solved {
+    /// What `tell` says of the last fit: `first` is the one about the robot without findings.
+    pub fn tell<T>(&self, first: &Fitted, tell: impl FnOnce(&Fitted) -> T) -> T {
+        let Some(Refit { about, design, grams, model, weights }) = &self.refit else {
+            return tell(first);
+        };
+        let Problem { blocks, of, weight, .. } = first.problem;
+        let problem = Problem::new(design, blocks, grams, of, weight.clone());
+        tell(&Fitted { problem: &problem, model, weights, about, nominal: first.nominal })
+    }
+}
+
 /// The robot changed by the weights of a model, with what is left of the changes fitted
 /// again about it where columns are tangents only: a gain scales what the other findings
-/// add, and a tilt turns gravity on a circle. A Gauss-Newton iteration.
-pub(crate) fn extended_anew(
+/// add, and a tilt turns gravity on a circle. A Gauss-Newton iteration, which ends where it
+/// gets no better.
+pub(crate) fn solved(
     robot: &Robot,
-    prepared: &Prepared,
+    log: &Log,
     problem: &Problem,
-    (model, weights): (&Model, &[f64]),
-) -> Result<Robot, LogError> {
-    let mut changed = extended(robot, problem.design, model, weights);
-    let tangent = |&g: &usize| is_tangent(problem.design.groups[g].hypothesis.kind);
-    if !model.iter().any(tangent) {
-        return Ok(changed);
+    model: &Model,
+) -> Result<Solved, LogError> {
+    let first = settle(problem, model, &problem.info, robot);
+    let mut changed = extended(robot, problem.design, model, &first);
+    let hypotheses: Vec<Hypothesis> =
+        model.iter().map(|&g| problem.design.groups[g].hypothesis).collect();
+    if !hypotheses.iter().any(|h| is_tangent(h.kind)) {
+        return Ok(Solved { weights: first, robot: changed, refit: None });
     }
+    let mut best: Option<(f64, Refit)> = None;
     for _ in 0..ROUNDS {
-        let design = Design::new(&changed, prepared, &problem.design.moved)?;
-        let same = model.iter().filter_map(|&g| design.find(problem.design.groups[g].hypothesis));
-        let model: Model = same.collect();
+        let design = Design::of(&changed, log, &hypotheses)?;
         let grams = Grams::new(&design, problem.blocks);
+        let model: Model = (0..design.groups.len()).collect();
         let weight = problem.weight.clone();
         let about = Problem::new(&design, problem.blocks, &grams, &problem.of, weight);
+        let left = about.info.yy;
+        if let Some((_, known)) = best.as_mut().filter(|(least, _)| left >= *least) {
+            known.weights.fill(0.0);
+            break;
+        }
         let weights = settle(&about, &model, &about.info, &changed);
-        changed = extended(&changed, &design, &model, &weights);
+        let next = extended(&changed, &design, &model, &weights);
+        let about = std::mem::replace(&mut changed, next);
+        let better = best.as_ref().is_none_or(|(least, _)| left < (1.0 - SETTLED) * least);
+        best = Some((left, Refit { about, design, grams, model, weights }));
+        if !better {
+            break;
+        }
     }
-    Ok(changed)
+    let refit = best.map(|(_, refit)| refit);
+    let robot =
+        refit.as_ref().map_or(changed, |r| extended(&r.about, &r.design, &r.model, &r.weights));
+    Ok(Solved { weights: first, robot, refit })
 }

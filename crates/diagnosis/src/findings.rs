@@ -1,5 +1,5 @@
 use catalogue::EffectKind;
-use effects::Hypothesis;
+use effects::{Hypothesis, Place};
 use robot::Robot;
 
 use crate::problem::{HeldOut, Model, Problem};
@@ -8,7 +8,7 @@ use crate::rivals::rivals;
 use crate::select::Selection;
 use crate::significance::Significance;
 use crate::stability::stability;
-use crate::uncertainty::Uncertainty;
+use crate::uncertainty::{Fitted, Uncertainty};
 
 /// A finding together with what the verdict of each joint needs to know of it.
 #[derive(Debug, Clone)]
@@ -24,31 +24,30 @@ pub(crate) struct Evidence<'a> {
     pub selection: &'a Selection<'a>,
     pub model: &'a Model,
     pub significance: &'a Significance,
-    /// Weights that made the extended robot.
-    pub weights: &'a [f64],
-    /// The robot with the findings.
-    pub extended: &'a Robot,
     pub seed: u64,
 }
 
 impl Evidence<'_> {
-    /// Every hypothesis of the model as a finding, the largest share first.
-    pub fn findings(&self) -> Vec<Found> {
+    /// Every hypothesis of the model as a finding, with its size as it was last `fitted`; the
+    /// largest share first.
+    pub fn findings(&self, fitted: &Fitted) -> Vec<Found> {
         let problem = self.selection.problem;
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
-        let uncertainty = Uncertainty::new(problem, &fit, self.weights);
+        let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
         let with = problem.held_out(self.model);
         let nominal = problem.held_out(&Model::new());
         let stable = stability(problem, self.model, self.seed);
         let mut found: Vec<Found> = stable
             .into_iter()
+            .filter(|(g, _)| self.bearer(*g).is_none())
             .map(|(g, stability)| {
                 let mut without = self.model.clone();
                 without.remove(&g);
+                without.retain(|&level| self.bearer(level) != Some(g));
                 let bare = problem.held_out(&without);
                 let fall: Vec<f64> =
                     bare.mean_square.iter().zip(&with.mean_square).map(|(b, w)| b - w).collect();
-                let mut finding = self.finding(g, &uncertainty, [&nominal, &bare, &with]);
+                let mut finding = self.finding(g, (&uncertainty, fitted), [&nominal, &bare, &with]);
                 finding.stability = stability;
                 let loss = problem.fit(&without).map_or(0.0, |f| fit.evidence - f.evidence);
                 finding.evidence = self.evidence(g, loss, &bare, &with);
@@ -59,10 +58,36 @@ impl Evidence<'_> {
         found
     }
 
+    /// The finding that speaks for `g` as well: the first one of the model that says how the
+    /// level of Coulomb friction of the same joint varies.
+    fn bearer(&self, g: usize) -> Option<usize> {
+        let hypothesis = |g: usize| self.selection.problem.design.groups[g].hypothesis;
+        let bears = |m: &usize| hypothesis(*m).varies() == Some(hypothesis(g));
+        self.model.iter().copied().find(bears)
+    }
+
+    /// Forms of dry friction that these logs could not show beside Coulomb friction `g`, were
+    /// they half as large as its level.
+    fn hidden_beside(&self, g: usize, fitted: &Fitted) -> Vec<usize> {
+        use EffectKind as K;
+        let problem = self.selection.problem;
+        let design = problem.design;
+        let Hypothesis { kind, place } = design.groups[g].hypothesis;
+        let (K::CoulombFriction, Place::Joint(j)) = (kind, place) else { return Vec::new() };
+        let Some(fit) = problem.fit(self.model) else { return Vec::new() };
+        let extended = fitted.robot();
+        let drive = &extended.links()[j].actuator;
+        let least = 0.5 * drive.coulomb_forward.min(drive.coulomb_backward);
+        let too_small = |h: &usize| self.smallest(*h, &fit).is_none_or(|smallest| smallest > least);
+        let forms = [K::StribeckFriction, K::PreslidingFriction];
+        let forms = forms.map(|kind| design.find(Hypothesis { kind, place }));
+        forms.into_iter().flatten().filter(|h| !self.model.contains(h)).filter(too_small).collect()
+    }
+
     fn finding(
         &self,
         g: usize,
-        uncertainty: &Uncertainty,
+        (uncertainty, fitted): (&Uncertainty, &Fitted),
         [nominal, bare, with]: [&HeldOut; 3],
     ) -> Finding {
         let (problem, robot) = (self.selection.problem, self.selection.robot);
@@ -72,16 +97,15 @@ impl Evidence<'_> {
         let share = |whole: f64| {
             if whole > 0.0 { ((without - after) / whole).clamp(0.0, 1.0) } else { 0.0 }
         };
-        let rivals = rivals(self.selection, self.model, g);
-        let (wide, all) = uncertainty.undetermined(problem, g);
+        let mut rivals = rivals(self.selection, self.model, g);
+        rivals.extend(self.hidden_beside(g, fitted));
+        let hypothesis = |m: &usize| problem.design.groups[*m].hypothesis;
+        let level: Vec<Hypothesis> =
+            self.model.iter().filter(|m| self.bearer(**m) == Some(g)).map(hypothesis).collect();
+        let (wide, all) = uncertainty.undetermined(fitted.problem, group.hypothesis);
         Finding {
             at: effect_at(robot, group.hypothesis),
-            parameters: uncertainty.estimates(
-                problem,
-                self.model,
-                g,
-                (robot, self.extended, self.weights),
-            ),
+            parameters: uncertainty.estimates(fitted, group.hypothesis, &level),
             share_explained: share(before),
             q_value: self.significance.q[g].unwrap_or(1.0),
             held_out_gain: share(without),

@@ -1,10 +1,10 @@
-use logs::{LogError, Prepared};
+use logs::LogError;
 use rayon::prelude::*;
+use robot::Robot;
 
 use crate::blocks::Fold;
-use crate::extend::extended_anew;
 use crate::held_out::{HeldOut, spans};
-use crate::problem::Problem;
+use crate::problem::{Model, Problem};
 use crate::progress::Progress;
 use crate::result::{FoldGain, InverseGain};
 use crate::search::Record;
@@ -21,23 +21,25 @@ pub(crate) struct HeldOutGain {
     pub parts: Vec<HeldOut>,
 }
 
+/// Makes the robot of what a search came to.
+pub(crate) type Make<'a> = &'a (dyn Fn(&Problem, &Model) -> Result<Robot, LogError> + Sync);
+
 impl HeldOutGain {
     /// Searches anew without each fold of `whole`, predicts that fold, and makes the robot of
-    /// each search where the logs behind the columns are given.
+    /// each search where it is told how.
     pub fn new(
         record: &Record,
         whole: &Problem,
-        prepared: Option<&Prepared>,
+        make: Option<Make>,
         progress: &dyn Progress,
     ) -> Result<Self, LogError> {
         progress.stage("testing on held-out data", whole.folds.len());
         let without = |fold: &Fold| {
             let (problem, model) = record.search(&fold.train);
             let weights = settle(&problem, &model, &problem.info, record.robot);
-            let part = prepared.map(|prepared| {
-                let settled = (&model, weights.as_slice());
-                let extended = extended_anew(record.robot, prepared, &problem, settled)?;
+            let part = make.map(|make| {
                 let spans = |of: &[usize]| spans(record.design, record.blocks, of);
+                let extended = make(&problem, &model)?;
                 Ok(HeldOut { test: spans(&fold.test), train: spans(&fold.train), extended })
             });
             progress.step();
@@ -53,7 +55,6 @@ impl HeldOutGain {
 
 fn inverse(record: &Record, whole: &Problem, weights: &[Vec<f64>]) -> InverseGain {
     let joints = record.design.joints();
-    let nothing = vec![0.0; record.design.width];
     let rms = |blocks: &[usize], w: &[f64]| -> Vec<f64> {
         let of = |j| {
             let (sum, n) = record.grams.remaining(j, blocks, w);
@@ -61,15 +62,17 @@ fn inverse(record: &Record, whole: &Problem, weights: &[Vec<f64>]) -> InverseGai
         };
         (0..joints).map(of).collect()
     };
+    let before =
+        |blocks: &[usize]| -> Vec<f64> { (0..joints).map(|j| gap(record, blocks, j)).collect() };
     let fold = |(f, fold): (usize, &Fold)| FoldGain {
         name: name(whole, f),
         torque_rms_nm: (0..joints).map(|j| measured(record, &fold.test, j).0).collect(),
-        rms_before_nm: rms(&fold.test, &nothing),
+        rms_before_nm: before(&fold.test),
         rms_after_nm: rms(&fold.test, &weights[f]),
     };
     let folds: Vec<FoldGain> = whole.folds.iter().enumerate().map(fold).collect();
     let after = whole.held_out_with(|f| weights[f].clone()).mean_square;
-    let before = whole.held_out_with(|_| nothing.clone()).mean_square;
+    let before: Vec<f64> = before(&whole.of).iter().map(|rms| rms * rms).collect();
     let nmse = |mean_square: &[f64]| {
         (0..joints).map(|j| mean_square[j] / measured(record, &whole.of, j).1).collect()
     };
@@ -105,6 +108,18 @@ fn held_out(whole: &Problem) -> String {
     } else {
         format!("each of {count} groups of runs in turn; causes and sizes found on the others")
     }
+}
+
+/// RMS of measured minus nominal effort of joint `j` over some blocks.
+fn gap(record: &Record, blocks: &[usize], j: usize) -> f64 {
+    let joint =
+        |b: &usize| (&record.blocks[*b], &record.design.runs[record.blocks[*b].run].joints[j]);
+    let gaps = blocks
+        .iter()
+        .map(joint)
+        .flat_map(|(block, joint)| joint.gap().skip(block.samples.start).take(block.samples.len()));
+    let (n, sum) = gaps.fold((0_usize, 0.0), |(n, sum), gap| (n + 1, sum + gap * gap));
+    (sum / n.max(1) as f64).sqrt()
 }
 
 /// RMS and variance of the measured effort of joint `j` over some blocks.

@@ -76,10 +76,8 @@ impl Grams {
         let joint = |block: &Block, j: usize| {
             let signals = &design.runs[block.run].joints[j];
             let x = signals.x.rows_range(block.samples.clone());
-            let y: DVector<f64> = DVector::from_iterator(
-                block.samples.len(),
-                block.samples.clone().map(|t| signals.measured[t] - signals.nominal[t]),
-            );
+            let y = signals.residual().skip(block.samples.start).take(block.samples.len());
+            let y: DVector<f64> = DVector::from_iterator(block.samples.len(), y);
             let x = x.into_owned();
             let xt = x.transpose();
             JointGram { xx: &xt * &x, xy: &xt * &y, yy: y.norm_squared(), count: y.len() }

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use crate::blocks::{Block, Fold, Folding, folds};
 use crate::design::Design;
+use crate::extend::is_doubtful;
 use crate::fit::Fit;
 use crate::gram::{Grams, Information};
 use crate::noise::Noise;
@@ -179,8 +180,9 @@ impl<'a> Problem<'a> {
         Noise::of(&self.held_out_residuals(|_| weights.clone()))
     }
 
-    /// The model of every hypothesis at once.
+    /// The model of every hypothesis at once, but those that may pass for others.
     pub fn everything(&self) -> Model {
-        (0..self.design.groups.len()).collect()
+        let groups = &self.design.groups;
+        (0..groups.len()).filter(|&g| !is_doubtful(groups[g].hypothesis.kind)).collect()
     }
 }

@@ -173,6 +173,24 @@ pub struct Finding {
     pub undetermined: Vec<String>,
 }
 
+impl Finding {
+    /// What it may as well be: other causes, and forms of the same dry friction that differ near
+    /// rest only, such as `FR04 Stribeck friction`.
+    pub fn rivals(&self) -> (Vec<String>, Vec<String>) {
+        use EffectKind::{CoulombFriction, PreslidingFriction, StribeckFriction};
+        let own = self.at.effect == CoulombFriction;
+        let is_form = |r: &&EffectAt| {
+            let near_rest = matches!(r.effect, StribeckFriction | PreslidingFriction);
+            own && near_rest && r.joint == self.at.joint
+        };
+        let (forms, others): (Vec<_>, Vec<_>) = self.not_separable_from.iter().partition(is_form);
+        (
+            others.into_iter().map(EffectAt::words).collect(),
+            forms.into_iter().map(|r| r.effect.label()).collect(),
+        )
+    }
+}
+
 /// Structure left at a joint.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Unexplained {

@@ -37,6 +37,16 @@ impl Evidence<'_> {
         }
     }
 
+    /// The smallest weight of the first column of `g` that would have been found; none where the
+    /// log shows no such column.
+    pub fn smallest(&self, g: usize, fit: &Fit) -> Option<f64> {
+        let problem = self.selection.problem;
+        let columns = problem.new_columns(self.model, g);
+        let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
+        let errors = standard_errors(problem, fit, &complement);
+        errors.first().map(|error| DETECTED_AT * error)
+    }
+
     /// The parameter that the logs show best with the smallest size of it that would have
     /// been found, and why the hypothesis is no finding.
     fn judge(&self, g: usize, fit: &Fit) -> (Option<(usize, f64)>, String) {

@@ -4,7 +4,7 @@ use catalogue::EffectKind;
 use effects::{Hypothesis, Place};
 use robot::Robot;
 
-use crate::extend::is_made_of_torque;
+use crate::extend::is_doubtful;
 use crate::fit::Fit;
 use crate::problem::{HeldOut, Model, Problem};
 use crate::settle::settle;
@@ -12,12 +12,15 @@ use crate::settle::settle;
 /// Least gain in log evidence for a hypothesis to enter or stay: odds of 20 to 1.
 const LEAST_EVIDENCE: f64 = 3.0;
 
-/// The same for an effect that is made of the model's own torque, which is wrong wherever
-/// something else is.
-const LEAST_EVIDENCE_OF_TORQUE: f64 = 10.0;
+/// The same for an effect that some error elsewhere, or one of many trial shapes, may pass for.
+const LEAST_EVIDENCE_OF_DOUBTFUL: f64 = 10.0;
 
 /// Least share of what a link's inertia explains that a physical inertia must explain.
 const KEPT_BY_BODIES: f64 = 0.9;
+
+/// Fall of a joint's held-out mean square that counts, as a share of what was left, however
+/// small that is.
+const SHARE_OF_REST: f64 = 0.25;
 
 /// Rounds of entering, exchanging and leaving before the search is called settled.
 const ROUNDS: usize = 4;
@@ -54,7 +57,8 @@ impl Selection<'_> {
     /// Names a disputed cause by its plainer rival, where that has as much evidence: Coulomb
     /// friction with a torque offset for asymmetric friction (they differ only at
     /// standstill), rotor inertia for the inertia of the link behind the same joint, a torque
-    /// constant for a gear ratio, Coulomb friction for one that grows with the load.
+    /// constant for a gear ratio, Coulomb friction for one that grows with the load, friction of
+    /// each joint for that of motors they share.
     fn plainer(&self, model: &mut Model) {
         for g in model.clone() {
             let plain = self.plainer_than(g);
@@ -75,8 +79,9 @@ impl Selection<'_> {
 
     fn plainer_than(&self, g: usize) -> Vec<usize> {
         use EffectKind::{
-            AsymmetricFriction, CoulombFriction, InertialParameters, LoadDependentFriction,
-            RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
+            AsymmetricFriction, CoulombFriction, DifferentialCoupling, InertialParameters,
+            LoadDependentFriction, RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
+            ViscousFriction,
         };
         let design = self.problem.design;
         let Hypothesis { kind, place } = design.groups[g].hypothesis;
@@ -86,6 +91,13 @@ impl Selection<'_> {
             }
             (InertialParameters, Place::Link(j)) => {
                 vec![Hypothesis { kind: RotorInertia, place: Place::Joint(j) }]
+            }
+            (DifferentialCoupling, _) => {
+                let joints = design.groups[g].joints.iter().map(|&j| Place::Joint(j));
+                let both = |place| {
+                    [CoulombFriction, ViscousFriction].map(|kind| Hypothesis { kind, place })
+                };
+                joints.flat_map(both).collect()
             }
             (TransmissionRatio, _) => vec![Hypothesis { kind: TorqueConstant, place }],
             (LoadDependentFriction, _) => vec![Hypothesis { kind: CoulombFriction, place }],
@@ -114,6 +126,8 @@ impl Selection<'_> {
             let prior = &self.problem.design.prior;
             if columns.is_empty() || self.is_excluded(model, g) {
                 f64::NEG_INFINITY
+            } else if self.kind(g) == EffectKind::DifferentialCoupling {
+                self.beyond_the_plain(model, g)
             } else {
                 fit.evidence_of(&self.problem.info, &columns, prior)
             }
@@ -126,10 +140,23 @@ impl Selection<'_> {
         ranked.into_iter().map(|(g, _)| g).collect()
     }
 
+    /// What `g` adds to the log evidence of the model with all its plainer rivals: friction of
+    /// shared motors is also that of each joint by itself.
+    fn beyond_the_plain(&self, model: &Model, g: usize) -> f64 {
+        let mut plain = model.clone();
+        plain.extend(self.plainer_than(g));
+        let Some(fit) = self.problem.fit(&plain) else { return f64::NEG_INFINITY };
+        let columns = self.problem.new_columns(&plain, g);
+        fit.evidence_of(&self.problem.info, &columns, &self.problem.design.prior)
+    }
+
+    fn kind(&self, g: usize) -> EffectKind {
+        self.problem.design.groups[g].hypothesis.kind
+    }
+
     /// Least gain in log evidence for hypothesis `g`.
     fn least_evidence(&self, g: usize) -> f64 {
-        let kind = self.problem.design.groups[g].hypothesis.kind;
-        if is_made_of_torque(kind) { LEAST_EVIDENCE_OF_TORQUE } else { LEAST_EVIDENCE }
+        if is_doubtful(self.kind(g)) { LEAST_EVIDENCE_OF_DOUBTFUL } else { LEAST_EVIDENCE }
     }
 
     /// Whether the model already holds another name for the same change, unless `g` says
@@ -173,11 +200,14 @@ impl Selection<'_> {
         changes && group.hypothesis.admissible(self.robot, &own)
     }
 
-    /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`.
+    /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`: by
+    /// what counts in practice, or by a share of what was left.
     fn pays(&self, before: &HeldOut, larger: &Model, g: usize) -> bool {
         let after = self.problem.held_out(larger);
-        let fall = |&j: &usize| before.mean_square[j] - after.mean_square[j];
-        let enough = |j: &usize| fall(j) > self.practical[*j].powi(2);
+        let enough = |&j: &usize| {
+            let fall = before.mean_square[j] - after.mean_square[j];
+            fall > self.practical[j].powi(2).min(SHARE_OF_REST * before.mean_square[j])
+        };
         after.total() < before.total() && self.problem.design.groups[g].joints.iter().any(enough)
     }
 

@@ -1,37 +1,41 @@
-use logs::Prepared;
+use effects::weeded;
 use robot::Robot;
 
 use crate::blocks::{Block, FEWEST_BLOCKS, Folding, blocks};
 use crate::design::Design;
 use crate::error::DiagnosisError;
-use crate::extend::extended_anew;
+use crate::extend::{Solved, solved};
 use crate::extent::range;
 use crate::findings::{Evidence, Found};
 use crate::floor::Floors;
-use crate::gain::{HeldOutGain, measured};
+use crate::gain::{HeldOutGain, Make, measured};
 use crate::gram::Grams;
 use crate::held_out::HeldOut;
+use crate::log::Log;
 use crate::noise::integrated_time;
-use crate::problem::Problem;
+use crate::problem::{Model, Problem};
 use crate::progress::Progress;
 use crate::result::{
-    DataSummary, Diagnosis, Gain, JointReport, RuledOut, SCHEMA, Unexplained, Verdict,
+    DataSummary, Diagnosis, Finding, Gain, JointReport, RuledOut, SCHEMA, Unexplained, Verdict,
 };
 use crate::search::Record;
 use crate::settings::{HeldOutRobots, Settings};
-use crate::settle::settle;
 use crate::significance::significant;
 use crate::structure::{Probe, Structure};
+use crate::tone_finding::tone_finding;
 use crate::traces::{RunTraces, traces};
-use crate::uncertainty::undecided;
+use crate::uncertainty::{Fitted, untenable};
 use crate::verdict::{Situation, overall};
 
 /// Everything a diagnosis looks at, once the logs are prepared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Study<'a> {
+    /// The robot as it was described.
+    pub nominal: &'a Robot,
+    /// The same with the germs of effects, which the design is about.
     pub robot: &'a Robot,
     pub settings: &'a Settings,
-    pub prepared: &'a Prepared,
+    pub log: Log<'a>,
     pub design: &'a Design,
     /// Why the logs say nothing of a joint.
     pub inadequate: &'a [Option<String>],
@@ -72,6 +76,23 @@ impl Study<'_> {
         let diagnosis = self.report(&record, &answer);
         let traces = traces(self.design, &answer.by_run, &answer.gain.weights);
         Ok((diagnosis, traces, answer.extended, answer.gain.parts))
+    }
+
+    /// The robot with what a search over the whole record finds, before any test of it.
+    pub fn extended(&self) -> Result<Robot, DiagnosisError> {
+        let blocks = self.blocks()?;
+        let grams = Grams::new(self.design, &blocks);
+        let practical = self.practical();
+        let record = Record {
+            robot: self.robot,
+            design: self.design,
+            blocks: &blocks,
+            grams: &grams,
+            practical: &practical,
+        };
+        let all: Vec<usize> = (0..blocks.len()).collect();
+        let (problem, model) = record.search(&all);
+        Ok(solved(self.robot, &self.log, &problem, &model)?.robot)
     }
 
     /// Blocks of at least five autocorrelation times of what a model of everything leaves.
@@ -117,33 +138,65 @@ impl Study<'_> {
         let (problem, model) = record.search(&all);
         progress.step();
         let (mut model, mut significance) = significant(&problem, model, self.settings);
-        let (weights, extended) = loop {
-            let weights = settle(&problem, &model, &problem.info, self.robot);
-            let settled = (&model, weights.as_slice());
-            let extended = extended_anew(self.robot, self.prepared, &problem, settled)?;
-            let sized = (self.robot, &extended, weights.as_slice());
-            let Some(open) = undecided(&problem, &model, sized) else { break (weights, extended) };
+        let solution = loop {
+            let solution = solved(self.robot, &self.log, &problem, &model)?;
+            let first = self.fitted(&problem, &model, &solution);
+            let open = solution.tell(&first, |fitted| untenable(&problem, &model, fitted));
+            let Some(open) = open else { break solution };
             model.remove(&open);
             (model, significance) = significant(&problem, model, self.settings);
         };
         progress.step();
         let by_run = problem.refolded(Folding::ByRun);
-        let gain = HeldOutGain::new(record, &by_run, self.behind_parts(), progress)?;
+        let make = |problem: &Problem, model: &Model| {
+            Ok(self.finished(solved(self.robot, &self.log, problem, model)?.robot))
+        };
+        let make = (self.settings.held_out == HeldOutRobots::Made).then_some(&make as Make);
+        let gain = HeldOutGain::new(record, &by_run, make, progress)?;
         let evidence = Evidence {
             selection: &record.selection(&problem),
             model: &model,
             significance: &significance,
-            weights: &weights,
-            extended: &extended,
             seed: self.settings.seed,
         };
-        let (found, ruled_out) = (evidence.findings(), evidence.ruled_out());
+        let first = self.fitted(&problem, &model, &solution);
+        let found = solution.tell(&first, |fitted| evidence.findings(fitted));
+        let ruled_out = evidence.ruled_out();
+        let extended = self.finished(solution.robot.clone());
         let hypotheses = significance.count();
         Ok(Answer { problem, by_run, extended, found, ruled_out, hypotheses, gain })
     }
 
+    /// A robot without the germs of effects that it has not got, and with what was heard.
+    fn finished(&self, robot: Robot) -> Robot {
+        let mut finished = weeded(robot, self.nominal);
+        self.log.tones.iter().for_each(|tone| tone.extend(&mut finished));
+        self.log.limits.iter().for_each(|limit| limit.extend(&mut finished));
+        finished
+    }
+
+    /// What is found by the search and by listening, the largest share first.
+    fn findings(&self, answer: &Answer) -> Vec<Finding> {
+        let heard = self.log.tones.iter().map(|tone| tone_finding(self.nominal, tone));
+        let limited = self.log.limits.iter().map(|limit| limit.finding(self.nominal));
+        let mut findings: Vec<Finding> =
+            answer.found.iter().map(|f| f.finding.clone()).chain(heard).chain(limited).collect();
+        findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
+        findings
+    }
+
+    fn fitted<'b>(
+        &'b self,
+        problem: &'b Problem<'b>,
+        model: &'b Model,
+        solution: &'b Solved,
+    ) -> Fitted<'b> {
+        let Self { robot: about, nominal, .. } = *self;
+        Fitted { problem, model, weights: &solution.weights, about, nominal }
+    }
+
     fn report(&self, record: &Record, answer: &Answer) -> Diagnosis {
-        let floors = Floors::new(self.design, self.prepared);
+        let floors = Floors::new(self.design, self.log.prepared);
         let reports: Vec<(JointReport, Structure)> =
             (0..self.design.joints()).map(|j| self.joint(record, answer, &floors, j)).collect();
         let unexplained = reports.iter().filter_map(unexplained).collect();
@@ -153,7 +206,7 @@ impl Study<'_> {
             robot: self.robot.name().to_owned(),
             verdict: overall(&joints.iter().map(|j| j.verdict).collect::<Vec<_>>()),
             joints,
-            findings: answer.found.iter().map(|f| f.finding.clone()).collect(),
+            findings: self.findings(answer),
             unexplained,
             ruled_out: answer.ruled_out.clone(),
             gain: Gain { inverse: answer.gain.inverse.clone() },
@@ -184,10 +237,12 @@ impl Study<'_> {
         let remaining_rms = inverse.rms_after_nm[j];
         let (floor, source) =
             floors.choose(j, remaining_rms * (1.0 - structure.share).sqrt(), time);
+        let tones = self.log.tones.iter().filter(|t| t.joint == j).count();
+        let limits = self.log.limits.iter().filter(|l| l.joint == j).count();
         let lowered = |f: &&Found| f.fall[j] > record.practical[j].powi(2);
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
-            findings: answer.found.iter().filter(lowered).count(),
+            findings: answer.found.iter().filter(lowered).count() + tones + limits,
             torque_rms,
             nominal_rms: inverse.rms_before_nm[j],
             remaining_rms,
@@ -207,14 +262,9 @@ impl Study<'_> {
             noise_floor_from: source,
             autocorrelation_time_s: time / self.design.rate_hz,
             effective_samples: samples / time,
-            range: range(self.prepared, j),
+            range: range(self.log.prepared, j),
         };
         (report, Structure { share: situation.unexplained(), ..structure })
-    }
-
-    /// The logs, if the robot of every held-out part is to be made.
-    fn behind_parts(&self) -> Option<&Prepared> {
-        (self.settings.held_out == HeldOutRobots::Made).then_some(self.prepared)
     }
 
     /// What the extended model leaves at joint `j` where it was held out, `[run][sample]`.
@@ -227,8 +277,8 @@ impl Study<'_> {
         let samples: usize = self.design.runs.iter().map(|r| r.time.len()).sum();
         DataSummary {
             runs: Vec::new(),
-            cutoff_hz: self.prepared.cutoff_hz,
-            cutoff_reason: self.prepared.cutoff_reason.clone(),
+            cutoff_hz: self.log.prepared.cutoff_hz,
+            cutoff_reason: self.log.prepared.cutoff_reason.clone(),
             regression_rate_hz: self.design.rate_hz,
             block_s: samples as f64 / record.blocks.len() as f64 / self.design.rate_hz,
             blocks: record.blocks.len(),

@@ -1,5 +1,5 @@
 use catalogue::EffectKind;
-use effects::Quantity;
+use effects::{Hypothesis, Quantity};
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -29,9 +29,34 @@ pub(crate) struct Uncertainty {
     t: f64,
 }
 
+/// A model as it was last fitted, about a robot that may have the findings already.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fitted<'a> {
+    pub problem: &'a Problem<'a>,
+    pub model: &'a Model,
+    pub weights: &'a [f64],
+    /// The robot that the columns are about.
+    pub about: &'a Robot,
+    /// The robot as it was described.
+    pub nominal: &'a Robot,
+}
+
+impl Fitted<'_> {
+    /// The robot with what was fitted.
+    pub fn robot(&self) -> Robot {
+        extended(self.about, self.problem.design, self.model, self.weights)
+    }
+}
+
 impl Uncertainty {
+    /// The uncertainty of what was fitted.
+    pub fn of(fitted: &Fitted) -> Option<Self> {
+        let fit = fitted.problem.fit(fitted.model)?;
+        Some(Self::new(fitted.problem, &fit, fitted.weights))
+    }
+
     /// The uncertainty of `fit`, whose weights are used as they stand in `weights`.
-    pub fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
+    fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
         // Weights held at a bound are uncertain too, on the side that is possible.
         let held = fit.held.iter().map(|(k, _)| *k);
         let mut columns: Vec<usize> = fit.columns.iter().copied().chain(held).collect();
@@ -50,20 +75,23 @@ impl Uncertainty {
         Self { columns, likelihood, blocks, t }
     }
 
-    /// The parameters of `group` as the user reads them, with intervals.
+    /// The parameters of `hypothesis` as the user reads them, with intervals, where it and its
+    /// `parts` are fitted about a robot.
     pub fn estimates(
         &self,
-        problem: &Problem,
-        model: &Model,
-        group: usize,
-        (robot, changed, weights): (&Robot, &Robot, &[f64]),
+        fitted: &Fitted,
+        hypothesis: Hypothesis,
+        parts: &[Hypothesis],
     ) -> Vec<Estimate> {
-        let design = problem.design;
-        let hypothesis = design.groups[group].hypothesis;
-        let at = |w: &[f64]| hypothesis.quantities(robot, &extended(robot, design, model, w));
-        let here = hypothesis.quantities(robot, changed);
-        let linear = at(weights);
-        let own = &design.groups[group].columns;
+        let (design, weights) = (fitted.problem.design, fitted.weights);
+        let at = |w: &[f64]| {
+            let robot = extended(fitted.about, design, fitted.model, w);
+            hypothesis.quantities(fitted.nominal, &robot)
+        };
+        let here = at(weights);
+        let groups = parts.iter().chain([&hypothesis]).filter_map(|h| design.find(*h));
+        let own: Vec<usize> =
+            groups.flat_map(|g| design.groups[g].columns.iter().copied()).collect();
         let slopes: Vec<Vec<f64>> =
             own.iter().map(|&k| slope(&at, &here, weights, k, design.prior[k])).collect();
         let place: Vec<usize> =
@@ -72,12 +100,12 @@ impl Uncertainty {
             .enumerate()
             .map(|(i, quantity)| {
                 let gradient = DVector::from_iterator(own.len(), slopes.iter().map(|s| s[i]));
-                let prior = pick(&DVector::from_column_slice(&design.prior), own);
+                let prior = pick(&DVector::from_column_slice(&design.prior), &own);
                 let sd = self.sd(&place, &gradient);
                 let before = gradient.component_mul(&prior).norm();
                 let mut estimate = estimate(quantity, sd * self.t, before * self.t);
-                let at = (linear[i].value, weights);
-                clip(&mut estimate, (own, &gradient), &design.bounds, at);
+                let at = (quantity.value, weights);
+                clip(&mut estimate, (&own, &gradient), &design.bounds, at);
                 if hypothesis.kind == EffectKind::JointElasticity {
                     let half = self.t * self.sd(&place, &DVector::from_element(own.len(), 1.0));
                     estimate.ci95 = between(estimate.value.recip(), half);
@@ -98,8 +126,9 @@ impl Uncertainty {
 
     /// How many directions of the group's weights the data leave as wide as half the prior,
     /// and how many there are.
-    pub fn undetermined(&self, problem: &Problem, group: usize) -> (usize, usize) {
+    pub fn undetermined(&self, problem: &Problem, hypothesis: Hypothesis) -> (usize, usize) {
         let design = problem.design;
+        let Some(group) = design.find(hypothesis) else { return (0, 0) };
         let own = &design.groups[group].columns;
         let place: Vec<usize> =
             own.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
@@ -116,19 +145,21 @@ impl Uncertainty {
     }
 }
 
-/// A hypothesis with one weight none of whose parameters differs from its nominal value by
-/// more than its 95 per cent interval, if there is one: its size is not decided.
-pub(crate) fn undecided(
-    problem: &Problem,
-    model: &Model,
-    sized: (&Robot, &Robot, &[f64]),
-) -> Option<usize> {
-    let fit = problem.fit(model)?;
-    let uncertainty = Uncertainty::new(problem, &fit, sized.2);
-    let holds = |e: &Estimate| e.ci95[0] <= e.nominal && e.nominal <= e.ci95[1];
+/// A hypothesis that is not possible together with all others, or one with one weight none of
+/// whose parameters differs from its nominal value by more than its 95 per cent interval: its
+/// size is not decided. None if all stand.
+pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Option<usize> {
+    let uncertainty = Uncertainty::of(fitted)?;
+    let robot = fitted.robot();
+    let holds = |e: &Estimate| {
+        let rounding = 1e-9 * (e.ci95[1] - e.ci95[0]);
+        (e.ci95[0] - rounding..=e.ci95[1] + rounding).contains(&e.nominal)
+    };
     model.iter().copied().find(|&g| {
-        let single = problem.design.groups[g].columns.len() == 1;
-        single && uncertainty.estimates(problem, model, g, sized).iter().all(holds)
+        let group = &problem.design.groups[g];
+        let estimates = || uncertainty.estimates(fitted, group.hypothesis, &[]);
+        !group.hypothesis.is_sound(&robot)
+            || group.columns.len() == 1 && estimates().iter().all(holds)
     })
 }
 

@@ -19,7 +19,7 @@ const CROSSING_ACCELERATION: f64 = 1.0;
 /// tau_link  = M(q) qdd + C(q, qd) qd + g(q) + spring_stiffness (q - spring_rest)
 /// q_motor   = q + tau_link / elasticity + (backlash / 2) tanh(tau_link / tau_0)
 /// tau_motor = tau_link + rotor_inertia qdd_motor + viscous qd_motor + ripple(q_motor)
-///             + level(q_motor, qd_motor, tau_link) direction
+///             + level(q_motor, qd_motor, tau_link) direction + friction of shared motors(qd)
 /// direction = tanh(qd_motor / rest_speed)
 /// tau       = transmission_ratio torque_gain (tau_motor + lag d(tau_motor)/dt) + torque_offset
 /// q_seen    = q_motor / transmission_ratio + encoder_offset
@@ -72,6 +72,8 @@ pub struct CompensationWorkspace {
     tau_link: Vec<Vec<f64>>,
     /// Row-major n x n.
     mass_matrix: Vec<f64>,
+    /// Friction of motors that joints share, one entry a joint.
+    shared: Vec<f64>,
 }
 
 impl Compensated {
@@ -130,6 +132,7 @@ impl Compensation {
             dynamics: self.dynamics.workspace(),
             tau_link: vec![vec![0.0; n]; self.states_needed()],
             mass_matrix: vec![0.0; n * n],
+            shared: vec![0.0; n],
         }
     }
 
@@ -160,6 +163,7 @@ impl Compensation {
         if !self.drives.iter().all(is_rigid) {
             self.dynamics.mass_matrix_into(dynamics, q_now, &mut ws.mass_matrix);
         }
+        self.share(qd_now, &mut ws.shared);
         for (j, drive) in self.drives.iter().enumerate() {
             let tau_0 = CROSSING_ACCELERATION * ws.mass_matrix[j * n + j];
             let motor = |at: usize| {
@@ -173,6 +177,7 @@ impl Compensation {
                 (self.motor_torque(j, state, ws.tau_link[at][j]), lead)
             };
             let (mut tau_motor, [q_lead, qd_lead, _]) = motor(now);
+            tau_motor += ws.shared[j];
             if drive.lag_s > 0.0 {
                 tau_motor += drive.lag_s * rate(motor(now - 1).0, motor(now + 1).0);
             }
@@ -182,6 +187,22 @@ impl Compensation {
             let stretch = ratio.recip() - 1.0;
             out.q_lead[j] = seen * q_lead + drive.encoder_offset + stretch * q_now[j];
             out.qd_lead[j] = seen * qd_lead + stretch * qd_now[j];
+        }
+    }
+
+    /// Friction of the motors that joints share, at the velocities of the motion (N·m or N).
+    fn share(&self, qd: &[f64], shared: &mut [f64]) {
+        shared.fill(0.0);
+        for (j, drive) in self.drives.iter().enumerate() {
+            let Some(c) = drive.coupling else { continue };
+            let rest = self.rest_speed[j] + c.ratio * self.rest_speed[c.other];
+            for (k, way) in [c.ratio, -c.ratio].into_iter().enumerate() {
+                let speed = qd[j] + way * qd[c.other];
+                let direction = (speed / rest.max(f64::MIN_POSITIVE)).tanh();
+                let friction = c.viscous[k] * speed + c.level[k] * direction;
+                shared[j] += friction;
+                shared[c.other] += way * friction;
+            }
         }
     }
 

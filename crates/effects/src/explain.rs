@@ -1,5 +1,5 @@
 use catalogue::{EffectKind, Parameter};
-use robot::Robot;
+use robot::{Actuator, Robot};
 
 use crate::{Frame, Motion, Place, Scale};
 
@@ -43,6 +43,18 @@ pub trait Explain: Sync {
     /// Where it could act in this robot.
     fn places(&self, robot: &Robot) -> Vec<Place>;
 
+    /// Trial values of the parameter that its columns are not linear in, where the drive of
+    /// `joint` has none yet.
+    fn shapes(&self, joint: usize, robot: &Robot, scale: &Scale) -> Vec<f64> {
+        let _ = (joint, robot, scale);
+        Vec::new()
+    }
+
+    /// Gives the drive of `joint` the effect with one of its `shapes` and no size.
+    fn sow(&self, joint: usize, drive: &mut Actuator, shape: f64) {
+        let _ = (joint, drive, shape);
+    }
+
     /// One column a weight, for the motion of one run.
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column>;
 
@@ -55,6 +67,12 @@ pub trait Explain: Sync {
     /// Whether the robot changed by `weights`, each within its bounds, is possible.
     fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
         let _ = (place, robot, weights);
+        true
+    }
+
+    /// Whether the effect is possible in the robot that has it, all others included.
+    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
+        let _ = (place, extended);
         true
     }
 
@@ -85,6 +103,12 @@ pub(crate) fn every_joint(robot: &Robot) -> Vec<Place> {
     (0..robot.joint_count()).map(Place::Joint).collect()
 }
 
+/// The joints whose drive is such.
+pub(crate) fn joints_where(robot: &Robot, is_such: fn(&Actuator) -> bool) -> Vec<Place> {
+    let drives = robot.links().iter().enumerate();
+    drives.filter(|(_, link)| is_such(&link.actuator)).map(|(j, _)| Place::Joint(j)).collect()
+}
+
 /// The units of parameter `index` of `kind` at joint `joint`, and its name.
 pub(crate) fn named(
     kind: EffectKind,
@@ -103,7 +127,7 @@ pub(crate) fn actuator_quantity(
     index: usize,
     joint: usize,
     [nominal, extended]: [&Robot; 2],
-    read: impl Fn(&robot::Actuator) -> f64,
+    read: impl Fn(&Actuator) -> f64,
 ) -> Quantity {
     let (name, unit) = named(kind, index, nominal, joint);
     let value = |r: &Robot| r.links().get(joint).map_or(f64::NAN, |l| read(&l.actuator));

@@ -63,6 +63,11 @@ impl Hypothesis {
         self.model().is_some_and(|m| m.admissible(self.place, robot, weights))
     }
 
+    /// See [`Explain::is_sound`].
+    pub fn is_sound(self, extended: &Robot) -> bool {
+        self.model().is_some_and(|m| m.is_sound(self.place, extended))
+    }
+
     /// See [`Explain::extend`].
     pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame) {
         if let Some(model) = self.model() {
@@ -86,6 +91,15 @@ impl Hypothesis {
                     pair,
                     (AsymmetricFriction, CoulombFriction) | (CoulombFriction, AsymmetricFriction)
                 ))
+    }
+
+    /// The Coulomb friction whose level this effect makes vary.
+    pub fn varies(self) -> Option<Self> {
+        use EffectKind::{
+            CoulombFriction, PositionDependentFriction, PreslidingFriction, StribeckFriction,
+        };
+        let varying = [StribeckFriction, PreslidingFriction, PositionDependentFriction];
+        varying.contains(&self.kind).then_some(Self { kind: CoulombFriction, place: self.place })
     }
 
     /// Index of the joint, for an effect of a joint.

@@ -14,6 +14,7 @@ pub fn left_out(robot: &Robot) -> Vec<String> {
             ("elasticity_nm_per_rad", drive.elasticity.is_some()),
             ("actuator_delay_ms", drive.delay_s > 0.0 && !measured),
             ("presliding_rad", drive.presliding.is_some()),
+            ("coupling", drive.coupling.is_some()),
             ("actuator_lag_ms", drive.lag_s > 0.0 && !measured),
             ("encoder_offset_rad", drive.encoder_offset.abs() > 0.0),
             ("transmission_ratio", drive.transmission_ratio.total_cmp(&1.0).is_ne()),
@@ -34,6 +35,8 @@ pub fn left_out(robot: &Robot) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use robot::Coupling;
+
     use super::*;
 
     #[test]
@@ -68,7 +71,11 @@ mod tests {
             </link><joint name="j" type="continuous"><parent link="base"/><child link="a"/>
             </joint></robot>"#;
         type Describe = fn(&mut Actuator);
-        let cases: [(&str, Describe); 5] = [
+        let cases: [(&str, Describe); 6] = [
+            ("coupling", |a| {
+                let [level, viscous] = [[0.1; 2], [0.0; 2]];
+                a.coupling = Some(Coupling { other: 0, ratio: 1.0, level, viscous });
+            }),
             ("presliding_rad", |a| a.presliding = Some(0.001)),
             ("actuator_lag_ms", |a| a.lag_s = 0.001),
             ("encoder_offset_rad", |a| a.encoder_offset = -0.1),

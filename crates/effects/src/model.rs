@@ -3,10 +3,13 @@ use catalogue::EffectKind;
 use crate::Explain;
 
 /// The effects that have a model, in the order in which hypotheses are laid out.
-pub const MODELLED: [EffectKind; 18] = [
+pub const MODELLED: [EffectKind; 22] = [
     EffectKind::ViscousFriction,
     EffectKind::CoulombFriction,
     EffectKind::AsymmetricFriction,
+    EffectKind::StribeckFriction,
+    EffectKind::PreslidingFriction,
+    EffectKind::PositionDependentFriction,
     EffectKind::TorqueOffset,
     EffectKind::RotorInertia,
     EffectKind::InertialParameters,
@@ -19,6 +22,7 @@ pub const MODELLED: [EffectKind; 18] = [
     EffectKind::TransmissionRatio,
     EffectKind::Backlash,
     EffectKind::JointElasticity,
+    EffectKind::DifferentialCoupling,
     EffectKind::TimeSkew,
     EffectKind::ActuatorDelay,
     EffectKind::ActuatorLag,
@@ -34,6 +38,11 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
         EffectKind::ViscousFriction => &crate::viscous_friction::ViscousFriction,
         EffectKind::CoulombFriction => &crate::coulomb_friction::CoulombFriction,
         EffectKind::AsymmetricFriction => &crate::asymmetric_friction::AsymmetricFriction,
+        EffectKind::StribeckFriction => &crate::stribeck_friction::StribeckFriction,
+        EffectKind::PreslidingFriction => &crate::presliding_friction::PreslidingFriction,
+        EffectKind::PositionDependentFriction => {
+            &crate::position_dependent_friction::PositionDependentFriction
+        }
         EffectKind::TorqueOffset => &crate::torque_offset::TorqueOffset,
         EffectKind::RotorInertia => &crate::rotor_inertia::RotorInertia,
         EffectKind::InertialParameters => &crate::inertial_parameters::InertialParameters,
@@ -49,30 +58,18 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
         EffectKind::TimeSkew => &crate::time_skew::TimeSkew,
         EffectKind::ActuatorDelay => &crate::late_torque::LateTorque::Delay,
         EffectKind::ActuatorLag => &crate::late_torque::LateTorque::Lag,
-        EffectKind::StribeckFriction => {
-            return Err("the speed at which it falls is not a factor of a signal of the log, \
-                        and only factors are solved for");
-        }
-        EffectKind::PositionDependentFriction | EffectKind::TorqueRipple => {
-            return Err("its period is not a factor of a signal of the log, \
-                        and only factors are solved for");
-        }
-        EffectKind::PreslidingFriction => {
-            return Err("it remembers where the joint last turned back: \
-                        its state must be followed along the log");
+        EffectKind::TorqueRipple => {
+            return Err("its period is finer than any trial value: it is a line of a spectrum");
         }
         EffectKind::FrictionTemperatureDrift => {
             return Err("it depends on the time since the drive was cold, which runs do not share");
         }
-        EffectKind::DifferentialCoupling => {
-            return Err("the ratio of the pair is not a factor of a signal of the log, \
-                        and only factors are solved for");
-        }
+        EffectKind::DifferentialCoupling => &crate::differential_coupling::DifferentialCoupling,
         EffectKind::TorqueSaturation => {
-            return Err("it needs the command and the torque side by side, a log has one effort");
+            return Err("it is in what the log says of the effort, not in what the motion needs");
         }
         EffectKind::ExternalDisturbance => {
-            return Err("it keeps to the clock, and only what follows the motion is looked for");
+            return Err("it keeps to the clock, not to the motion: it is a line of a spectrum");
         }
     })
 }

@@ -24,6 +24,10 @@ pub struct Motion {
     /// Direction of motion, in [-1, 1]: the sign of the velocity, in proportion to it below
     /// the rest speed; with presliding, the share of dry friction that the bristles hold.
     pub direction: Vec<Vec<f64>>,
+    /// Velocity that is filtered less, whose sign is that of the motion (rad/s or m/s).
+    swift: Vec<Vec<f64>>,
+    /// Speed below which a joint counts as at rest (rad/s or m/s).
+    rest_speed: Vec<f64>,
     /// Torque that the transmission carries to the link (N·m or N).
     pub load: Vec<Vec<f64>>,
     /// Torque of the nominal robot before its gain and offset (N·m or N).
@@ -116,6 +120,8 @@ impl Motion {
             qd,
             qdd,
             direction,
+            swift: swift.to_vec(),
+            rest_speed: frame.rest_speed.clone(),
             load: vec![Vec::new(); joints],
             torque: vec![Vec::new(); joints],
             effort: vec![Vec::new(); joints],
@@ -188,10 +194,37 @@ impl Motion {
                 load + motor_torque(a, state, self.direction[i][t], load)
             };
             self.torque[i] = (0..self.samples()).map(torque).collect();
+        }
+        self.couple();
+        for (i, a) in self.drives.iter().enumerate() {
             let scaled = self.torque[i].iter().map(|torque| self.gain[i] * torque).collect();
             let timed = self.timed(i, scaled);
             self.effort[i] = timed.into_iter().map(|effort| effort + a.torque_offset).collect();
         }
+    }
+
+    /// Adds the friction of motors that joints share.
+    fn couple(&mut self) {
+        for j in 0..self.drives.len() {
+            let Some(c) = self.drives[j].coupling else { continue };
+            for (k, way) in [1.0, -1.0].into_iter().enumerate() {
+                let motor = self.motor(j, c.other, way * c.ratio);
+                for (t, (w, s)) in motor.into_iter().enumerate() {
+                    let friction = c.viscous[k] * w + c.level[k] * s;
+                    self.torque[j][t] += friction;
+                    self.torque[c.other][t] += way * c.ratio * friction;
+                }
+            }
+        }
+    }
+
+    /// Speed and direction of a motor that turns with joint `j` and, by `ratio`, with another:
+    /// its direction as that of a joint, with the rest speeds added.
+    pub(crate) fn motor(&self, j: usize, other: usize, ratio: f64) -> Vec<(f64, f64)> {
+        let rest = self.rest_speed[j] + ratio.abs() * self.rest_speed[other];
+        let of = |signal: &[Vec<f64>], t: usize| signal[j][t] + ratio * signal[other][t];
+        let settled = |t: usize| (of(&self.swift, t) / rest).clamp(-1.0, 1.0);
+        (0..self.samples()).map(|t| (of(&self.qd, t), settled(t))).collect()
     }
 
     /// Effort of joint `j` at the times at which the log has it.

@@ -38,7 +38,7 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
         K::TransmissionRatio => Ok("reference and torque in the units that the drive believes in"),
         K::FrictionTemperatureDrift => Err("the temperature of a drive is not known"),
         K::DifferentialCoupling => {
-            Err("the description of a robot has friction at joints, not at motors they share")
+            Ok("the friction of the shared motors at their speeds, eased through rest")
         }
         K::TorqueSaturation => Err("a motor cannot be asked for more than it has"),
         K::TimeSkew => Err("it is in the log, not in the arm"),
@@ -49,7 +49,7 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
-    use robot::{Actuator, Ripple, Robot, Stribeck, Wave};
+    use robot::{Actuator, Coupling, Ripple, Robot, Stribeck, Wave};
 
     use super::*;
     use crate::{Compensated, Compensation};
@@ -78,6 +78,11 @@ mod tests {
             K::RotorInertia => |a| a.rotor_inertia = 0.1,
             K::CableSpring => |a| a.spring_stiffness = 0.7,
             K::TorqueConstant => |a| a.torque_gain = 1.1,
+            // One joint stands for both.
+            K::DifferentialCoupling => |a| {
+                let [level, viscous] = [[0.3, 0.2], [0.0; 2]];
+                a.coupling = Some(Coupling { other: 0, ratio: 0.5, level, viscous });
+            },
             K::TorqueOffset => |a| a.torque_offset = 0.2,
             K::ActuatorDelay => |a| a.delay_s = 0.004,
             K::StribeckFriction => |a| a.stribeck = Some(Stribeck { excess: 0.3, velocity: 1.0 }),

@@ -5,7 +5,9 @@ use crate::{Agreement, differentiate};
 use crate::{
     LogError, LogWarning, LowPass, Run,
     clock::LONGEST_FILLED,
-    cutoff, duplicate_of,
+    cutoff,
+    cutoff::MULTIPLE,
+    duplicate_of,
     filtered::{Filtered, ORDER, SETTLING_PERIODS, choose_sources},
     info::{saturation, unknown_joints},
     uniform::{UniformRun, check, moving, uniform},
@@ -114,6 +116,11 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
 }
 
 impl Prepared {
+    /// Frequency below which the motion lies (Hz), by the rule that chooses the cut-off.
+    pub fn motion_hz(&self) -> f64 {
+        self.cutoff_hz / MULTIPLE
+    }
+
     /// Lowest and highest position of joint `j` over all runs (rad or m).
     pub fn span(&self, j: usize) -> (f64, f64) {
         let q = self.runs.iter().flat_map(|run| &run.joints[j].q);

@@ -63,7 +63,7 @@ impl<'a> Question<'a> {
             match *goal {
                 Goal::Separate { finding, rival } => {
                     hypotheses.extend([finding, rival]);
-                    hypotheses.extend(symmetric_part(finding));
+                    hypotheses.extend([finding, rival].into_iter().filter_map(shared_part));
                 }
                 Goal::Determine { finding } => hypotheses.push(finding),
             }
@@ -83,11 +83,22 @@ impl<'a> Question<'a> {
     }
 }
 
-/// Of asymmetric friction only the asymmetry is disputed: its rivals have Coulomb friction too.
-fn symmetric_part(finding: Hypothesis) -> Option<Hypothesis> {
-    (finding.kind == EffectKind::AsymmetricFriction)
-        .then_some(Hypothesis { kind: EffectKind::CoulombFriction, place: finding.place })
+/// The Coulomb friction that a cause shares with its rivals: of one that is asymmetric only the
+/// asymmetry is disputed, of one whose level varies only that it does.
+fn shared_part(cause: Hypothesis) -> Option<Hypothesis> {
+    let asymmetric = cause.kind == EffectKind::AsymmetricFriction;
+    let symmetric = Hypothesis { kind: EffectKind::CoulombFriction, place: cause.place };
+    if asymmetric { Some(symmetric) } else { cause.varies() }
 }
+
+/// Level of the Coulomb friction that the robot is described with (N·m or N).
+fn friction(robot: &Robot, level: Hypothesis) -> f64 {
+    let link = level.joint().and_then(|j| robot.links().get(j));
+    link.map_or(0.0, |l| 0.5 * (l.actuator.coulomb_forward + l.actuator.coulomb_backward))
+}
+
+/// How much of the level of Coulomb friction varies where no log says it.
+const VARYING: f64 = 0.5;
 
 /// One way to reach a goal that can be counted in nats.
 #[derive(Debug, Clone)]
@@ -104,16 +115,13 @@ impl<'a> Aim<'a> {
     pub fn of(goal: Goal, question: &Question, layout: &Layout, known: &'a Known) -> Vec<Self> {
         match goal {
             Goal::Separate { finding, rival } => {
-                let besides = question.besides(finding, rival);
-                let mut others = besides.clone();
-                others.extend(symmetric_part(finding));
-                let one_way = |truth: Hypothesis, model: Hypothesis, free: &[Hypothesis]| {
-                    let weights = known.weights(layout, question.robot, &[&[truth], free].concat());
-                    let (truth, free) = (layout.columns(&[truth]), layout.columns(free));
-                    let weights = weights.rows(0, truth.len()).into_owned();
-                    Self::Apart { truth, weights, model: [layout.columns(&[model]), free].concat() }
-                };
-                vec![one_way(finding, rival, &others), one_way(rival, finding, &besides)]
+                let shared = [finding, rival].into_iter().find_map(shared_part);
+                let mut besides = question.besides(finding, rival);
+                besides.extend(shared.filter(|s| !besides.contains(s)));
+                let ways = [[finding, rival], [rival, finding]].into_iter();
+                // Nothing shows that of one cause there is no more than another has as well.
+                let ways = ways.filter(|[truth, _]| shared != Some(*truth));
+                ways.map(|way| Self::apart(way, &besides, (question, layout, known))).collect()
             }
             Goal::Determine { finding } => vec![Self::Sure {
                 columns: layout.columns(&[finding]),
@@ -122,6 +130,28 @@ impl<'a> Aim<'a> {
                 logs: &known.information,
             }],
         }
+    }
+
+    /// That `model`, and what is found besides, cannot imitate `truth`.
+    fn apart(
+        [truth, model]: [Hypothesis; 2],
+        besides: &[Hypothesis],
+        (question, layout, known): (&Question, &Layout, &Known),
+    ) -> Self {
+        let of = |first| known.weights(layout, question.robot, &[&[first], besides].concat());
+        let columns = layout.columns(&[truth]);
+        let weights = match truth.varies() {
+            // No log has shown it yet: half of the level varies.
+            Some(level) if level == model => {
+                let mut weights = DVector::zeros(columns.len());
+                weights[0] = VARYING * (friction(question.robot, level) + of(level)[0]).max(0.0);
+                weights
+            }
+            _ => of(truth).rows(0, columns.len()).into_owned(),
+        };
+        let others: Vec<Hypothesis> = besides.iter().copied().filter(|h| *h != model).collect();
+        let model = layout.columns(&[&[model], &others[..]].concat());
+        Self::Apart { truth: columns, weights, model }
     }
 
     /// What the logs have brought (nats).
@@ -193,7 +223,7 @@ mod tests {
 
     /// Columns of truth and model of every aim of a pair, as hypotheses.
     fn aims(finding: EffectKind, rival: EffectKind) -> Vec<[Vec<EffectKind>; 2]> {
-        let robot = turntable();
+        let robot = crate::sown(&turntable());
         let goal = Goal::Separate { finding: at(finding), rival: at(rival) };
         let mut question = Question::without_logs(&robot, vec![goal]);
         question.findings = vec![at(finding), at(EffectKind::CableSpring)];
@@ -213,7 +243,8 @@ mod tests {
     #[test]
     fn either_rival_may_be_true_and_the_other_findings_are_free() {
         use EffectKind::{
-            AsymmetricFriction, CableSpring, CoulombFriction, TorqueOffset, ViscousFriction,
+            AsymmetricFriction, CableSpring, CoulombFriction, StribeckFriction, TorqueOffset,
+            ViscousFriction,
         };
         let expected = [
             [vec![ViscousFriction], vec![CoulombFriction, CableSpring]],
@@ -223,9 +254,13 @@ mod tests {
         // Only the asymmetry is in dispute.
         let expected = [
             [vec![AsymmetricFriction], vec![CoulombFriction, CableSpring, TorqueOffset]],
-            [vec![TorqueOffset], vec![AsymmetricFriction, CableSpring]],
+            [vec![TorqueOffset], vec![CoulombFriction, AsymmetricFriction, CableSpring]],
         ];
         assert_eq!(aims(AsymmetricFriction, TorqueOffset), expected);
+        // Coulomb friction is a case of the other: only what is beyond it can be shown.
+        let expected = [[vec![StribeckFriction], vec![CoulombFriction, CableSpring]]];
+        assert_eq!(aims(CoulombFriction, StribeckFriction), expected);
+        assert_eq!(aims(StribeckFriction, CoulombFriction), expected);
     }
 
     fn power(xx: f64) -> Information {

@@ -49,17 +49,9 @@ impl Known {
     pub fn of_limits(robot: &Robot, layout: &Layout) -> Self {
         let usable = usable(robot);
         let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
-        let [link_mass, link_length] = Scale::of_links(robot);
         Self {
             frame: Frame { rest_speed: each(|u| REST_SHARE * u.speed), centre: each(|u| u.middle) },
-            scale: Scale {
-                effort: efforts(robot),
-                speed: each(|u| u.speed),
-                acceleration: each(|u| u.acceleration),
-                range: each(|u| 2.0 * u.half),
-                link_mass,
-                link_length,
-            },
+            scale: supposed(robot),
             information: layout.nothing(),
             source: Source::Limits,
         }
@@ -73,6 +65,21 @@ impl Known {
             Source::Logs => self.information.weights(&layout.columns(causes), &prior),
             Source::Limits => SUPPOSED * DVector::from_vec(prior),
         }
+    }
+}
+
+/// How large things can be where no log says it.
+pub(crate) fn supposed(robot: &Robot) -> Scale {
+    let usable = usable(robot);
+    let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
+    let [link_mass, link_length] = Scale::of_links(robot);
+    Scale {
+        effort: efforts(robot),
+        speed: each(|u| u.speed),
+        acceleration: each(|u| u.acceleration),
+        range: each(|u| 2.0 * u.half),
+        link_mass,
+        link_length,
     }
 }
 

@@ -21,6 +21,7 @@ mod known;
 mod limits;
 mod record;
 mod search;
+mod sown;
 mod steps;
 #[cfg(test)]
 mod testing;
@@ -28,3 +29,4 @@ mod testing;
 pub use aim::{Goal, Question};
 pub use design::{Design, Designed, Prospect, Settings, TELLS_APART, design};
 pub use error::NextMotionError;
+pub use sown::sown;

@@ -119,6 +119,7 @@ pub(crate) struct Cause {
     pub q_value: String,
     pub stability: String,
     pub rivals: Vec<String>,
+    pub forms: Vec<String>,
     pub told_apart_by: Option<&'static str>,
     pub evidence: Vec<String>,
     pub undetermined: Vec<String>,
@@ -138,6 +139,7 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
     let entry = finding.at.effect.entry();
     let joint = joint_of(report, &finding.at).and_then(|i| report.diagnosis.joints.get(i));
     let units = JointUnits::of(report.robot, joint.map_or("", |j| &j.name));
+    let (rivals, forms) = finding.rivals();
     Cause {
         code: finding.at.effect.code(),
         effect: finding.at.effect.words(),
@@ -154,7 +156,8 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
         gain: percent(finding.held_out_gain),
         q_value: significant(finding.q_value, 2),
         stability: percent(finding.stability),
-        rivals: finding.not_separable_from.iter().map(EffectAt::words).collect(),
+        rivals,
+        forms,
         told_apart_by: finding.told_apart_by,
         evidence: finding.evidence.iter().map(|line| units.said(line)).collect(),
         undetermined: finding.undetermined.clone(),

@@ -1,5 +1,5 @@
 use anstyle::{AnsiColor, Style};
-use diagnosis::{EffectAt, Finding, JointReport, Verdict};
+use diagnosis::{Finding, JointReport, Verdict};
 
 use crate::Report;
 use crate::numbers::{percent, significant};
@@ -189,9 +189,12 @@ fn finding(out: &mut String, finding: &Finding) {
             }
         }
     }
-    if !finding.not_separable_from.is_empty() {
-        let rivals: Vec<String> = finding.not_separable_from.iter().map(EffectAt::words).collect();
+    let (rivals, forms) = finding.rivals();
+    if !rivals.is_empty() {
         note(out, &format!("may as well be {}", rivals.join(" or ")));
+    }
+    if !forms.is_empty() {
+        note(out, &format!("may be {} near rest, unseen by this log", forms.join(" or ")));
     }
     let open = finding.parameters.iter().filter(|p| !p.determined);
     let open: Vec<String> = open.map(|p| p.name.replace('_', " ")).collect();

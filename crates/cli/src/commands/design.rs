@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
     let loaded = Robot::load(&arguments.robot)?;
-    let robot = &loaded.robot;
+    let robot = &next_motion::sown(&loaded.robot);
     let asked = asked(arguments, robot)?;
     let (question, logs) = match &arguments.diagnosis {
         None => (Question::without_logs(robot, asked), None),

@@ -1,5 +1,6 @@
 use anstyle::Style;
 use catalogue::{EffectKind, Entry, Parameter};
+use diagnosis::Diagnosed;
 
 use crate::Outcome;
 use crate::commands::effects as list;
@@ -90,11 +91,13 @@ fn meaning(parameter: &Parameter) -> String {
 
 /// Whether the diagnosis can name the effect, with what, or why not.
 fn diagnosed(entry: &Entry) -> String {
-    match effects::model(entry.kind) {
-        Ok(model) if model.parameters().len() == entry.parameters.len() => "yes".to_owned(),
-        Ok(model) => {
-            let found: Vec<&str> = model.parameters().iter().map(|p| p.name).collect();
-            format!("yes, {} only", found.join(" and "))
+    match diagnosis::diagnosed(entry.kind) {
+        Ok(Diagnosed { how, parameters }) if parameters.len() == entry.parameters.len() => {
+            format!("yes, {how}")
+        }
+        Ok(Diagnosed { how, parameters }) => {
+            let found: Vec<&str> = parameters.iter().map(|p| p.name).collect();
+            format!("yes, {how}: {} only", found.join(" and "))
         }
         Err(reason) => {
             format!(
@@ -116,7 +119,7 @@ mod tests {
             for parameter in kind.entry().parameters {
                 assert!(text.contains(&meaning(parameter)), "{} in\n{text}", parameter.name);
             }
-            let answer = effects::model(kind).map_or_else(|reason| reason, |_| "yes");
+            let answer = diagnosis::diagnosed(kind).map_or_else(|reason| reason, |_| "yes");
             assert!(text.contains(answer), "{answer} in\n{text}");
             let undone = effects::remedy(kind).map_or_else(
                 |reason| format!("not compensated    {reason}\n"),
@@ -132,6 +135,9 @@ mod tests {
         let expected = "torque per unit of displacement (N·m/rad, or N/m): \
                         0.1 to 2 on an arm like the WAM";
         assert_eq!(spring.parameters.first().map(meaning).as_deref(), Some(expected));
-        assert_eq!(diagnosed(spring), "yes, stiffness and rest only");
+        assert_eq!(
+            diagnosed(spring),
+            "yes, by its columns in a regression: stiffness and rest only"
+        );
     }
 }

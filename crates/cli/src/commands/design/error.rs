@@ -38,8 +38,8 @@ pub enum DesignError {
         /// The places where it can act.
         expected: String,
     },
-    /// A cause is not looked for by the diagnosis.
-    #[error("{effect}: it is not diagnosed, {reason}")]
+    /// A cause has no columns that a motion could be searched by.
+    #[error("{effect}: no motion is searched for it, {reason}")]
     NoModel {
         /// The effect.
         effect: String,

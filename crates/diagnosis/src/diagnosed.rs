@@ -1,0 +1,35 @@
+use catalogue::{EffectKind, Parameter};
+
+/// What a diagnosis finds of an effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Diagnosed {
+    /// How, in a few words.
+    pub how: &'static str,
+    /// Those of its parameters that it finds.
+    pub parameters: &'static [Parameter],
+}
+
+/// Whether and how a diagnosis finds an effect.
+///
+/// # Errors
+///
+/// Why it does not.
+pub fn diagnosed(kind: EffectKind) -> Result<Diagnosed, &'static str> {
+    let parameters = kind.entry().parameters;
+    match kind {
+        EffectKind::TorqueRipple => {
+            Ok(Diagnosed { how: "as a line of the spectrum over position", parameters })
+        }
+        EffectKind::ExternalDisturbance => Ok(Diagnosed {
+            how: "as a line of the spectrum over time",
+            parameters: &parameters[..3],
+        }),
+        EffectKind::TorqueSaturation => {
+            Ok(Diagnosed { how: "as effort beyond a limit that moves nothing", parameters })
+        }
+        _ => {
+            let model = effects::model(kind)?;
+            Ok(Diagnosed { how: "by its columns in a regression", parameters: model.parameters() })
+        }
+    }
+}

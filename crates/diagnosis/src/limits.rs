@@ -1,0 +1,206 @@
+use catalogue::EffectKind;
+use effects::{Frame, Hypothesis, Place};
+use logs::LogError;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use robot::{Robot, TorqueSource};
+
+use crate::design::Design;
+use crate::evaluate::Along;
+use crate::log::Log;
+use crate::noise::integrated_time;
+use crate::result::{Estimate, Finding};
+use crate::shapes::Left;
+
+/// Trial limits: so many quantiles of the absolute effort.
+const TRIALS: usize = 24;
+
+/// The least of those quantiles.
+const LOWEST_QUANTILE: f64 = 0.6;
+
+/// Least share of what all other effects leave that must go with the limit.
+const SHARE: f64 = 0.5;
+
+/// Share of the largest effort beyond a limit from which on a sample is above it.
+const TOUCHED: f64 = 0.01;
+
+/// Power of what the other effects lack above the limit, over what they leave below it.
+const STANDS_OUT: f64 = 25.0;
+
+/// Most of that which may be left once the effort is clamped.
+const LEFT: f64 = 0.1;
+
+/// Rise of the deviance at the ends of a 95 per cent interval.
+const CHI_SQUARE: f64 = 3.84;
+
+/// A drive that gives no more than its limit of the effort in the log.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Limit {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Largest effort that became torque (N·m or N).
+    pub limit: f64,
+    /// 95 per cent interval of it.
+    pub ci95: [f64; 2],
+    /// Share of what all other effects leave.
+    pub share: f64,
+}
+
+impl Limit {
+    /// The part of an effort that became no torque.
+    pub fn beyond(&self, effort: f64) -> f64 {
+        effort - effort.clamp(-self.limit, self.limit)
+    }
+
+    /// Gives the joint the limit.
+    pub fn extend(&self, robot: &mut Robot) {
+        if let Some(link) = robot.link_mut(self.joint) {
+            link.joint.limits.effort = Some(self.limit);
+        }
+    }
+
+    /// The limit as a finding.
+    pub fn finding(&self, robot: &Robot) -> Finding {
+        let kind = EffectKind::TorqueSaturation;
+        let parameter = &kind.entry().parameters[0];
+        let link = &robot.links()[self.joint];
+        let rotation = link.joint.kind.is_rotation();
+        Finding {
+            at: crate::findings::effect_at(
+                robot,
+                Hypothesis { kind, place: Place::Joint(self.joint) },
+            ),
+            parameters: vec![Estimate {
+                name: parameter.name,
+                value: self.limit,
+                ci95: self.ci95,
+                nominal: link.joint.limits.effort.unwrap_or(f64::INFINITY),
+                unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
+                determined: true,
+            }],
+            share_explained: self.share,
+            q_value: 0.0,
+            held_out_gain: self.share,
+            stability: 1.0,
+            not_separable_from: Vec::new(),
+            told_apart_by: None,
+            evidence: vec![format!(
+                "the effort beyond the limit moves nothing: it is {:.0} % of what all other effects leave at the joint",
+                100.0 * self.share
+            )],
+            undetermined: Vec::new(),
+        }
+    }
+}
+
+/// The joints whose effort beyond some limit moves nothing, where the effort is a command: one
+/// that was measured is never beyond.
+///
+/// ```text
+/// clamp(effort, -limit, limit) - nominal = columns w + noise
+/// ```
+///
+/// with the limit that leaves least.
+pub(crate) fn limits(robot: &Robot, log: &Log) -> Result<Vec<Limit>, LogError> {
+    let design = Design::new(robot, log)?;
+    let frame = Frame::of_logs(log.prepared);
+    let runs = log.along(robot, &frame)?;
+    let commanded = |j: &usize| {
+        let source = robot.links()[*j].actuator.torque_source;
+        log.moved[*j] && source == TorqueSource::Commanded
+    };
+    let joints = (0..design.joints()).into_par_iter().filter(commanded);
+    let found: Vec<Option<Limit>> = joints
+        .map(|j| Left::new(&design, j).map_or(Ok(None), |left| at_joint(&runs, &left, j)))
+        .collect::<Result<_, LogError>>()?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// What is left where the effort of the log is clamped.
+struct Trial {
+    /// Sum of squares over all samples.
+    deviance: f64,
+    /// `[run][sample]`.
+    rest: Vec<Vec<f64>>,
+    /// The effort beyond the limit, low-passed.
+    beyond: DVector<f64>,
+}
+
+fn trial(runs: &[Along], left: &Left, limit: &Limit) -> Result<Trial, LogError> {
+    let beyond: Vec<Vec<f64>> =
+        runs.iter().map(|run| run.beyond(limit)).collect::<Result<_, _>>()?;
+    let lengths: Vec<usize> = beyond.iter().map(Vec::len).collect();
+    let beyond = DVector::from_vec(beyond.concat());
+    let clamped = &left.y - &beyond;
+    let rest = &clamped - &left.x * left.normal.solve(&left.x.tr_mul(&clamped));
+    let deviance = rest.norm_squared();
+    let mut samples = rest.iter().copied();
+    let rest = lengths.iter().map(|&n| samples.by_ref().take(n).collect()).collect();
+    Ok(Trial { deviance, rest, beyond })
+}
+
+/// Whether effort beyond the limit moves nothing: what the samples below it say of all other
+/// effects predicts the clamped effort above it, and not the effort.
+fn moves_nothing(left: &Left, beyond: &DVector<f64>) -> bool {
+    let touched = TOUCHED * beyond.amax();
+    let (above, below): (Vec<usize>, Vec<usize>) =
+        (0..beyond.len()).partition(|&t| beyond[t].abs() > touched);
+    let (x, y) = (left.x.select_rows(&below), left.y.select_rows(&below));
+    let normal = x.tr_mul(&x) + DMatrix::from_diagonal(&left.ridge);
+    let Some(normal) = normal.cholesky() else { return false };
+    let weights = normal.solve(&x.tr_mul(&y));
+    let noise = (y - x * &weights).norm_squared() / below.len().max(1) as f64;
+    let gap = left.y.select_rows(&above) - left.x.select_rows(&above) * weights;
+    let clamped = &gap - beyond.select_rows(&above);
+    let power = gap.norm_squared() / above.len().max(1) as f64;
+    power > STANDS_OUT * noise && clamped.norm_squared() < LEFT * gap.norm_squared()
+}
+
+fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogError> {
+    let mut efforts: Vec<f64> = runs.iter().flat_map(|run| run.effort(j)).map(f64::abs).collect();
+    efforts.sort_by(f64::total_cmp);
+    let quantile = |k: usize| {
+        let share = LOWEST_QUANTILE + (1.0 - LOWEST_QUANTILE) * k as f64 / TRIALS as f64;
+        efforts.get((share * efforts.len() as f64) as usize).copied().unwrap_or(0.0)
+    };
+    let at = |limit: f64| Limit { joint: j, limit, ci95: [limit; 2], share: 0.0 };
+    let deviance = |limit: f64| trial(runs, left, &at(limit)).map(|t| t.deviance);
+    let mut curve: Vec<(f64, f64)> = Vec::new();
+    for k in 0..TRIALS {
+        curve.push((quantile(k), deviance(quantile(k))?));
+    }
+    let Some(best) = (0..TRIALS).min_by(|&a, &b| curve[a].1.total_cmp(&curve[b].1)) else {
+        return Ok(None);
+    };
+    let unlimited = left.residual.norm_squared();
+    if curve[best].1 > (1.0 - SHARE) * unlimited {
+        return Ok(None);
+    }
+    // The trials next to the best bracket it: thirds of that are dropped until nothing is left.
+    let mut low = curve[best.saturating_sub(1)].0;
+    let mut high = curve[(best + 1).min(TRIALS - 1)].0;
+    while high - low > 1e-4 * high {
+        let third = (high - low) / 3.0;
+        if deviance(low + third)? > deviance(high - third)? {
+            low += third;
+        } else {
+            high -= third;
+        }
+    }
+    let limit = at(0.5 * (low + high));
+    let found = trial(runs, left, &limit)?;
+    if !moves_nothing(left, &found.beyond) {
+        return Ok(None);
+    }
+    let samples = found.rest.iter().map(Vec::len).sum::<usize>() as f64;
+    let rise = CHI_SQUARE * found.deviance / samples * integrated_time(&found.rest);
+    let mut ci95 = [limit.limit; 2];
+    for (end, way) in ci95.iter_mut().zip([-1.0, 1.0]) {
+        let mut step = 1e-4 * limit.limit;
+        while *end > 0.0 && deviance(*end)? - found.deviance < rise && step < limit.limit {
+            *end = (*end + way * step).max(0.0);
+            step *= 1.5;
+        }
+    }
+    Ok(Some(Limit { ci95, share: (1.0 - found.deviance / unlimited).clamp(0.0, 1.0), ..limit }))
+}

@@ -1,0 +1,124 @@
+use std::f64::consts::TAU;
+
+use catalogue::EffectKind;
+use effects::{Hypothesis, Place};
+use nalgebra::Complex;
+use robot::{Ripple, Robot};
+
+/// What a tone keeps time with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Beat {
+    /// The position of the motor: phase per way (1 or rad/m).
+    Position(f64),
+    /// The clock: frequency (Hz).
+    Clock(f64),
+}
+
+/// An oscillation of the effort of one joint with one period, in position or in time.
+///
+/// ```text
+/// Re(z exp(i periods q))   or   Re(z exp(i 2 pi frequency t))
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Tone {
+    /// Index of the joint.
+    pub joint: usize,
+    /// What it keeps time with.
+    pub beat: Beat,
+    /// `z` of every run (N·m or N): the same in all for a tone that follows the position.
+    pub z: Vec<Complex<f64>>,
+    /// Standard error of the amplitude (N·m or N) and of the beat.
+    pub error: [f64; 2],
+    /// Least power over that of the spectrum around it, in any run.
+    pub stands_out: f64,
+    /// Share of what was left at the joint, over the whole band, that is this tone.
+    pub share: f64,
+}
+
+impl Tone {
+    /// The effect and its joint.
+    pub fn hypothesis(&self) -> Hypothesis {
+        let kind = match self.beat {
+            Beat::Position(_) => EffectKind::TorqueRipple,
+            Beat::Clock(_) => EffectKind::ExternalDisturbance,
+        };
+        Hypothesis { kind, place: Place::Joint(self.joint) }
+    }
+
+    /// Its effort in run `r` (N·m or N) at time `t` (s) and motor position `q` (rad or m).
+    pub fn effort(&self, r: usize, t: f64, q: f64) -> f64 {
+        (self.z[r] * Complex::cis(self.phase(t, q))).re
+    }
+
+    /// The phase of its beat (rad).
+    pub fn phase(&self, t: f64, q: f64) -> f64 {
+        match self.beat {
+            Beat::Position(periods) => periods * q,
+            Beat::Clock(frequency_hz) => TAU * frequency_hz * t,
+        }
+    }
+
+    /// Mean amplitude over the runs (N·m or N).
+    pub fn amplitude(&self) -> f64 {
+        self.z.iter().map(|z| z.norm()).sum::<f64>() / self.z.len().max(1) as f64
+    }
+
+    /// The phase of `sin(beat + phase)` and its standard error (rad): none where the runs differ.
+    ///
+    /// A ripple is what the motor has to give, a disturbance what it has to bear.
+    pub fn sine_phase(&self) -> Option<(f64, f64)> {
+        let unit: Complex<f64> = self.z.iter().map(|z| z / z.norm().max(f64::MIN_POSITIVE)).sum();
+        let alike = unit.norm() / self.z.len().max(1) as f64;
+        let sign = match self.beat {
+            Beat::Position(_) => 1.0,
+            Beat::Clock(_) => -1.0,
+        };
+        // Re(z e^(i x)) = |z| sin(x + arg(z) + pi / 2)
+        let phase = (sign * unit * Complex::i()).arg();
+        const ALIKE: f64 = 0.95;
+        (alike > ALIKE).then(|| (phase, self.error[0] / self.amplitude().max(f64::MIN_POSITIVE)))
+    }
+
+    /// Gives the drive of the joint the ripple; a disturbance is no part of a robot.
+    pub fn extend(&self, robot: &mut Robot) {
+        let (Beat::Position(periods), Some((phase, _))) = (self.beat, self.sine_phase()) else {
+            return;
+        };
+        if let Some(link) = robot.link_mut(self.joint) {
+            let amplitude = self.amplitude();
+            link.actuator.ripple = Some(Ripple { amplitude, periods, phase });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tone(beat: Beat, z: Complex<f64>) -> Tone {
+        let z = vec![z; 2];
+        Tone { joint: 0, beat, z, error: [0.0; 2], stands_out: 0.0, share: 0.0 }
+    }
+
+    #[test]
+    fn a_tone_is_the_sine_whose_amplitude_and_phase_it_tells() {
+        let (amplitude, z) = (0.7, Complex::from_polar(0.7, 0.4));
+        let ripple = tone(Beat::Position(30.0), z);
+        let phase = ripple.sine_phase().unwrap().0;
+        for q in [-0.3, 0.0, 1.1] {
+            let expected = amplitude * (30.0 * q + phase).sin();
+            assert!((ripple.effort(1, 9.0, q) - expected).abs() < 1e-12);
+        }
+        let hum = tone(Beat::Clock(2.5), z);
+        let phase = hum.sine_phase().unwrap().0;
+        let expected = -amplitude * (TAU * 2.5 * 0.37 + phase).sin();
+        assert!((hum.effort(0, 0.37, 5.0) - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn runs_that_differ_have_no_phase_in_common() {
+        let mut hum = tone(Beat::Clock(1.0), Complex::new(1.0, 0.0));
+        hum.z[1] = Complex::new(-1.0, 0.0);
+        assert_eq!(hum.sine_phase(), None);
+    }
+}

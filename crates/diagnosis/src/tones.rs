@@ -1,0 +1,364 @@
+use std::f64::consts::{LN_2, TAU};
+
+use effects::Frame;
+use logs::{LogError, Prepared};
+use nalgebra::Complex;
+use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use robot::Robot;
+
+use crate::evaluate::Along;
+use crate::log::Log;
+use crate::tone::{Beat, Tone};
+
+/// Cut-off of the band in which tones are looked for, as a share of the sampling rate.
+pub(crate) const BAND: f64 = 0.1;
+
+/// The highest frequency looked at, as a share of that cut-off.
+const HIGHEST: f64 = 0.6;
+
+/// The lowest frequency looked at (Hz).
+const LOWEST_HZ: f64 = 0.3;
+
+/// Fewest waves over the range of motion: fewer may be anything that depends on position.
+const FEWEST_WAVES: f64 = 8.0;
+
+/// Most waves over the range of motion.
+const MOST_WAVES: f64 = 1000.0;
+
+/// Least power of a tone over that of the spectrum around it, in every run: one false tone in
+/// `exp(20)` frequencies of one run.
+const STANDS_OUT: f64 = 20.0;
+
+/// The same where there are fewer than three runs to agree on it.
+const STANDS_OUT_IN_FEW: f64 = 40.0;
+
+/// Largest ratio of the amplitudes of a tone in two runs.
+const EVEN: f64 = 2.0;
+
+/// Least share of what is left at a joint that a tone must be.
+const SHARE: f64 = 0.02;
+
+/// Most tones of one joint.
+const MOST: usize = 3;
+
+/// Zeros that are added to a run before its spectrum is taken, in lengths of the longest.
+const PADDED: usize = 4;
+
+/// Frequencies whose median is the power around them.
+const AROUND: usize = 200;
+
+/// What a robot leaves of one run, in the wide band.
+pub(crate) struct Rest {
+    /// Time (s).
+    pub time: Vec<f64>,
+    /// `[joint][sample]`: position and velocity of the motors, effort that is left.
+    pub q: Vec<Vec<f64>>,
+    pub qd: Vec<Vec<f64>>,
+    pub left: Vec<Vec<f64>>,
+}
+
+/// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
+/// lines of the spectrum over time and over position that stand out in every run.
+///
+/// A line below `slowest_hz` may be the motion's.
+pub(crate) fn tones(
+    robot: &Robot,
+    wide: &Prepared,
+    frame: &Frame,
+    (log, slowest_hz): (&Log, f64),
+) -> Result<Vec<Tone>, LogError> {
+    let rest = |(r, run)| -> Result<Rest, LogError> {
+        let along = Along::new(robot, frame, (r, run), wide.cutoff_hz, (&[], log.limits))?;
+        along.rest()
+    };
+    let runs: Vec<Rest> = wide.runs.iter().enumerate().map(rest).collect::<Result<_, _>>()?;
+    let at = |j: usize| {
+        if log.moved[j] { at_joint(&runs, j, (wide.cutoff_hz, slowest_hz)) } else { Vec::new() }
+    };
+    Ok((0..log.moved.len()).into_par_iter().flat_map_iter(at).collect())
+}
+
+/// One joint: its residual in every run, and the phase per unit of beat.
+struct Joint<'a> {
+    /// `[run][sample]`: what keeps time (s; or rad or m).
+    beat: Vec<&'a [f64]>,
+    /// `[run][sample]`.
+    left: &'a [Vec<f64>],
+    /// `[run][sample]`: the highest value of the beat (rad per unit) at which a sample counts.
+    highest: Vec<Vec<f64>>,
+}
+
+fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec<Tone> {
+    let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
+    let highest = TAU * HIGHEST * cutoff_hz;
+    let by_speed = |run: &Rest| run.qd[j].iter().map(|v| highest / v.abs().max(1e-9)).collect();
+    let by_speed: Vec<Vec<f64>> = runs.iter().map(by_speed).collect();
+    let mut tones: Vec<Tone> = Vec::new();
+    while tones.len() < MOST {
+        let clock = Joint {
+            beat: runs.iter().map(|r| r.time.as_slice()).collect(),
+            left: &left,
+            highest: runs.iter().map(|r| vec![highest; r.time.len()]).collect(),
+        };
+        let position = Joint {
+            beat: runs.iter().map(|r| r.q[j].as_slice()).collect(),
+            left: &left,
+            highest: by_speed.clone(),
+        };
+        let band_hz = [slowest_hz.max(LOWEST_HZ), HIGHEST * cutoff_hz];
+        let found = [
+            position.found(j, Coherence::AllRuns, |position| position.waves()),
+            clock.found(j, Coherence::EachRun(cutoff_hz), |clock| clock.lines(band_hz)),
+        ];
+        let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
+        let Some(tone) = strongest else { break };
+        left = match tone.beat {
+            Beat::Position(_) => position.without(&tone),
+            Beat::Clock(_) => clock.without(&tone),
+        };
+        tones.push(tone);
+    }
+    tones
+}
+
+/// The spectra of all runs over the same values.
+struct Spectrum {
+    /// `[run][value]`
+    powers: Vec<Vec<f64>>,
+    /// The first value, a phase per unit of beat.
+    first: f64,
+    /// Distance to the next one.
+    step: f64,
+}
+
+/// A line of a spectrum.
+#[derive(Debug, Clone)]
+struct Line {
+    /// Its place in the spectrum.
+    index: usize,
+    /// Phase per unit of beat.
+    at: f64,
+    /// Distance to the next value that was looked at.
+    step: f64,
+    /// Its power in every run.
+    power: Vec<f64>,
+}
+
+/// In what a tone has one phase.
+#[derive(Debug, Clone, Copy)]
+enum Coherence {
+    AllRuns,
+    /// With the cut-off (Hz) that has weakened it.
+    EachRun(f64),
+}
+
+impl Joint<'_> {
+    /// The tone of the strongest line of a spectrum, where it stands out in every run from what
+    /// is left without it: the line itself is wide, over position above all.
+    fn found(
+        &self,
+        joint: usize,
+        coherence: Coherence,
+        spectrum: impl Fn(&Joint) -> Option<Spectrum>,
+    ) -> Option<Tone> {
+        let line = spectrum(self)?.line()?;
+        let mut tone = self.tone(joint, &line, coherence)?;
+        let left = self.without(&tone);
+        let without = Joint { beat: self.beat.clone(), left: &left, highest: self.highest.clone() };
+        let around: Vec<f64> = spectrum(&without)?.around(line.index)?;
+        let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
+        tone.stands_out = ratios.fold(f64::INFINITY, f64::min);
+        tone.error = self.errors(&tone, &around, line.at);
+        let least = if self.left.len() < 3 { STANDS_OUT_IN_FEW } else { STANDS_OUT };
+        (tone.stands_out > least).then_some(tone)
+    }
+
+    /// What is left without a tone, `[run][sample]`.
+    fn without(&self, tone: &Tone) -> Vec<Vec<f64>> {
+        let of = |(r, (left, beat)): (usize, (&Vec<f64>, &&[f64]))| {
+            left.iter().zip(*beat).map(|(x, b)| x - tone.effort(r, *b, *b)).collect()
+        };
+        self.left.iter().zip(&self.beat).enumerate().map(of).collect()
+    }
+
+    /// The spectra over position.
+    fn waves(&self) -> Option<Spectrum> {
+        let all = || self.beat.iter().flat_map(|q| q.iter().copied());
+        let (low, high) =
+            all().fold((f64::INFINITY, -f64::INFINITY), |(l, h), q| (l.min(q), h.max(q)));
+        let wave = TAU / (high - low);
+        if !wave.is_finite() {
+            return None;
+        }
+        let step = 0.25 * wave;
+        let first = FEWEST_WAVES * wave;
+        let count = (4.0 * (MOST_WAVES - FEWEST_WAVES)) as usize;
+        let powers: Vec<Vec<f64>> = (0..self.left.len())
+            .into_par_iter()
+            .map(|r| self.scan(r, first, step, count))
+            .collect();
+        Some(Spectrum { powers, first, step })
+    }
+
+    /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count, until fewer than
+    /// a spectrum needs are left.
+    fn scan(&self, r: usize, first: f64, step: f64, count: usize) -> Vec<f64> {
+        let mut order: Vec<usize> = (0..self.left[r].len()).collect();
+        order.sort_by(|&a, &b| self.highest[r][b].total_cmp(&self.highest[r][a]));
+        let signal = |at: f64| order.iter().map(move |&t| Complex::cis(-at * self.beat[r][t]));
+        let turns: Vec<Complex<f64>> = signal(step).collect();
+        let mut now: Vec<Complex<f64>> =
+            signal(first).zip(&order).map(|(z, &t)| z * self.left[r][t]).collect();
+        let mut powers = Vec::with_capacity(count);
+        for k in 0..count {
+            let at = first + k as f64 * step;
+            let counted = order.partition_point(|&t| self.highest[r][t] >= at);
+            if counted < AROUND {
+                break;
+            }
+            now.truncate(counted);
+            let sum: Complex<f64> = now.iter().sum();
+            powers.push(sum.norm_sqr() / counted as f64);
+            now.iter_mut().zip(&turns).for_each(|(z, turn)| *z *= turn);
+        }
+        powers
+    }
+
+    /// The spectra over time between two frequencies (Hz).
+    fn lines(&self, [lowest_hz, highest_hz]: [f64; 2]) -> Option<Spectrum> {
+        let longest = self.left.iter().map(Vec::len).max()?;
+        let size = (PADDED * longest).next_power_of_two();
+        let times = self.beat.iter().max_by_key(|t| t.len())?;
+        let period_s = (times.last()? - times.first()?) / (longest.saturating_sub(1)) as f64;
+        let step = (size as f64 * period_s).recip();
+        if !step.is_finite() {
+            return None;
+        }
+        let [first, last] = [lowest_hz, highest_hz].map(|f| (f / step) as usize);
+        let fft = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+        let power = |x: &Vec<f64>| -> Option<Vec<f64>> {
+            let mut padded = x.clone();
+            padded.resize(size, 0.0);
+            let mut spectrum = fft.make_output_vec();
+            fft.process(&mut padded, &mut spectrum).ok()?;
+            let used = spectrum.get(first..=last)?;
+            Some(used.iter().map(|z| z.norm_sqr() / x.len() as f64).collect())
+        };
+        let powers: Vec<Vec<f64>> = self.left.iter().map(power).collect::<Option<_>>()?;
+        Some(Spectrum { powers, first: TAU * first as f64 * step, step: TAU * step })
+    }
+
+    /// The tone of a line, if it is one: with its beat refined, even over the runs, and large
+    /// enough.
+    fn tone(&self, joint: usize, line: &Line, coherence: Coherence) -> Option<Tone> {
+        let power = |at: f64| {
+            let sums = (0..self.left.len()).map(|r| self.sum(r, at));
+            match coherence {
+                Coherence::AllRuns => sums.map(|(z, _)| z).sum::<Complex<f64>>().norm_sqr(),
+                Coherence::EachRun(_) => sums.map(|(z, _)| z.norm_sqr()).sum(),
+            }
+        };
+        let (mut at, mut step) = (line.at, line.step);
+        for _ in 0..3 {
+            let near = (-10..=10).map(|k| at + 0.1 * f64::from(k) * step);
+            at = near.max_by(|a, b| power(*a).total_cmp(&power(*b)))?;
+            step *= 0.1;
+        }
+        let sums: Vec<(Complex<f64>, usize)> =
+            (0..self.left.len()).map(|r| self.sum(r, at)).collect();
+        let each: Vec<Complex<f64>> =
+            sums.iter().map(|(z, n)| 2.0 * z / (*n).max(1) as f64).collect();
+        let count: usize = sums.iter().map(|(_, n)| n).sum();
+        let together = 2.0 * sums.iter().map(|(z, _)| z).sum::<Complex<f64>>() / count as f64;
+        let sizes = || each.iter().map(|z| z.norm());
+        let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
+        let (z, beat) = match coherence {
+            Coherence::AllRuns => (vec![together; each.len()], Beat::Position(at)),
+            Coherence::EachRun(cutoff_hz) => {
+                let hz = at / TAU;
+                let weakened = 1.0 + (hz / cutoff_hz).powi(8);
+                (each.iter().map(|z| z * weakened).collect(), Beat::Clock(hz))
+            }
+        };
+        let mut tone = Tone { joint, beat, z, error: [0.0; 2], stands_out: 0.0, share: 0.0 };
+        // A tone of one phase that differs from run to run keeps time with something else.
+        let even = most < EVEN * least && tone.amplitude() > least / EVEN;
+        tone.share = self.share(&tone);
+        (even && tone.share > SHARE).then_some(tone)
+    }
+
+    /// `sum r exp(-i at beat)` of one run over the samples that count, and their number.
+    fn sum(&self, r: usize, at: f64) -> (Complex<f64>, usize) {
+        let samples = self.left[r].iter().zip(self.beat[r]).zip(&self.highest[r]);
+        let counted = samples.filter(|(_, highest)| **highest >= at);
+        counted.fold((Complex::new(0.0, 0.0), 0), |(sum, n), ((x, beat), _)| {
+            (sum + Complex::cis(-at * beat) * *x, n + 1)
+        })
+    }
+
+    /// Standard errors of amplitude and beat, from the power around the line: with `n` samples
+    /// of variance `B`, `sqrt(2 B / n)` and `sqrt(2 B / sum (beat - mean)^2) / amplitude`.
+    fn errors(&self, tone: &Tone, around: &[f64], at: f64) -> [f64; 2] {
+        let around = around.iter().sum::<f64>() / around.len().max(1) as f64;
+        let (mut count, mut spread) = (0.0, 0.0);
+        for (beat, highest) in self.beat.iter().zip(&self.highest) {
+            let counted = || beat.iter().zip(highest).filter(|(_, h)| **h >= at).map(|(b, _)| *b);
+            let n = counted().count() as f64;
+            let mean = counted().sum::<f64>() / f64::max(n, 1.0);
+            count += n;
+            spread += counted().map(|b| (b - mean).powi(2)).sum::<f64>();
+        }
+        let of_beat = (2.0 * around / spread).sqrt() / tone.amplitude();
+        let per_unit = if matches!(tone.beat, Beat::Clock(_)) { TAU } else { 1.0 };
+        [(2.0 * around / f64::max(count, 1.0)).sqrt(), of_beat / per_unit]
+    }
+
+    /// Share of the power of what is left that goes with the tone.
+    fn share(&self, tone: &Tone) -> f64 {
+        let power = |left: &[Vec<f64>]| left.iter().flatten().map(|x| x * x).sum::<f64>();
+        1.0 - power(&self.without(tone)) / power(self.left).max(f64::MIN_POSITIVE)
+    }
+}
+
+impl Spectrum {
+    /// Number of values that every run has.
+    fn len(&self) -> usize {
+        self.powers.iter().map(Vec::len).min().unwrap_or(0)
+    }
+
+    /// The line that stands out most from the powers around it, in the run where it does least.
+    fn line(&self) -> Option<Line> {
+        let length = self.len();
+        let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
+        let ratio = |r: usize, k: usize| self.powers[r][k] / around[r][k].max(f64::MIN_POSITIVE);
+        let runs = 0..self.powers.len();
+        let least = |k: usize| runs.clone().map(|r| ratio(r, k)).fold(f64::INFINITY, f64::min);
+        let index = (0..length).max_by(|&a, &b| least(a).total_cmp(&least(b)))?;
+        let (at, step) = (self.first + index as f64 * self.step, self.step);
+        Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
+    }
+
+    /// The power around a value in every run.
+    fn around(&self, index: usize) -> Option<Vec<f64>> {
+        let length = self.len();
+        self.powers.iter().map(|p| around(&p[..length]).get(index).copied()).collect()
+    }
+}
+
+/// The power around every value of a spectrum: the median of its neighbours, which for noise is
+/// `ln 2` of the mean.
+fn around(power: &[f64]) -> Vec<f64> {
+    let median = |block: &[f64]| {
+        let mut sorted = block.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        sorted[sorted.len() / 2] / LN_2
+    };
+    let medians: Vec<f64> = power.chunks(AROUND).map(median).collect();
+    let near = |k: usize| {
+        let b = k / AROUND;
+        let blocks = &medians[b.saturating_sub(1)..(b + 2).min(medians.len())];
+        blocks.iter().copied().fold(0.0, f64::max)
+    };
+    (0..power.len()).map(near).collect()
+}
