@@ -4,6 +4,7 @@
 mod arm;
 mod bad_input;
 mod commands;
+mod compare;
 mod design;
 mod diagnose;
 mod learn;

@@ -4,6 +4,7 @@
 mod before_and_after;
 mod blind;
 mod clean;
+mod compare;
 mod extended;
 mod false_alarms;
 mod found;

@@ -227,7 +227,7 @@ fn shifted_forearm(robot: Robot) -> Robot {
 }
 
 /// A ball of 1 kg and 3 cm radius, 10 cm before the palm's origin.
-fn loaded(robot: Robot) -> Robot {
+pub fn loaded(robot: Robot) -> Robot {
     changed(robot, "palm", |i| {
         i.merged_with(&Inertia {
             mass: 1.0,

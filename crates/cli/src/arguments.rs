@@ -1,8 +1,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema, simulate,
-    track, view,
+    compare, design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema,
+    simulate, track, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -53,6 +53,23 @@ The output folder holds
   extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it
   models/named-gp.parquet
                   the same with a process of what is left, for track --learned; with --residual";
+
+const COMPARE_EXIT_CODES: &str = "\
+Exit codes:
+  0  nothing has changed that these logs could show
+  1  something has changed
+  2  usage: arguments, or an output folder that cannot be written
+  3  unusable data: a robot, a log or a column map";
+
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  plumbline compare --robot robot.toml --before monday_*.csv --after friday_*.csv --out changes
+
+The logs may be those of one arm before and after, early and late in a session, or of two arms that
+should be alike; the motions need not be the same. The output folder holds
+  before/  the diagnosis of the first logs
+  after/   the diagnosis of the others, of the robot as the first logs found it: its findings are the
+           changes, and was means before";
 
 const DESIGN_EXIT_CODES: &str = "\
 Exit codes:
@@ -148,6 +165,9 @@ pub enum Command {
     /// Names what a model gets wrong in logs, writes the extended model, a report and a figure
     #[command(after_help = format!("{DIAGNOSE_EXAMPLES}\n\n{EXIT_CODES}"))]
     Diagnose(diagnose::Arguments),
+    /// Names what changed from one set of logs to another
+    #[command(after_help = format!("{COMPARE_EXAMPLES}\n\n{COMPARE_EXIT_CODES}"))]
+    Compare(compare::Arguments),
     /// Searches the motion that tells apart what a diagnosis could not, within the robot's limits
     #[command(after_help = format!("{DESIGN_EXAMPLES}\n\n{DESIGN_EXIT_CODES}"))]
     Design(design::Arguments),

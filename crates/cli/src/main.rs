@@ -14,8 +14,8 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
-    design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema, simulate,
-    track, view,
+    compare, design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema,
+    simulate, track, view,
 };
 use crate::error::CliError;
 
@@ -43,6 +43,7 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     match &arguments.command {
         Command::Diagnose(arguments) => diagnose::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
         Command::Design(arguments) => design::run(arguments),
         Command::Robot(RobotCommand::Check(arguments)) => robot_check::run(arguments),
         Command::Log(LogCommand::Info(arguments)) => log_info::run(arguments),

@@ -20,6 +20,14 @@ pub enum DiagnosisError {
         /// Joints expected.
         expected: usize,
     },
+    /// A run is to be compared with itself.
+    #[error(
+        "run {run}: it is among the logs before and after, two sets without a run in common were expected"
+    )]
+    InBoth {
+        /// Name of the run.
+        run: String,
+    },
     /// All runs together are too short.
     #[error(
         "the logs hold {got} independent stretches, at least {expected} were expected: record a longer motion or give more runs"

@@ -10,6 +10,7 @@
 mod blocks;
 #[cfg(test)]
 mod calibration;
+mod compare;
 mod design;
 mod diagnose;
 mod diagnosed;
@@ -49,6 +50,7 @@ mod traces;
 mod uncertainty;
 mod verdict;
 
+pub use compare::{Comparison, FirstSize, compare};
 pub use diagnose::{Outcome, diagnose};
 pub use diagnosed::{Diagnosed, diagnosed};
 pub use error::DiagnosisError;

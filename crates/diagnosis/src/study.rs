@@ -61,38 +61,36 @@ impl Study<'_> {
         progress: &dyn Progress,
     ) -> Result<(Diagnosis, Vec<RunTraces>, Robot, Vec<HeldOut>), DiagnosisError> {
         progress.stage("searching for causes", 3);
-        let blocks = self.blocks()?;
-        progress.step();
-        let grams = Grams::new(self.design, &blocks);
-        let practical = self.practical();
-        let record = Record {
-            robot: self.robot,
-            design: self.design,
-            blocks: &blocks,
-            grams: &grams,
-            practical: &practical,
-        };
-        let answer = self.answer(&record, progress)?;
-        let diagnosis = self.report(&record, &answer);
-        let traces = traces(self.design, &answer.by_run, &answer.gain.weights);
-        Ok((diagnosis, traces, answer.extended, answer.gain.parts))
+        self.with_record(|record| {
+            progress.step();
+            let answer = self.answer(record, progress)?;
+            let diagnosis = self.report(record, &answer);
+            let traces = traces(self.design, &answer.by_run, &answer.gain.weights);
+            Ok((diagnosis, traces, answer.extended, answer.gain.parts))
+        })?
     }
 
     /// The robot with what a search over the whole record finds, before any test of it.
     pub fn extended(&self) -> Result<Robot, DiagnosisError> {
+        self.with_record(|record| {
+            let all: Vec<usize> = (0..record.blocks.len()).collect();
+            let (problem, model) = record.search(&all);
+            Ok(solved(self.robot, &self.log, &problem, &model)?.robot)
+        })?
+    }
+
+    /// What `look` makes of the record, cut into blocks.
+    pub fn with_record<T>(&self, look: impl FnOnce(&Record) -> T) -> Result<T, DiagnosisError> {
         let blocks = self.blocks()?;
         let grams = Grams::new(self.design, &blocks);
         let practical = self.practical();
-        let record = Record {
+        Ok(look(&Record {
             robot: self.robot,
             design: self.design,
             blocks: &blocks,
             grams: &grams,
             practical: &practical,
-        };
-        let all: Vec<usize> = (0..blocks.len()).collect();
-        let (problem, model) = record.search(&all);
-        Ok(solved(self.robot, &self.log, &problem, &model)?.robot)
+        }))
     }
 
     /// Blocks of at least five autocorrelation times of what a model of everything leaves.

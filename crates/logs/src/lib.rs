@@ -45,7 +45,7 @@ mod writer;
 pub use agreement::Agreement;
 pub use column_map::{ColumnMap, MappedColumn};
 pub use differentiate::differentiate;
-pub use duplicate::duplicate_of;
+pub use duplicate::{duplicate_of, repeated};
 pub use error::LogError;
 pub use filter::{LowPass, decimate};
 pub use held::centre_commands;

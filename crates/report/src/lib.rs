@@ -54,7 +54,7 @@ pub use provenance::{FileHash, Provenance};
 pub use residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use sentence::{bottom_line, verdict_sentence};
 pub use tables::sizes;
-pub use terminal::text;
+pub use terminal::{text, warnings};
 pub use tracking::{
     FirstSeconds, Gains, Sweep, SweptModel, TRACKING_SCHEMA, TrackedModel, TrackingComparison,
     WallTiming,

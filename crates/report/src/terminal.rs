@@ -219,7 +219,7 @@ fn motions(out: &mut String, findings: &[Finding]) {
 }
 
 /// Warnings, each in sentences of its own.
-pub(crate) fn warnings(out: &mut String, warnings: &[String]) {
+pub fn warnings(out: &mut String, warnings: &[String]) {
     if !warnings.is_empty() {
         out.push('\n');
     }

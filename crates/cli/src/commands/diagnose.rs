@@ -107,7 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         provenance: &provenance,
     };
     let json = report::json(&report)?;
-    write(arguments, &loaded, &outcome, (&report, &json), residual.as_ref())?;
+    write(&arguments.out, &loaded, &outcome, (&report, &json), residual.as_ref())?;
     let diagnosed = Diagnosed {
         loaded: &loaded,
         runs: &runs,
@@ -122,9 +122,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     })
 }
 
-/// Writes the output folder, all but the recording.
-fn write(
-    arguments: &Arguments,
+/// Writes an output folder, all but the recording.
+pub(super) fn write(
+    out: &Path,
     loaded: &Loaded,
     outcome: &diagnosis::Outcome,
     (report, json): (&Report, &str),
@@ -141,10 +141,10 @@ fn write(
         ("robot.urdf", &urdf),
     ];
     files.extend(residual.map(|learned| (residual::FILE, learned.bytes.as_slice())));
-    report::write_folder(&arguments.out, &files)?;
+    report::write_folder(out, &files)?;
     if residual.is_none() {
         // One of an earlier diagnosis would be about another extended robot.
-        let _ = std::fs::remove_file(arguments.out.join(residual::FILE));
+        let _ = std::fs::remove_file(out.join(residual::FILE));
     }
     Ok(())
 }

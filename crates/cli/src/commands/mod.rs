@@ -1,5 +1,6 @@
 //! One file per command: its arguments and what it does.
 
+pub mod compare;
 pub mod design;
 pub mod diagnose;
 pub mod effects;

@@ -1,0 +1,172 @@
+use std::path::{Path, PathBuf};
+
+use diagnosis::{Comparison, Finding, Progress, Settings, Silent};
+use logs::Run;
+use report::{Report, ReportError};
+use robot::{Loaded, Robot};
+
+use super::diagnose;
+use crate::Outcome;
+use crate::error::CliError;
+use crate::input::{ColumnArguments, hashes_of, positive, provenance, share};
+use crate::output::{print, shown};
+use crate::progress::Bar;
+
+/// Columns of the text.
+const WIDTH: usize = 100;
+
+/// Arguments of `compare`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The robot: a robot.urdf, or a robot.toml that names one
+    #[arg(long, value_name = "FILE")]
+    robot: PathBuf,
+    /// The first logs, CSV or Parquet files, one run each
+    #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
+    before: Vec<PathBuf>,
+    /// The logs in which something may have changed
+    #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
+    after: Vec<PathBuf>,
+    /// Folder for the two diagnoses, before and after
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    columns: ColumnArguments,
+    /// Cut-off of the low-pass filter; chosen from the first logs when it is left out
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    cutoff_hz: Option<f64>,
+    /// Share of false causes that is accepted among the findings
+    #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share, allow_negative_numbers = true)]
+    fdr: f64,
+    /// Seed of every random draw
+    #[arg(long, default_value_t = Settings::default().seed)]
+    seed: u64,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Compares two sets of logs, writes a diagnosis of each and prints what changed.
+pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    let out = &arguments.out;
+    if out.exists() && !out.is_dir() {
+        return Err(ReportError::NotAFolder { path: out.clone() }.into());
+    }
+    let loaded = Robot::load(&arguments.robot)?;
+    let read = |paths| arguments.columns.read_runs(paths, &loaded.robot);
+    let runs = [read(&arguments.before)?, read(&arguments.after)?];
+    let settings = Settings {
+        cutoff_hz: arguments.cutoff_hz,
+        control_rate_hz: loaded.control.rate_hz,
+        false_discovery_rate: arguments.fdr,
+        seed: arguments.seed,
+        ..Settings::default()
+    };
+    let bar = Bar::new();
+    let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
+    let sets = [runs[0].as_slice(), runs[1].as_slice()];
+    let comparison = diagnosis::compare(&loaded.robot, sets, &settings, progress);
+    bar.finish();
+    let comparison = comparison?;
+    write(arguments, &loaded, &runs, &comparison)?;
+    if !arguments.quiet {
+        print(&format!("{}\n{}", words(&comparison), closing(out)))?;
+    }
+    let changes = &comparison.after.diagnosis.findings;
+    Ok(if changes.is_empty() { Outcome::Good } else { Outcome::Gap })
+}
+
+/// Writes the diagnosis of each set of logs into a folder of its own.
+fn write(
+    arguments: &Arguments,
+    loaded: &Loaded,
+    runs: &[Vec<Run>; 2],
+    comparison: &Comparison,
+) -> Result<(), CliError> {
+    let about = Loaded { robot: comparison.before.extended.clone(), ..loaded.clone() };
+    let sides = [("before", loaded, &comparison.before), ("after", &about, &comparison.after)];
+    for ((name, loaded, outcome), runs) in sides.into_iter().zip(runs) {
+        let map = arguments.columns.map.as_deref();
+        let mut provenance = provenance(&arguments.robot, loaded, map)?;
+        provenance.files.extend(hashes_of(runs));
+        provenance.seed = Some(arguments.seed);
+        let report = Report {
+            diagnosis: &outcome.diagnosis,
+            traces: &outcome.traces,
+            robot: &loaded.robot,
+            residual: None,
+            provenance: &provenance,
+        };
+        let json = report::json(&report)?;
+        diagnose::write(&arguments.out.join(name), loaded, outcome, (&report, &json), None)?;
+    }
+    Ok(())
+}
+
+/// What changed and what is wrong in both, a line or a few each.
+fn words(comparison: &Comparison) -> String {
+    let diagnosis = &comparison.after.diagnosis;
+    let changes = &diagnosis.findings;
+    let mut text = match changes.len() {
+        0 => format!("Nothing that these logs could show has changed in {}.\n", diagnosis.robot),
+        1 => format!("Changed: 1 named effect of {}.\n", diagnosis.robot),
+        n => format!("Changed: {n} named effects of {}.\n", diagnosis.robot),
+    };
+    for finding in changes {
+        text.push_str(&lines(finding));
+        text.push_str(&first(comparison, finding));
+    }
+    if !comparison.alike.is_empty() {
+        text.push_str("\nOf the same size before, and so no change\n");
+        comparison.alike.iter().for_each(|finding| text.push_str(&lines(finding)));
+    }
+    let held = &comparison.before.diagnosis.findings;
+    if !held.is_empty() {
+        text.push_str("\nFound before, and held where nothing above is said of it\n");
+        held.iter().for_each(|finding| text.push_str(&lines(finding)));
+    }
+    for outcome in [&comparison.before, &comparison.after] {
+        report::warnings(&mut text, &outcome.diagnosis.warnings);
+    }
+    text
+}
+
+/// A finding with its sizes and its rivals.
+fn lines(finding: &Finding) -> String {
+    let mut text = format!("  {}\n", finding.at.words());
+    let sizes = report::sizes(finding);
+    for line in report::packed(sizes.iter().map(String::as_str), "; ", WIDTH - 4) {
+        text.push_str(&format!("    {line}\n"));
+    }
+    let (rivals, _) = finding.rivals();
+    if !rivals.is_empty() {
+        let words = format!("may as well be {}", rivals.join(" or "));
+        for line in report::packed(words.split_whitespace(), " ", WIDTH - 4) {
+            text.push_str(&format!("    {line}\n"));
+        }
+    }
+    text
+}
+
+/// What the first logs by themselves say of the size of a change.
+fn first(comparison: &Comparison, finding: &Finding) -> String {
+    let Some(size) = comparison.first.iter().find(|size| size.at == finding.at) else {
+        return String::new();
+    };
+    let known = Finding { parameters: size.parameters.clone(), ..finding.clone() };
+    let words = format!("in the first logs {}", report::sizes(&known).join("; "));
+    let lines = report::packed(words.split_whitespace(), " ", WIDTH - 4);
+    lines.iter().map(|line| format!("    {line}\n")).collect()
+}
+
+fn closing(out: &Path) -> String {
+    let at = |name: &str| shown(&out.join(name));
+    format!(
+        "before         {} (what the first logs say of the robot)\n\
+         after          {} (what the others say of the robot as the first found it)\n\
+         extended model {} (for --robot)\n",
+        at("before/report.html"),
+        at("after/report.html"),
+        at("after/extended.toml")
+    )
+}

@@ -1,0 +1,148 @@
+use effects::{Hypothesis, hypotheses};
+use logs::{Run, repeated};
+use robot::Robot;
+
+use crate::design::Design;
+use crate::diagnose::{Outcome, diagnose};
+use crate::error::DiagnosisError;
+use crate::extent::inadequate;
+use crate::findings::effect_at;
+use crate::log::Log;
+use crate::problem::Model;
+use crate::progress::Progress;
+use crate::result::{EffectAt, Estimate, Finding};
+use crate::settings::Settings;
+use crate::study::Study;
+use crate::uncertainty::{Fitted, Uncertainty};
+
+/// What changed from one set of logs to another: of one arm before and after, early and late in a
+/// session, or of two arms that should be alike.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// What the first logs say of the robot.
+    pub before: Outcome,
+    /// What the others say of the robot with the findings of the first ones: its findings are
+    /// the changes, each `was` the first logs'.
+    pub after: Outcome,
+    /// What the first logs say of the sizes of the findings, about that robot; of those whose
+    /// columns are linear in it.
+    pub first: Vec<FirstSize>,
+    /// Findings about that robot which the first logs show to the same size: a gap that is left
+    /// in both, and no change.
+    pub alike: Vec<Finding>,
+}
+
+/// The parameters of an effect as the first logs have them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FirstSize {
+    /// The effect and its place.
+    pub at: EffectAt,
+    /// Its parameters.
+    pub parameters: Vec<Estimate>,
+}
+
+/// Finds what changed from the runs `before` to the runs `after`.
+///
+/// ```text
+/// effort after  - extended nominal effort = columns w_after  + structure + noise
+/// effort before - extended nominal effort = columns w_before + structure + noise
+/// ```
+///
+/// with the robot that the first runs extend. What no finding explains is in both logs, and some
+/// hypothesis may stand for it: a change is one whose `w_after` differs from `w_before` by more
+/// than their 95 per cent intervals, added as squares.
+///
+/// # Errors
+///
+/// As [`diagnose`], of either set, and [`DiagnosisError::InBoth`] for a run that is in both.
+pub fn compare(
+    robot: &Robot,
+    [before, after]: [&[Run]; 2],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Comparison, DiagnosisError> {
+    if let Some(run) = after.iter().find(|a| before.iter().any(|b| repeated(a, b))) {
+        return Err(DiagnosisError::InBoth { run: run.name.clone() });
+    }
+    let before = diagnose(robot, before, settings, progress)?;
+    let settings = Settings { cutoff_hz: Some(before.prepared.cutoff_hz), ..settings.clone() };
+    let mut after = diagnose(&before.extended, after, &settings, progress)?;
+    let about = &before.extended;
+    let named: Vec<&EffectAt> = after.diagnosis.findings.iter().map(|f| &f.at).collect();
+    let is_named = |h: &Hypothesis| named.contains(&&effect_at(about, *h));
+    let asked: Vec<Hypothesis> = hypotheses(about).into_iter().filter(is_named).collect();
+    let first = sizes(&before, &asked, &settings)?;
+    let changed = |finding: &Finding| {
+        let same = first.iter().find(|size| size.at == finding.at);
+        same.is_none_or(|size| differ(&finding.parameters, &size.parameters))
+    };
+    let (changes, alike) = after.diagnosis.findings.into_iter().partition(changed);
+    after.diagnosis.findings = changes;
+    Ok(Comparison { before, after, first, alike })
+}
+
+/// What the logs of an outcome say of some hypotheses about the robot that has its findings.
+fn sizes(
+    outcome: &Outcome,
+    hypotheses: &[Hypothesis],
+    settings: &Settings,
+) -> Result<Vec<FirstSize>, DiagnosisError> {
+    if hypotheses.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (robot, prepared) = (&outcome.extended, &outcome.prepared);
+    let inadequate = inadequate(robot, prepared);
+    let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
+    let log = Log { prepared, moved: &moved, tones: &[], limits: &[] };
+    let design = Design::of(robot, &log, hypotheses)?;
+    let inadequate = &inadequate;
+    let study = Study { nominal: robot, robot, settings, log, design: &design, inadequate };
+    study.with_record(|record| {
+        let all: Vec<usize> = (0..record.blocks.len()).collect();
+        let problem = record.problem(&all);
+        let model: Model = (0..design.groups.len()).collect();
+        let Some(fit) = problem.fit(&model) else { return Vec::new() };
+        let weights = fit.expand(design.width);
+        let fitted = Fitted {
+            problem: &problem,
+            model: &model,
+            weights: &weights,
+            about: robot,
+            nominal: robot,
+        };
+        let Some(uncertainty) = Uncertainty::of(&fitted) else { return Vec::new() };
+        let size = |h: &Hypothesis| FirstSize {
+            at: effect_at(robot, *h),
+            parameters: uncertainty.estimates(&fitted, *h, &[]),
+        };
+        hypotheses.iter().map(size).collect()
+    })
+}
+
+/// Whether a parameter differs by more than the two 95 per cent intervals allow.
+fn differ(after: &[Estimate], before: &[Estimate]) -> bool {
+    let half = |e: &Estimate| 0.5 * (e.ci95[1] - e.ci95[0]);
+    after.iter().any(|a| {
+        let before = before.iter().find(|b| b.name == a.name);
+        before.is_none_or(|b| (a.value - b.value).abs() > half(a).hypot(half(b)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn estimate(value: f64, half: f64) -> Estimate {
+        let ci95 = [value - half, value + half];
+        Estimate { name: "level", value, ci95, nominal: 0.0, unit: "N m", determined: true }
+    }
+
+    #[test]
+    fn sizes_differ_by_more_than_both_intervals() {
+        let after = [estimate(1.0, 0.3)];
+        assert!(!differ(&after, &[estimate(1.49, 0.4)]));
+        assert!(differ(&after, &[estimate(1.51, 0.4)]));
+        assert!(!differ(&after, &[estimate(3.0, f64::INFINITY)]));
+        assert!(differ(&after, &[]));
+    }
+}

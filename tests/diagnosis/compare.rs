@@ -1,0 +1,59 @@
+//! What changed between two sets of logs, of an arm whose description is wrong in both.
+
+use checks::synthetic::wam;
+use diagnosis::{Comparison, DiagnosisError, Settings, Silent, compare};
+use rayon::prelude::*;
+
+use crate::trials::loaded;
+use crate::world::{World, finding, named, sign};
+
+const SEEDS: std::ops::Range<u64> = 40..46;
+
+/// Friction that is named, and a torque for which there is no name.
+fn worn() -> World {
+    World::nominal()
+        .torque(1, |[_, qd, _]| 1.5 * sign(qd))
+        .torque(3, |[q, qd, _]| 0.4 * (3.0 * q).sin() * (2.0 * qd).tanh() + 0.3 * qd * qd.abs())
+}
+
+fn compared(before: &World, after: &World, seed: u64) -> Comparison {
+    let (before, after) = (before.log(seed), after.log(1000 + seed));
+    compare(&wam(), [&before, &after], &Settings::default(), &Silent).unwrap()
+}
+
+#[test]
+fn between_logs_of_the_same_arm_nothing_has_changed() {
+    let all: Vec<Vec<String>> = SEEDS
+        .into_par_iter()
+        .map(|seed| named(&compared(&worn(), &worn(), seed).after.diagnosis))
+        .collect();
+    println!("{all:?}");
+    let wrong = all.iter().filter(|names| !names.is_empty()).count();
+    assert!(wrong <= 1, "{all:?}");
+}
+
+#[test]
+fn what_was_put_on_and_what_wore_is_what_changed() {
+    let after = worn().body(loaded).torque(1, |[_, qd, _]| 1.0 * sign(qd));
+    SEEDS.into_par_iter().for_each(|seed| {
+        let answer = compared(&worn(), &after, seed);
+        let names = named(&answer.after.diagnosis);
+        println!("{names:?}");
+        let friction =
+            finding(&answer.after.diagnosis, "FR02 Coulomb friction at j2_shoulder_pitch");
+        let level = &friction.unwrap_or_else(|| panic!("{names:?}")).parameters[0];
+        assert!((level.nominal - 1.5).abs() < 0.1 && (level.value - 2.5).abs() < 0.1, "{level:?}");
+        let load = finding(&answer.after.diagnosis, "IN02 inertial parameters at palm");
+        let mass = &load.unwrap_or_else(|| panic!("{names:?}")).parameters[0];
+        assert!((mass.value - mass.nominal - 1.0).abs() < 0.05, "{mass:?}");
+        assert!(names.len() <= 3, "{names:?}");
+    });
+}
+
+#[test]
+fn a_run_is_not_compared_with_itself() {
+    let log = World::nominal().log(1);
+    let answer = compare(&wam(), [&log, &log[..1]], &Settings::default(), &Silent);
+    let expected = DiagnosisError::InBoth { run: log[0].name.clone() };
+    assert_eq!(answer.map(|_| ()), Err(expected));
+}
