@@ -84,6 +84,19 @@ impl Evidence<'_> {
         forms.into_iter().flatten().filter(|h| !self.model.contains(h)).filter(too_small).collect()
     }
 
+    /// Asymmetric friction, where Coulomb friction `g` and an offset of the same joint may as well be
+    /// that.
+    fn skewed(&self, g: usize) -> Option<usize> {
+        let design = self.selection.problem.design;
+        let Hypothesis { kind, place } = design.groups[g].hypothesis;
+        let at = |kind| design.find(Hypothesis { kind, place });
+        let offset = at(EffectKind::TorqueOffset).filter(|offset| self.model.contains(offset))?;
+        let skewed = at(EffectKind::AsymmetricFriction)?;
+        let is_one = kind == EffectKind::CoulombFriction
+            && rivals(self.selection, self.model, offset).contains(&skewed);
+        is_one.then_some(skewed)
+    }
+
     fn finding(
         &self,
         g: usize,
@@ -98,6 +111,7 @@ impl Evidence<'_> {
             if whole > 0.0 { ((without - after) / whole).clamp(0.0, 1.0) } else { 0.0 }
         };
         let mut rivals = rivals(self.selection, self.model, g);
+        rivals.extend(self.skewed(g));
         rivals.extend(self.hidden_beside(g, fitted));
         let hypothesis = |m: &usize| problem.design.groups[*m].hypothesis;
         let level: Vec<Hypothesis> =
