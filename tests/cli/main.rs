@@ -12,4 +12,5 @@ mod program;
 mod replay;
 mod simulate;
 mod track;
+mod trials;
 mod view;

@@ -4,7 +4,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use document::Document;
-use evaluation::TrackingScenario;
+use evaluation::{Campaign, TrackingScenario};
 use simulator::scenario::Scenario;
 
 use crate::arm;
@@ -67,6 +67,7 @@ fn the_schema_beside_the_scenarios_is_that_of_the_program() {
     let kinds = [
         ("simulate", "scenario", ["differential_coupling", "torque_share"]),
         ("track", "tracking", ["gp-rbd-prior", "stops_at_s"]),
+        ("trials", "trials", ["torque_ripple", "seeds"]),
     ];
     for (command, name, words) in kinds {
         let answer = run(&workspace(), &["schema", command]);
@@ -99,7 +100,7 @@ fn every_scenario_is_accepted_and_names_the_schema_in_its_first_line() {
     let scenarios = workspace().join("scenarios");
     let mut found = Vec::new();
     below(&scenarios, "toml", &mut found);
-    let mut tracked = 0;
+    let (mut tracked, mut campaigns) = (0, 0);
     for path in &found {
         let up = "../".repeat(path.strip_prefix(&scenarios).unwrap().components().count() - 1);
         let text = fs::read_to_string(path).unwrap();
@@ -111,6 +112,12 @@ fn every_scenario_is_accepted_and_names_the_schema_in_its_first_line() {
             tracked += 1;
             continue;
         }
+        if first == format!("#:schema {up}trials.schema.json") {
+            let campaign = Campaign::from_document(&document);
+            assert!(campaign.is_ok(), "{}: {}", path.display(), campaign.err().unwrap());
+            campaigns += 1;
+            continue;
+        }
         assert_eq!(first, format!("#:schema {up}scenario.schema.json"), "{}", path.display());
         if !document.to_toml().contains("[[run]]") {
             document.set("run=[{ name = 'x', motion = { hold = { duration_s = 1 } } }]").unwrap();
@@ -118,7 +125,8 @@ fn every_scenario_is_accepted_and_names_the_schema_in_its_first_line() {
         let scenario = Scenario::from_document(&document);
         assert!(scenario.is_ok(), "{}: {}", path.display(), scenario.err().unwrap());
     }
-    assert!(tracked > 0 && tracked < found.len(), "{tracked} of {}", found.len());
+    let others = found.len() - tracked - campaigns;
+    assert!(tracked > 0 && campaigns > 0 && others > 0, "{tracked}, {campaigns}, {others}");
 }
 
 /// Refused with exit code 3 and this text, before anything is written.

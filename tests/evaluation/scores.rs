@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use catalogue::EffectKind::{
-    self, Backlash, CoulombFriction, InertialParameters, Payload, TorqueOffset, ViscousFriction,
+    self, Backlash, CoulombFriction, GravityDirection, InertialParameters, Payload, TorqueConstant,
+    TorqueOffset, ViscousFriction,
 };
 use diagnosis::{
     DataSummary, Diagnosis, EffectAt, Estimate, Finding, Gain, InverseGain, SCHEMA, Verdict,
 };
-use evaluation::{Group, Row, Score, Tally};
+use evaluation::{Group, Power, Row, Score, Tally};
 use simulator::Truth;
 
 const ELBOW: &str = "elbow";
@@ -310,4 +311,34 @@ fn the_largest_tables_are_within_120_columns() {
         parameters,
         "{text}"
     );
+}
+
+/// Friction is named from 0.35 N m on, a tilted base (a vector) never.
+#[test]
+fn the_power_is_told_in_three_classes_of_equal_number_by_size() {
+    let friction = |level: f64| {
+        let truth = Truth::at_joint(CoulombFriction, ELBOW, &[("level", level)]);
+        let named = finding(at_joint(CoulombFriction, ELBOW), 0.9, &[]);
+        let findings = if level > 0.35 { vec![named] } else { Vec::new() };
+        score(Verdict::Explained, findings, &[truth])
+    };
+    let tilted = Truth::everywhere(GravityDirection, &[("tilt_1", -0.03), ("tilt_2", 0.04)]);
+    let gain = Truth::at_joint(TorqueConstant, ELBOW, &[("gain", 0.9)]);
+    let mut scores: Vec<Score> = [0.6, 0.1, 0.4, 0.2, 0.5, 0.3].map(friction).to_vec();
+    scores.push(score(Verdict::Unexplained, Vec::new(), &[tilted]));
+    scores.push(score(Verdict::Unexplained, Vec::new(), &[gain]));
+    scores.push(score(Verdict::Unexplained, Vec::new(), &[coulomb(), coulomb()]));
+    let power = Power::all(&scores);
+    let told = |power: &Power| {
+        let classes = power.classes.iter();
+        classes.map(|c| (c.sizes, c.exactly.count, c.exactly.of)).collect::<Vec<_>>()
+    };
+    let kinds = [TorqueConstant, GravityDirection, CoulombFriction].map(Group::Kind);
+    assert_eq!(power.iter().map(|power| power.put_in).collect::<Vec<_>>(), kinds);
+    let expected = [([0.1, 0.2], 0, 2), ([0.3, 0.4], 1, 2), ([0.5, 0.6], 2, 2)];
+    assert_eq!((power[2].parameter, told(&power[2])), ("level", expected.to_vec()));
+    assert_eq!((power[1].unit, told(&power[1])), ("rad", vec![([0.05, 0.05], 0, 1)]));
+    assert!((power[0].classes[0].sizes[0] - 0.1).abs() < 1e-12);
+    scores.reverse();
+    assert_eq!(Power::all(&scores), power);
 }

@@ -2,7 +2,7 @@ use clap::{Parser, Subcommand};
 
 use crate::commands::{
     compare, design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema,
-    simulate, track, view,
+    simulate, track, trials, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -149,6 +149,32 @@ The output folder holds for each run
   NAME_motion.parquet        the torque simulated along the motion of the log, beside
                              <joint>.measured_effort, if the robot.toml has gains";
 
+const TRIALS_EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  trials are left to make, or to make again: a damaged shard or one of another campaign
+  2  usage: arguments, or a folder that cannot be written or holds another campaign
+  3  a campaign, a scenario or a robot that cannot be used";
+
+const TRIALS_EXAMPLES: &str = "\
+Examples:
+  plumbline trials plan scenarios/trials.toml --out blind
+  plumbline trials work blind --jobs 8
+  plumbline trials work blind --part 1/4
+  plumbline trials status blind
+  plumbline trials merge blind
+
+The folder holds
+  campaign.toml    what is to be made
+  scenario.toml    the scenario of every trial, with all that it extends
+  shards/          a file for every trial that is made: to make one again, remove it
+  trials.parquet   all of them, one row a trial; with merge
+  tally.json       how often what was hidden was named, by kind and size; with merge
+  report.html      the same for a browser; with merge
+
+A trial is made in a folder of its own and its shard put in place when it is whole. Work that is
+killed loses the trials that were being made, no more; Ctrl-C lets them come to their end.";
+
 /// Shows what a simulation gets wrong in a recorded log, names the cause, extends the
 /// model and measures the gain.
 #[derive(Debug, Parser)]
@@ -193,6 +219,9 @@ pub enum Command {
     /// Tracks a motion with low gains and the torque of models fed forward, and compares them
     #[command(after_help = format!("{TRACK_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Track(track::Arguments),
+    /// Blind trials: effects hidden in a simulated arm, diagnosed from its logs, and scored
+    #[command(subcommand, after_help = format!("{TRIALS_EXAMPLES}\n\n{TRIALS_EXIT_CODES}"))]
+    Trials(trials::Action),
     /// Opens the report of an output folder in the browser, its recordings in rerun's viewer
     #[command(after_help = VIEW_EXIT_CODES)]
     View(view::Arguments),

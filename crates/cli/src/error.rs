@@ -172,7 +172,13 @@ impl CliError {
                 EvaluationError::NoModel { .. }
                 | EvaluationError::NothingToLearnFrom { .. }
                 | EvaluationError::Recording(_)
-                | EvaluationError::Log(LogError::Unwritable { .. }) => 2,
+                | EvaluationError::OtherCampaign { .. }
+                | EvaluationError::NoThreads { .. }
+                | EvaluationError::TrialFolder { .. }
+                | EvaluationError::Log(LogError::Unwritable { .. })
+                | EvaluationError::Simulator(SimulatorError::Log(LogError::Unwritable {
+                    ..
+                })) => 2,
                 _ => 3,
             },
             Self::Report(ReportError::Unreadable { .. }) => 3,

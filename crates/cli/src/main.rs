@@ -15,7 +15,7 @@ use clap::Parser;
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
     compare, design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema,
-    simulate, track, view,
+    simulate, track, trials, view,
 };
 use crate::error::CliError;
 
@@ -53,6 +53,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Replay(arguments) => replay::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Track(arguments) => track::run(arguments),
+        Command::Trials(action) => trials::run(action),
         Command::View(arguments) => view::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
     }

@@ -81,4 +81,28 @@ pub enum EvaluationError {
         /// What the operating system or the decoder said.
         reason: String,
     },
+    /// A folder holds trials of another campaign.
+    #[error(
+        "{}: it is of another campaign ({}, this one is {}), an empty folder was expected",
+        path.display(), short(found), short(planned)
+    )]
+    OtherCampaign {
+        /// A shard of it.
+        path: PathBuf,
+        /// The campaign that it is of, by its hash.
+        found: String,
+        /// The campaign that was to be planned.
+        planned: String,
+    },
+    /// The threads of a worker cannot be started.
+    #[error("the threads of a worker cannot be started: {reason}")]
+    NoThreads {
+        /// What the operating system said.
+        reason: String,
+    },
+}
+
+/// The start of a hash, enough to tell it from others by eye.
+fn short(hash: &str) -> &str {
+    hash.get(..8).unwrap_or(hash)
 }

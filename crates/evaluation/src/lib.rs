@@ -5,6 +5,7 @@
 //! logs, diagnosis --learn--> Residual: a process of what the findings leave
 //! logs, diagnosis --replay--> a recording of the measured arm beside the simulated one
 //! Trial --simulate, diagnose blind--> Score --many--> Tally
+//! Campaign --plan--> CampaignFolder --work--> shards of Records --> Merged: tally, power
 //! ```
 //!
 //! The one place where the simulated arm and the models of it meet; what is learned is learned
@@ -45,5 +46,8 @@ pub use tracking_spec::{
     SweepSpec, TrackingControlSpec, TrackingSpec,
 };
 pub use trials::{
-    Estimated, Group, Hidden, Named, PutIn, Row, Score, Share, Size, SizeTally, Tally, Trial, judge,
+    BrokenShard, Campaign, CampaignFolder, CampaignSpec, Confusion, Crew, Estimated, Failure,
+    Group, Hidden, KindCount, MERGED_SCHEMA, Made, Merged, Named, NoPart, Part, Power, PutIn,
+    Record, Row, Score, Share, Size, SizeClass, SizeTally, Tally, TextTable, Trial, TrialLogs,
+    WorkProgress, judge, work,
 };

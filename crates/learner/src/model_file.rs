@@ -6,14 +6,11 @@ use std::sync::Arc;
 use arrow_array::builder::{Float64Builder, ListBuilder};
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
-use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch};
-use arrow_schema::Schema;
+use arrow_array::{Array, ArrayRef, Float64Array};
 use gaussian_process::{GaussianKernel, KernelSum, Likelihood};
-use parquet::arrow::ArrowWriter;
+use logs::LogError;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use parquet::basic::Compression;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
 use robot::Robot;
 
 use crate::saved::{Header, VERSION, symmetric, tree_sha256};
@@ -35,28 +32,13 @@ impl Model {
     ///
     /// [`LearnerError::Log`] when the file cannot be written; what was there before stays.
     pub fn save(&self, path: &Path) -> Result<(), LearnerError> {
-        let columns = self.table();
-        logs::replace_file(path, |file| {
-            let header = serde_json::to_string(&Header::of(self))?;
-            let properties = WriterProperties::builder()
-                .set_compression(Compression::SNAPPY)
-                .set_key_value_metadata(Some(vec![KeyValue::new(HEADER.to_owned(), header)]))
-                .build();
-            let fields: Vec<_> = columns
-                .iter()
-                .map(|(name, array)| {
-                    arrow_schema::Field::new(name, array.data_type().clone(), false)
-                })
-                .collect();
-            let schema = Arc::new(Schema::new(fields));
-            let arrays = columns.into_iter().map(|(_, array)| array).collect();
-            let batch = RecordBatch::try_new(schema.clone(), arrays)?;
-            let mut writer = ArrowWriter::try_new(file, schema, Some(properties))?;
-            writer.write(&batch)?;
-            writer.close()?;
-            Ok(())
-        })?;
-        Ok(())
+        let unwritable = |e: serde_json::Error| LogError::Unwritable {
+            path: path.to_owned(),
+            reason: e.to_string(),
+        };
+        let header = serde_json::to_string(&Header::of(self)).map_err(unwritable)?;
+        let header = KeyValue::new(HEADER.to_owned(), header);
+        Ok(logs::write_table(path, self.table(), vec![header])?)
     }
 
     fn table(&self) -> Vec<(String, ArrayRef)> {

@@ -56,5 +56,5 @@ pub use rest::rest_speeds;
 pub use run::{Channel, Channels, Run};
 pub use unit::Unit;
 pub use warning::LogWarning;
-pub use write::{replace_file, write_csv, write_parquet};
+pub use write::{replace_file, write_csv, write_parquet, write_table};
 pub use writer::LogWriter;

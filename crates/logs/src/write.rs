@@ -5,9 +5,13 @@ use std::{
     sync::Arc,
 };
 
-use arrow_array::{ArrayRef, Float64Array, RecordBatch};
-use arrow_schema::{DataType, Field, Schema};
-use parquet::{arrow::ArrowWriter, basic::Compression, file::properties::WriterProperties};
+use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch};
+use arrow_schema::{Field, Schema};
+use parquet::{
+    arrow::ArrowWriter,
+    basic::Compression,
+    file::{metadata::KeyValue, properties::WriterProperties},
+};
 
 use crate::{Channel, LogError, Run};
 
@@ -39,25 +43,43 @@ pub fn replace_file(
     name.persist(path).map_err(|e| unwritable(e.error.to_string()))
 }
 
+/// Writes columns of equal length as Parquet, with texts by key among the metadata of the file.
+///
+/// # Errors
+///
+/// [`LogError::Unwritable`].
+pub fn write_table(
+    path: &Path,
+    columns: Vec<(String, ArrayRef)>,
+    metadata: Vec<KeyValue>,
+) -> Result<(), LogError> {
+    let field = |(name, array): &(String, ArrayRef)| {
+        Field::new(name, array.data_type().clone(), array.is_nullable())
+    };
+    let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
+    let arrays = columns.into_iter().map(|(_, array)| array).collect();
+    replace_file(path, |file| {
+        let batch = RecordBatch::try_new(schema.clone(), arrays)?;
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::SNAPPY)
+            .set_key_value_metadata(Some(metadata).filter(|texts| !texts.is_empty()))
+            .build();
+        let mut writer = ArrowWriter::try_new(file, schema, Some(properties))?;
+        writer.write(&batch)?;
+        writer.close()?;
+        Ok(())
+    })
+}
+
 /// Writes a run as Parquet, one `f64` column per signal; reading it back is exact.
 ///
 /// # Errors
 ///
 /// [`LogError::Unwritable`].
 pub fn write_parquet(path: &Path, run: &Run) -> Result<(), LogError> {
-    let columns = columns(run);
-    let field = |(name, _): &(String, &[f64])| Field::new(name, DataType::Float64, false);
-    let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
-    let array = |(_, x): &(String, &[f64])| Arc::new(Float64Array::from(x.to_vec())) as ArrayRef;
-    let arrays = columns.iter().map(array).collect();
-    replace_file(path, |file| {
-        let batch = RecordBatch::try_new(schema.clone(), arrays)?;
-        let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
-        let mut writer = ArrowWriter::try_new(file, schema, Some(properties))?;
-        writer.write(&batch)?;
-        writer.close()?;
-        Ok(())
-    })
+    let array = |x: &[f64]| Arc::new(Float64Array::from(x.to_vec())) as ArrayRef;
+    let columns = columns(run).into_iter().map(|(name, x)| (name, array(x)));
+    write_table(path, columns.collect(), Vec::new())
 }
 
 /// Writes a run as CSV with a header; reading it back is exact.

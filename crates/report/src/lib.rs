@@ -5,6 +5,7 @@
 //! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
+//! evaluation::Merged { counts, tally, power } of trials -> trials_page()
 //! ```
 //!
 //! None of them holds a date or a random number: the same input gives the same
@@ -19,6 +20,7 @@ mod figures;
 mod files;
 mod grid;
 mod html;
+mod html_grid;
 mod json;
 mod learning;
 mod linear_axis;
@@ -36,6 +38,7 @@ mod sheet;
 mod tables;
 mod terminal;
 mod tracking;
+mod trials;
 mod wrap;
 
 pub use chart::{Axis, Chart, Role, Series, Shape};
@@ -59,6 +62,7 @@ pub use tracking::{
     FirstSeconds, Gains, Sweep, SweptModel, TRACKING_SCHEMA, TrackedModel, TrackingComparison,
     WallTiming,
 };
+pub use trials::trials_page;
 pub use wrap::packed;
 
 /// Everything that a report shows.

@@ -12,4 +12,5 @@ pub mod robot_check;
 pub mod schema;
 pub mod simulate;
 pub mod track;
+pub mod trials;
 pub mod view;

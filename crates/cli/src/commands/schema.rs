@@ -1,5 +1,5 @@
 use clap::ValueEnum;
-use evaluation::TrackingSpec;
+use evaluation::{CampaignSpec, TrackingSpec};
 use schemars::{json_schema, schema_for};
 use simulator::scenario::ScenarioSpec;
 
@@ -22,6 +22,8 @@ enum Kind {
     Simulate,
     /// A motion tracked with models
     Track,
+    /// A campaign of blind trials
+    Trials,
 }
 
 /// Prints the JSON schema of scenario files, which editors complete and check keys with.
@@ -31,6 +33,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let mut schema = match arguments.command {
         Kind::Simulate => schema_for!(ScenarioSpec),
         Kind::Track => schema_for!(TrackingSpec),
+        Kind::Trials => schema_for!(CampaignSpec),
     };
     schema.remove("required");
     let file = json_schema!({ "type": "string" });

@@ -15,12 +15,26 @@ pub enum Hidden {
 }
 
 impl Hidden {
-    /// What a scenario is told, as `--set` takes it; nothing where nothing is hidden.
-    pub fn setting(self) -> Option<String> {
+    /// What a scenario is told, as `--set` takes it; other keys of its `hidden` stay.
+    pub fn settings(self) -> Vec<String> {
+        let drawn = match self {
+            Self::Nothing => return vec!["hidden.count=[0, 0]".to_owned()],
+            Self::One(kind) => vec![kind],
+            Self::Two(a, b) => vec![a, b],
+        };
+        let (count, names) = (drawn.len(), drawn.iter().map(|kind| format!("'{kind}'")));
+        let names: Vec<String> = names.collect();
+        vec![
+            format!("hidden.count=[{count}, {count}]"),
+            format!("hidden.from=[{}]", names.join(", ")),
+        ]
+    }
+
+    /// The same whichever of two effects is named first.
+    pub(super) fn sorted(self) -> Self {
         match self {
-            Self::Nothing => None,
-            Self::One(kind) => Some(format!("hidden={{ count=[1, 1], from=['{kind}'] }}")),
-            Self::Two(a, b) => Some(format!("hidden={{ count=[2, 2], from=['{a}', '{b}'] }}")),
+            Self::Two(a, b) if b < a => Self::Two(b, a),
+            other => other,
         }
     }
 }

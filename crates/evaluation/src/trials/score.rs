@@ -1,19 +1,20 @@
 use diagnosis::{Diagnosis, EffectAt, Finding, Verdict};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
-use super::Size;
+use super::{Size, stored};
 
 /// How well a diagnosis names what was put in.
 ///
 /// Where `k` effects were put in, they are to be the `k` findings with the largest shares.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
     /// The seed that everything was drawn from.
     pub seed: u64,
     /// What was put in.
     pub put_in: Vec<PutIn>,
     /// The verdict over all joints.
+    #[serde(deserialize_with = "stored::verdict")]
     pub verdict: Verdict,
     /// What was named, the largest share first.
     pub findings: Vec<Named>,
@@ -22,14 +23,15 @@ pub struct Score {
     /// Whether what was put in are the first findings or rivals of theirs.
     pub as_one_of: bool,
     /// Findings that are neither true nor rivals of a true one.
+    #[serde(deserialize_with = "stored::places")]
     pub stray: Vec<EffectAt>,
 }
 
 /// An effect that was put in.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PutIn {
     /// The effect and its place.
-    #[serde(flatten)]
+    #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
     /// The finding that names it, counted from 0.
     pub finding: Option<usize>,
@@ -40,14 +42,16 @@ pub struct PutIn {
 }
 
 /// A finding of a diagnosis.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Named {
     /// The effect and its place.
-    #[serde(flatten)]
+    #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
     /// Share of the nominal residual's power that goes with it.
+    #[serde(deserialize_with = "stored::number")]
     pub share_explained: f64,
     /// What it may as well be.
+    #[serde(deserialize_with = "stored::places")]
     pub not_separable_from: Vec<EffectAt>,
 }
 

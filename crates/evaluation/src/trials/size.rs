@@ -2,26 +2,31 @@ use std::f64::consts::TAU;
 
 use catalogue::EffectKind;
 use diagnosis::Estimate;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
+use super::stored;
+
 /// A parameter of what was put in, and what a diagnosis says of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Size {
     /// Its name, as in the catalogue.
     pub name: String,
     /// The value that was put in.
+    #[serde(deserialize_with = "stored::number")]
     pub truth: f64,
     /// The estimate of it, where the effect is named at its place.
     pub estimate: Option<Estimated>,
 }
 
 /// An estimate on the scale of what was put in.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Estimated {
     /// Best value.
+    #[serde(deserialize_with = "stored::number")]
     pub value: f64,
     /// 95 per cent interval.
+    #[serde(deserialize_with = "stored::interval")]
     pub ci95: [f64; 2],
     /// Whether the logs narrow it down.
     pub determined: bool,

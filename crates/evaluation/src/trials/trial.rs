@@ -63,7 +63,7 @@ impl Trial {
     fn scenario(&self) -> Result<Scenario, EvaluationError> {
         let mut document = Document::read(&self.scenario)?;
         document.set(&format!("seed={}", self.seed))?;
-        for setting in self.hidden.setting().iter().chain(&self.settings) {
+        for setting in self.settings.iter().chain(&self.hidden.settings()) {
             document.set(setting)?;
         }
         Ok(Scenario::from_document(&document)?)
@@ -98,7 +98,7 @@ fn logs_of(folder: &Path) -> Result<Vec<PathBuf>, EvaluationError> {
     Ok(paths)
 }
 
-fn unusable(folder: &Path) -> impl Fn(std::io::Error) -> EvaluationError {
+pub(super) fn unusable(folder: &Path) -> impl Fn(std::io::Error) -> EvaluationError {
     |error| EvaluationError::TrialFolder { path: folder.to_owned(), reason: error.to_string() }
 }
 

@@ -3,6 +3,7 @@ use askama::Template;
 use super::comparison::{TrackedModel, TrackingComparison};
 use crate::grid::{Cell, DIGITS, marked};
 use crate::html::inert;
+use crate::html_grid::{Grid, rendered};
 use crate::numbers::significant;
 use crate::sheet::Place;
 use crate::{Provenance, ReportError};
@@ -27,15 +28,6 @@ struct Page<'a> {
     gains: String,
     provenance: &'a Provenance,
     json: String,
-}
-
-/// A table of numbers.
-#[derive(Template)]
-#[template(path = "grid.html")]
-struct Grid {
-    corner: String,
-    header: Vec<String>,
-    rows: Vec<(String, Vec<Cell>)>,
 }
 
 /// Which of the numbers of a row stand out.
@@ -185,10 +177,6 @@ impl TrackingComparison {
 
 fn plain(numbers: &[f64]) -> Vec<Cell> {
     numbers.iter().map(|&number| Cell::plain(significant(number, DIGITS))).collect()
-}
-
-fn rendered(template: &impl Template) -> Result<String, ReportError> {
-    template.render().map_err(|e| ReportError::Format { format: "HTML", reason: e.to_string() })
 }
 
 #[cfg(test)]

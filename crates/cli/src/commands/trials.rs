@@ -1,0 +1,155 @@
+mod crew;
+mod pace;
+mod shift;
+
+use std::path::{Path, PathBuf};
+
+use clap::Subcommand;
+use document::Document;
+use evaluation::{Campaign, CampaignFolder, KindCount, Made, Merged, Record, work};
+use report::{FileHash, Provenance, sha256_of};
+
+use crate::Outcome;
+use crate::error::CliError;
+use crate::output::{create_folder, print, shown};
+use crate::progress::Line;
+
+use self::shift::Shift;
+
+/// Characters of a line.
+const WIDTH: usize = 80;
+
+/// What to do with blind trials.
+#[derive(Debug, Subcommand)]
+pub enum Action {
+    /// Puts a campaign into a folder, with all that it needs
+    Plan(Plan),
+    /// Makes every trial that is left; may be ended and begun again, and run several times at once
+    Work(crew::Arguments),
+    /// Says how many trials are made, failed, broken and left
+    Status(Folder),
+    /// Puts the trials that are made together: tables, trials.parquet, tally.json, report.html
+    Merge(Folder),
+}
+
+/// Arguments of `trials plan`.
+#[derive(Debug, clap::Args)]
+pub struct Plan {
+    /// The campaign (TOML)
+    campaign: PathBuf,
+    /// Folder for the campaign and its trials
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Arguments of `trials status` and `trials merge`.
+#[derive(Debug, clap::Args)]
+pub struct Folder {
+    /// The folder of a campaign that was planned
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+/// Plans, makes and puts together blind trials.
+pub fn run(action: &Action) -> Result<Outcome, CliError> {
+    match action {
+        Action::Plan(arguments) => plan(arguments),
+        Action::Work(arguments) => make(arguments),
+        Action::Status(arguments) => status(&arguments.folder),
+        Action::Merge(arguments) => merge(&arguments.folder),
+    }
+}
+
+fn plan(arguments: &Plan) -> Result<Outcome, CliError> {
+    let campaign = Campaign::from_document(&Document::read(&arguments.campaign)?)?;
+    create_folder(&arguments.out)?;
+    let folder = CampaignFolder::plan(&arguments.out, campaign)?;
+    if !arguments.quiet {
+        let campaign = folder.campaign();
+        let (trials, kinds) = (campaign.trials(), campaign.kinds());
+        let names: Vec<String> = kinds.iter().map(ToString::to_string).collect();
+        let out = shown(&arguments.out);
+        print(&format!(
+            "{trials} trials, {} of each kind:\n{}\nTo make them:\n  plumbline trials work {out}\n",
+            trials / kinds.len(),
+            report::packed(names.iter().map(String::as_str), ", ", WIDTH).join(",\n")
+        ))?;
+    }
+    Ok(Outcome::Good)
+}
+
+fn make(arguments: &crew::Arguments) -> Result<Outcome, CliError> {
+    let folder = CampaignFolder::open(&arguments.folder)?;
+    let crew = arguments.crew();
+    let shift = Shift::new(crew.jobs, (!arguments.quiet).then(Line::new))?;
+    let worked = work(&folder, &crew, &shift);
+    shift.finish();
+    worked?;
+    let left = folder.left(crew.part)?.len();
+    if !arguments.quiet {
+        print(&format!("{}\n", shift.summary(left)))?;
+    }
+    Ok(if left == 0 { Outcome::Good } else { Outcome::Gap })
+}
+
+fn status(folder: &Path) -> Result<Outcome, CliError> {
+    let folder = CampaignFolder::open(folder)?;
+    let made = folder.made()?;
+    let counts = KindCount::all(&folder, &made);
+    print(&KindCount::table(&counts).text(1))?;
+    let doubts = doubts(&made, &counts);
+    print(&sentences(&doubts))?;
+    Ok(if doubts.is_empty() { Outcome::Good } else { Outcome::Gap })
+}
+
+fn merge(root: &Path) -> Result<Outcome, CliError> {
+    let folder = CampaignFolder::open(root)?;
+    let made = folder.made()?;
+    let merged = Merged::new(&folder, &made);
+    let doubts = doubts(&made, &merged.counts);
+    let records: Vec<Record> = made.records.into_values().collect();
+    Record::write(&root.join("trials.parquet"), &records)
+        .map_err(evaluation::EvaluationError::Log)?;
+    let page = report::trials_page(&merged, &doubts, &provenance(&folder)?)?;
+    let json = serde_json::to_string_pretty(&merged).map_err(std::io::Error::from)?;
+    let files = [("tally.json", json.as_bytes()), ("report.html", page.as_bytes())];
+    report::write_folder(root, &files)?;
+    print(&format!("{}{}", merged.text(), sentences(&doubts)))?;
+    print(&format!("\nreport  {}\n", shown(&root.join("report.html"))))?;
+    Ok(if doubts.is_empty() { Outcome::Good } else { Outcome::Gap })
+}
+
+/// What is missing, in sentences.
+fn doubts(made: &Made, counts: &[KindCount]) -> Vec<String> {
+    let broken = made
+        .broken
+        .iter()
+        .map(|broken| format!("{}: it does not count, {}", shown(&broken.path), broken.reason));
+    let left = counts.last().filter(|all| all.open() > 0).map(|all| {
+        format!("{} of {} trials are left to make: plumbline trials work", all.open(), all.trials())
+    });
+    broken.chain(left).collect()
+}
+
+/// Sentences on lines of their own, a blank one above.
+fn sentences(all: &[String]) -> String {
+    if all.is_empty() { String::new() } else { format!("\n{}\n", all.join("\n")) }
+}
+
+/// The same for whoever merges, wherever the folder lies.
+fn provenance(folder: &CampaignFolder) -> Result<Provenance, CliError> {
+    let file = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(FileHash { role: "campaign", path: name, sha256: sha256_of(path)? })
+    };
+    Ok(Provenance {
+        program: "plumbline",
+        version: env!("CARGO_PKG_VERSION"),
+        command: ["plumbline", "trials", "merge"].map(str::to_owned).to_vec(),
+        files: folder.plans().iter().map(file).collect::<Result<_, CliError>>()?,
+        seed: None,
+    })
+}

@@ -1,0 +1,87 @@
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use evaluation::{Record, WorkProgress};
+
+use crate::error::CliError;
+use crate::progress::Line;
+use crate::watch::Watch;
+
+use super::pace::{Pace, words};
+
+/// Shows how the work goes on; Ctrl-C lets the trials that are being made come to their end.
+pub struct Shift {
+    watch: Watch,
+    jobs: usize,
+    count: Mutex<Count>,
+}
+
+#[derive(Default)]
+struct Count {
+    /// Trials to be made when it began.
+    all: usize,
+    made: usize,
+    failed: usize,
+    pace: Pace,
+}
+
+impl Shift {
+    /// Listens to Ctrl-C from now on, and shows on `line` what is done, if there is one.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Signal`].
+    pub fn new(jobs: usize, line: Option<Line>) -> Result<Self, CliError> {
+        let watch = Watch::new(line)?;
+        Ok(Self { watch, jobs, count: Mutex::default() })
+    }
+
+    /// Takes the line away.
+    pub fn finish(&self) {
+        self.watch.finish();
+    }
+
+    /// What was done, in a sentence.
+    pub fn summary(&self, left: usize) -> String {
+        let count = self.count();
+        let failed = match count.failed {
+            0 => String::new(),
+            failed => format!(", {failed} of them failed"),
+        };
+        format!("{} trials made{failed}; {left} left", count.made)
+    }
+
+    fn count(&self) -> MutexGuard<'_, Count> {
+        self.count.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn say(&self, count: &Count) {
+        let left = count.all.saturating_sub(count.made);
+        let time = count.pace.left(left, self.jobs).map(words);
+        let time = time.map_or(String::new(), |time| format!(", about {time} left"));
+        self.watch.begin(&format!(
+            "{} of {} trials made, {} failed{time}",
+            count.made, count.all, count.failed
+        ));
+    }
+}
+
+impl WorkProgress for Shift {
+    fn begin(&self, left: usize) {
+        let mut count = self.count();
+        count.all = left;
+        self.say(&count);
+    }
+
+    fn made(&self, record: &Record, took: Duration) {
+        let mut count = self.count();
+        count.made += 1;
+        count.failed += usize::from(record.score.is_err());
+        count.pace.made(took);
+        self.say(&count);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.watch.is_stopped()
+    }
+}

@@ -1,0 +1,192 @@
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use document::Document;
+
+use super::trial::unusable;
+use super::{Campaign, Part, Record};
+use crate::EvaluationError;
+
+const CAMPAIGN: &str = "campaign.toml";
+const SCENARIO: &str = "scenario.toml";
+const SHARDS: &str = "shards";
+const SHARD: &str = "parquet";
+
+/// A folder in which a campaign is made.
+///
+/// ```text
+/// campaign.toml, scenario.toml   what is to be made, with all that they extend
+/// shards/00012.parquet           a finished trial, by its task
+/// work/                          trials that are being made
+/// logs/KIND/SEED/                their logs, where they are kept
+/// ```
+///
+/// The campaign less its shards is what is left.
+#[derive(Debug, Clone)]
+pub struct CampaignFolder {
+    root: PathBuf,
+    campaign: Campaign,
+    hash: String,
+}
+
+/// What there is of a campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Made {
+    /// The finished trials by task, those that failed among them.
+    pub records: BTreeMap<usize, Record>,
+    /// Files among the shards that are none of this campaign, by path.
+    pub broken: Vec<BrokenShard>,
+}
+
+/// A file among the shards that is none of this campaign.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BrokenShard {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub reason: String,
+}
+
+impl CampaignFolder {
+    /// Puts a campaign into a folder, which is made when it is not there.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::OtherCampaign`] when the folder holds trials of another one, and
+    /// whatever keeps it from being read or written.
+    pub fn plan(root: &Path, campaign: Campaign) -> Result<Self, EvaluationError> {
+        let folder = Self::of(root, campaign);
+        for path in folder.shards()? {
+            let records = Record::read(&path).unwrap_or_default();
+            let others = records.iter().find(|record| record.campaign != folder.hash);
+            if let Some(other) = others {
+                let (found, planned) = (other.campaign.clone(), folder.hash);
+                return Err(EvaluationError::OtherCampaign { path, found, planned });
+            }
+        }
+        std::fs::create_dir_all(root).map_err(unusable(root))?;
+        let campaign = &folder.campaign;
+        write(&root.join(SCENARIO), campaign.scenario())?;
+        write(&root.join(CAMPAIGN), &campaign.resolved(SCENARIO))?;
+        Ok(folder)
+    }
+
+    /// The folder of a campaign that was planned.
+    ///
+    /// # Errors
+    ///
+    /// What [`Campaign::from_document`] refuses.
+    pub fn open(root: &Path) -> Result<Self, EvaluationError> {
+        let document = Document::read(root.join(CAMPAIGN))?;
+        Ok(Self::of(root, Campaign::from_document(&document)?))
+    }
+
+    fn of(root: &Path, campaign: Campaign) -> Self {
+        Self { root: root.to_owned(), hash: campaign.hash(), campaign }
+    }
+
+    /// The campaign.
+    pub fn campaign(&self) -> &Campaign {
+        &self.campaign
+    }
+
+    /// What tells the campaign from others.
+    pub fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    /// The files that say what is to be made.
+    pub fn plans(&self) -> [PathBuf; 2] {
+        [CAMPAIGN, SCENARIO].map(|name| self.root.join(name))
+    }
+
+    /// Reads every shard.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::TrialFolder`] when the folder of the shards cannot be listed.
+    pub fn made(&self) -> Result<Made, EvaluationError> {
+        let mut made = Made { records: BTreeMap::new(), broken: Vec::new() };
+        for path in self.shards()? {
+            match self.read(&path) {
+                Ok(record) => {
+                    made.records.insert(record.task, record);
+                }
+                Err(reason) => made.broken.push(BrokenShard { path, reason }),
+            }
+        }
+        Ok(made)
+    }
+
+    /// The tasks of a part that are left.
+    ///
+    /// # Errors
+    ///
+    /// As [`made`](Self::made).
+    pub fn left(&self, part: Part) -> Result<Vec<usize>, EvaluationError> {
+        let made = self.made()?.records;
+        let all = (0..self.campaign.trials()).filter(|task| part.holds(*task));
+        Ok(all.filter(|task| !made.contains_key(task)).collect())
+    }
+
+    /// Whether a task has its shard.
+    pub(super) fn holds(&self, task: usize) -> bool {
+        self.read(&self.shard(task)).is_ok()
+    }
+
+    /// Where the shard of a task lies.
+    pub fn shard(&self, task: usize) -> PathBuf {
+        self.root.join(SHARDS).join(format!("{task:05}.{SHARD}"))
+    }
+
+    /// A folder in it, which is made when it is not there.
+    pub(super) fn folder(&self, name: &str) -> Result<PathBuf, EvaluationError> {
+        let folder = self.root.join(name);
+        std::fs::create_dir_all(&folder).map_err(unusable(&folder))?;
+        Ok(folder)
+    }
+
+    /// Writes the shard of a trial.
+    pub(super) fn keep(&self, record: &Record) -> Result<(), EvaluationError> {
+        self.folder(SHARDS)?;
+        Ok(Record::write(&self.shard(record.task), std::slice::from_ref(record))?)
+    }
+
+    /// The scenario that every trial starts from.
+    pub(super) fn scenario(&self) -> PathBuf {
+        self.root.join(SCENARIO)
+    }
+
+    /// The files among the shards, by name.
+    fn shards(&self) -> Result<Vec<PathBuf>, EvaluationError> {
+        let folder = self.root.join(SHARDS);
+        let entries = match std::fs::read_dir(&folder) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+            entries => entries.map_err(unusable(&folder))?,
+        };
+        let paths = entries.map(|entry| entry.map(|entry| entry.path()));
+        let mut paths = paths.collect::<Result<Vec<_>, _>>().map_err(unusable(&folder))?;
+        paths.retain(|path| path.extension().is_some_and(|e| e == SHARD));
+        paths.sort();
+        Ok(paths)
+    }
+
+    /// The record in a shard; in words why it is none of this campaign.
+    fn read(&self, path: &Path) -> Result<Record, String> {
+        let mut records = Record::read(path)?;
+        let (Some(record), true) = (records.pop(), records.is_empty()) else {
+            return Err("it does not hold one trial".to_owned());
+        };
+        if record.campaign != self.hash {
+            return Err("it is of another campaign".to_owned());
+        }
+        if record.task >= self.campaign.trials() || path != self.shard(record.task) {
+            return Err(format!("it is that of task {}", record.task));
+        }
+        Ok(record)
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), EvaluationError> {
+    Ok(logs::replace_file(path, |file| Ok(std::io::Write::write_all(file, text.as_bytes())?))?)
+}

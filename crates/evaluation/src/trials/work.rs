@@ -1,0 +1,182 @@
+use std::any::Any;
+use std::fs::{File, TryLockError};
+use std::io::ErrorKind;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread::available_parallelism;
+use std::time::{Duration, Instant};
+
+use logs::LogError;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use simulator::SimulatorError;
+
+use super::trial::unusable;
+use super::{CampaignFolder, Part, Record, Score};
+use crate::EvaluationError;
+
+/// Who makes which trials of a campaign, and what they leave.
+#[derive(Debug, Clone, Copy)]
+pub struct Crew {
+    /// Trials made at a time; none counts as one.
+    pub jobs: usize,
+    /// The part of the campaign that is made.
+    pub part: Part,
+    /// What becomes of the logs.
+    pub logs: TrialLogs,
+}
+
+/// What becomes of the logs of a finished trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TrialLogs {
+    /// They are removed.
+    Removed,
+    /// They are kept under `logs/KIND/SEED`.
+    Kept,
+}
+
+/// Told how the work goes on; may end it.
+pub trait WorkProgress: Sync {
+    /// So many trials are left to make.
+    fn begin(&self, left: usize);
+
+    /// A trial has its shard; it took so long.
+    fn made(&self, record: &Record, took: Duration);
+
+    /// Whether no further trial is to be begun.
+    fn is_stopped(&self) -> bool;
+}
+
+/// Makes every trial of a part that has no shard yet.
+///
+/// ```text
+/// task --simulate, diagnose, score--> shards/NNNNN.parquet, by rename
+/// ```
+///
+/// A trial that cannot be simulated or diagnosed has a shard that says why. Trials that another
+/// process makes at the same time are left to it.
+///
+/// # Errors
+///
+/// [`EvaluationError`] when something cannot be written. No further trial is then begun, those
+/// that are being made are finished as far as possible, and every shard stays.
+pub fn work(
+    folder: &CampaignFolder,
+    crew: &Crew,
+    progress: &dyn WorkProgress,
+) -> Result<(), EvaluationError> {
+    let left = folder.left(crew.part)?;
+    progress.begin(left.len());
+    let jobs = crew.jobs.clamp(1, left.len().max(1));
+    let shift = Shift {
+        folder,
+        logs: crew.logs,
+        progress,
+        left: &left,
+        next: AtomicUsize::new(0),
+        ended: AtomicBool::new(false),
+        failure: Mutex::new(None),
+    };
+    let pools = (0..jobs).map(|_| pool(jobs)).collect::<Result<Vec<_>, _>>()?;
+    std::thread::scope(|scope| {
+        for pool in &pools {
+            scope.spawn(|| shift.worker(pool));
+        }
+    });
+    shift.failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// The threads of one worker: an equal share of the processors.
+fn pool(jobs: usize) -> Result<ThreadPool, EvaluationError> {
+    let processors = available_parallelism().map_or(1, usize::from);
+    let pool = ThreadPoolBuilder::new().num_threads((processors / jobs).max(1)).build();
+    pool.map_err(|error| EvaluationError::NoThreads { reason: error.to_string() })
+}
+
+struct Shift<'a> {
+    folder: &'a CampaignFolder,
+    logs: TrialLogs,
+    progress: &'a dyn WorkProgress,
+    left: &'a [usize],
+    /// The place in `left` of the trial that is to be begun next.
+    next: AtomicUsize,
+    ended: AtomicBool,
+    failure: Mutex<Option<EvaluationError>>,
+}
+
+impl Shift<'_> {
+    fn worker(&self, pool: &ThreadPool) {
+        while !self.ended.load(Ordering::Relaxed) && !self.progress.is_stopped() {
+            let place = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(&task) = self.left.get(place) else { return };
+            if let Err(error) = self.make(task, pool) {
+                self.ended.store(true, Ordering::Relaxed);
+                let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+                failure.get_or_insert(error);
+            }
+        }
+    }
+
+    fn make(&self, task: usize, pool: &ThreadPool) -> Result<(), EvaluationError> {
+        let work = self.folder.folder("work")?;
+        let lock_file = work.join(format!("{task:05}.lock"));
+        let lock = File::create(&lock_file).map_err(unusable(&work))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(()),
+            Err(TryLockError::Error(error)) => return Err(unusable(&lock_file)(error)),
+        }
+        // Whoever held the lock before may have made it.
+        if !self.folder.holds(task) {
+            let trial = self.folder.campaign().trial(task, &self.folder.scenario());
+            let logs = match self.logs {
+                TrialLogs::Removed => work.join(format!("{task:05}")),
+                TrialLogs::Kept => trial.folder(&self.folder.folder("logs")?),
+            };
+            clear(&logs)?;
+            let start = Instant::now();
+            let score = told(catch_unwind(AssertUnwindSafe(|| pool.install(|| trial.run(&logs)))))?;
+            let campaign = self.folder.hash().to_owned();
+            let record = Record { task, hidden: trial.hidden, seed: trial.seed, campaign, score };
+            self.folder.keep(&record)?;
+            if self.logs == TrialLogs::Removed {
+                clear(&logs)?;
+            }
+            self.progress.made(&record, start.elapsed());
+        }
+        std::fs::remove_file(&lock_file).map_err(unusable(&lock_file))
+    }
+}
+
+/// Removes the logs of a trial, whole or not.
+fn clear(logs: &Path) -> Result<(), EvaluationError> {
+    match std::fs::remove_dir_all(logs) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(unusable(logs)(error)),
+        _ => Ok(()),
+    }
+}
+
+/// What came of a trial: its score or in words why it has none; an error where the disk failed.
+fn told(
+    outcome: Result<Result<Score, EvaluationError>, Box<dyn Any + Send>>,
+) -> Result<Result<Score, String>, EvaluationError> {
+    match outcome {
+        Ok(Ok(score)) => Ok(Ok(score)),
+        Ok(Err(error)) if is_of_the_disk(&error) => Err(error),
+        Ok(Err(error)) => Ok(Err(error.to_string())),
+        Err(panic) => {
+            let words = panic.downcast_ref::<String>().map(String::as_str);
+            let words = words.or_else(|| panic.downcast_ref::<&str>().copied());
+            Ok(Err(format!("the program gave up: {}", words.unwrap_or("it said nothing"))))
+        }
+    }
+}
+
+fn is_of_the_disk(error: &EvaluationError) -> bool {
+    let (EvaluationError::Log(log) | EvaluationError::Simulator(SimulatorError::Log(log))) = error
+    else {
+        return matches!(error, EvaluationError::TrialFolder { .. });
+    };
+    matches!(log, LogError::Unwritable { .. })
+}

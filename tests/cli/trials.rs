@@ -1,0 +1,304 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use evaluation::Record;
+
+use crate::arm;
+use crate::program::{Answer, plumbline, run};
+
+const ROBOT: &str = "urdf = \"arm.urdf\"\n\
+    joint.shoulder = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 400.0, kd_nm_s_per_rad = 20.0 }\n\
+    joint.elbow = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 200.0, kd_nm_s_per_rad = 10.0 }\n";
+
+const SCENARIO: &str = "robot = \"arm.toml\"\nengine.step_ms = 0.5\n\
+    sensors.effort_noise_nm = { shoulder = 0.1, elbow = 0.1 }\n\n[[run]]\nname = \"waves\"\n\
+    motion.sinusoids = { seed = 1, terms = 3, lowest_hz = 0.2, highest_hz = 1, duration_s = 6 }\n";
+
+const CAMPAIGN: &str = r#"scenario = "scenario.toml"
+hidden = ["clean", "FR02", "payload+backlash"]
+seeds = 2
+seed = 7
+settings = ["hidden.torque_share=[0.2, 0.3]"]
+"#;
+
+/// A folder with an arm of two joints and a campaign of six trials of it, a quarter of a second each.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    arm::write(path, "arm.urdf", arm::URDF);
+    arm::write(path, "arm.toml", ROBOT);
+    arm::write(path, "scenario.toml", SCENARIO);
+    arm::write(path, "campaign.toml", CAMPAIGN);
+    folder
+}
+
+fn trials(folder: &Path, arguments: &[&str]) -> Answer {
+    run(folder, &[&["trials"], arguments].concat())
+}
+
+/// With exit code 0 and nothing on the standard error.
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let answer = trials(folder, arguments);
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{arguments:?}: {}", answer.out);
+    answer.out
+}
+
+/// The tables and files that a folder is merged into.
+fn merged(folder: &Path, name: &str) -> (String, Vec<Vec<u8>>) {
+    let text = done(folder, &["merge", name]);
+    let text = text.split("\nreport ").next().unwrap().to_owned();
+    let files = ["trials.parquet", "tally.json", "report.html"];
+    (text, files.map(|file| fs::read(folder.join(name).join(file)).unwrap()).to_vec())
+}
+
+fn shards(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder.join("shards")) else { return Vec::new() };
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|e| e == "parquet"));
+    paths.sort();
+    paths
+}
+
+#[test]
+fn a_campaign_is_planned_made_and_merged() {
+    let folder = folder();
+    let path = folder.path();
+    let out = done(path, &["plan", "campaign.toml", "--out", "a"]);
+    assert!(out.starts_with("6 trials, 2 of each kind:\nclean, coulomb_friction, "), "{out}");
+    let status = trials(path, &["status", "a"]);
+    assert_eq!(status.code, 1);
+    assert!(
+        status.out.contains(" all                  0       0       0     6\n"),
+        "{}",
+        status.out
+    );
+    assert!(status.out.contains("6 of 6 trials are left to make"), "{}", status.out);
+    assert_eq!(done(path, &["work", "a", "--jobs", "2"]), "6 trials made; 0 left\n");
+    assert_eq!(done(path, &["work", "a"]), "0 trials made; 0 left\n");
+    let status = done(path, &["status", "a"]);
+    assert!(status.contains(" all                  6       0       0     0\n"), "{status}");
+
+    let (text, files) = merged(path, "a");
+    for expected in ["FR02 Coulomb friction", "two effects", "clean", "named first", "level (N m)"]
+    {
+        assert!(text.contains(expected), "{expected} is missing in\n{text}");
+    }
+    let records = Record::read(&path.join("a/trials.parquet")).unwrap();
+    assert_eq!(records.iter().map(|record| record.task).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
+    let put_in = records.iter().map(|record| record.scored().unwrap().put_in.len());
+    assert_eq!(put_in.collect::<Vec<_>>(), [0, 1, 2, 0, 1, 2]);
+    let json: serde_json::Value = serde_json::from_slice(&files[1]).unwrap();
+    assert_eq!(json["schema"], "plumbline.trials/1");
+    assert_eq!(json["rows"].as_array().unwrap().len(), 4);
+    assert!(files[2].len() < 2_000_000);
+    assert_eq!(fs::read_dir(path.join("a/work")).unwrap().count(), 0);
+    // The campaign can be planned again, wherever its scenario has gone.
+    fs::remove_file(path.join("scenario.toml")).unwrap();
+    done(path, &["plan", "a/campaign.toml", "--out", "a"]);
+    assert_eq!(merged(path, "a"), (text, files));
+}
+
+#[test]
+fn jobs_parts_order_and_a_kill_make_no_difference() {
+    let folder = folder();
+    let path = folder.path();
+    for name in ["a", "b", "c"] {
+        done(path, &["plan", "campaign.toml", "--out", name, "--quiet"]);
+    }
+    assert_eq!(done(path, &["work", "a", "--jobs", "3", "--quiet"]), "");
+    let whole = merged(path, "a");
+
+    done(path, &["work", "b", "--part", "2/2", "--jobs", "1", "--quiet"]);
+    assert_eq!(shards(&path.join("b")).len(), 3);
+    done(path, &["work", "b", "--part", "1/2", "--keep", "--quiet"]);
+    assert_eq!(merged(path, "b"), whole);
+    assert_eq!(fs::read_dir(path.join("b/logs")).unwrap().count(), 3, "of the part with --keep");
+
+    let work = ["trials", "work", "c", "--jobs", "1", "--quiet"];
+    let mut child = plumbline().current_dir(path).args(work).spawn().unwrap();
+    let start = Instant::now();
+    while shards(&path.join("c")).is_empty() && start.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let made = shards(&path.join("c")).len();
+    assert!((1..6).contains(&made), "{made}");
+    let status = trials(path, &["status", "c"]);
+    assert!(status.code == 1 && status.out.contains(&format!("{} of 6 trials are left", 6 - made)));
+    // Two that know nothing of each other: each may leave what the other is at.
+    let mut other = plumbline().current_dir(path).args(work).spawn().unwrap();
+    let answer = trials(path, &["work", "c", "--jobs", "1"]);
+    assert!(answer.code <= 1 && answer.err.is_empty(), "{}", answer.err);
+    assert!(other.wait().unwrap().code().is_some_and(|code| code <= 1));
+    assert!(!answer.out.starts_with(&format!("{} trials made", 6 - made)), "they shared them");
+    assert_eq!(merged(path, "c"), whole);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_lets_the_trials_that_are_being_made_come_to_their_end() {
+    let folder = folder();
+    let path = folder.path();
+    done(path, &["plan", "campaign.toml", "--out", "a"]);
+    let work = ["trials", "work", "a", "--jobs", "1"];
+    let pipe = std::process::Stdio::piped;
+    let mut command = plumbline();
+    let child = command.current_dir(path).args(work).stdout(pipe()).stderr(pipe()).spawn().unwrap();
+    let start = Instant::now();
+    while shards(&path.join("a")).is_empty() && start.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(5));
+    }
+    let pid = child.id().to_string();
+    assert!(std::process::Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let answer: Answer = child.wait_with_output().unwrap().into();
+    assert_eq!((answer.code, answer.err.as_str()), (1, ""));
+    let made = shards(&path.join("a")).len();
+    assert!((1..6).contains(&made), "{made}");
+    assert_eq!(answer.out, format!("{made} trials made; {} left\n", 6 - made));
+    assert_eq!(fs::read_dir(path.join("a/work")).unwrap().count(), 0);
+}
+
+#[test]
+fn shards_that_do_not_count_are_named_and_made_again() {
+    let folder = folder();
+    let path = folder.path();
+    arm::write(path, "other.toml", &CAMPAIGN.replace("seed = 7", "seed = 8"));
+    done(path, &["plan", "campaign.toml", "--out", "a"]);
+    done(path, &["work", "a"]);
+    done(path, &["plan", "other.toml", "--out", "b"]);
+    done(path, &["work", "b", "--part", "2/6"]);
+    let whole = merged(path, "a");
+
+    let shard = |number: usize| path.join(format!("a/shards/0000{number}.parquet"));
+    fs::write(shard(0), "no shard").unwrap();
+    fs::copy(path.join("b/shards/00001.parquet"), shard(1)).unwrap();
+    fs::copy(shard(3), shard(2)).unwrap();
+    fs::write(shard(3), &fs::read(shard(3)).unwrap()[..900]).unwrap();
+    for command in ["status", "merge"] {
+        let answer = trials(path, &[command, "a"]);
+        assert_eq!((answer.code, answer.err.as_str()), (1, ""));
+        for expected in [
+            "a/shards/00000.parquet: it does not count, ",
+            "a/shards/00001.parquet: it does not count, it is of another campaign",
+            "a/shards/00002.parquet: it does not count, it is that of task 3",
+            "a/shards/00003.parquet: it does not count, ",
+            "4 of 6 trials are left to make",
+        ] {
+            assert!(answer.out.contains(expected), "{expected} is missing in\n{}", answer.out);
+        }
+    }
+    assert_eq!(done(path, &["work", "a"]), "4 trials made; 0 left\n");
+    assert_eq!(merged(path, "a"), whole);
+}
+
+#[test]
+fn a_folder_with_trials_of_another_campaign_is_refused() {
+    let folder = folder();
+    let path = folder.path();
+    arm::write(path, "other.toml", &CAMPAIGN.replace("seed = 7", "seed = 8"));
+    done(path, &["plan", "campaign.toml", "--out", "a"]);
+    // Nothing is lost where no trial is made yet.
+    done(path, &["plan", "other.toml", "--out", "a"]);
+    done(path, &["work", "a", "--part", "1/6"]);
+    let planned = fs::read(path.join("a/campaign.toml")).unwrap();
+    let answer = trials(path, &["plan", "campaign.toml", "--out", "a"]);
+    assert_eq!((answer.code, answer.out.as_str()), (2, ""));
+    assert!(answer.err.contains("a/shards/00000.parquet: it is of another campaign ("));
+    assert!(answer.err.contains("an empty folder was expected"), "{}", answer.err);
+    assert_eq!(fs::read(path.join("a/campaign.toml")).unwrap(), planned);
+}
+
+#[test]
+fn what_cannot_be_written_ends_the_work_and_loses_nothing() {
+    let folder = folder();
+    let path = folder.path();
+    done(path, &["plan", "campaign.toml", "--out", "a"]);
+    done(path, &["work", "a", "--part", "1/3"]);
+    fs::remove_dir(path.join("a/work")).unwrap();
+    fs::write(path.join("a/work"), "").unwrap();
+    let answer = trials(path, &["work", "a", "--jobs", "2"]);
+    assert_eq!((answer.code, answer.out.as_str()), (2, ""));
+    assert!(answer.err.starts_with("error: a/work: it cannot be the folder of a trial: "));
+    assert_eq!(answer.err.lines().count(), 1);
+    assert_eq!(shards(&path.join("a")).len(), 2);
+    fs::remove_file(path.join("a/work")).unwrap();
+    assert_eq!(done(path, &["work", "a"]), "4 trials made; 0 left\n");
+
+    // The folder of one trial alone: nothing that a trial should be blamed for.
+    #[cfg(unix)]
+    {
+        done(path, &["plan", "campaign.toml", "--out", "b"]);
+        fs::create_dir(path.join("b/logs")).unwrap();
+        std::os::unix::fs::symlink("nowhere/at/all", path.join("b/logs/clean")).unwrap();
+        let answer = trials(path, &["work", "b", "--part", "1/6", "--keep"]);
+        assert_eq!((answer.code, answer.err.lines().count()), (2, 1), "{}", answer.err);
+        assert!(answer.err.starts_with("error: b/logs/clean/"), "{}", answer.err);
+        assert!(shards(&path.join("b")).is_empty());
+    }
+
+    arm::write(path, "file", "");
+    let answer = trials(path, &["plan", "campaign.toml", "--out", "file"]);
+    assert_eq!(answer.code, 2);
+    let answer = trials(path, &["work", "nowhere"]);
+    assert!(answer.code == 3 && answer.err.contains("nowhere/campaign.toml"), "{}", answer.err);
+}
+
+/// Logs of four seconds are too short to say anything.
+#[test]
+fn a_trial_that_cannot_be_diagnosed_is_counted_and_told() {
+    let folder = folder();
+    let path = folder.path();
+    arm::write(path, "scenario.toml", &SCENARIO.replace("duration_s = 6", "duration_s = 4"));
+    done(path, &["plan", "campaign.toml", "--out", "a"]);
+    assert_eq!(done(path, &["work", "a"]), "6 trials made, 6 of them failed; 0 left\n");
+    assert_eq!(done(path, &["work", "a"]), "0 trials made; 0 left\n");
+    let (text, _) = merged(path, "a");
+    assert!(text.contains(" all        0       6       0     0\n"), "{text}");
+    assert!(text.contains("2 failed of backlash+payload, seed "), "{text}");
+    let page = fs::read_to_string(path.join("a/report.html")).unwrap();
+    assert!(page.contains("No trial has a score") && page.contains("clean, 2 times, seed "));
+    let records = Record::read(&path.join("a/trials.parquet")).unwrap();
+    assert!(records.iter().all(|record| text.contains(record.score.as_ref().unwrap_err())));
+}
+
+#[test]
+fn a_mistake_in_a_campaign_is_underlined() {
+    let cases = [
+        ("\"FR02\"", "\"backlsh\"", "\"backlsh\"", "unknown kind of trial `backlsh`, did you mean"),
+        ("\"FR02\"", "\"clean\"", "\"clean\"", "clean is there already"),
+        (
+            "\"FR02\"",
+            "\"backlash+payload\"",
+            "\"payload+backlash\"",
+            "backlash+payload is there already",
+        ),
+        ("seeds = 2", "seeds = 0", "0", "0, a number from 1 to 1000000 was expected"),
+        ("seeds = 2", "seed_count = 2", "seed_count", "unknown key `seed_count`"),
+        ("seed = 7", "seed = -7", "-7", "a"),
+        ("scenario.toml", "no.toml", "\"no.toml\"", "no.toml: there is no such file"),
+        ("0.2, 0.3", "0.3, 0.2", "[0.3, 0.2]", "share above 0 up to 1 were expected"),
+    ];
+    for (old, new, underlined, message) in cases {
+        let folder = folder();
+        arm::write(folder.path(), "campaign.toml", &CAMPAIGN.replace(old, new));
+        let answer = trials(folder.path(), &["plan", "campaign.toml", "--out", "a"]);
+        assert_eq!((answer.code, answer.out.as_str()), (3, ""), "{}", answer.err);
+        assert!(answer.err.contains(message), "{message} is missing in\n{}", answer.err);
+        let line = |sign: char| answer.err.lines().find(|line| line.contains(sign)).unwrap();
+        assert_eq!(line('^').matches('^').count(), underlined.len(), "{}", answer.err);
+        assert!(!folder.path().join("a").exists());
+    }
+    let folder = folder();
+    arm::write(
+        folder.path(),
+        "campaign.toml",
+        &CAMPAIGN.replace("\"clean\", \"FR02\", \"payload+backlash\"", ""),
+    );
+    let answer = trials(folder.path(), &["plan", "campaign.toml", "--out", "a"]);
+    assert!(answer.err.contains("nothing, at least one kind was expected"), "{}", answer.err);
+    let answer = trials(folder.path(), &["work", "a", "--part", "5/4"]);
+    assert!(answer.code == 2 && answer.err.contains("a part such as 1/4 was expected"));
+}

@@ -1,0 +1,113 @@
+use std::fs;
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::Duration;
+
+use catalogue::EffectKind::CoulombFriction;
+use document::Document;
+use evaluation::{
+    Campaign, CampaignFolder, Crew, Hidden, Part, Record, TrialLogs, WorkProgress, work,
+};
+
+use crate::trials::cheap;
+
+#[test]
+fn a_record_is_read_back_as_it_was_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let score = cheap(Hidden::One(CoulombFriction), 3).run(&folder.path().join("logs")).unwrap();
+    assert!(score.put_in[0].sizes[0].estimate.is_some() && !score.findings.is_empty());
+    let record = |task, score| Record {
+        task,
+        hidden: Hidden::One(CoulombFriction),
+        seed: u64::MAX >> 1,
+        campaign: "c".to_owned(),
+        score,
+    };
+    let records = [record(0, Ok(score.clone())), record(7, Err("it \"ran\" away".to_owned()))];
+    let path = folder.path().join("records.parquet");
+    Record::write(&path, &records).unwrap();
+    assert_eq!(Record::read(&path).unwrap(), records);
+
+    // A number that JSON has not is no number.
+    let mut endless = score;
+    let estimate = endless.put_in[0].sizes[0].estimate.as_mut().unwrap();
+    estimate.ci95 = [f64::NEG_INFINITY, 1.0];
+    Record::write(&path, &[record(0, Ok(endless))]).unwrap();
+    let read = Record::read(&path).unwrap().remove(0).score.unwrap();
+    let [low, high] = read.put_in[0].sizes[0].estimate.as_ref().unwrap().ci95;
+    assert!(low.is_nan() && (high - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_file_without_records_says_what_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("records.parquet");
+    assert!(Record::read(&path).unwrap_err().contains("No such file"));
+    fs::write(&path, "PAR1 and no more PAR1").unwrap();
+    assert!(!Record::read(&path).unwrap_err().is_empty());
+    let time = std::sync::Arc::new(arrow_array::Float64Array::from(vec![1.0]));
+    logs::write_table(&path, vec![("time".to_owned(), time)], Vec::new()).unwrap();
+    assert_eq!(Record::read(&path).unwrap_err(), "row 1 has no score and no error");
+}
+
+/// Trials that are stopped after the first.
+#[derive(Default)]
+struct OnlyOne(Mutex<Vec<usize>>);
+
+impl WorkProgress for OnlyOne {
+    fn begin(&self, _: usize) {}
+
+    fn made(&self, record: &Record, took: Duration) {
+        assert!(took > Duration::ZERO);
+        self.0.lock().unwrap().push(record.task);
+    }
+
+    fn is_stopped(&self) -> bool {
+        !self.0.lock().unwrap().is_empty()
+    }
+}
+
+/// Two clean trials of the cheap scenario.
+fn planned(root: &Path) -> CampaignFolder {
+    let trial = cheap(Hidden::Nothing, 0);
+    let text = format!(
+        "scenario = {:?}\nhidden = [\"clean\"]\nseeds = 2\nsettings = {:?}\n",
+        trial.scenario, trial.settings
+    );
+    let document = Document::from_text("c.toml", &text).unwrap();
+    CampaignFolder::plan(root, Campaign::from_document(&document).unwrap()).unwrap()
+}
+
+#[test]
+fn work_that_is_stopped_ends_after_the_trial_and_keeps_logs_where_they_are_wanted() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = planned(root.path());
+    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Kept };
+    let progress = OnlyOne::default();
+    work(&folder, &crew, &progress).unwrap();
+    assert_eq!(*progress.0.lock().unwrap(), [0]);
+    assert_eq!(folder.left(Part::WHOLE).unwrap(), [1]);
+    let record = folder.made().unwrap().records.remove(&0).unwrap();
+    assert_eq!((record.hidden, record.seed), folder.campaign().task(0));
+    let score = record.score.unwrap();
+    assert!(score.exactly && score.seed == record.seed, "{}", score.words());
+    let logs = root.path().join(format!("logs/clean/{}", record.seed));
+    assert!(logs.join("a.parquet").is_file() && logs.join("b.parquet").is_file());
+}
+
+/// As an earlier or another process would hold it.
+#[test]
+fn a_trial_that_another_process_makes_is_left_to_it() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = planned(root.path());
+    fs::create_dir(root.path().join("work")).unwrap();
+    let held = fs::File::create(root.path().join("work/00000.lock")).unwrap();
+    held.lock().unwrap();
+    let crew = Crew { jobs: 1, part: "1/2".parse().unwrap(), logs: TrialLogs::Removed };
+    work(&folder, &crew, &OnlyOne::default()).unwrap();
+    assert_eq!(folder.left(Part::WHOLE).unwrap(), [0, 1]);
+    drop(held);
+    work(&folder, &crew, &OnlyOne::default()).unwrap();
+    assert_eq!(folder.left(Part::WHOLE).unwrap(), [1]);
+    assert_eq!(fs::read_dir(root.path().join("work")).unwrap().count(), 0);
+}
