@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use diagnosis::Settings;
 use logs::{ColumnMap, ReadOptions, Run};
 use report::{FileHash, Provenance, ReportError};
 use robot::{Loaded, Robot};
@@ -26,6 +27,33 @@ impl ColumnArguments {
         let runs: Result<Vec<Run>, _> =
             paths.iter().map(|path| logs::read_run(path, robot, &options)).collect();
         Ok(runs?)
+    }
+}
+
+/// How causes are searched.
+#[derive(Debug, clap::Args)]
+pub struct SearchArguments {
+    /// Cut-off of the low-pass filter; chosen from the data when it is left out
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub cutoff_hz: Option<f64>,
+    /// Share of false causes that is accepted among the findings
+    #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share, allow_negative_numbers = true)]
+    pub fdr: f64,
+    /// Seed of every random draw
+    #[arg(long, default_value_t = Settings::default().seed)]
+    pub seed: u64,
+}
+
+impl SearchArguments {
+    /// The settings of a diagnosis of this robot.
+    pub fn settings(&self, loaded: &Loaded) -> Settings {
+        Settings {
+            cutoff_hz: self.cutoff_hz,
+            control_rate_hz: loaded.control.rate_hz,
+            false_discovery_rate: self.fdr,
+            seed: self.seed,
+            ..Settings::default()
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use diagnosis::{Comparison, Finding, Progress, Settings, Silent};
+use diagnosis::{Comparison, Finding, Progress, Silent};
 use logs::Run;
 use report::{Report, ReportError};
 use robot::{Loaded, Robot};
@@ -8,7 +8,7 @@ use robot::{Loaded, Robot};
 use super::diagnose;
 use crate::Outcome;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, hashes_of, positive, provenance, share};
+use crate::input::{ColumnArguments, SearchArguments, hashes_of, provenance};
 use crate::output::{print, shown};
 use crate::progress::Bar;
 
@@ -32,15 +32,8 @@ pub struct Arguments {
     out: PathBuf,
     #[command(flatten)]
     columns: ColumnArguments,
-    /// Cut-off of the low-pass filter; chosen from the first logs when it is left out
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
-    cutoff_hz: Option<f64>,
-    /// Share of false causes that is accepted among the findings
-    #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share, allow_negative_numbers = true)]
-    fdr: f64,
-    /// Seed of every random draw
-    #[arg(long, default_value_t = Settings::default().seed)]
-    seed: u64,
+    #[command(flatten)]
+    search: SearchArguments,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -55,13 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = Robot::load(&arguments.robot)?;
     let read = |paths| arguments.columns.read_runs(paths, &loaded.robot);
     let runs = [read(&arguments.before)?, read(&arguments.after)?];
-    let settings = Settings {
-        cutoff_hz: arguments.cutoff_hz,
-        control_rate_hz: loaded.control.rate_hz,
-        false_discovery_rate: arguments.fdr,
-        seed: arguments.seed,
-        ..Settings::default()
-    };
+    let settings = arguments.search.settings(&loaded);
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
     let sets = [runs[0].as_slice(), runs[1].as_slice()];
@@ -89,7 +76,7 @@ fn write(
         let map = arguments.columns.map.as_deref();
         let mut provenance = provenance(&arguments.robot, loaded, map)?;
         provenance.files.extend(hashes_of(runs));
-        provenance.seed = Some(arguments.seed);
+        provenance.seed = Some(arguments.search.seed);
         let report = Report {
             diagnosis: &outcome.diagnosis,
             traces: &outcome.traces,

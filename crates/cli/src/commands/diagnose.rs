@@ -12,7 +12,7 @@ use residual::Learned;
 
 use crate::Outcome;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, hashes_of, positive, provenance, share};
+use crate::input::{ColumnArguments, SearchArguments, hashes_of, provenance};
 use crate::output::{print, shown};
 use crate::progress::{Bar, Line};
 
@@ -36,15 +36,8 @@ pub struct Arguments {
     out: PathBuf,
     #[command(flatten)]
     columns: ColumnArguments,
-    /// Cut-off of the low-pass filter; chosen from the data when it is left out
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
-    cutoff_hz: Option<f64>,
-    /// Share of false causes that is accepted among the findings
-    #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share, allow_negative_numbers = true)]
-    fdr: f64,
-    /// Seed of every random draw
-    #[arg(long, default_value_t = Settings::default().seed)]
-    seed: u64,
+    #[command(flatten)]
+    search: SearchArguments,
     /// Learn a model of what the findings leave as well, and keep it where it predicts data that
     /// it has not seen
     #[arg(long, value_enum, value_name = "MODEL")]
@@ -75,15 +68,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = Robot::load(&arguments.robot)?;
     let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
     let settings = Settings {
-        cutoff_hz: arguments.cutoff_hz,
-        control_rate_hz: loaded.control.rate_hz,
-        false_discovery_rate: arguments.fdr,
-        seed: arguments.seed,
         held_out: match arguments.residual {
             None => HeldOutRobots::NotMade,
             Some(ResidualKind::Gp) => HeldOutRobots::Made,
         },
-        ..Settings::default()
+        ..arguments.search.settings(&loaded)
     };
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
@@ -98,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
 
     let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map.as_deref())?;
     provenance.files.extend(hashes_of(&runs));
-    provenance.seed = Some(arguments.seed);
+    provenance.seed = Some(arguments.search.seed);
     let report = Report {
         diagnosis: &outcome.diagnosis,
         traces: &outcome.traces,
