@@ -99,6 +99,7 @@ pub(crate) struct Engine {
     link: Vec<usize>,
     /// Spatial axis of each degree of freedom: 0 slides along x, 3 turns about x.
     axis: Vec<usize>,
+    stops: Vec<Option<(f64, f64)>>,
     step_s: f64,
     q: Vec<f64>,
     qd: Vec<f64>,
@@ -142,6 +143,7 @@ impl Engine {
             place: vec![0; count],
             link: links,
             axis: bodies.iter().map(|b| if b.turns { 3 } else { 0 }).collect(),
+            stops: bodies.iter().map(|b| b.stops).collect(),
             step_s,
             q: vec![0.0; count],
             qd: vec![0.0; count],
@@ -245,11 +247,18 @@ impl Engine {
         let Some((multibody, _)) = self.world.multibody_joints.get_mut(self.multibody) else {
             return;
         };
+        let mut rows = load.dry.iter().any(|dry| *dry > 0.0);
         for (i, &effort) in load.effort.iter().enumerate() {
-            if let Some(link) = multibody.link_mut(self.link[i]) {
-                link.joint.set_spring(self.axis[i], CARRIER, effort / CARRIER);
-            }
+            let Some(link) = multibody.link_mut(self.link[i]) else { continue };
+            link.joint.set_spring(self.axis[i], CARRIER, effort / CARRIER);
+            // The engine gives every stop a row of its solver, touched or not.
+            let beyond = self.stops[i].is_some_and(|(min, max)| !(min..=max).contains(&self.q[i]));
+            let axis = JointAxesMask::from_bits_truncate(1 << self.axis[i]);
+            link.joint.data.limit_axes.set(axis, beyond);
+            rows |= beyond;
         }
+        let sweeps = if rows { SOLVER_SWEEPS } else { 1 };
+        self.world.integration_parameters.num_internal_pgs_iterations = sweeps;
         for i in 0..self.place.len() {
             multibody.frictions_mut()[self.place[i]] = load.dry[i];
             multibody.damping_mut()[self.place[i]] = load.damping[i];
