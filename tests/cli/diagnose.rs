@@ -283,3 +283,22 @@ fn a_diagnosis_without_its_recording_is_whole_but_for_that() {
     assert_eq!(answer.code, 0, "{}", answer.err);
     assert!(answer.err.starts_with("warning: out/recording.rrd: "), "{}", answer.err);
 }
+
+#[test]
+fn an_effect_that_the_robot_is_known_not_to_have_is_not_named() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let told =
+        ["--robot", "arm.urdf", "--out", "out", "--without", "FR02", "--without", "stribeck"];
+    let answer = diagnose(folder.path(), &told);
+    assert_eq!(answer.code, 2);
+    assert!(answer.err.contains("did you mean FR04 stribeck_friction?"), "{}", answer.err);
+    assert!(!folder.path().join("out").exists());
+
+    let told = ["--robot", "arm.urdf", "--out", "out", "--without", "FR02"];
+    let answer = diagnose(folder.path(), &told);
+    assert!(answer.code <= 1, "{}", answer.err);
+    assert!(!answer.out.contains("FR02"), "{}", answer.out);
+    let value = json(&folder.path().join("out/diagnosis.json"));
+    let ruled_out = value["ruled_out"].as_array().unwrap();
+    assert!(!ruled_out.is_empty() && ruled_out.iter().all(|entry| entry["code"] != "FR02"));
+}

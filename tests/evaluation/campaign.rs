@@ -67,6 +67,30 @@ impl WorkProgress for OnlyOne {
     }
 }
 
+/// The kinds of a campaign in the cheap scenario, and what is drawn from.
+fn kinds(more: &str) -> (Vec<String>, String) {
+    let scenario = cheap(Hidden::Nothing, 0).scenario;
+    let text = format!("scenario = {scenario:?}\nseeds = 1\n{more}\n");
+    let campaign = Campaign::from_document(&Document::from_text("c.toml", &text).unwrap()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let planned = CampaignFolder::plan(folder.path(), campaign).unwrap();
+    let kinds = planned.campaign().kinds().iter().map(Hidden::to_string).collect();
+    (kinds, fs::read_to_string(folder.path().join("scenario.toml")).unwrap())
+}
+
+#[test]
+fn each_effect_is_hidden_once_with_and_once_without_being_looked_for() {
+    let (all, drawn) = kinds(r#"hidden = ["clean", "each", "without_each", "any+any"]"#);
+    let effects = catalogue::EffectKind::ALL.len();
+    assert_eq!(all.len(), 2 + 2 * effects);
+    assert!(all.contains(&"without_backlash".to_owned()));
+    assert!(!drawn.contains("from"), "{drawn}");
+    let (some, drawn) = kinds("hidden = ['each', 'without_each']\nexcept = ['backlash']");
+    assert_eq!(some.len(), 2 * (effects - 1));
+    assert!(!some.iter().any(|kind| kind.contains("backlash")));
+    assert!(drawn.contains("payload") && !drawn.contains("backlash"), "{drawn}");
+}
+
 /// Two clean trials of the cheap scenario.
 fn planned(root: &Path) -> CampaignFolder {
     let trial = cheap(Hidden::Nothing, 0);

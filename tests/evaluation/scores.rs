@@ -7,7 +7,8 @@ use catalogue::EffectKind::{
     TorqueOffset, ViscousFriction,
 };
 use diagnosis::{
-    DataSummary, Diagnosis, EffectAt, Estimate, Finding, Gain, InverseGain, SCHEMA, Verdict,
+    DataSummary, Diagnosis, EffectAt, Estimate, Finding, Gain, InverseGain, RuledOut, SCHEMA,
+    Verdict,
 };
 use evaluation::{Group, Power, Row, Score, Tally};
 use simulator::Truth;
@@ -175,6 +176,41 @@ fn an_unknown_effect_is_left_open_and_not_called_by_another_name() {
     assert!(!unknown(Verdict::PartlyExplained, wrong));
 }
 
+/// Half an effect of 0.5 N m would have been found, or only ten times as much.
+#[test]
+fn what_the_logs_would_not_have_shown_is_counted_apart() {
+    let missed = |smallest: f64| {
+        let ruled_out = RuledOut {
+            at: at_joint(CoulombFriction, ELBOW),
+            parameter: "level",
+            smallest_detectable: Some(smallest),
+            unit: "N m",
+            because: String::new(),
+        };
+        let diagnosis = diagnosis(Verdict::Consistent, Vec::new());
+        let diagnosis = Diagnosis { ruled_out: vec![ruled_out], ..diagnosis };
+        Score::new(&diagnosis, &[coulomb()], 7)
+    };
+    let found = vec![finding(at_joint(CoulombFriction, ELBOW), 0.8, &[])];
+    let scores = [missed(0.25), missed(5.0), score(Verdict::Explained, found, &[coulomb()])];
+    assert_eq!(scores.each_ref().map(Score::visible), [true, false, true]);
+    let tally = Tally::of(&scores);
+    let row = row(&tally, Group::One);
+    assert_eq!((row.exactly.count, row.exactly.of), (1, 3));
+    assert_eq!((row.visibly.count, row.visibly.of), (1, 2));
+}
+
+#[test]
+fn effects_that_are_not_looked_for_are_a_group_of_their_own() {
+    let unknown =
+        Score { looked_for: false, ..score(Verdict::Unexplained, Vec::new(), &[coulomb()]) };
+    let tally = Tally::of(&[unknown.clone(), unknown]);
+    assert_eq!(tally.rows.len(), 1);
+    let row = row(&tally, Group::Unknown);
+    assert_eq!((row.unknown.count, row.exactly.count, row.trials), (2, 0, 2));
+    assert_eq!(row.put_in.to_string(), "not looked for");
+}
+
 #[test]
 fn the_sizes_of_the_finding_that_names_it_are_compared() {
     let level = |value: f64, determined: bool| {
@@ -263,7 +299,7 @@ two effects  .  .  1  .       .
 clean        1  .  .  .       1
 ";
     assert!(tally.text().contains(expected), "{}", tally.text());
-    let line = " FR02 Coulomb friction       4  50 % 15-85  75 % 30-95  75 % 30-95      0 % 0-49  25 % 5-70";
+    let line = " FR02 Coulomb friction       4  50 % 15-85  50 % 15-85  75 % 30-95  75 % 30-95      0 % 0-49  25 % 5-70";
     assert!(tally.text().contains(line), "{}", tally.text());
     let json = serde_json::to_value(&tally).unwrap();
     assert_eq!(json["rows"][0]["put_in"], "FR02 Coulomb friction");

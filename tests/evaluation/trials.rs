@@ -41,6 +41,19 @@ fn a_trial_goes_through_files_and_a_clean_one_names_nothing() {
     assert!(score.exactly && score.put_in.is_empty(), "{}", score.words());
 }
 
+/// The same logs, once more without a name for what is in them.
+#[test]
+fn an_effect_that_is_not_looked_for_is_not_named() {
+    let root = tempfile::tempdir().unwrap();
+    let unknown = cheap(Hidden::Unknown(EffectKind::CoulombFriction), 3);
+    let score = unknown.run(&unknown.folder(root.path())).unwrap();
+    assert!(!score.looked_for && score.put_in[0].at.effect == EffectKind::CoulombFriction);
+    let names =
+        score.findings.iter().flat_map(|f| std::iter::once(&f.at).chain(&f.not_separable_from));
+    assert!(names.clone().all(|at| at.effect != EffectKind::CoulombFriction), "{}", score.words());
+    assert!(!score.exactly && !score.found());
+}
+
 /// A truth that was changed since shows that nothing was simulated anew.
 #[test]
 fn logs_that_are_there_are_used_again_and_those_of_another_trial_are_not() {
@@ -72,9 +85,9 @@ fn what_cannot_be_scored_says_what_it_lacks() {
     let folder = tempfile::tempdir().unwrap();
     let robot = Robot::load(&workspace_root().join("robots/wam7/robot.toml")).unwrap();
     let none = folder.path().join("none");
-    let error = judge(&none, &robot).unwrap_err();
+    let error = judge(&none, &robot, &[]).unwrap_err();
     assert!(matches!(&error, EvaluationError::TrialFolder { path, .. } if *path == none));
-    let error = judge(folder.path(), &robot).unwrap_err();
+    let error = judge(folder.path(), &robot, &[]).unwrap_err();
     assert!(matches!(&error, EvaluationError::NoLogs { path } if *path == folder.path()));
 
     let file = folder.path().join("file");
@@ -89,7 +102,7 @@ fn what_cannot_be_scored_says_what_it_lacks() {
             Some(text) => fs::write(&truth, text).unwrap(),
             None => fs::remove_file(&truth).unwrap(),
         }
-        let error = judge(folder.path(), &robot).unwrap_err();
+        let error = judge(folder.path(), &robot, &[]).unwrap_err();
         assert!(matches!(&error, EvaluationError::UnreadableTruth { path, .. } if *path == truth));
     }
 }

@@ -1,10 +1,12 @@
 use std::path::{Path, PathBuf};
 
+use catalogue::EffectKind;
 use diagnosis::Settings;
 use logs::{ColumnMap, ReadOptions, Run};
 use report::{FileHash, Provenance, ReportError};
 use robot::{Loaded, Robot};
 
+use crate::commands::explain;
 use crate::error::CliError;
 use crate::output::shown;
 
@@ -42,6 +44,9 @@ pub struct SearchArguments {
     /// Seed of every random draw
     #[arg(long, default_value_t = Settings::default().seed)]
     pub seed: u64,
+    /// An effect that the robot is known not to have and is not looked for; may be said again
+    #[arg(long, value_name = "EFFECT", value_parser = effect)]
+    pub without: Vec<EffectKind>,
 }
 
 impl SearchArguments {
@@ -52,6 +57,7 @@ impl SearchArguments {
             control_rate_hz: loaded.control.rate_hz,
             false_discovery_rate: self.fdr,
             seed: self.seed,
+            without: self.without.clone(),
             ..Settings::default()
         }
     }
@@ -90,6 +96,11 @@ pub fn hashes_of(runs: &[Run]) -> impl Iterator<Item = FileHash> {
         path: shown(&run.source),
         sha256: run.sha256.clone(),
     })
+}
+
+/// An effect of an option, by name or code.
+fn effect(name: &str) -> Result<EffectKind, String> {
+    explain::find(name).map_err(|error| error.to_string())
 }
 
 /// A positive number of an option.

@@ -93,7 +93,7 @@ fn sizes(
     let (robot, prepared) = (&outcome.extended, &outcome.prepared);
     let inadequate = inadequate(robot, prepared);
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
-    let log = Log { prepared, moved: &moved, tones: &[], limits: &[] };
+    let log = Log { prepared, moved: &moved, tones: &[], limits: &[], without: &[] };
     let design = Design::of(robot, &log, hypotheses)?;
     let inadequate = &inadequate;
     let study = Study { nominal: robot, robot, settings, log, design: &design, inadequate };

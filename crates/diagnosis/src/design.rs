@@ -86,7 +86,9 @@ impl JointDesign {
 impl Design {
     /// Evaluates every hypothesis about `robot` along the prepared runs.
     pub fn new(robot: &Robot, log: &Log) -> Result<Self, LogError> {
-        let relevant = |h: &Hypothesis| h.joint().is_none_or(|j| log.moved[j]);
+        let relevant = |h: &Hypothesis| {
+            h.joint().is_none_or(|j| log.moved[j]) && !log.without.contains(&h.kind)
+        };
         let all: Vec<_> = hypotheses(robot).into_iter().filter(relevant).collect();
         Self::of(robot, log, &all)
     }

@@ -69,7 +69,8 @@ pub fn diagnose(
     progress.step();
     let inadequate = inadequate(robot, &prepared);
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
-    let quiet = Log { prepared: &prepared, moved: &moved, tones: &[], limits: &[] };
+    let without = settings.without.as_slice();
+    let quiet = Log { prepared: &prepared, moved: &moved, tones: &[], limits: &[], without };
     let limits = limits(robot, &quiet)?;
     let quiet = Log { limits: &limits, ..quiet };
     let (mut sown, mut design) = tangents(robot, &quiet)?;

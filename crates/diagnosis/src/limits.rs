@@ -102,6 +102,9 @@ impl Limit {
 ///
 /// with the limit that leaves least.
 pub(crate) fn limits(robot: &Robot, log: &Log) -> Result<Vec<Limit>, LogError> {
+    if log.without.contains(&EffectKind::TorqueSaturation) {
+        return Ok(Vec::new());
+    }
     let design = Design::new(robot, log)?;
     let frame = Frame::of_logs(log.prepared);
     let runs = log.along(robot, &frame)?;

@@ -1,3 +1,4 @@
+use catalogue::EffectKind;
 use effects::Frame;
 use logs::{LogError, Prepared};
 use robot::Robot;
@@ -16,6 +17,8 @@ pub(crate) struct Log<'a> {
     pub tones: &'a [Tone],
     /// Beyond which the efforts became no torque.
     pub limits: &'a [Limit],
+    /// Effects that are not looked for.
+    pub without: &'a [EffectKind],
 }
 
 impl<'a> Log<'a> {

@@ -1,3 +1,5 @@
+use catalogue::EffectKind;
+
 use crate::DiagnosisError;
 
 /// Whether the robot with what is found without each held-out part is made: some time that
@@ -27,6 +29,8 @@ pub struct Settings {
     pub practical_share: f64,
     /// Whether [`crate::Outcome::held_out`] is filled.
     pub held_out: HeldOutRobots,
+    /// Effects that are not looked for, and named neither as a cause nor as its rival.
+    pub without: Vec<EffectKind>,
 }
 
 impl Default for Settings {
@@ -40,6 +44,7 @@ impl Default for Settings {
             sign_flips: 9999,
             practical_share: 0.005,
             held_out: HeldOutRobots::NotMade,
+            without: Vec::new(),
         }
     }
 }

@@ -22,7 +22,10 @@ use crate::log::Log;
 /// over the joints that it reaches, each weighted by the power of its `r`.
 pub(crate) fn sown(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
     let (prepared, moved) = (log.prepared, log.moved);
-    let relevant = |g: &Germ| g.hypothesis.joint().is_some_and(|j| moved[j]);
+    let relevant = |g: &Germ| {
+        let looked_for = !log.without.contains(&g.hypothesis.kind);
+        looked_for && g.hypothesis.joint().is_some_and(|j| moved[j])
+    };
     let germs: Vec<Germ> =
         germs(robot, &Scale::of_logs(robot, prepared)).into_iter().filter(relevant).collect();
     let design = Design::new(robot, log)?;

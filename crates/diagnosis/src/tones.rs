@@ -76,7 +76,8 @@ pub(crate) fn tones(
     let at = |j: usize| {
         if log.moved[j] { at_joint(&runs, j, (wide.cutoff_hz, slowest_hz)) } else { Vec::new() }
     };
-    Ok((0..log.moved.len()).into_par_iter().flat_map_iter(at).collect())
+    let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
+    Ok((0..log.moved.len()).into_par_iter().flat_map_iter(at).filter(looked_for).collect())
 }
 
 /// One joint: its residual in every run, and the phase per unit of beat.

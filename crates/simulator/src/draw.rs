@@ -25,10 +25,12 @@ const TOLERANCE: f64 = 0.1;
 /// A size is drawn log-uniformly as a share of torque,
 ///
 /// ```text
-/// share = rms(tau - tau_without) / rms(tau_without)
+/// share = rms(tau - tau_without) / sqrt(rms(tau_without)^2 + noise^2)
 /// ```
 ///
-/// at the effect's joint, or over all joints together for an effect of a link or of the whole
+/// of the torque that the sensors report, their noise included: where a wrist lifts next to
+/// nothing, a share of its torque alone is one of millinewton metres that no log could show. It
+/// is taken at the effect's joint, or over all joints together for an effect of a link or of the whole
 /// arm. The effect's parameter is then corrected until the simulated share is within a tenth of
 /// it. An effect that cannot have the size at the joint drawn is drawn again.
 ///
@@ -56,7 +58,7 @@ struct Bench<'a> {
     scenario: &'a Scenario,
     run: ScenarioRun,
     nominal: Vec<Row>,
-    /// Root mean square of each joint's torque.
+    /// Root mean square of each joint's torque, the noise of its sensor included.
     torque_rms: Vec<f64>,
 }
 
@@ -65,9 +67,12 @@ impl<'a> Bench<'a> {
         let run = scenario.runs()[0].clone();
         let mut bench = Self { scenario, run, nominal: Vec::new(), torque_rms: Vec::new() };
         bench.nominal = bench.rows(&[])?;
-        let joints = scenario.robot().joint_count();
-        bench.torque_rms =
-            (0..joints).map(|j| rms(bench.nominal.iter().map(|r| r.reading.effort[j]))).collect();
+        let noise = &scenario.spec().sensors.effort_noise_nm;
+        let torque = |(j, name): (usize, &str)| {
+            let torque = rms(bench.nominal.iter().map(|r| r.reading.effort[j]));
+            torque.hypot(noise.get(name).copied().unwrap_or(0.0))
+        };
+        bench.torque_rms = scenario.robot().joint_names().enumerate().map(torque).collect();
         Ok(bench)
     }
 

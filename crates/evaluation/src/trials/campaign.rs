@@ -13,6 +13,8 @@ use crate::EvaluationError;
 
 /// Every kind of the catalogue, one effect each.
 const EACH: &str = "each";
+/// The same, each left out of the diagnosis.
+const WITHOUT_EACH: &str = "without_each";
 /// Most trials of a kind.
 const MOST_SEEDS: usize = 1_000_000;
 
@@ -23,10 +25,15 @@ const MOST_SEEDS: usize = 1_000_000;
 pub struct CampaignSpec {
     /// The scenario of the arm, relative to this file: its robot, sensors, engine and runs.
     pub scenario: PathBuf,
-    /// What is hidden, kind by kind: `clean`, an effect, two with a plus between them, or `each`
-    /// for every effect of the catalogue.
+    /// What is hidden, kind by kind: `clean`; an effect, or `each` for every one of the catalogue;
+    /// two with a plus between them, or `any+any`; `without_` and an effect, or `without_each`,
+    /// for one that the diagnosis does not look for.
     #[schemars(schema_with = "names_of_kinds")]
     pub hidden: Vec<String>,
+    /// Effects that `each`, `without_each` and `any+any` leave out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(schema_with = "names_of_effects")]
+    pub except: Vec<EffectKind>,
     /// Trials of each kind.
     pub seeds: usize,
     /// Seed from which, with kind and number, that of every trial follows.
@@ -41,11 +48,17 @@ fn names_of_kinds(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names = names();
     let name = schemars::json_schema!({ "type": "string", "enum": names });
     let two = schemars::json_schema!({ "type": "string", "pattern": "^[^+]+[+][^+]+$" });
-    schemars::json_schema!({ "type": "array", "items": { "anyOf": [name, two] } })
+    let unknown = schemars::json_schema!({ "type": "string", "pattern": "^without_.+$" });
+    schemars::json_schema!({ "type": "array", "items": { "anyOf": [name, two, unknown] } })
+}
+
+fn names_of_effects(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let names = EffectKind::ALL.map(EffectKind::name);
+    schemars::json_schema!({ "type": "array", "items": { "type": "string", "enum": names } })
 }
 
 fn names() -> Vec<&'static str> {
-    ["clean", EACH].into_iter().chain(EffectKind::ALL.map(EffectKind::name)).collect()
+    ["clean", EACH, WITHOUT_EACH].into_iter().chain(EffectKind::ALL.map(EffectKind::name)).collect()
 }
 
 /// A campaign whose every value can be meant.
@@ -74,7 +87,7 @@ impl Campaign {
     /// [`EvaluationError::Document`] at the value at fault, and what the scenario is refused for.
     pub fn from_document(document: &Document) -> Result<Self, EvaluationError> {
         let spec: CampaignSpec = document.parse()?;
-        let kinds = kinds(document, &spec.hidden)?;
+        let kinds = kinds(document, &spec)?;
         if !(1..=MOST_SEEDS).contains(&spec.seeds) {
             let message = format!("{}, a number from 1 to {MOST_SEEDS} was expected", spec.seeds);
             return Err(document.mistake(&KeyPath::root().key("seeds"), message, None).into());
@@ -88,6 +101,7 @@ impl Campaign {
         let spec = CampaignSpec {
             scenario: PathBuf::from(scenario),
             hidden: self.kinds.iter().map(Hidden::to_string).collect(),
+            except: Vec::new(),
             seeds: self.seeds,
             seed: self.seed,
             settings: Vec::new(),
@@ -144,16 +158,19 @@ fn hexadecimal(text: &str) -> String {
     })
 }
 
-fn kinds(document: &Document, hidden: &[String]) -> Result<Vec<Hidden>, DocumentError> {
+fn kinds(document: &Document, spec: &CampaignSpec) -> Result<Vec<Hidden>, DocumentError> {
     let path = KeyPath::root().key("hidden");
     let mut kinds: Vec<Hidden> = Vec::new();
-    for (i, name) in hidden.iter().enumerate() {
+    let each = |hide: fn(EffectKind) -> Hidden| drawn(spec).map(hide).collect();
+    for (i, name) in spec.hidden.iter().enumerate() {
         let path = path.index(i);
-        let named: Vec<Hidden> = if name == EACH {
-            EffectKind::ALL.map(Hidden::One).to_vec()
-        } else {
-            let unknown = |_| document.unknown_name(&path, "kind of trial", name, &names());
-            vec![name.parse::<Hidden>().map_err(unknown)?.sorted()]
+        let named: Vec<Hidden> = match name.as_str() {
+            EACH => each(Hidden::One),
+            WITHOUT_EACH => each(Hidden::Unknown),
+            name => {
+                let unknown = |_| document.unknown_name(&path, "kind of trial", name, &names());
+                vec![name.parse::<Hidden>().map_err(unknown)?.sorted()]
+            }
         };
         if let Some(twice) = named.iter().find(|kind| kinds.contains(kind)) {
             let message = format!("{twice} is there already");
@@ -168,6 +185,11 @@ fn kinds(document: &Document, hidden: &[String]) -> Result<Vec<Hidden>, Document
     Ok(kinds)
 }
 
+/// The kinds that effects are drawn from where no kind is said.
+fn drawn(spec: &CampaignSpec) -> impl Iterator<Item = EffectKind> {
+    EffectKind::ALL.into_iter().filter(|kind| !spec.except.contains(kind))
+}
+
 /// The scenario with the settings, checked.
 fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, EvaluationError> {
     let key = KeyPath::root().key("scenario");
@@ -178,7 +200,14 @@ fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, Evaluati
     }
     let mut scenario = Document::read(&file)?;
     // A count is needed beside what a setting may say of hidden effects.
-    for setting in Hidden::Nothing.settings().iter().chain(&spec.settings) {
+    for setting in Hidden::Nothing.settings() {
+        scenario.set(&setting)?;
+    }
+    if !spec.except.is_empty() {
+        let from: Vec<String> = drawn(spec).map(|kind| format!("'{kind}'")).collect();
+        scenario.set(&format!("hidden.from=[{}]", from.join(", ")))?;
+    }
+    for setting in &spec.settings {
         scenario.set(setting)?;
     }
     Ok(Scenario::from_document(&scenario)?.resolved().to_owned())

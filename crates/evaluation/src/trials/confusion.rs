@@ -13,13 +13,13 @@ pub struct Confusion {
 }
 
 impl Tally {
-    /// The rows of kinds, of two effects and of none; the columns of what was named.
+    /// The rows of kinds, of two effects, of an unknown one and of none; the columns of what was named.
     pub fn confusion(&self) -> Confusion {
         let rows = || self.rows.iter().filter(|row| row.put_in != Group::One);
         let own = |row: &Row| match row.put_in {
             Group::Kind(kind) => Some(kind.code()),
             Group::Clean => Some(NOTHING),
-            Group::One | Group::Two => None,
+            Group::One | Group::Two | Group::Unknown => None,
         };
         let mut codes: BTreeSet<&str> =
             rows().flat_map(|row| row.named_first.keys().copied().chain(own(row))).collect();

@@ -10,16 +10,25 @@ pub enum Hidden {
     Nothing,
     /// One effect of a kind.
     One(EffectKind),
+    /// One effect of a kind that the diagnosis does not look for: to it, something unknown.
+    Unknown(EffectKind),
     /// Two effects, each drawn from the two kinds: it may be one kind at two places.
     Two(EffectKind, EffectKind),
+    /// Two effects of any kinds that the scenario draws from.
+    AnyTwo,
 }
+
+const CLEAN: &str = "clean";
+const UNKNOWN: &str = "without_";
+const ANY_TWO: &str = "any+any";
 
 impl Hidden {
     /// What a scenario is told, as `--set` takes it; other keys of its `hidden` stay.
     pub fn settings(self) -> Vec<String> {
         let drawn = match self {
             Self::Nothing => return vec!["hidden.count=[0, 0]".to_owned()],
-            Self::One(kind) => vec![kind],
+            Self::AnyTwo => return vec!["hidden.count=[2, 2]".to_owned()],
+            Self::One(kind) | Self::Unknown(kind) => vec![kind],
             Self::Two(a, b) => vec![a, b],
         };
         let (count, names) = (drawn.len(), drawn.iter().map(|kind| format!("'{kind}'")));
@@ -28,6 +37,14 @@ impl Hidden {
             format!("hidden.count=[{count}, {count}]"),
             format!("hidden.from=[{}]", names.join(", ")),
         ]
+    }
+
+    /// What the diagnosis is not to look for.
+    pub(super) fn without(self) -> Vec<EffectKind> {
+        match self {
+            Self::Unknown(kind) => vec![kind],
+            _ => Vec::new(),
+        }
     }
 
     /// The same whichever of two effects is named first.
@@ -39,11 +56,14 @@ impl Hidden {
     }
 }
 
-/// Such as `clean`, `backlash` and `backlash+payload`: the folder of its trials.
+/// Such as `clean`, `backlash`, `without_backlash`, `backlash+payload` and `any+any`: the folder of
+/// its trials.
 impl fmt::Display for Hidden {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Nothing => f.write_str("clean"),
+            Self::Nothing => f.write_str(CLEAN),
+            Self::AnyTwo => f.write_str(ANY_TWO),
+            Self::Unknown(kind) => write!(f, "{UNKNOWN}{kind}"),
             Self::One(kind) => write!(f, "{kind}"),
             Self::Two(a, b) => write!(f, "{a}+{b}"),
         }
@@ -56,8 +76,12 @@ impl FromStr for Hidden {
     /// What [`fmt::Display`] writes; codes do for names.
     fn from_str(text: &str) -> Result<Self, UnknownEffect> {
         match text.split_once('+') {
-            None if text == "clean" => Ok(Self::Nothing),
-            None => Ok(Self::One(text.parse()?)),
+            None if text == CLEAN => Ok(Self::Nothing),
+            None => match text.strip_prefix(UNKNOWN) {
+                Some(kind) => Ok(Self::Unknown(kind.parse()?)),
+                None => Ok(Self::One(text.parse()?)),
+            },
+            Some(_) if text == ANY_TWO => Ok(Self::AnyTwo),
             Some((a, b)) => Ok(Self::Two(a.parse()?, b.parse()?)),
         }
     }
@@ -70,7 +94,9 @@ mod tests {
     #[test]
     fn what_is_hidden_is_read_back_from_its_name() {
         use EffectKind::{Backlash, Payload};
-        for hidden in [Hidden::Nothing, Hidden::One(Backlash), Hidden::Two(Backlash, Payload)] {
+        let two = [Hidden::Two(Backlash, Payload), Hidden::AnyTwo];
+        let one = [Hidden::Nothing, Hidden::One(Backlash), Hidden::Unknown(Backlash)];
+        for hidden in one.into_iter().chain(two) {
             assert_eq!(hidden.to_string().parse(), Ok(hidden));
         }
         assert_eq!("TR01".parse(), Ok(Hidden::One(Backlash)));

@@ -12,6 +12,7 @@ mod record;
 mod score;
 mod share;
 mod size;
+mod smallest;
 mod stored;
 mod table;
 mod tally;

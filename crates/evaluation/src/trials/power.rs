@@ -40,7 +40,7 @@ impl Power {
         let parameter = size_of(kind)?;
         let sized = scores.iter().filter_map(|score| {
             let [put_in] = &score.put_in[..] else { return None };
-            let own = put_in.at.effect == kind;
+            let own = put_in.at.effect == kind && score.looked_for;
             own.then(|| size(put_in, parameter).map(|size| (size, score))).flatten()
         });
         let mut sized: Vec<(f64, &Score)> = sized.collect();

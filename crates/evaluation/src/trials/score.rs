@@ -1,7 +1,8 @@
-use diagnosis::{Diagnosis, EffectAt, Finding, Verdict};
+use diagnosis::{Diagnosis, EffectAt, Finding, RuledOut, Verdict};
 use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
+use super::smallest::of_smallest;
 use super::{Size, stored};
 
 /// How well a diagnosis names what was put in.
@@ -13,6 +14,8 @@ pub struct Score {
     pub seed: u64,
     /// What was put in.
     pub put_in: Vec<PutIn>,
+    /// Whether the diagnosis looked for it; if not, it was to find something unknown.
+    pub looked_for: bool,
     /// The verdict over all joints.
     #[serde(deserialize_with = "stored::verdict")]
     pub verdict: Verdict,
@@ -39,6 +42,8 @@ pub struct PutIn {
     pub one_of: Option<usize>,
     /// Its parameters.
     pub sizes: Vec<Size>,
+    /// Its size over the smallest that the logs would have shown, where the diagnosis tells.
+    pub of_smallest: Option<f64>,
 }
 
 /// A finding of a diagnosis.
@@ -60,7 +65,8 @@ impl Score {
     pub fn new(diagnosis: &Diagnosis, truth: &[Truth], seed: u64) -> Self {
         let mut findings: Vec<&Finding> = diagnosis.findings.iter().collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
-        let put_in: Vec<PutIn> = truth.iter().map(|truth| PutIn::new(truth, &findings)).collect();
+        let put_in = |truth| PutIn::new(truth, &findings, &diagnosis.ruled_out);
+        let put_in: Vec<PutIn> = truth.iter().map(put_in).collect();
         let among_first = |of: fn(&PutIn) -> Option<usize>| match put_in.len() {
             0 => findings.is_empty(),
             k => put_in.iter().all(|p| of(p).is_some_and(|finding| finding < k)),
@@ -76,6 +82,7 @@ impl Score {
         let stray = findings.iter().filter(|f| !excused(f)).map(|f| f.at.clone()).collect();
         Self {
             seed,
+            looked_for: true,
             verdict: diagnosis.verdict,
             exactly: among_first(|p| p.finding),
             as_one_of: among_first(|p| p.one_of),
@@ -88,6 +95,11 @@ impl Score {
     /// Whether all that was put in is among the findings or their rivals, wherever.
     pub fn found(&self) -> bool {
         self.put_in.iter().all(|p| p.one_of.is_some())
+    }
+
+    /// Whether the logs would have shown all that was put in, as far as the diagnosis tells.
+    pub fn visible(&self) -> bool {
+        self.put_in.iter().all(|p| p.of_smallest.is_none_or(|ratio| ratio >= 1.0))
     }
 
     /// Whether it says that there is something that it cannot name, and names nothing wrong: the
@@ -110,14 +122,16 @@ impl Score {
 }
 
 impl PutIn {
-    fn new(truth: &Truth, findings: &[&Finding]) -> Self {
+    fn new(truth: &Truth, findings: &[&Finding], ruled_out: &[RuledOut]) -> Self {
         let (effect, joint, link) = (truth.effect, truth.joint.clone(), truth.link.clone());
         let at = EffectAt { effect, joint, link };
         let finding = findings.iter().position(|f| f.at == at);
         let one_of = |f: &&Finding| f.at == at || f.not_separable_from.contains(&at);
         let one_of = findings.iter().position(one_of);
         let estimates = finding.map_or(&[][..], |f| &findings[f].parameters);
-        Self { finding, one_of, sizes: Size::all(truth, estimates), at }
+        let sizes = Size::all(truth, estimates);
+        let of_smallest = of_smallest(truth, (&at, &sizes), ruled_out);
+        Self { finding, one_of, of_smallest, sizes, at }
     }
 }
 

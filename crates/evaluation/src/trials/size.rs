@@ -96,6 +96,16 @@ fn stated(effect: EffectKind, parameter: &str) -> Stated {
     }
 }
 
+/// How much of a parameter was put in: the length of a vector, the distance of a factor from 1, or
+/// the number; none of one that was not.
+pub(super) fn added(truth: &Truth, name: &str) -> Option<f64> {
+    let value = *truth.parameters.get(name)?;
+    Some(match stated(truth.effect, name) {
+        Stated::Factor => (value - 1.0).abs(),
+        Stated::Added | Stated::Whole => magnitude(truth, name),
+    })
+}
+
 /// What an error of a parameter is measured by.
 fn magnitude(truth: &Truth, name: &str) -> f64 {
     if name == "phase" {

@@ -5,7 +5,7 @@ use std::fmt;
 use catalogue::EffectKind;
 use serde::{Serialize, Serializer};
 
-use super::{Estimated, PutIn, Score, Share};
+use super::{Estimated, Score, Share};
 
 /// What the first finding is called where there is none.
 pub(super) const NOTHING: &str = "nothing";
@@ -14,7 +14,8 @@ pub(super) const NOTHING: &str = "nothing";
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tally {
     /// One for every kind that was put in alone, by code; then all of these together, trials
-    /// with two effects, and clean ones. Those without a trial are left out.
+    /// with two effects, those with one that is not looked for, and clean ones. Those without a
+    /// trial are left out.
     pub rows: Vec<Row>,
 }
 
@@ -27,6 +28,8 @@ pub enum Group {
     One,
     /// More than one.
     Two,
+    /// One that is not looked for.
+    Unknown,
     /// None.
     Clean,
 }
@@ -40,6 +43,8 @@ pub struct Row {
     pub trials: usize,
     /// Trials in which it was named first, effect and place; nothing, in clean ones.
     pub exactly: Share,
+    /// The same of those trials in which the logs would have shown it.
+    pub visibly: Share,
     /// Trials in which it was named first or a rival of what was.
     pub as_one_of: Share,
     /// Trials in which all of it was named or a rival of what was, first or not; of none where
@@ -75,7 +80,7 @@ impl Tally {
     pub fn of(scores: &[Score]) -> Self {
         let mut groups: Vec<(Group, Vec<&Score>)> = Vec::new();
         for score in scores {
-            for group in Group::all_of(&score.put_in) {
+            for group in Group::all_of(score) {
                 match groups.iter_mut().find(|(other, _)| *other == group) {
                     Some((_, members)) => members.push(score),
                     None => groups.push((group, vec![score])),
@@ -90,8 +95,9 @@ impl Tally {
 }
 
 impl Group {
-    fn all_of(put_in: &[PutIn]) -> Vec<Self> {
-        match put_in {
+    fn all_of(score: &Score) -> Vec<Self> {
+        match &score.put_in[..] {
+            _ if !score.looked_for => vec![Self::Unknown],
             [] => vec![Self::Clean],
             [one] => vec![Self::Kind(one.at.effect), Self::One],
             _ => vec![Self::Two],
@@ -103,7 +109,8 @@ impl Group {
             Self::Kind(kind) => (0, kind.code()),
             Self::One => (1, ""),
             Self::Two => (2, ""),
-            Self::Clean => (3, ""),
+            Self::Unknown => (3, ""),
+            Self::Clean => (4, ""),
         };
         key(self).cmp(&key(other))
     }
@@ -115,6 +122,7 @@ impl fmt::Display for Group {
             Self::Kind(kind) => f.write_str(&kind.label()),
             Self::One => f.write_str("one effect"),
             Self::Two => f.write_str("two effects"),
+            Self::Unknown => f.write_str("not looked for"),
             Self::Clean => f.write_str("clean"),
         }
     }
@@ -135,11 +143,13 @@ impl Row {
             let first = score.findings.first().map_or(NOTHING, |first| first.at.effect.code());
             *named_first.entry(first).or_default() += 1;
         }
+        let visible: Vec<&&Score> = scores.iter().filter(|s| s.visible()).collect();
         let hiding: Vec<&&Score> = scores.iter().filter(|s| !s.put_in.is_empty()).collect();
         Self {
             put_in,
             trials: scores.len(),
             exactly: share(&|score| score.exactly),
+            visibly: Share::of(&visible, |score| score.exactly),
             as_one_of: share(&|score| score.as_one_of),
             found: Share::of(&hiding, |score| score.found()),
             unknown: share(&Score::unknown),

@@ -14,9 +14,11 @@ impl Tally {
     }
 
     fn shares(&self) -> TextTable {
-        let header = ["put in", "trials", "exactly", "as one of", "found", "unknown", "stray"];
+        let header =
+            ["put in", "trials", "exactly", "if visible", "as one of", "found", "unknown", "stray"];
         let row = |row: &Row| {
-            let shares = [row.exactly, row.as_one_of, row.found, row.unknown, row.stray];
+            let shares =
+                [row.exactly, row.visibly, row.as_one_of, row.found, row.unknown, row.stray];
             let mut cells = vec![row.put_in.to_string(), row.trials.to_string()];
             cells.extend(shares.map(|share| share.words()));
             cells

@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use catalogue::EffectKind;
 use diagnosis::{Settings, Silent};
 use document::Document;
 use logs::ReadOptions;
@@ -57,7 +58,7 @@ impl Trial {
             let simulation = simulator::simulate(&scenario, &|| {})?;
             simulator::write(folder, &scenario, &simulation, LogFormat::Parquet)?;
         }
-        judge(folder, &Robot::load(scenario.robot_file())?)
+        judge(folder, &Robot::load(scenario.robot_file())?, &self.hidden.without())
     }
 
     fn scenario(&self) -> Result<Scenario, EvaluationError> {
@@ -71,19 +72,30 @@ impl Trial {
 }
 
 /// Diagnoses the logs of a folder as `plumbline diagnose` does, `robot` being the nominal one,
-/// and only then opens `truth.json` and scores the answer.
+/// and only then opens `truth.json` and scores the answer; `without` are effects that it does not
+/// look for.
 ///
 /// # Errors
 ///
 /// [`EvaluationError`] when a log or the truth cannot be read, or the logs cannot be diagnosed.
-pub fn judge(folder: &Path, robot: &Loaded) -> Result<Score, EvaluationError> {
+pub fn judge(
+    folder: &Path,
+    robot: &Loaded,
+    without: &[EffectKind],
+) -> Result<Score, EvaluationError> {
     let options = ReadOptions { map: None, effort: "effort" };
     let read = |path: &PathBuf| logs::read_run(path, &robot.robot, &options);
     let runs = logs_of(folder)?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let settings = Settings { control_rate_hz: robot.control.rate_hz, ..Settings::default() };
+    let settings = Settings {
+        control_rate_hz: robot.control.rate_hz,
+        without: without.to_vec(),
+        ..Settings::default()
+    };
     let outcome = diagnosis::diagnose(&robot.robot, &runs, &settings, &Silent)?;
     let sealed = opened(folder)?;
-    Ok(Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed))
+    let unknown = sealed.effects.iter().any(|truth| without.contains(&truth.effect));
+    let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
+    Ok(Score { looked_for: !unknown, ..score })
 }
 
 /// The logs of a folder, by name.

@@ -103,6 +103,7 @@ mod tests {
             put_in,
             trials: 4,
             exactly: share,
+            visibly: share,
             as_one_of: share,
             found: share,
             unknown: share,

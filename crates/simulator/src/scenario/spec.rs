@@ -133,7 +133,7 @@ pub struct HiddenSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
     /// Least and largest size: root mean square of the torque that an effect adds over that of
-    /// the joint's torque.
+    /// the joint's torque as its sensor reports it, noise included.
     #[serde(default = "usual_share")]
     pub torque_share: [f64; 2],
 }
