@@ -219,7 +219,8 @@ pub struct RuledOut {
     pub at: EffectAt,
     /// The parameter that `smallest_detectable` speaks of.
     pub parameter: &'static str,
-    /// The smallest size that would have been found; none when these logs could not show any.
+    /// The smallest size that would have been found, of a stiffness the largest, of a breakaway
+    /// level what it is beyond the Coulomb level; none when these logs could not show any.
     pub smallest_detectable: Option<f64>,
     /// Its unit.
     pub unit: &'static str,

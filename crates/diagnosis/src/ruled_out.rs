@@ -1,3 +1,4 @@
+use catalogue::EffectKind;
 use nalgebra::DMatrix;
 
 use crate::findings::{Evidence, effect_at};
@@ -27,11 +28,13 @@ impl Evidence<'_> {
         let rotation =
             group.hypothesis.joint().is_none_or(|j| robot.links()[j].joint.kind.is_rotation());
         let (sharpest, because) = self.judge(g, fit);
-        let parameter = &group.hypothesis.kind.entry().parameters[sharpest.map_or(0, |(i, _)| i)];
+        let (weight, size) = sharpest.map_or((0, None), |(weight, size)| (weight, Some(size)));
+        let (index, smallest_detectable) = read(group.hypothesis.kind, weight, size);
+        let parameter = &group.hypothesis.kind.entry().parameters[index];
         RuledOut {
             at: effect_at(robot, group.hypothesis),
             parameter: parameter.name,
-            smallest_detectable: sharpest.map(|(_, size)| size),
+            smallest_detectable,
             unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
             because,
         }
@@ -89,6 +92,17 @@ impl Evidence<'_> {
         let mass = hypothesis.link().map(|l| self.selection.robot.links()[l].inertia.mass);
         let unit = if best > 0 { mass.filter(|m| *m > 0.0).unwrap_or(1.0) } else { 1.0 };
         (share(best) <= SHOWS_NOTHING).then_some((best, size / unit))
+    }
+}
+
+/// The parameter that weight `weight` of an effect stands for, and its value at a size of it: a
+/// spring's weight is its compliance, and what is beyond the level of Coulomb friction is that of
+/// breaking away, or all that is springy.
+fn read(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
+    match kind {
+        EffectKind::JointElasticity => (weight, size.map(f64::recip)),
+        EffectKind::StribeckFriction | EffectKind::PreslidingFriction => (1, size),
+        _ => (weight, size),
     }
 }
 

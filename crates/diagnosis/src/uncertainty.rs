@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use effects::{Hypothesis, Quantity};
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 use crate::extend::extended;
 use crate::fit::{Fit, covariance, pick};
@@ -11,6 +11,9 @@ use crate::result::Estimate;
 
 /// Share of the prior's standard deviation above which a number is the prior's, not the data's.
 const DETERMINED: f64 = 0.5;
+
+/// Share of the largest eigenvalue of a correlation below which one is rounding.
+const ROUNDING: f64 = 1e-10;
 
 /// The uncertainty of a model's weights.
 ///
@@ -124,6 +127,32 @@ impl Uncertainty {
         variance(&self.likelihood).max(variance(&self.blocks)).max(0.0).sqrt()
     }
 
+    /// Whether a change of the weights of some columns is within their 95 per cent region:
+    ///
+    /// ```text
+    /// change' C^-1 change / max(1, trace(C^-1 C_blocks) / k) < chi^2_k(0.95)
+    /// ```
+    ///
+    /// with `C` of the likelihood and `k` columns.
+    fn may_be_none(&self, columns: &[usize], change: &DVector<f64>) -> bool {
+        let place: Vec<usize> =
+            columns.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
+        let sd = |i: usize| self.likelihood[(place[i], place[i])].sqrt();
+        let part = |all: &DMatrix<f64>| {
+            let scaled = |i, k| all[(place[i], place[k])] / (sd(i) * sd(k));
+            DMatrix::from_fn(place.len(), place.len(), scaled)
+        };
+        let (likelihood, count) = (part(&self.likelihood), place.len());
+        if count != change.len() || likelihood.iter().any(|v| !v.is_finite()) {
+            return false;
+        }
+        let scaled = DVector::from_fn(count, |i, _| change[i] / sd(i));
+        let Some(inverse) = likelihood.pseudo_inverse(ROUNDING).ok() else { return false };
+        let Ok(law) = ChiSquared::new(count as f64) else { return false };
+        let wider = ((&inverse * part(&self.blocks)).trace() / count as f64).max(1.0);
+        scaled.dot(&(&inverse * &scaled)) / wider < law.inverse_cdf(0.95)
+    }
+
     /// How many directions of the group's weights the data leave as wide as half the prior,
     /// and how many there are.
     pub fn undetermined(&self, problem: &Problem, hypothesis: Hypothesis) -> (usize, usize) {
@@ -145,9 +174,10 @@ impl Uncertainty {
     }
 }
 
-/// A hypothesis that is not possible together with all others, or one with one weight none of
-/// whose parameters differs from its nominal value by more than its 95 per cent interval: its
-/// size is not decided. None if all stand.
+/// A hypothesis that is not possible together with all others, one with one weight none of
+/// whose parameters differs from its nominal value by more than its 95 per cent interval, or a
+/// body whose ten numbers together may as well be those described: its size is not decided. None
+/// if all stand.
 pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Option<usize> {
     let uncertainty = Uncertainty::of(fitted)?;
     let robot = fitted.robot();
@@ -160,7 +190,19 @@ pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Op
         let estimates = || uncertainty.estimates(fitted, group.hypothesis, &[]);
         !group.hypothesis.is_sound(&robot)
             || group.columns.len() == 1 && estimates().iter().all(holds)
+            || is_unchanged_body(&uncertainty, fitted, group.hypothesis)
     })
+}
+
+/// Whether an effect that changes all ten inertial parameters of a link changes none for sure.
+fn is_unchanged_body(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hypothesis) -> bool {
+    let design = fitted.problem.design;
+    let (Some(link), Some(group)) = (hypothesis.link(), design.find(hypothesis)) else {
+        return false;
+    };
+    let of = |robot: &Robot| DVector::from_column_slice(&robot.links()[link].inertia.parameters());
+    let change = of(&fitted.robot()) - of(fitted.nominal);
+    uncertainty.may_be_none(&design.groups[group].columns, &change)
 }
 
 /// Change of every quantity per unit of weight `k`, by a central difference.

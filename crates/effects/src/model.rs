@@ -12,8 +12,10 @@ pub const MODELLED: [EffectKind; 22] = [
     EffectKind::PositionDependentFriction,
     EffectKind::TorqueOffset,
     EffectKind::RotorInertia,
-    EffectKind::InertialParameters,
+    // Of the same columns the first counts: a body that is one is sooner carried than forgotten in
+    // the description of the link.
     EffectKind::Payload,
+    EffectKind::InertialParameters,
     EffectKind::CableSpring,
     EffectKind::GravityDirection,
     EffectKind::TorqueConstant,

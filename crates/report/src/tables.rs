@@ -208,7 +208,8 @@ fn ruled_out_row(ruled_out: &RuledOut) -> RuledOutRow {
     let smallest = match ruled_out.smallest_detectable {
         Some(size) => {
             let parameter = ruled_out.parameter.replace('_', " ");
-            format!("{parameter} {} {}", significant(size, 2), unit(ruled_out.unit))
+            let of = if ruled_out.at.effect == EffectKind::JointElasticity { "up to " } else { "" };
+            format!("{parameter} {of}{} {}", significant(size, 2), unit(ruled_out.unit))
         }
         None => "these logs cannot show any".to_owned(),
     };

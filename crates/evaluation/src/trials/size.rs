@@ -97,9 +97,12 @@ fn stated(effect: EffectKind, parameter: &str) -> Stated {
 }
 
 /// How much of a parameter was put in: the length of a vector, the distance of a factor from 1, or
-/// the number; none of one that was not.
+/// the number, of a breakaway level that beyond the Coulomb level; none of one that was not.
 pub(super) fn added(truth: &Truth, name: &str) -> Option<f64> {
     let value = *truth.parameters.get(name)?;
+    if (truth.effect, name) == (EffectKind::StribeckFriction, "breakaway") {
+        return Some(value - truth.parameters.get("coulomb")?);
+    }
     Some(match stated(truth.effect, name) {
         Stated::Factor => (value - 1.0).abs(),
         Stated::Added | Stated::Whole => magnitude(truth, name),

@@ -16,7 +16,8 @@ const SMALLEST_OVER_HALF: f64 = 3.65 / 1.96;
 /// size / smallest detectable size   where the diagnosis says what it would have found
 /// ```
 ///
-/// of the parameter that shows most. None where neither is said, and of the body of a link, whose
+/// of the parameter that shows most; zero where it says that the logs could not show any. A spring
+/// shows the more the softer it is. None where neither is said, and of the body of a link, whose
 /// size is a change of a whole that only the robot tells.
 pub(super) fn of_smallest(
     truth: &Truth,
@@ -32,7 +33,12 @@ pub(super) fn of_smallest(
         Some(added(truth, &size.name)? / (SMALLEST_OVER_HALF * half))
     });
     let missed = ruled_out.iter().filter(|r| r.at == *at).filter_map(|ruled_out| {
-        Some(added(truth, ruled_out.parameter)? / ruled_out.smallest_detectable?)
+        let size = added(truth, ruled_out.parameter)?;
+        Some(match ruled_out.smallest_detectable {
+            Some(largest) if truth.effect == EffectKind::JointElasticity => largest / size,
+            Some(smallest) => size / smallest,
+            None => 0.0,
+        })
     });
     named.chain(missed).filter(|ratio| ratio.is_finite()).max_by(f64::total_cmp)
 }
@@ -62,8 +68,13 @@ mod tests {
         let truth = Truth::at_joint(kind, "elbow", &[("level", 0.5)]);
         let of = |ruled_out: &[RuledOut]| of_smallest(&truth, (&at(kind), &[]), ruled_out);
         assert_eq!(of(&[ruled_out(kind, Some(0.25))]), Some(2.0));
-        assert_eq!(of(&[ruled_out(kind, None)]), None);
+        assert_eq!(of(&[ruled_out(kind, None)]), Some(0.0));
         assert_eq!(of(&[ruled_out(EffectKind::Backlash, Some(0.25))]), None);
+
+        let kind = EffectKind::JointElasticity;
+        let truth = Truth::at_joint(kind, "elbow", &[("stiffness", 50.0)]);
+        let of = |size| of_smallest(&truth, (&at(kind), &[]), &[ruled_out(kind, Some(size))]);
+        assert_eq!((of(100.0), of(25.0)), (Some(2.0), Some(0.5)));
 
         let kind = EffectKind::TorqueConstant;
         let truth = Truth::at_joint(kind, "elbow", &[("gain", 0.9)]);
