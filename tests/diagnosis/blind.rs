@@ -5,10 +5,11 @@ use std::path::Path;
 
 use catalogue::EffectKind;
 use checks::arms::{wam, workspace_root};
-use diagnosis::{Diagnosis, Settings, Silent, Verdict, diagnose};
+use diagnosis::{Diagnosis, Outcome, Settings, Silent, Verdict, diagnose};
 use document::Document;
-use logs::ReadOptions;
+use logs::{ReadOptions, Run};
 use rayon::prelude::*;
+use robot::Robot;
 use simulator::Truth;
 use simulator::scenario::Scenario;
 
@@ -17,9 +18,14 @@ const RUNS: &str = "run=[\
     { name='b', motion={ sinusoids={ seed=12, terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0 } } }]";
 
 /// Simulates two runs of the WAM with its sensors into a folder.
-fn simulate(folder: &Path, settings: &[&str]) {
+pub fn simulate(folder: &Path, settings: &[&str]) {
+    simulate_runs(folder, &[settings, &[RUNS]].concat());
+}
+
+/// The same with runs that the settings say.
+pub fn simulate_runs(folder: &Path, settings: &[&str]) {
     let mut document = Document::read(workspace_root().join("scenarios/wam.toml")).unwrap();
-    for setting in settings.iter().chain(&[RUNS]) {
+    for setting in settings {
         document.set(setting).unwrap();
     }
     let scenario = Scenario::from_document(&document).unwrap();
@@ -28,13 +34,21 @@ fn simulate(folder: &Path, settings: &[&str]) {
     simulator::write(folder, &scenario, &simulation, format).unwrap();
 }
 
-fn look(folder: &Path) -> Diagnosis {
-    let robot = wam();
+/// The logs of [`simulate`].
+pub fn read(folder: &Path) -> [Run; 2] {
     let options = ReadOptions { map: None, effort: "effort" };
-    let read = |name: &str| logs::read_run(&folder.join(name), &robot, &options).unwrap();
-    let runs = [read("a.parquet"), read("b.parquet")];
+    let read = |name: &str| logs::read_run(&folder.join(name), &wam(), &options).unwrap();
+    [read("a.parquet"), read("b.parquet")]
+}
+
+fn look(folder: &Path) -> Diagnosis {
+    diagnosed(&wam(), &read(folder)).diagnosis
+}
+
+/// What a robot gets wrong in such logs.
+pub fn diagnosed(robot: &Robot, runs: &[Run]) -> Outcome {
     let settings = Settings { control_rate_hz: Some(500.0), ..Settings::default() };
-    diagnose(&robot, &runs, &settings, &Silent).unwrap().diagnosis
+    diagnose(robot, runs, &settings, &Silent).unwrap()
 }
 
 fn truth(folder: &Path) -> Vec<Truth> {

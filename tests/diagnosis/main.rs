@@ -14,6 +14,7 @@ mod intervals;
 mod recorded;
 mod repeatable;
 mod rivals;
+mod second_encoder;
 mod together;
 mod transplants;
 mod trials;

@@ -7,7 +7,7 @@ mod undone;
 use catalogue::EffectKind;
 use checks::synthetic::wam;
 use effects::{
-    Compensated, Compensation, Frame, Hypothesis, Motion, Part, Scale, hypotheses, model,
+    Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Scale, hypotheses, model,
 };
 use robot::{Coupling, Robot, Stribeck, TorqueSource, Wave};
 
@@ -80,16 +80,86 @@ fn scale(robot: &Robot) -> Scale {
     }
 }
 
-fn motion(robot: &Robot) -> Motion {
+/// Position, velocity and acceleration as reported.
+fn state(robot: &Robot) -> [Vec<Vec<f64>>; 3] {
     let signal = |amplitude: f64, phase: f64| -> Vec<Vec<f64>> {
         let at = |j: usize, t: usize| {
             amplitude * (0.37 * (t as f64) * (1.0 + 0.1 * j as f64) + phase + j as f64).sin()
         };
         (0..robot.joint_count()).map(|j| (0..SAMPLES).map(|t| at(j, t)).collect()).collect()
     };
-    let qd = signal(1.0, 1.3);
-    let state = [signal(0.8, 0.0), qd.clone(), signal(2.0, 0.7)];
+    [signal(0.8, 0.0), signal(1.0, 1.3), signal(2.0, 0.7)]
+}
+
+fn motion(robot: &Robot) -> Motion {
+    let state = state(robot);
+    let qd = state[1].clone();
     Motion::new(robot, &frame(robot), state, &qd, 0.05)
+}
+
+/// The same motion, with encoders at the links that do not quite say the same.
+fn seen(robot: &Robot) -> Motion {
+    let reported = state(robot);
+    let link = |j: usize| {
+        let [q, qd, qdd] = reported.each_ref().map(|x| &x[j]);
+        let scaled = |x: &Vec<f64>| x.iter().map(|x| 0.97 * x).collect::<Vec<f64>>();
+        Some([q.iter().map(|q| 0.97 * q + 0.01).collect(), scaled(qd), scaled(qdd)])
+    };
+    let links = (0..robot.joint_count()).map(link).collect();
+    let swift = reported[1].clone();
+    Motion::seen(robot, &frame(robot), Encoders { reported, swift, links }, 0.05)
+}
+
+/// The WAM of [`worn`] with transmissions that give.
+fn soft() -> Robot {
+    let mut robot = worn();
+    for j in 0..robot.joint_count() {
+        let drive = &mut robot.link_mut(j).unwrap().actuator;
+        (drive.elasticity, drive.backlash) = (Some(300.0), 0.01);
+    }
+    robot
+}
+
+#[test]
+fn contract_twists_are_the_derivative_of_what_the_extended_robot_has_between_two_encoders() {
+    let robot = soft();
+    let nominal = seen(&robot);
+    let mut looked_at = 0;
+    for h in hypotheses(&robot) {
+        let columns = h.twist(&nominal);
+        let Some(j) = h.before_the_link() else {
+            assert!(columns.is_empty(), "{h:?}");
+            continue;
+        };
+        // The shape of a gap is compared over a tenth of it, as its column is.
+        let step = match h.kind {
+            EffectKind::Backlash => 0.1 * robot.links()[j].actuator.backlash,
+            _ => 1e-4 * h.prior(&robot, &scale(&robot))[0],
+        };
+        let twist = |sign: f64| {
+            let mut changed = robot.clone();
+            h.extend(&mut changed, &[sign * step], &frame(&robot));
+            seen(&changed).twist(j)
+        };
+        let (up, down) = (twist(1.0), twist(-1.0));
+        let [part] = columns[0].as_slice() else { unreachable!("{h:?} is of one joint") };
+        assert_eq!((columns.len(), part.joint), (1, j));
+        let largest = part.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        assert!(largest > 0.0, "{h:?}");
+        for (t, value) in part.values.iter().enumerate() {
+            let slope = (up[t] - down[t]) / (2.0 * step);
+            assert!((value - slope).abs() < 1e-5 * largest, "{h:?} at {t}: {value}, not {slope}");
+        }
+        looked_at += 1;
+    }
+    assert_eq!(looked_at, 4 * robot.joint_count());
+}
+
+/// Where both sides of a transmission are measured, the effort needs no word of what is between.
+#[test]
+fn contract_twist_and_play_change_no_effort_where_both_sides_are_measured() {
+    assert_eq!(seen(&worn()).effort, seen(&soft()).effort);
+    assert_ne!(motion(&worn()).effort, motion(&soft()).effort);
 }
 
 /// `d effort / d weight` of one weight by a central difference through the extended robot.

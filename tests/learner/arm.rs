@@ -44,9 +44,15 @@ pub fn beside([q1, _]: [f64; 2], [v1, v2]: [f64; 2]) -> [f64; 2] {
 
 /// One run at 50 Hz of two sines a joint, phases by `seed`; `share` of [`beside`] is in it.
 pub fn run(seed: f64, samples: usize, share: f64) -> Prepared {
-    let empty =
-        || PreparedJoint { q: vec![], qd: vec![], qdd: vec![], qd_wide: vec![], effort: vec![] };
-    let mut joints = vec![empty(), empty()];
+    let empty = PreparedJoint {
+        q: vec![],
+        qd: vec![],
+        qdd: vec![],
+        qd_wide: vec![],
+        effort: vec![],
+        link: None,
+    };
+    let mut joints = vec![empty.clone(), empty];
     let time: Vec<f64> = (0..samples).map(|i| 0.02 * i as f64).collect();
     for &t in &time {
         let wave = |j: f64, t: f64| {

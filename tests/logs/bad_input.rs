@@ -231,6 +231,35 @@ fn degrees_against_the_speed_limit() {
 }
 
 #[test]
+fn a_link_in_degrees_beside_its_motor_in_radians() {
+    let arm = robot(&[("j1", JointKind::Continuous)]);
+    let log = |scale: f64| {
+        let row = |k: i32| {
+            let q = (0.1 * f64::from(k)).sin();
+            format!("{k},{q},0,{}\n", scale * (q - 0.002))
+        };
+        let rows: String = (0..100).map(row).collect();
+        Scratch::new("run.csv", format!("time,j1.position,j1.effort,j1.link_position\n{rows}"))
+    };
+    let message = log(1.0_f64.to_degrees()).message(&arm);
+    assert!(message.starts_with("run.csv: column j1.link_position, row "), "{message}");
+    assert!(
+        message.contains("j1 has a position column that is pi/180 times this one"),
+        "{message}"
+    );
+    // A gear ratio that is wrong, even by much, is for a diagnosis to find.
+    assert!(log(20.0).read(&arm).is_ok() && log(-1.0).read(&arm).is_ok());
+}
+
+#[test]
+fn a_link_position_that_is_missing_in_a_row() {
+    let content = "time,j1.position,j1.effort,j1.link_position\n0,1,2,1\n1,1,2,nan\n";
+    let file = Scratch::new("run.csv", content);
+    let expected = "run.csv: row 2, column j1.link_position: ";
+    assert!(file.message(&robot(&[("j1", JointKind::Revolute)])).starts_with(expected));
+}
+
+#[test]
 fn positions_a_little_beyond_the_limits_are_read() {
     let file = Scratch::new("run.csv", format!("{HEADER}\n0,3.2,2,3,4\n0.1,3.3,2,3,4\n"));
     assert!(file.read(&two_joints()).is_ok());

@@ -19,6 +19,7 @@ fn awkward() -> Run {
     j1.desired_velocity = Some(time.iter().map(|t| 5e-324 * t.ceil()).collect());
     j1.desired_acceleration = Some(vec![f64::MAX; 300]);
     j1.commanded_effort = Some(time.iter().map(|t| t / 7.0).collect());
+    j1.link_position = Some(time.iter().map(|t| (t / 3.0).cos()).collect());
     let mut run = run(time.clone(), vec![j1, j2]);
     run.extra.insert("j1.temperature".to_owned(), time.iter().map(|t| 20.0 + t).collect());
     run
@@ -137,13 +138,15 @@ fn a_column_map_converts_names_and_units() {
         [joint.j1]
         position = { column = "q0", unit = "deg", scale = -1.0, offset = 0.5 }
         effort = { column = "i0", unit = "raw", scale = 0.1 }
+        link_position = { column = "link", unit = "rev" }
         [joint.rail]
         position = { column = "x", unit = "mm" }
         effort = { column = "f", unit = "N" }
     "#;
     let map = Scratch::new("map.toml", text);
     let map = ColumnMap::load(&map.path).unwrap();
-    let content = "t_ns,q0,i0,x,f,j1.velocity\n1000000000,180,20,1500,7,1\n2000000000,0,10,0,7,1\n";
+    let content = "t_ns,q0,i0,x,f,j1.velocity,link\n\
+                   1000000000,180,20,1500,7,1,0.25\n2000000000,0,10,0,7,1,0\n";
     let file = Scratch::new("run.csv", content);
     let arm = robot(&[("j1", JointKind::Revolute), ("rail", JointKind::Prismatic)]);
     let options = ReadOptions { map: Some(&map), ..ReadOptions::default() };
@@ -152,6 +155,7 @@ fn a_column_map_converts_names_and_units() {
     assert!((read.joints[0].position[0] - (0.5 - std::f64::consts::PI)).abs() < 1e-15);
     assert_eq!(read.joints[0].effort, [2.0, 1.0]);
     assert_eq!(read.joints[0].velocity, Some(vec![1.0, 1.0]), "usual names still work");
+    assert_eq!(read.joints[0].link_position, Some(vec![std::f64::consts::FRAC_PI_2, 0.0]));
     assert_eq!(read.joints[1].position, [1.5, 0.0]);
     assert!(read.extra.is_empty());
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use logs::{LogWarning, PrepareSettings, PreparedRun, prepare};
+use logs::{LogWarning, PrepareSettings, PreparedRun, Run, prepare};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -51,6 +51,47 @@ fn velocity_and_acceleration_of_a_sine_are_its_derivatives() {
     let errors = errors(&prepared.runs[0]);
     // The low-pass itself takes (0.8 Hz / cut-off)^8 off a sine.
     assert!(errors.iter().all(|&e| e < 1e-4), "{errors:?}");
+}
+
+/// `q = motion - twist` of a link whose motor follows [`motion`].
+#[test]
+fn the_motion_of_a_link_and_its_twist_are_those_of_its_encoder() {
+    let time = clock(4000, 200.0);
+    let twist = |t: f64| 0.01 * (3.0 * OMEGA * t).sin() + 0.002;
+    let mut j1 = follows("j1", &time, |t| motion(t) + twist(t));
+    j1.link_position = Some(time.iter().map(|&t| motion(t)).collect());
+    let recorded = run(time, vec![j1]);
+    let settings = PrepareSettings { cutoff_hz: Some(8.0) };
+    let prepared = prepare(std::slice::from_ref(&recorded), &settings).unwrap();
+    assert_eq!(prepared.warnings, []);
+    let mut whole = prepared.runs[0].clone();
+    let link = whole.joints[0].link.take().unwrap();
+    for (t, x) in whole.time.iter().zip(&link.twist) {
+        assert!((x - twist(*t)).abs() < 1e-12, "{x} at {t}");
+    }
+    let joint = &mut whole.joints[0];
+    (joint.q, joint.qd, joint.qdd) = (link.q, link.qd, link.qdd);
+    let errors = errors(&whole);
+    assert!(errors.iter().all(|&e| e < 1e-4), "{errors:?}");
+    let part = prepared.runs[0].part(10..20).joints.remove(0).link.unwrap();
+    assert_eq!(part.twist, link.twist[10..20]);
+}
+
+#[test]
+fn a_second_encoder_that_some_runs_lack_is_left_out_of_all() {
+    let time = clock(4000, 200.0);
+    let named = |name: &str, has: bool| {
+        let mut joint = follows("j1", &time, motion);
+        joint.link_position = has.then(|| joint.position.clone());
+        Run { name: name.to_owned(), ..run(time.clone(), vec![joint]) }
+    };
+    let settings = PrepareSettings { cutoff_hz: Some(8.0) };
+    let mut runs = [named("a", true), named("b", false)];
+    runs[1].joints[0].effort[0] += 1.0;
+    let prepared = prepare(&runs, &settings).unwrap();
+    let expected = LogWarning::LinkPositionMissing { run: "b".to_owned(), joint: "j1".to_owned() };
+    assert_eq!(prepared.warnings, [expected]);
+    assert!(prepared.runs.iter().all(|run| run.joints[0].link.is_none()));
 }
 
 #[test]

@@ -22,6 +22,7 @@ fn record(effort: &str, more: &str) -> PreparedRun {
         qdd: c.desired_acceleration.unwrap(),
         qd_wide: c.velocity.unwrap(),
         effort: c.effort,
+        link: None,
     };
     let joints = run.joints.into_iter().map(joint).collect();
     PreparedRun { name: run.name, rate_hz: 500.0, time: run.time, joints }

@@ -1,9 +1,11 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
-use simulator::{EffortSource, JointSensor, PositionSide, Sensors, VelocitySource};
+use simulator::scenario::Scenario;
+use simulator::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 
 use crate::rig::{GRAVITY, Row, STEPPING, flywheel, pendulum, phasor, run, sensing};
+use crate::scenario::document;
 
 const EXACT: JointSensor = JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
 
@@ -155,4 +157,58 @@ fn oracle_a_filtered_difference_is_the_velocity_through_a_first_order_low_pass()
             "{frequency_hz} Hz: {found}, not {expected}"
         );
     }
+}
+
+/// The link of the sagging arm, whole counts beside a motor that is read without error.
+#[test]
+fn oracle_a_second_encoder_counts_where_the_link_is() {
+    let robot = pendulum(MASS, DISTANCE);
+    let count = 1e-4;
+    let encoder = LinkEncoder { resolution: count, noise: 0.0 };
+    let motor = || sensors(PositionSide::Motor, EffortSource::Motor, EXACT);
+    let mut arm =
+        sensing(&robot, SAGGING, STEPPING, motor().with_links(vec![Some(encoder)])).unwrap();
+    arm.start(&[0.0]);
+    let last = run(&mut arm, 5.0, |_| vec![COMMAND]).unwrap().pop().unwrap();
+    let sag = MASS * GRAVITY * DISTANCE * last.q_true[0].cos() / STIFFNESS;
+    let [Some(link)] = arm.record_links(&last.logged)[..] else { unreachable!("an encoder") };
+    assert!((link / count - (link / count).round()).abs() < 1e-9, "{link}");
+    assert!((link - last.logged.q[0] - sag).abs() < 0.5 * count + 1e-8, "{link}");
+
+    let mut bare = sensing(&robot, SAGGING, STEPPING, motor()).unwrap();
+    bare.start(&[0.0]);
+    run(&mut bare, 0.1, |_| vec![COMMAND]).unwrap();
+    assert_eq!(bare.record_links(&last.logged), [None]);
+}
+
+/// A column for each joint that has one, and nothing else in the log is another.
+#[test]
+fn a_second_encoder_leaves_every_other_column_as_it_was() {
+    let log = |settings: &[&str]| {
+        let mut document = document("");
+        for setting in settings {
+            document.set(setting).unwrap();
+        }
+        document.set("sensors.position_noise_rad={ j4_elbow_pitch=1e-4 }").unwrap();
+        document.set("run.0.motion.sinusoids.duration_s=2.0").unwrap();
+        let scenario = Scenario::from_document(&document).unwrap();
+        simulator::simulate(&scenario, &|| {}).unwrap().runs.remove(0)
+    };
+    let counts = "sensors.link_position_resolution_rad={ j4_elbow_pitch=1e-4, j1_base_yaw=0.0 }";
+    let noise = "sensors.link_position_noise_rad={ j4_elbow_pitch=2e-4, j2_shoulder_pitch=1e-4 }";
+    let (mut with, without) = (log(&[counts, noise]), log(&[]));
+    let links: Vec<_> = with.joints.iter_mut().map(|j| j.link_position.take()).collect();
+    assert_eq!(with, without);
+    let has: Vec<bool> = links.iter().map(Option::is_some).collect();
+    assert_eq!(has, [true, true, false, true, false, false, false]);
+    // A rigid arm: motor and link are one, but for what the encoders make of it.
+    let off = |j: usize| {
+        let pairs = links[j].iter().flatten().zip(&with.joints[j].position);
+        pairs.map(|(link, q)| link - q).collect::<Vec<f64>>()
+    };
+    let expected = (2e-4_f64.powi(2) + 1e-4_f64.powi(2) * (1.0 + 1.0 / 12.0)).sqrt();
+    let found = deviation(&off(3));
+    // 1000 draws know it to 2 %.
+    assert!((found / expected - 1.0).abs() < 0.1, "{found}, not {expected}");
+    assert!(off(0).iter().all(|off| off.abs() < 1e-15));
 }

@@ -1,7 +1,8 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
-use simulator::{EffortSource, JointSensor, PositionSide, Sensors, VelocitySource};
+use robot::{Machine, Reading};
+use simulator::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 
 use crate::rig::{Row, STEPPING, flywheel, phasor, run, sensing, simulator};
 
@@ -68,6 +69,30 @@ fn oracle_a_skew_of_whole_rows_shows_earlier_rows() {
         assert!((late.logged.q[0] - early.logged.q[0]).abs() < 1e-12);
         assert!((late.logged.qd[0] - early.logged.qd[0]).abs() < 1e-12);
     }
+}
+
+/// A second encoder is late with the first one, and only where that is.
+#[test]
+fn oracle_a_skew_of_whole_rows_shows_the_links_of_earlier_rows() {
+    let links = |skew_ms: f64| {
+        let effect = format!("[[effect]]\ntime_skew = {{ skew_ms = {skew_ms} }}");
+        let encoder = LinkEncoder { resolution: 0.0, noise: 0.0 };
+        let sensors = Sensors::perfect(1).with_links(vec![Some(encoder)]);
+        let mut wheel = sensing(&flywheel(0.4, 0.1), &effect, STEPPING, sensors).unwrap();
+        wheel.start_moving(&[0.2], &[1.0]);
+        let mut reading = Reading::zero(1);
+        let mut row = || {
+            wheel.read(&mut reading).unwrap();
+            wheel.actuate(&[0.0]).unwrap();
+            wheel.record_links(&reading)[0].unwrap()
+        };
+        (0..10).map(|_| row()).collect::<Vec<f64>>()
+    };
+    let clean = links(0.0);
+    assert!((clean[9] - clean[0] - 9.0 * 2e-3).abs() < 1e-6, "{clean:?}");
+    assert_eq!(links(4.0), clean);
+    let late = links(-4.0);
+    assert!(late[2..].iter().zip(&clean).all(|(l, c)| (l - c).abs() < 1e-12), "{late:?}");
 }
 
 /// A torque sensor that is read at another time is as noisy as ever: 20000 draws, within 2 %.

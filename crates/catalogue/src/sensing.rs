@@ -24,7 +24,8 @@ pub(crate) const ENCODER_OFFSET: Entry = Entry {
     signature: "gravity torque is that of a neighbouring pose at every joint",
     needs: "gravity torque that changes with the joint",
     confused_with: &[InertialParameters, GravityDirection, TransmissionRatio],
-    told_apart_by: "static poses over the whole range, or a pose measured from outside",
+    told_apart_by: "static poses over the whole range, or a pose measured from outside; \
+                    a second encoder at the link",
     source: "substitution of the true position",
 };
 

@@ -18,9 +18,11 @@ pub(crate) const BACKLASH: Entry = Entry {
     equation: "no torque while |theta - q| < gap / 2, theta the position of the motor",
     parameters: &[parameter("gap", POSITION, "play from one end to the other", (0.0002, 0.003))],
     signature: "where the load changes sign, the motor moves by the gap without the link",
-    needs: "motion in which the torque carried changes sign",
+    needs: "motion in which the torque carried changes sign; \
+            a second encoder at the link shows much smaller gaps",
     confused_with: &[CoulombFriction, StribeckFriction, PreslidingFriction, JointElasticity],
-    told_apart_by: "reversals without load, and under a gravity load that keeps the gap closed",
+    told_apart_by: "reversals without load, and under a gravity load that keeps the gap closed; \
+                    a second encoder at the link shows the gap itself",
     source: "Nordin & Gutman 2002",
 };
 
@@ -44,7 +46,8 @@ pub(crate) const JOINT_ELASTICITY: Entry = Entry {
     signature: "an antiresonance and a resonance; motor and link part with the torque",
     needs: "motion up to the resonance, or a second encoder at the link",
     confused_with: &[PreslidingFriction, Backlash, TorqueRipple, ActuatorLag, ActuatorDelay],
-    told_apart_by: "a chirp from 1 to 60 Hz, with and without a payload: resonances move",
+    told_apart_by: "a chirp from 1 to 60 Hz, with and without a payload: resonances move; \
+                    a second encoder at the link shows the twist itself",
     source: "Spong 1987",
 };
 
@@ -112,6 +115,7 @@ pub(crate) const TRANSMISSION_RATIO: Entry = Entry {
     signature: "torque is off by a factor, gravity torque by more the farther from zero",
     needs: "the whole range of the joint",
     confused_with: &[TorqueConstant, EncoderOffset],
-    told_apart_by: "both end stops of the joint, or poses measured from outside, far from zero",
+    told_apart_by: "both end stops of the joint, or poses measured from outside, far from zero; \
+                    a second encoder at the link",
     source: "equal power on both sides of the gear",
 };

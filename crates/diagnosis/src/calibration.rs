@@ -56,11 +56,7 @@ fn p_values(robot: &Robot, files: &[PathBuf]) -> Vec<f64> {
     let runs: Vec<_> = files.iter().map(read).collect();
     let prepared = prepare(&runs, &PrepareSettings::default()).unwrap();
     let moved: Vec<bool> = inadequate(robot, &prepared).iter().map(Option::is_none).collect();
-    let design = Design::new(
-        robot,
-        &Log { prepared: &prepared, moved: &moved, tones: &[], limits: &[], without: &[] },
-    )
-    .unwrap();
+    let design = Design::new(robot, &Log::new(&prepared, &moved)).unwrap();
     let blocks = blocks(&design, 1.0);
     let grams = Grams::new(&design, &blocks);
     let practical = vec![0.0; design.joints()];

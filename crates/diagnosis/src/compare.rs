@@ -93,7 +93,9 @@ fn sizes(
     let (robot, prepared) = (&outcome.extended, &outcome.prepared);
     let inadequate = inadequate(robot, prepared);
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
-    let log = Log { prepared, moved: &moved, tones: &[], limits: &[], without: &[] };
+    let log = Log::new(prepared, &moved);
+    let asked: Vec<Hypothesis> = hypotheses.iter().copied().filter(|h| log.asks(*h)).collect();
+    let hypotheses = asked.as_slice();
     let design = Design::of(robot, &log, hypotheses)?;
     let inadequate = &inadequate;
     let study = Study { nominal: robot, robot, settings, log, design: &design, inadequate };

@@ -5,7 +5,7 @@ use robot::Robot;
 
 use crate::evaluate::{Along, Evaluated};
 use crate::fit::Beliefs;
-use crate::log::Log;
+use crate::log::{Log, Look};
 use crate::repeats::motions;
 
 /// A hypothesis and its columns in the design.
@@ -42,6 +42,8 @@ pub(crate) struct Design {
     pub moved: Vec<bool>,
     /// Number of the motion of each run: runs that repeat a motion share it.
     pub motion: Vec<usize>,
+    /// What it explains.
+    pub look: Look,
 }
 
 /// One run of a [`Design`].
@@ -60,11 +62,13 @@ pub(crate) struct RunDesign {
 pub(crate) struct JointDesign {
     /// Samples by local columns.
     pub x: DMatrix<f64>,
-    /// Measured effort (N·m or N).
+    /// Measured effort (N·m or N); or what the first encoder reports beyond the position of the
+    /// link (rad or m), in a design of that.
     pub measured: Vec<f64>,
-    /// What tones have in it and what became no torque (N·m or N); empty where there is neither.
+    /// What tones have in it, what became no torque and what second encoders have shown of it
+    /// (N·m or N); empty where there is none of these.
     pub known: Vec<f64>,
-    /// Nominal effort (N·m or N).
+    /// The same as the nominal robot has it.
     pub nominal: Vec<f64>,
     /// Position, velocity and acceleration.
     pub state: [Vec<f64>; 3],
@@ -86,10 +90,7 @@ impl JointDesign {
 impl Design {
     /// Evaluates every hypothesis about `robot` along the prepared runs.
     pub fn new(robot: &Robot, log: &Log) -> Result<Self, LogError> {
-        let relevant = |h: &Hypothesis| {
-            h.joint().is_none_or(|j| log.moved[j]) && !log.without.contains(&h.kind)
-        };
-        let all: Vec<_> = hypotheses(robot).into_iter().filter(relevant).collect();
+        let all: Vec<_> = hypotheses(robot).into_iter().filter(|h| log.asks(*h)).collect();
         Self::of(robot, log, &all)
     }
 
@@ -97,9 +98,13 @@ impl Design {
     pub fn of(robot: &Robot, log: &Log, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
         let (frame, scale) = (Frame::of_logs(log.prepared), Scale::of_logs(robot, log.prepared));
         let along = log.along(robot, &frame)?;
-        let evaluated = |along: &Along| Evaluated::new(along, hypotheses);
-        let evaluated: Vec<Evaluated> =
+        let evaluated = |along: &Along| Evaluated::new(along, hypotheses, log.look);
+        let mut evaluated: Vec<Evaluated> =
             along.iter().map(evaluated).collect::<Result<_, LogError>>()?;
+        if let Some(described) = log.described {
+            let described = log.along(described, &frame)?;
+            evaluated.iter_mut().zip(&described).for_each(|(e, along)| e.measure_from(along));
+        }
         let mut design = Self {
             groups: Vec::new(),
             width: 0,
@@ -109,7 +114,8 @@ impl Design {
             runs: Vec::new(),
             rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
             frame,
-            moved: log.moved.to_vec(),
+            moved: log.rows(),
+            look: log.look,
             motion: Vec::new(),
         };
         let origins = design.lay_out(robot, hypotheses, &scale, &evaluated);

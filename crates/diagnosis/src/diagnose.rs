@@ -2,6 +2,7 @@ use effects::Frame;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
 
+use crate::between::between;
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extent::inadequate;
@@ -10,6 +11,7 @@ use crate::limits::limits;
 use crate::log::Log;
 use crate::progress::Progress;
 use crate::result::{Diagnosis, RunSummary};
+use crate::second_encoders::without_idle_encoders;
 use crate::settings::Settings;
 use crate::shapes::sown;
 use crate::study::Study;
@@ -41,6 +43,8 @@ pub struct Outcome {
 ///
 /// 1. Logs are low-passed and differentiated; effort, nominal effort and every effect's
 ///    columns pass the same filter.
+///    Where a second encoder shows a link, what lies between it and its motor is looked for in
+///    what the two encoders differ by, in the same way; no effort depends on it then.
 /// 2. Residuals of a model of everything give each joint's noise and its autocorrelation
 ///    time; `n` samples count as `n / time`.
 /// 3. Hypotheses enter by evidence, physics and held-out gain, are exchanged and dropped.
@@ -66,14 +70,17 @@ pub fn diagnose(
     let mut prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
+    warnings.extend(without_idle_encoders(robot, &mut prepared));
     progress.step();
     let inadequate = inadequate(robot, &prepared);
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
-    let without = settings.without.as_slice();
-    let quiet = Log { prepared: &prepared, moved: &moved, tones: &[], limits: &[], without };
-    let limits = limits(robot, &quiet)?;
+    let quiet = Log { without: &settings.without, ..Log::new(&prepared, &moved) };
+    let parted = between(robot, robot, settings, (&quiet, &inadequate))?;
+    let about = parted.as_ref().map_or(robot, |parted| &parted.robot);
+    let quiet = Log { described: Some(robot).filter(|r| turned(r, about)), ..quiet };
+    let limits = limits(about, &quiet)?;
     let quiet = Log { limits: &limits, ..quiet };
-    let (mut sown, mut design) = tangents(robot, &quiet)?;
+    let (mut sown, mut design) = tangents(about, &quiet)?;
     let study = Study {
         nominal: robot,
         robot: &sown,
@@ -85,7 +92,7 @@ pub fn diagnose(
     let tones = heard(&study, &runs)?;
     let log = Log { tones: &tones, ..quiet };
     if !tones.is_empty() {
-        (sown, design) = tangents(robot, &log)?;
+        (sown, design) = tangents(about, &log)?;
     }
     progress.step();
     let study = Study {
@@ -100,6 +107,16 @@ pub fn diagnose(
     diagnosis.data.runs = runs.iter().map(summary).collect();
     diagnosis.warnings = warnings;
     Ok(Outcome { diagnosis, traces, extended, prepared, held_out })
+}
+
+/// Whether motors turn otherwise than they were described to: then efforts differ too.
+fn turned(described: &Robot, about: &Robot) -> bool {
+    let links = described.links().iter().zip(about.links());
+    let differ = |a: f64, b: f64| a.total_cmp(&b).is_ne();
+    links.map(|(d, a)| (&d.actuator, &a.actuator)).any(|(d, a)| {
+        differ(d.transmission_ratio, a.transmission_ratio)
+            || differ(d.encoder_offset, a.encoder_offset)
+    })
 }
 
 /// The robot with the germs of effects, and the design about it.
@@ -121,6 +138,9 @@ fn heard(study: &Study, runs: &[Run]) -> Result<Vec<Tone>, DiagnosisError> {
     let mut wide = prepare(runs, &PrepareSettings { cutoff_hz: Some(wide_hz) })?;
     let known = |name: &String| prepared.runs.iter().any(|r| r.name == *name);
     wide.runs.retain(|run| known(&run.name));
+    // Twice differentiated, the counts of an encoder at the link drown what is fast: there the
+    // twist that was found stands for it.
+    wide.runs.iter_mut().flat_map(|run| &mut run.joints).for_each(|joint| joint.link = None);
     centre_commands(&extended, &mut wide.runs, settings.control_rate_hz);
     // What is as slow as the motion may be its, and what is faster too where it repeats.
     let motions = &study.design.motion;

@@ -1,4 +1,4 @@
-use effects::{Column, Frame, Hypothesis, Motion};
+use effects::{Column, Encoders, Frame, Hypothesis, Motion};
 use logs::{LogError, LowPass, PreparedJoint, PreparedRun, decimate};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -6,6 +6,7 @@ use robot::Robot;
 
 use crate::design::{JointDesign, RunDesign};
 use crate::limits::Limit;
+use crate::log::Look;
 use crate::tone::Tone;
 use crate::tones::Rest;
 
@@ -52,8 +53,16 @@ impl<'a> Along<'a> {
         let signals = |pick: fn(&PreparedJoint) -> &Vec<f64>| -> Vec<Vec<f64>> {
             run.joints.iter().map(|j| decimate(pick(j), first)).collect()
         };
-        let state = [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)];
-        let motion = Motion::new(robot, frame, state, &signals(|j| &j.qd_wide), rate.recip());
+        let link = |j: &PreparedJoint| {
+            let link = j.link.as_ref()?;
+            Some([&link.q, &link.qd, &link.qdd].map(|x| decimate(x, first)))
+        };
+        let encoders = Encoders {
+            reported: [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)],
+            swift: signals(|j| &j.qd_wide),
+            links: run.joints.iter().map(link).collect(),
+        };
+        let motion = Motion::seen(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
         Ok(Self { motion, run, index, tones, limits, cutoff_hz, low_pass, strides, rate_hz })
@@ -77,6 +86,16 @@ impl<'a> Along<'a> {
     /// The efforts of the log.
     fn measured(&self) -> Result<Vec<Vec<f64>>, LogError> {
         self.all_thinned(self.run.joints.iter().map(|j| j.effort.clone()).collect())
+    }
+
+    /// What the first encoder of every joint reports beyond the position of its link; zero where
+    /// no second one shows it.
+    fn twists(&self) -> Result<Vec<Vec<f64>>, LogError> {
+        let samples = self.run.time.len();
+        let of = |j: &PreparedJoint| {
+            j.link.as_ref().map_or_else(|| vec![0.0; samples], |link| link.twist.clone())
+        };
+        self.all_thinned(self.run.joints.iter().map(of).collect())
     }
 
     /// The effort of joint `j` in the log (N·m or N).
@@ -155,22 +174,47 @@ pub(crate) struct Evaluated {
 impl Evaluated {
     /// Evaluates `hypotheses` along a run.
     ///
-    /// Every signal passes the same filter: effort, nominal effort and columns.
-    pub fn new(along: &Along, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
+    /// Every signal passes the same filter: what is measured, the same of the nominal robot, and
+    /// columns.
+    pub fn new(along: &Along, hypotheses: &[Hypothesis], look: Look) -> Result<Self, LogError> {
         let motion = &along.motion;
+        let joints = motion.effort.len();
         let [first, second] = along.strides;
-        let columns = |h: &Hypothesis| along.finished(h.columns(motion));
+        let columns = |h: &Hypothesis| match look {
+            Look::Effort => along.finished(h.columns(motion)),
+            Look::Twist => along.finished(h.twist(motion)),
+        };
+        let (measured, known) = match look {
+            Look::Effort => (along.measured()?, along.known()?),
+            Look::Twist => (along.twists()?, vec![Vec::new(); joints]),
+        };
+        let nominal = |j: usize| match look {
+            Look::Effort => along.finish(motion.effort[j].clone()),
+            Look::Twist => along.finish(motion.twist(j)),
+        };
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
             rate_hz: along.rate_hz,
             name: along.run.name.clone(),
             time: decimate(&decimate(&along.run.time, first), second),
-            measured: along.measured()?,
-            known: along.known()?,
-            nominal: motion.effort.iter().map(|e| along.finish(e.clone())).collect(),
+            measured,
+            known,
+            nominal: (0..joints).map(nominal).collect(),
             state: [&motion.q, &motion.qd, &motion.qdd]
                 .map(|s| s.iter().map(|x| decimate(x, second)).collect()),
         })
+    }
+
+    /// Counts the efforts from those of the robot as it was `described`: by how much the robot
+    /// itself differs is known.
+    pub fn measure_from(&mut self, described: &Along) {
+        for (j, effort) in described.motion.effort.iter().enumerate() {
+            let effort = described.finish(effort.clone());
+            self.known[j].resize(effort.len(), 0.0);
+            let own = self.known[j].iter_mut().zip(&self.nominal[j]);
+            own.zip(&effort).for_each(|((known, own), effort)| *known += own - effort);
+            self.nominal[j] = effort;
+        }
     }
 
     /// The columns sorted into one matrix a joint: `local[j]` are the columns that reach

@@ -2,6 +2,7 @@ use catalogue::EffectKind;
 use effects::{Hypothesis, Place};
 use robot::Robot;
 
+use crate::log::Look;
 use crate::problem::{HeldOut, Model, Problem};
 use crate::result::{EffectAt, Finding};
 use crate::rivals::rivals;
@@ -9,6 +10,9 @@ use crate::select::Selection;
 use crate::significance::Significance;
 use crate::stability::stability;
 use crate::uncertainty::{Fitted, Uncertainty};
+
+/// What two encoders cannot say of their difference.
+const WHICH_ENCODER: &str = "it is what the two encoders differ by: which of them is off, a pose measured from outside tells";
 
 /// A finding together with what the verdict of each joint needs to know of it.
 #[derive(Debug, Clone)]
@@ -130,7 +134,10 @@ impl Evidence<'_> {
                 .map(|&h| effect_at(robot, problem.design.groups[h].hypothesis))
                 .collect(),
             evidence: Vec::new(),
-            undetermined: undetermined(group.hypothesis, wide, all),
+            undetermined: match (problem.design.look, group.hypothesis.kind) {
+                (Look::Twist, EffectKind::EncoderOffset) => vec![WHICH_ENCODER.to_owned()],
+                _ => undetermined(group.hypothesis, wide, all),
+            },
         }
     }
 
@@ -144,12 +151,18 @@ impl Evidence<'_> {
         });
         let mut evidence = Vec::new();
         if let Some(j) = largest {
-            evidence.push(format!(
-                "without it the held-out error at {} is {:.3} instead of {:.3} N m RMS",
-                robot.links()[j].joint.name,
-                bare.mean_square[j].sqrt(),
-                with.mean_square[j].sqrt()
-            ));
+            let [before, after] = [bare, with].map(|of| of.mean_square[j].sqrt());
+            let link = &robot.links()[j];
+            let (name, unit) =
+                (&link.joint.name, if link.joint.kind.is_rotation() { "rad" } else { "m" });
+            evidence.push(match problem.design.look {
+                Look::Effort => format!(
+                    "without it the held-out error at {name} is {before:.3} instead of {after:.3} N m RMS"
+                ),
+                Look::Twist => format!(
+                    "without it the held-out error between the two encoders of {name} is {before:.1e} instead of {after:.1e} {unit} RMS"
+                ),
+            });
         }
         evidence.push(format!("log evidence {loss:.0} higher with it than without"));
         if let Some(p) = self.significance.p[g] {

@@ -7,6 +7,7 @@
 //! [`diagnose`] decides which hypotheses earn their place, how large they are, what they
 //! cannot be told apart from and what is left over.
 
+mod between;
 mod blocks;
 #[cfg(test)]
 mod calibration;
@@ -35,6 +36,7 @@ mod result;
 mod rivals;
 mod ruled_out;
 mod search;
+mod second_encoders;
 mod select;
 mod settings;
 mod settle;

@@ -1,11 +1,21 @@
 use catalogue::EffectKind;
-use effects::Frame;
+use effects::{Frame, Hypothesis};
 use logs::{LogError, Prepared};
 use robot::Robot;
 
 use crate::evaluate::Along;
 use crate::limits::Limit;
 use crate::tone::Tone;
+
+/// What a design explains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Look {
+    /// The efforts.
+    Effort,
+    /// What the first encoder of a joint reports beyond the position of its link, where a second
+    /// one shows it.
+    Twist,
+}
 
 /// The logs as a design takes them.
 #[derive(Debug, Clone, Copy)]
@@ -19,9 +29,41 @@ pub(crate) struct Log<'a> {
     pub limits: &'a [Limit],
     /// Effects that are not looked for.
     pub without: &'a [EffectKind],
+    pub look: Look,
+    /// The robot as it was described, where its efforts are not those of the robot that a design
+    /// is about: second encoders have shown otherwise.
+    pub described: Option<&'a Robot>,
 }
 
 impl<'a> Log<'a> {
+    /// The efforts of some logs, as they are.
+    pub fn new(prepared: &'a Prepared, moved: &'a [bool]) -> Self {
+        let (tones, limits, without, look) = (&[], &[], &[], Look::Effort);
+        Self { prepared, moved, tones, limits, without, look, described: None }
+    }
+
+    /// Whether a second encoder shows the link of joint `j`.
+    pub fn shows_link(&self, j: usize) -> bool {
+        self.prepared.runs.iter().all(|run| run.joints[j].link.is_some())
+    }
+
+    /// The joints whose rows a design has.
+    pub fn rows(&self) -> Vec<bool> {
+        let has = |(j, moved): (usize, &bool)| {
+            *moved && (self.look == Look::Effort || self.shows_link(j))
+        };
+        self.moved.iter().enumerate().map(has).collect()
+    }
+
+    /// Whether a design asks about a hypothesis. Both encoders together say what lies between
+    /// them, whatever the effort; then nothing of it is left in the effort.
+    pub fn asks(&self, hypothesis: Hypothesis) -> bool {
+        let shown = hypothesis.before_the_link().is_some_and(|j| self.shows_link(j));
+        let moved = hypothesis.joint().is_none_or(|j| self.moved[j]);
+        let wanted = !self.without.contains(&hypothesis.kind);
+        wanted && moved && shown == (self.look == Look::Twist)
+    }
+
     /// Evaluates `robot` along every run.
     pub fn along(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
         let runs = self.prepared.runs.iter().enumerate();

@@ -7,6 +7,7 @@ use crate::design::Design;
 use crate::extend::is_doubtful;
 use crate::fit::Fit;
 use crate::gram::{Grams, Information};
+use crate::log::Look;
 use crate::noise::Noise;
 
 /// A set of hypotheses, by index of their groups.
@@ -180,9 +181,11 @@ impl<'a> Problem<'a> {
         Noise::of(&self.held_out_residuals(|_| weights.clone()))
     }
 
-    /// The model of every hypothesis at once, but those that may pass for others.
+    /// The model of every hypothesis at once, but those that may pass for others in an effort.
     pub fn everything(&self) -> Model {
         let groups = &self.design.groups;
-        (0..groups.len()).filter(|&g| !is_doubtful(groups[g].hypothesis.kind)).collect()
+        let firm =
+            |g: &usize| self.design.look == Look::Twist || !is_doubtful(groups[*g].hypothesis.kind);
+        (0..groups.len()).filter(firm).collect()
     }
 }

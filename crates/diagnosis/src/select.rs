@@ -6,6 +6,7 @@ use robot::Robot;
 
 use crate::extend::is_doubtful;
 use crate::fit::Fit;
+use crate::log::Look;
 use crate::problem::{HeldOut, Model, Problem};
 use crate::settle::settle;
 
@@ -239,13 +240,15 @@ impl Selection<'_> {
         }
     }
 
-    /// Hypotheses that the catalogue says are confused with `g`, where they share a joint.
+    /// Hypotheses that the catalogue says are confused with `g`, where they share a joint; between
+    /// two encoders, all of that joint.
     pub fn neighbours(&self, g: usize) -> Vec<usize> {
         let groups = &self.problem.design.groups;
         let confused = groups[g].hypothesis.kind.entry().confused_with;
+        let all = self.problem.design.look == Look::Twist;
         let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
         (0..groups.len())
-            .filter(|&h| h != g && confused.contains(&groups[h].hypothesis.kind))
+            .filter(|&h| h != g && (all || confused.contains(&groups[h].hypothesis.kind)))
             .filter(shares)
             .collect()
     }

@@ -1,6 +1,7 @@
 use effects::weeded;
 use robot::Robot;
 
+use crate::between::{Between, between};
 use crate::blocks::{Block, FEWEST_BLOCKS, Folding, blocks};
 use crate::design::Design;
 use crate::error::DiagnosisError;
@@ -20,7 +21,7 @@ use crate::result::{
 };
 use crate::search::Record;
 use crate::settings::{HeldOutRobots, Settings};
-use crate::significance::significant;
+use crate::significance::{Significance, significant};
 use crate::structure::{Probe, Structure};
 use crate::tone_finding::tone_finding;
 use crate::traces::{RunTraces, traces};
@@ -52,6 +53,16 @@ struct Answer<'a> {
     /// Number of hypotheses tested.
     hypotheses: usize,
     gain: HeldOutGain,
+    /// What second encoders show.
+    between: Option<Between>,
+}
+
+/// What a search over the whole record came to.
+pub(crate) struct Conclusion<'a> {
+    pub problem: Problem<'a>,
+    pub model: Model,
+    pub significance: Significance,
+    pub solution: Solved,
 }
 
 impl Study<'_> {
@@ -132,6 +143,30 @@ impl Study<'_> {
         record: &Record<'b>,
         progress: &dyn Progress,
     ) -> Result<Answer<'b>, DiagnosisError> {
+        let conclusion = self.conclusion(record, progress)?;
+        let Conclusion { problem, solution, significance, .. } = &conclusion;
+        let by_run = problem.refolded(Folding::ByRun);
+        let make = |problem: &Problem, model: &Model| {
+            Ok(self.finished(solved(self.robot, &self.log, problem, model)?.robot))
+        };
+        let make = (self.settings.held_out == HeldOutRobots::Made).then_some(&make as Make);
+        let gain = HeldOutGain::new(record, &by_run, make, progress)?;
+        let (found, ruled_out) = self.told(record, &conclusion);
+        let extended = self.finished(solution.robot.clone());
+        let hypotheses = significance.count();
+        let between = self.between(&extended)?;
+        let extended = between.as_ref().map_or(extended, |b| b.robot.clone());
+        let Conclusion { problem, .. } = conclusion;
+        Ok(Answer { problem, by_run, extended, found, ruled_out, hypotheses, gain, between })
+    }
+
+    /// What a search over the whole record comes to: significant, stable and of a size that is
+    /// decided.
+    pub fn conclusion<'b>(
+        &self,
+        record: &Record<'b>,
+        progress: &dyn Progress,
+    ) -> Result<Conclusion<'b>, DiagnosisError> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let (problem, model) = record.search(&all);
         progress.step();
@@ -145,24 +180,26 @@ impl Study<'_> {
             (model, significance) = significant(&problem, model, self.settings);
         };
         progress.step();
-        let by_run = problem.refolded(Folding::ByRun);
-        let make = |problem: &Problem, model: &Model| {
-            Ok(self.finished(solved(self.robot, &self.log, problem, model)?.robot))
-        };
-        let make = (self.settings.held_out == HeldOutRobots::Made).then_some(&make as Make);
-        let gain = HeldOutGain::new(record, &by_run, make, progress)?;
+        Ok(Conclusion { problem, model, significance, solution })
+    }
+
+    /// The findings of a conclusion, and what they leave out.
+    pub fn told(&self, record: &Record, conclusion: &Conclusion) -> (Vec<Found>, Vec<RuledOut>) {
+        let Conclusion { problem, model, significance, solution } = conclusion;
         let evidence = Evidence {
-            selection: &record.selection(&problem),
-            model: &model,
-            significance: &significance,
+            selection: &record.selection(problem),
+            model,
+            significance,
             seed: self.settings.seed,
         };
-        let first = self.fitted(&problem, &model, &solution);
+        let first = self.fitted(problem, model, solution);
         let found = solution.tell(&first, |fitted| evidence.findings(fitted));
-        let ruled_out = evidence.ruled_out();
-        let extended = self.finished(solution.robot.clone());
-        let hypotheses = significance.count();
-        Ok(Answer { problem, by_run, extended, found, ruled_out, hypotheses, gain })
+        (found, evidence.ruled_out())
+    }
+
+    /// What second encoders show, about the robot that the efforts extend.
+    fn between(&self, extended: &Robot) -> Result<Option<Between>, DiagnosisError> {
+        between(extended, self.nominal, self.settings, (&self.log, self.inadequate))
     }
 
     /// A robot without the germs of effects that it has not got, and with what was heard.
@@ -177,10 +214,16 @@ impl Study<'_> {
     fn findings(&self, answer: &Answer) -> Vec<Finding> {
         let heard = self.log.tones.iter().map(|tone| tone_finding(self.nominal, tone));
         let limited = self.log.limits.iter().map(|limit| limit.finding(self.nominal));
-        let mut findings: Vec<Finding> =
-            answer.found.iter().map(|f| f.finding.clone()).chain(heard).chain(limited).collect();
+        let between = answer.between.iter().flat_map(|b| b.found.clone());
+        let found = answer.found.iter().map(|f| f.finding.clone());
+        let mut findings: Vec<Finding> = found.chain(between).chain(heard).chain(limited).collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
         findings
+    }
+
+    fn ruled_out(&self, answer: &Answer) -> Vec<RuledOut> {
+        let between = answer.between.iter().flat_map(|b| &b.ruled_out);
+        answer.ruled_out.iter().chain(between).cloned().collect()
     }
 
     fn fitted<'b>(
@@ -206,7 +249,7 @@ impl Study<'_> {
             joints,
             findings: self.findings(answer),
             unexplained,
-            ruled_out: answer.ruled_out.clone(),
+            ruled_out: self.ruled_out(answer),
             gain: Gain { inverse: answer.gain.inverse.clone() },
             data: self.data(record, answer),
             warnings: Vec::new(),
@@ -241,6 +284,7 @@ impl Study<'_> {
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
             findings: answer.found.iter().filter(lowered).count() + tones + limits,
+            between: answer.between.as_ref().map_or(0, |b| b.at(&self.robot.links()[j].joint.name)),
             torque_rms,
             nominal_rms: inverse.rms_before_nm[j],
             remaining_rms,
@@ -280,7 +324,7 @@ impl Study<'_> {
             regression_rate_hz: self.design.rate_hz,
             block_s: samples as f64 / record.blocks.len() as f64 / self.design.rate_hz,
             blocks: record.blocks.len(),
-            hypotheses: answer.hypotheses,
+            hypotheses: answer.hypotheses + answer.between.as_ref().map_or(0, |b| b.hypotheses),
         }
     }
 }

@@ -16,6 +16,8 @@ pub(crate) struct Situation {
     pub inadequate: Option<String>,
     /// Number of findings that lower its held-out error.
     pub findings: usize,
+    /// Number of findings between its two encoders.
+    pub between: usize,
     /// RMS of the effort (N·m or N).
     pub torque_rms: f64,
     /// Held-out RMS error of the nominal and of the extended model.
@@ -53,11 +55,13 @@ impl Situation {
             return (Verdict::DataInadequate, reason.clone());
         }
         let share = 100.0 * (self.remaining_rms / self.nominal_rms.max(f64::MIN_POSITIVE)).powi(2);
-        let left = format!(
-            "{share:.1} % of the gap's power is left, {:.3} N m RMS over a noise floor of {:.3}",
-            self.remaining_rms, self.floor
-        );
-        match (self.findings, self.structure_is_left()) {
+        let over =
+            format!("{:.3} N m RMS over a noise floor of {:.3}", self.remaining_rms, self.floor);
+        let left = match (self.findings, self.between) {
+            (0, 1..) => format!("its two encoders show the cause; the effort is left with {over}"),
+            _ => format!("{share:.1} % of the gap's power is left, {over}"),
+        };
+        match (self.findings + self.between, self.structure_is_left()) {
             (0, false) => (
                 Verdict::Consistent,
                 format!(

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::explain::{actuator_quantity, down_to_zero, every_joint};
+use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::transmission::play;
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
@@ -33,16 +33,14 @@ impl Explain for Backlash {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        let inertia = &motion.slopes[j].of[j][2];
-        let at = |gap: f64| play(motion.tight_load(j), inertia, gap, motion.period_s);
-        let gap = motion.drives[j].backlash;
-        let twist: Vec<f64> = if gap > 0.0 {
-            let (wide, narrow) = (at((1.0 + STEP) * gap), at((1.0 - STEP) * gap));
-            wide.iter().zip(narrow).map(|(w, n)| (w - n) / (2.0 * STEP * gap)).collect()
-        } else {
-            at(SMALL).iter().map(|x| x / SMALL).collect()
-        };
-        vec![motion.twisted(j, &twist)]
+        vec![motion.twisted(j, &play_per_gap(motion, j, motion.tight_load(j)))]
+    }
+
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let ratio = motion.drives[j].transmission_ratio;
+        let play = play_per_gap(motion, j, &motion.load[j]);
+        vec![at_joint(j, play.into_iter().map(|x| x / ratio))]
     }
 
     fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
@@ -64,5 +62,18 @@ impl Explain for Backlash {
     fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let Place::Joint(j) = place else { return Vec::new() };
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.backlash)]
+    }
+}
+
+/// What a unit of gap adds to `theta - q` at joint `j`, whose links carry `load` (N·m or N).
+fn play_per_gap(motion: &Motion, j: usize, load: &[f64]) -> Vec<f64> {
+    let inertia = &motion.slopes[j].of[j][2];
+    let at = |gap: f64| play(load, inertia, gap, motion.period_s);
+    let gap = motion.drives[j].backlash;
+    if gap > 0.0 {
+        let (wide, narrow) = (at((1.0 + STEP) * gap), at((1.0 - STEP) * gap));
+        wide.iter().zip(narrow).map(|(w, n)| (w - n) / (2.0 * STEP * gap)).collect()
+    } else {
+        at(SMALL).iter().map(|x| x / SMALL).collect()
     }
 }

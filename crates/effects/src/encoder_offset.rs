@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::explain::{actuator_quantity, every_joint, unbounded};
+use crate::explain::{actuator_quantity, at_joint, every_joint, unbounded};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `tau(q - offset) - tau(q)`: one weight a joint, the change of the offset (rad or m).
@@ -27,6 +27,11 @@ impl Explain for EncoderOffset {
         let moved = vec![-motion.drives[j].transmission_ratio; motion.samples()];
         let still = vec![0.0; motion.samples()];
         vec![motion.displaced(j, [&moved, &still, &still])]
+    }
+
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![at_joint(j, motion.q[j].iter().map(|_| 1.0))]
     }
 
     fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {

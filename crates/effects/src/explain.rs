@@ -58,6 +58,14 @@ pub trait Explain: Sync {
     /// One column a weight, for the motion of one run.
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column>;
 
+    /// What one unit of each weight adds to the position that the first encoder of a joint
+    /// reports beyond that of the link (rad or m), where a second one shows the link: nothing
+    /// where the effect is not between the two.
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let _ = (place, motion);
+        Vec::new()
+    }
+
     /// Standard deviation of each weight before any data is seen.
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64>;
 

@@ -48,6 +48,19 @@ impl Hypothesis {
         columns
     }
 
+    /// See [`Explain::twist`].
+    pub fn twist(self, motion: &Motion) -> Vec<Column> {
+        self.model().map(|m| m.twist(self.place, motion)).unwrap_or_default()
+    }
+
+    /// The joint of an effect that lies between its encoder and its link: where a second encoder
+    /// shows the link, it shows the effect.
+    pub fn before_the_link(self) -> Option<usize> {
+        use EffectKind::{Backlash, EncoderOffset, JointElasticity, TransmissionRatio};
+        let between = [Backlash, EncoderOffset, JointElasticity, TransmissionRatio];
+        self.joint().filter(|_| between.contains(&self.kind))
+    }
+
     /// See [`Explain::prior`].
     pub fn prior(self, robot: &Robot, scale: &Scale) -> Vec<f64> {
         self.model().map(|m| m.prior(self.place, robot, scale)).unwrap_or_default()

@@ -1,7 +1,7 @@
 use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
-use crate::explain::{actuator_quantity, down_to_zero, every_joint};
+use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
@@ -33,6 +33,12 @@ impl Explain for JointElasticity {
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
         vec![motion.twisted(j, motion.tight_load(j))]
+    }
+
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let ratio = motion.drives[j].transmission_ratio;
+        vec![at_joint(j, motion.load[j].iter().map(|load| load / ratio))]
     }
 
     fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {

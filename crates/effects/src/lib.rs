@@ -51,6 +51,6 @@ pub use germ::{Germ, germs, weeded};
 pub use hypothesis::{Hypothesis, Place, hypotheses};
 pub use left_out::left_out;
 pub use model::{MODELLED, model};
-pub use motion::{Frame, Motion, drive_torque};
+pub use motion::{Encoders, Frame, Motion, drive_torque};
 pub use remedy::remedy;
 pub use scale::Scale;

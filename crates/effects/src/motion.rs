@@ -7,7 +7,7 @@ use robot::{Actuator, Robot, SensingSide};
 use crate::dry_friction::dry_friction;
 use crate::slopes::Slopes;
 use crate::timing::{Timing, rate};
-use crate::transmission::{Parted, corrected};
+use crate::transmission::{Parted, corrected, play};
 use crate::{Column, Part};
 
 /// The motion of one run and what the nominal robot makes of it.
@@ -57,6 +57,21 @@ pub struct Motion {
 /// Position, velocity and acceleration, each `[joint][sample]`.
 pub(crate) type State = [Vec<Vec<f64>>; 3];
 
+/// Position, velocity and acceleration of one link, each `[sample]`.
+pub(crate) type Link = [Vec<f64>; 3];
+
+/// What the encoders of a run say.
+#[derive(Debug, Clone)]
+pub struct Encoders {
+    /// Position, velocity and acceleration as reported, each `[joint][sample]` (rad or m, /s,
+    /// /s²).
+    pub reported: [Vec<Vec<f64>>; 3],
+    /// Velocity that is filtered less, whose sign is that of the motion (rad/s or m/s).
+    pub swift: Vec<Vec<f64>>,
+    /// The same of the links that have an encoder of their own; `reported` is then the motor's.
+    pub links: Vec<Option<[Vec<f64>; 3]>>,
+}
+
 /// What all runs of a diagnosis share.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
@@ -103,10 +118,23 @@ impl Motion {
         swift: &[Vec<f64>],
         period_s: f64,
     ) -> Self {
+        let links = vec![None; robot.joint_count()];
+        let encoders = Encoders { reported: reading, swift: swift.to_vec(), links };
+        Self::seen(robot, frame, encoders, period_s)
+    }
+
+    /// The same where some links have an encoder of their own: there motor and link have parted
+    /// as was measured, whatever the robot says of twist and play.
+    ///
+    /// # Panics
+    ///
+    /// As [`Motion::new`].
+    pub fn seen(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
+        let Encoders { reported, swift, links } = encoders;
         let Parted { motor, link, tight_load } =
-            Parted::new(robot, corrected(robot, reading), period_s);
+            Parted::new(robot, corrected(robot, reported), links, period_s);
         let slopes = (0..joints).into_par_iter().map(|j| Slopes::new(robot, &link, j)).collect();
         let [q, qd, qdd] = motor;
         let direction = (0..joints).map(|j| {
@@ -120,7 +148,7 @@ impl Motion {
             qd,
             qdd,
             direction,
-            swift: swift.to_vec(),
+            swift,
             rest_speed: frame.rest_speed.clone(),
             load: vec![Vec::new(); joints],
             torque: vec![Vec::new(); joints],
@@ -257,6 +285,23 @@ impl Motion {
     /// Load of joint `j` if motor and link moved as one.
     pub(crate) fn tight_load(&self, j: usize) -> &[f64] {
         self.tight_load.as_ref().map_or(&self.load[j], |tight| &tight[j])
+    }
+
+    /// Position that the robot has the encoder of joint `j` report minus that of the link, where
+    /// both are measured (rad or m).
+    ///
+    /// ```text
+    /// (q + load / elasticity + x) / transmission_ratio + encoder_offset - q,  |x| <= backlash / 2
+    /// ```
+    pub fn twist(&self, j: usize) -> Vec<f64> {
+        let drive = &self.drives[j];
+        let compliance = drive.elasticity.map_or(0.0, f64::recip);
+        let play = play(&self.load[j], &self.slopes[j].of[j][2], drive.backlash, self.period_s);
+        let signals = self.link[0][j].iter().zip(&self.load[j]).zip(play);
+        let twist = |((q, load), x): ((&f64, &f64), f64)| {
+            (q + compliance * load + x) / drive.transmission_ratio + drive.encoder_offset - q
+        };
+        signals.map(twist).collect()
     }
 
     /// What changes in the efforts where motor and link of joint `j` part by `twist`,

@@ -1,7 +1,7 @@
 use dynamics::Dynamics;
-use robot::{Actuator, Robot, SensingSide};
+use robot::{Robot, SensingSide};
 
-use crate::motion::State;
+use crate::motion::{Link, State};
 use crate::timing::rate;
 
 /// The motion of the motors behind what their encoders report:
@@ -31,15 +31,28 @@ pub(crate) struct Parted {
 }
 
 impl Parted {
-    /// Parts what was `measured` every `period_s`.
-    pub fn new(robot: &Robot, measured: State, period_s: f64) -> Self {
-        let drives: Vec<&Actuator> = robot.links().iter().map(|l| &l.actuator).collect();
-        let (mut motor, mut link) = (measured.clone(), measured);
-        if drives.iter().all(|a| a.elasticity.is_none() && a.backlash <= 0.0) {
+    /// Parts what was `measured` every `period_s`, but for the joints whose `links` were measured
+    /// too.
+    pub fn new(robot: &Robot, measured: State, links: Vec<Option<Link>>, period_s: f64) -> Self {
+        let mut motor = measured.clone();
+        let mut link = measured;
+        let parts = |(i, l): (usize, &robot::Link)| {
+            let drive = &l.actuator;
+            let seen = links.get(i).is_some_and(Option::is_some);
+            !seen && (drive.elasticity.is_some() || drive.backlash > 0.0)
+        };
+        let parting: Vec<usize> =
+            robot.links().iter().enumerate().filter(|l| parts(*l)).map(|(i, _)| i).collect();
+        for (i, seen) in links.into_iter().enumerate() {
+            let signals = seen.into_iter().flatten();
+            link.iter_mut().zip(signals).for_each(|(x, signal)| x[i] = signal);
+        }
+        if parting.is_empty() {
             return Self { motor, link, tight_load: None };
         }
-        let (load, inertia) = loads(robot, &motor);
-        for (i, drive) in drives.into_iter().enumerate() {
+        let (load, inertia) = loads(robot, &link);
+        for i in parting {
+            let drive = &robot.links()[i].actuator;
             let compliance = drive.elasticity.map_or(0.0, f64::recip);
             let mut twist: Vec<f64> = load[i].iter().map(|load| compliance * load).collect();
             if drive.backlash > 0.0 {

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::explain::{actuator_quantity, every_joint};
+use crate::explain::{actuator_quantity, at_joint, every_joint};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)`: one weight a joint, the change of
@@ -40,6 +40,14 @@ impl Explain for TransmissionRatio {
             }
         }
         vec![column]
+    }
+
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let drive = &motion.drives[j];
+        let reported = motion.twist(j).into_iter().zip(&motion.link[0][j]);
+        let turned = reported.map(|(twist, q)| twist + q - drive.encoder_offset);
+        vec![at_joint(j, turned.map(|turned| -turned / drive.transmission_ratio))]
     }
 
     fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {

@@ -302,6 +302,7 @@ mod tests {
             qdd: vec![0.0],
             qd_wide: vec![0.0],
             effort: vec![1.0],
+            link: None,
         };
         let run = logs::PreparedRun {
             name: "run".to_owned(),

@@ -70,6 +70,7 @@ struct JointMap {
     desired_velocity: Option<MappedColumn>,
     desired_acceleration: Option<MappedColumn>,
     commanded_effort: Option<MappedColumn>,
+    link_position: Option<MappedColumn>,
 }
 
 impl JointMap {
@@ -83,6 +84,7 @@ impl JointMap {
             Channel::DesiredVelocity => self.desired_velocity.as_ref(),
             Channel::DesiredAcceleration => self.desired_acceleration.as_ref(),
             Channel::CommandedEffort => self.commanded_effort.as_ref(),
+            Channel::LinkPosition => self.link_position.as_ref(),
         }
     }
 }

@@ -81,6 +81,20 @@ fn beyond_speed(joint: &Joint, rate: &[f64]) -> Option<String> {
         .then(|| format!("is limited to {limit} rad/s and would mostly be above {middle:.1} rad/s"))
 }
 
+/// The same for the position of the link of a rotation, beside a position in radians.
+pub(crate) fn link_evidence(joint: &Joint, position: &[f64], link: &[f64]) -> Option<String> {
+    let middle = |x: &[f64]| x.iter().sum::<f64>() / x.len().max(1) as f64;
+    let (a, b) = (middle(position), middle(link));
+    let (mut qq, mut ql, mut ll) = (0.0, 0.0, 0.0);
+    for (q, l) in position.iter().zip(link) {
+        let (q, l) = (q - a, l - b);
+        (qq, ql, ll) = (qq + q * q, ql + q * l, ll + l * l);
+    }
+    let alike = ql > 0.9 * (qq * ll).sqrt();
+    (joint.kind.is_rotation() && alike && (ql / qq * DEGREE - 1.0).abs() < 0.1)
+        .then(|| "has a position column that is pi/180 times this one".to_owned())
+}
+
 /// Index and value of the position farthest from zero; `(0, 0)` for none.
 pub(crate) fn farthest(position: &[f64]) -> (usize, f64) {
     let all = position.iter().copied().enumerate();

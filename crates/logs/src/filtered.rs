@@ -29,6 +29,8 @@ pub(crate) struct FilteredJoint {
     pub qd: Vec<f64>,
     pub qdd: Vec<f64>,
     pub qd_wide: Vec<f64>,
+    /// Position, velocity and acceleration of the link.
+    pub link: Option<[Vec<f64>; 3]>,
     velocity: Option<Vec<f64>>,
     velocity_wide: Option<Vec<f64>>,
     acceleration: Option<Vec<f64>>,
@@ -68,7 +70,13 @@ impl Filtered {
             let acceleration = raw.acceleration.as_ref().map(filter);
             let qd_wide = differentiate(&pass(&wide, &raw.q), rate_hz);
             let velocity_wide = raw.velocity.as_ref().map(|v| pass(&wide, v));
-            FilteredJoint { q, qd, qdd, qd_wide, velocity, velocity_wide, acceleration }
+            let link = raw.link.as_ref().map(|link| {
+                let q = filter(link);
+                let qd = differentiate(&q, rate_hz);
+                let qdd = differentiate(&qd, rate_hz);
+                [q, qd, qdd]
+            });
+            FilteredJoint { q, qd, qdd, qd_wide, link, velocity, velocity_wide, acceleration }
         };
         let joints = piece.joints.iter().map(joint).collect();
         Ok(Self { rate_hz, cutoff_hz, samples: piece.time.len(), joints })

@@ -6,10 +6,10 @@
 //!
 //! A run is one file with the columns `time` (s) and, per joint,
 //! `<joint>.position`, `.velocity`, `.acceleration`, `.effort`, `.desired_position`,
-//! `.desired_velocity`, `.desired_acceleration` and `.commanded_effort` (SI units,
-//! radians). Only `time`, `position` and `effort` have to be there. Columns are found
-//! by name, never by their place; a [`ColumnMap`] reads files that use other names or
-//! units. A log is written as a whole by [`write_csv`] and [`write_parquet`], or while it
+//! `.desired_velocity`, `.desired_acceleration`, `.commanded_effort` and, from a second
+//! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` have to
+//! be there. Columns are found by name, never by their place; a [`ColumnMap`] reads files that
+//! use other names or units. A log is written as a whole by [`write_csv`] and [`write_parquet`], or while it
 //! grows by a [`LogWriter`].
 //!
 //! After [`prepare`], `q`, `qd` and `qdd` have passed the same zero-phase [`LowPass`];
@@ -36,6 +36,7 @@ mod prepare;
 mod read;
 mod rest;
 mod run;
+mod turns;
 mod uniform;
 mod unit;
 mod warning;
@@ -50,7 +51,7 @@ pub use error::LogError;
 pub use filter::{LowPass, decimate};
 pub use held::centre_commands;
 pub use info::{Gap, JointInfo, LogInfo, log_info};
-pub use prepare::{PrepareSettings, Prepared, PreparedJoint, PreparedRun, prepare};
+pub use prepare::{PrepareSettings, Prepared, PreparedJoint, PreparedLink, PreparedRun, prepare};
 pub use read::{ReadOptions, read_run};
 pub use rest::rest_speeds;
 pub use run::{Channel, Channels, Run};

@@ -96,25 +96,33 @@ impl<'a> Plan<'a> {
         time: &[f64],
         channels: &Channels,
     ) -> Result<(), LogError> {
-        let source = sources.iter().find(|(c, _)| *c == Channel::Position);
-        let Some((_, source)) = source.filter(|(_, s)| s.mapped.is_none_or(|m| m.unit.is_none()))
-        else {
-            return Ok(());
+        let unstated = |channel: Channel| {
+            let found = sources.iter().find(|(c, _)| *c == channel).map(|(_, source)| source);
+            found.filter(|s| s.mapped.is_none_or(|m| m.unit.is_none()))
         };
-        match degrees::evidence(joint, time, channels) {
-            Some(expectation) => {
-                let (index, found) = degrees::farthest(&channels.position);
-                Err(LogError::LooksLikeDegrees {
-                    path: self.path.clone(),
-                    column: source.column.clone(),
-                    row: index + 1,
-                    found,
-                    joint: joint.name.clone(),
-                    expectation,
-                })
+        let looks = |source: &Source, samples: &[f64], expectation: String| {
+            let (index, found) = degrees::farthest(samples);
+            LogError::LooksLikeDegrees {
+                path: self.path.clone(),
+                column: source.column.clone(),
+                row: index + 1,
+                found,
+                joint: joint.name.clone(),
+                expectation,
             }
-            None => Ok(()),
+        };
+        if let Some(source) = unstated(Channel::Position)
+            && let Some(expectation) = degrees::evidence(joint, time, channels)
+        {
+            return Err(looks(source, &channels.position, expectation));
         }
+        if let Some(source) = unstated(Channel::LinkPosition)
+            && let Some(link) = &channels.link_position
+            && let Some(expectation) = degrees::link_evidence(joint, &channels.position, link)
+        {
+            return Err(looks(source, link, expectation));
+        }
+        Ok(())
     }
 }
 

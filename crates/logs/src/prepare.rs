@@ -60,6 +60,21 @@ pub struct PreparedJoint {
     pub qd_wide: Vec<f64>,
     /// Effort on the same clock, not low-passed (N·m or N).
     pub effort: Vec<f64>,
+    /// The motion of the link, where a second encoder shows it in every run.
+    pub link: Option<PreparedLink>,
+}
+
+/// What a second encoder at the link of a joint shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedLink {
+    /// Position of the link, low-passed (rad or m).
+    pub q: Vec<f64>,
+    /// Its velocity, low-passed (rad/s or m/s).
+    pub qd: Vec<f64>,
+    /// Its acceleration, low-passed (rad/s² or m/s²).
+    pub qdd: Vec<f64>,
+    /// Position of the joint's first encoder minus that of the link, not low-passed (rad or m).
+    pub twist: Vec<f64>,
 }
 
 /// Brings runs to a uniform clock and low-passes them.
@@ -78,7 +93,8 @@ pub struct PreparedJoint {
 /// ```
 ///
 ///    so that all three have passed the same filter `L`. A column agrees when
-///    [`Agreement::holds`] in every run in which the joint moves.
+///    [`Agreement::holds`] in every run in which the joint moves. The motion of a link that a
+///    second encoder shows is made likewise, all of it from its position.
 /// 4. `1.5 / cutoff` seconds are cut from both ends, where this filter and those of the
 ///    robot's own software still settle.
 ///
@@ -98,7 +114,8 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
         LowPass::new(ORDER, cutoff_hz, piece.rate_hz)?;
     }
     let mut warnings = about_runs(runs, &all, cutoff_hz);
-    let pieces = long_enough(runs, all, cutoff_hz)?;
+    let mut pieces = long_enough(runs, all, cutoff_hz)?;
+    warnings.extend(whole_links(runs, &mut pieces));
 
     let filtered: Result<Vec<_>, _> = pieces.iter().map(|p| Filtered::of(p, cutoff_hz)).collect();
     let mut filtered = filtered?;
@@ -140,6 +157,12 @@ impl PreparedRun {
             qdd: part(&j.qdd),
             qd_wide: part(&j.qd_wide),
             effort: part(&j.effort),
+            link: j.link.as_ref().map(|link| PreparedLink {
+                q: part(&link.q),
+                qd: part(&link.qd),
+                qdd: part(&link.qdd),
+                twist: part(&link.twist),
+            }),
         };
         Self {
             name: self.name.clone(),
@@ -181,6 +204,12 @@ fn without_ends(piece: UniformRun, filtered: Filtered) -> PreparedRun {
         .into_iter()
         .zip(filtered.joints)
         .map(|(raw, f)| PreparedJoint {
+            link: raw.link.zip(f.link).map(|(link, [q, qd, qdd])| PreparedLink {
+                q: cut(q),
+                qd: cut(qd),
+                qdd: cut(qdd),
+                twist: cut(raw.q.iter().zip(link).map(|(q, link)| q - link).collect()),
+            }),
             q: cut(f.q),
             qd: cut(f.qd),
             qdd: cut(f.qdd),
@@ -189,6 +218,21 @@ fn without_ends(piece: UniformRun, filtered: Filtered) -> PreparedRun {
         })
         .collect();
     PreparedRun { name: piece.name, rate_hz: piece.rate_hz, time: cut(piece.time), joints }
+}
+
+/// Leaves out the second encoder of a joint that some runs lack.
+fn whole_links(runs: &[Run], pieces: &mut [UniformRun]) -> Vec<LogWarning> {
+    let mut warnings = Vec::new();
+    for (joint, channels) in runs[0].joints.iter().enumerate() {
+        let has = |piece: &UniformRun| piece.joints[joint].link.is_some();
+        let lacking = pieces.iter().find(|piece| !has(piece)).map(|piece| piece.name.clone());
+        if let Some(run) = lacking.filter(|_| pieces.iter().any(has)) {
+            pieces.iter_mut().for_each(|piece| piece.joints[joint].link = None);
+            let joint = channels.name.clone();
+            warnings.push(LogWarning::LinkPositionMissing { run, joint });
+        }
+    }
+    warnings
 }
 
 /// What can be said of the runs before they are filtered.

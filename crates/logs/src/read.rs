@@ -6,6 +6,7 @@ use crate::{
     Channels, ColumnMap, LogError, Run,
     format::{Format, sha256},
     plan::Plan,
+    turns::on_the_turn_of,
 };
 
 /// How a log is read.
@@ -29,6 +30,7 @@ impl Default for ReadOptions<'_> {
 ///
 /// Columns are matched to the robot's joints by name. A joint of the log that the robot
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
+/// The position of a rotation's link is brought to the turn of the motor's.
 /// Which of the two formats a file has is seen from its first bytes.
 ///
 /// A CSV file may lack its last newline. Its last row was torn, and is left out, when it does
@@ -58,6 +60,10 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
             channels.set(*channel, source.take(&columns));
         }
         plan.check_degrees(joint, sources, &time, &channels)?;
+        if joint.kind.is_rotation() {
+            let link = channels.link_position.take();
+            channels.link_position = link.map(|link| on_the_turn_of(&channels.position, link));
+        }
         joints.push(channels);
     }
     let used: Vec<String> = plan.required().into_iter().map(str::to_owned).collect();

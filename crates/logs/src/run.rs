@@ -45,6 +45,8 @@ pub struct Channels {
     pub desired_acceleration: Option<Vec<f64>>,
     /// Effort the drive was asked for (N·m or N).
     pub commanded_effort: Option<Vec<f64>>,
+    /// Position of the link from a second encoder (rad or m); `position` is then the motor's.
+    pub link_position: Option<Vec<f64>>,
 }
 
 /// The signals a joint may have.
@@ -66,11 +68,13 @@ pub enum Channel {
     DesiredAcceleration,
     /// Commanded effort (N·m or N).
     CommandedEffort,
+    /// Position of the link, from a second encoder (rad or m).
+    LinkPosition,
 }
 
 impl Channel {
     /// Every channel, in the order in which files are written.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Position,
         Self::Velocity,
         Self::Acceleration,
@@ -79,6 +83,7 @@ impl Channel {
         Self::DesiredVelocity,
         Self::DesiredAcceleration,
         Self::CommandedEffort,
+        Self::LinkPosition,
     ];
 
     /// The part of a column's name after the joint's name and a dot.
@@ -92,6 +97,7 @@ impl Channel {
             Self::DesiredVelocity => "desired_velocity",
             Self::DesiredAcceleration => "desired_acceleration",
             Self::CommandedEffort => "commanded_effort",
+            Self::LinkPosition => "link_position",
         }
     }
 
@@ -113,6 +119,7 @@ impl Channels {
             Channel::DesiredVelocity => self.desired_velocity.as_deref(),
             Channel::DesiredAcceleration => self.desired_acceleration.as_deref(),
             Channel::CommandedEffort => self.commanded_effort.as_deref(),
+            Channel::LinkPosition => self.link_position.as_deref(),
         }
     }
 
@@ -127,6 +134,7 @@ impl Channels {
             Channel::DesiredVelocity => self.desired_velocity = Some(samples),
             Channel::DesiredAcceleration => self.desired_acceleration = Some(samples),
             Channel::CommandedEffort => self.commanded_effort = Some(samples),
+            Channel::LinkPosition => self.link_position = Some(samples),
         }
     }
 }

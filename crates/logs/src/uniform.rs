@@ -26,6 +26,8 @@ pub(crate) struct UniformJoint {
     pub effort: Vec<f64>,
     pub velocity: Option<Vec<f64>>,
     pub acceleration: Option<Vec<f64>>,
+    /// Position of the link.
+    pub link: Option<Vec<f64>>,
 }
 
 impl UniformRun {
@@ -66,6 +68,7 @@ fn resampled(run: &Run, index: usize, name: String, piece: &Piece) -> UniformRun
             effort: read(&joint.effort),
             velocity: joint.velocity.as_deref().map(read),
             acceleration: joint.acceleration.as_deref().map(read),
+            link: joint.link_position.as_deref().map(read),
         })
         .collect();
     let deviation_s = (!piece.is_uniform).then_some(piece.deviation_s);

@@ -158,17 +158,19 @@ impl fmt::Display for Unit {
 impl Quantity {
     /// What a channel of a rotation or a translation measures.
     pub(crate) fn of(channel: Channel, kind: JointKind) -> Self {
+        use Channel::{
+            Acceleration, CommandedEffort, DesiredAcceleration, DesiredPosition, DesiredVelocity,
+            Effort, LinkPosition, Position, Velocity,
+        };
         match (channel, kind.is_rotation()) {
-            (Channel::Position | Channel::DesiredPosition, true) => Self::Angle,
-            (Channel::Position | Channel::DesiredPosition, false) => Self::Length,
-            (Channel::Velocity | Channel::DesiredVelocity, true) => Self::AngularVelocity,
-            (Channel::Velocity | Channel::DesiredVelocity, false) => Self::Velocity,
-            (Channel::Acceleration | Channel::DesiredAcceleration, true) => {
-                Self::AngularAcceleration
-            }
-            (Channel::Acceleration | Channel::DesiredAcceleration, false) => Self::Acceleration,
-            (Channel::Effort | Channel::CommandedEffort, true) => Self::Torque,
-            (Channel::Effort | Channel::CommandedEffort, false) => Self::Force,
+            (Position | DesiredPosition | LinkPosition, true) => Self::Angle,
+            (Position | DesiredPosition | LinkPosition, false) => Self::Length,
+            (Velocity | DesiredVelocity, true) => Self::AngularVelocity,
+            (Velocity | DesiredVelocity, false) => Self::Velocity,
+            (Acceleration | DesiredAcceleration, true) => Self::AngularAcceleration,
+            (Acceleration | DesiredAcceleration, false) => Self::Acceleration,
+            (Effort | CommandedEffort, true) => Self::Torque,
+            (Effort | CommandedEffort, false) => Self::Force,
         }
     }
 

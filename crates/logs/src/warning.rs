@@ -52,6 +52,16 @@ pub enum LogWarning {
         /// Scale of the acceleration column against the derivative.
         scale: f64,
     },
+    /// A second encoder is in some of the runs.
+    #[error(
+        "run {run}: joint {joint} has no link_position here, as it has in other runs; it is left out of all"
+    )]
+    LinkPositionMissing {
+        /// The first run without it.
+        run: String,
+        /// The joint.
+        joint: String,
+    },
     /// The clock was not uniform.
     #[error("run {run}: its clock is not uniform (steps differ by up to {:.3} ms from the usual one); it was resampled at {rate_hz} Hz", 1e3 * deviation_s)]
     Resampled {

@@ -55,7 +55,8 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
         time: (0..q.len()).map(|k| k as f64 / RATE_HZ).collect(),
         joints: Vec::new(),
     };
-    let joint = PreparedJoint { q, qd: qd.clone(), qdd, qd_wide: qd, effort: vec![0.0; 3000] };
+    let effort = vec![0.0; 3000];
+    let joint = PreparedJoint { q, qd: qd.clone(), qdd, qd_wide: qd, effort, link: None };
     run.joints = vec![joint; joints];
     let frame = Frame { rest_speed: vec![1e-3; joints], centre: vec![0.0; joints] };
     let motion = Record::of_run(&run, 1).evaluate(robot, &frame);

@@ -115,6 +115,9 @@ pub trait Inject: Send {
     /// effort comes after.
     fn on_record(&mut self, _row: &mut Reading) {}
 
+    /// Changes what the encoders at the links say, on its way into the same row.
+    fn on_record_links(&mut self, _time_s: f64, _links: &mut [Option<f64>]) {}
+
     /// Whether [`Moment::load`] is to be filled, which costs a product with the mass matrix.
     fn needs_load(&self) -> bool {
         false

@@ -29,6 +29,6 @@ pub use inject::{Efforts, Inject, Moment};
 pub use plant::{Plant, Transmission};
 pub use replay::{ForwardReplay, MotionReplay, Windows, replay_motion, replay_torque};
 pub use run::{LogFormat, Simulation, arm, simulate, simulate_only, write};
-pub use sensors::{EffortSource, JointSensor, PositionSide, Sensors, VelocitySource};
+pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};
 pub use truth::Truth;

@@ -166,6 +166,7 @@ mod tests {
                     qdd: vec![qdd / 1.25],
                     qd_wide: vec![qd / 1.25],
                     effort: vec![1.25 * 1.1 * tau + 0.05],
+                    link: None,
                 };
                 let found = load(&drive, &joint, 0, 500.0);
                 assert!((found - carried).abs() < 1e-12, "{found}, not {carried} N m");

@@ -204,6 +204,8 @@ pub(crate) fn simulator(
 #[derive(Debug, Clone)]
 pub(crate) struct Row {
     pub reading: Reading,
+    /// What the encoders at the links say, where there are any.
+    pub links: Vec<Option<f64>>,
     pub command: Vec<f64>,
     pub reference: State,
 }
@@ -248,10 +250,11 @@ pub(crate) fn follow(
         simulator.actuate(&command)?;
         let mut row = Reading::default();
         simulator.record(&reading, &mut row);
+        let links = simulator.record_links(&reading);
         if tick >= lead_in {
             row.time_s = time_s;
             let (command, reference) = (command.clone(), reference.clone());
-            rows.push(Row { reading: row, command, reference });
+            rows.push(Row { reading: row, links, command, reference });
             if (time_s + period_s).floor() > time_s.floor() {
                 on_second();
             }
@@ -316,6 +319,7 @@ fn log(name: &str, robot: &Robot, rows: &[Row]) -> Run {
         desired_velocity: Some(column(&|r| r.reference.qd[i])),
         desired_acceleration: Some(column(&|r| r.reference.qdd[i])),
         commanded_effort: Some(column(&|r| r.command[i])),
+        link_position: rows.iter().map(|r| r.links[i]).collect(),
     };
     Run {
         name: name.to_owned(),

@@ -5,6 +5,11 @@ use robot::Reading;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::run::mixed;
+
+/// The part of a seed that the encoders at the links draw from.
+const LINKS: u64 = 2;
+
 /// Where position is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -53,6 +58,15 @@ pub struct JointSensor {
     pub effort_noise: f64,
 }
 
+/// An encoder at the link of a joint, beside the sensor that the controller reads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkEncoder {
+    /// Step of its reading (rad or m), zero for none.
+    pub resolution: f64,
+    /// Standard deviation of its reading (rad or m).
+    pub noise: f64,
+}
+
 /// The sensors of an arm. Every draw comes from their seed.
 #[derive(Debug, Clone)]
 pub struct Sensors {
@@ -60,8 +74,12 @@ pub struct Sensors {
     effort: EffortSource,
     velocity: VelocitySource,
     joints: Vec<JointSensor>,
+    /// The joints that have one, and `None` for each other.
+    links: Vec<Option<LinkEncoder>>,
     seed: u64,
     random: ChaCha8Rng,
+    /// Of its own, so that a second encoder leaves the noise of all others as it was.
+    link_random: ChaCha8Rng,
     /// Last measured position of each joint, once there is one.
     last: Option<Vec<f64>>,
     filtered: Vec<f64>,
@@ -77,8 +95,15 @@ impl Sensors {
         seed: u64,
     ) -> Self {
         let filtered = vec![0.0; joints.len()];
-        let random = ChaCha8Rng::seed_from_u64(seed);
-        Self { side, effort, velocity, joints, seed, random, last: None, filtered }
+        let links = vec![None; joints.len()];
+        let [random, link_random] = streams(seed);
+        let last = None;
+        Self { side, effort, velocity, joints, links, seed, random, link_random, last, filtered }
+    }
+
+    /// The same with encoders at some of the links, in the order of the robot.
+    pub fn with_links(self, links: Vec<Option<LinkEncoder>>) -> Self {
+        Self { links, ..self }
     }
 
     /// Sensors without error.
@@ -103,7 +128,7 @@ impl Sensors {
 
     /// Forgets what was measured and starts the draws anew.
     pub(crate) fn start(&mut self) {
-        self.random = ChaCha8Rng::seed_from_u64(self.seed);
+        [self.random, self.link_random] = streams(self.seed);
         self.last = None;
         self.filtered.fill(0.0);
     }
@@ -118,9 +143,7 @@ impl Sensors {
     pub(crate) fn look(&mut self, reading: &mut Reading, period_s: f64) {
         for (q, sensor) in reading.q.iter_mut().zip(&self.joints) {
             *q += draw(&mut self.random, sensor.position_noise);
-            if sensor.resolution > 0.0 {
-                *q = sensor.resolution * (*q / sensor.resolution).round();
-            }
+            *q = counted(*q, sensor.resolution);
         }
         if let VelocitySource::FilteredDifference { cutoff_hz } = self.velocity {
             let kept = (-std::f64::consts::TAU * cutoff_hz * period_s).exp();
@@ -135,12 +158,30 @@ impl Sensors {
         self.last = Some(reading.q.clone());
     }
 
+    /// What the encoders at the links say of the true positions of the links.
+    pub(crate) fn look_at_links(&mut self, q: &[f64]) -> Vec<Option<f64>> {
+        let mut reading = |encoder: LinkEncoder, q: f64| {
+            counted(q + draw(&mut self.link_random, encoder.noise), encoder.resolution)
+        };
+        self.links.iter().zip(q).map(|(link, &q)| link.map(|link| reading(link, q))).collect()
+    }
+
     /// Adds the noise of the effort readings.
     pub(crate) fn add_effort_noise(&mut self, effort: &mut [f64]) {
         for (tau, sensor) in effort.iter_mut().zip(&self.joints) {
             *tau += draw(&mut self.random, sensor.effort_noise);
         }
     }
+}
+
+/// The draws of the sensors that the controller reads, and those of the encoders at the links.
+fn streams(seed: u64) -> [ChaCha8Rng; 2] {
+    [seed, mixed(seed, LINKS)].map(ChaCha8Rng::seed_from_u64)
+}
+
+/// The nearest whole count; the value itself where there are none.
+fn counted(q: f64, resolution: f64) -> f64 {
+    if resolution > 0.0 { resolution * (q / resolution).round() } else { q }
 }
 
 /// One draw from a normal distribution about zero; a deviation of zero draws nothing.

@@ -45,6 +45,7 @@ pub struct Simulator {
     efforts: Efforts,
     motor_torque: Vec<f64>,
     effort_at_read: Vec<f64>,
+    links_at_read: Vec<Option<f64>>,
 }
 
 /// What the simulator itself keeps of a joint.
@@ -109,6 +110,7 @@ impl Simulator {
             efforts: Efforts::none(count),
             motor_torque: vec![0.0; count],
             effort_at_read: vec![0.0; count],
+            links_at_read: vec![None; count],
         })
     }
 
@@ -200,6 +202,16 @@ impl Simulator {
         self.sensors.add_effort_noise(&mut row.effort);
     }
 
+    /// What the encoders at the links say in the same row, in the order of the robot: none for a
+    /// joint without one.
+    pub fn record_links(&mut self, read: &Reading) -> Vec<Option<f64>> {
+        let mut links = self.links_at_read.clone();
+        for effect in &mut self.effects {
+            effect.on_record_links(read.time_s, &mut links);
+        }
+        links
+    }
+
     /// One step of the engine under the torque asked for (N m or N), the mean over the step.
     fn step(&mut self) -> Result<(), MachineFault> {
         let moment = moment(&self.arm, self.steps);
@@ -281,6 +293,7 @@ impl Machine for Simulator {
         }
         let period_s = self.period_s();
         self.sensors.look(reading, period_s);
+        self.links_at_read = self.sensors.look_at_links(self.arm.q());
         Ok(())
     }
 

@@ -9,8 +9,8 @@ impl Tracking {
     /// The run as a motion log with the name `name`, on the clock of the machine.
     ///
     /// `effort` and `commanded_effort` are what the machine was told from that row on. Further
-    /// columns are `<joint>.feedforward`, `<joint>.feedback`, where the machine knows it
-    /// `<joint>.link_position`, and `prediction_age` (s).
+    /// columns are `<joint>.feedforward`, `<joint>.feedback` and `prediction_age` (s);
+    /// `<joint>.link_position` is there where the machine knows it.
     ///
     /// # Errors
     ///
@@ -27,9 +27,6 @@ impl Tracking {
             };
             add("feedforward", Signal::Feedforward);
             add("feedback", Signal::Feedback);
-            if rows.knows_links() {
-                add("link_position", Signal::Link);
-            }
         }
         Ok(Run {
             name: name.to_owned(),
@@ -55,6 +52,7 @@ fn channels(rows: &Rows, joint: usize, name: &str) -> Channels {
         desired_velocity: Some(signal(Signal::QdRef)),
         desired_acceleration: Some(signal(Signal::QddRef)),
         commanded_effort: Some(signal(Signal::Command)),
+        link_position: rows.knows_links().then(|| signal(Signal::Link)),
     }
 }
 
@@ -93,7 +91,8 @@ mod tests {
         assert_eq!(run.joints[0].effort, column(Signal::Command));
         assert_eq!(run.joints[0].position, column(Signal::Q));
         assert_eq!(run.extra["x.feedforward"], column(Signal::Feedforward));
-        let behind = run.extra["x.link_position"].iter().zip(&run.joints[0].position);
+        let links = run.joints[0].link_position.iter().flatten();
+        let behind = links.zip(&run.joints[0].position);
         assert!(behind.into_iter().all(|(link, q)| (link - q - 0.01).abs() < 1e-12));
     }
 

@@ -45,7 +45,7 @@ impl Effect for TimeSkew {
         within("skew_ms", self.skew_ms, -1000.0, 1000.0)?;
         let effort_is_late = self.skew_ms > 0.0;
         let line = DelayLine::new(1e-3 * self.skew_ms.abs());
-        let lines = |joint| (joint, [line.clone(), line.clone()]);
+        let lines = |joint| (joint, [line.clone(), line.clone(), line.clone()]);
         Ok(Box::new(Injected { effort_is_late, lines: joints.into_iter().map(lines).collect() }))
     }
 
@@ -58,8 +58,9 @@ impl Effect for TimeSkew {
 
 struct Injected {
     effort_is_late: bool,
-    /// Joints, and what holds back their effort, or else their position and velocity.
-    lines: Vec<(usize, [DelayLine; 2])>,
+    /// Joints, and what holds back their effort, or else their position, velocity and position of
+    /// the link.
+    lines: Vec<(usize, [DelayLine; 3])>,
 }
 
 impl Inject for Injected {
@@ -68,7 +69,7 @@ impl Inject for Injected {
     }
 
     fn on_record(&mut self, row: &mut Reading) {
-        for (joint, [first, second]) in &mut self.lines {
+        for (joint, [first, second, _]) in &mut self.lines {
             let (time_s, i) = (row.time_s, *joint);
             if self.effort_is_late {
                 row.effort[i] = first.pass(time_s, row.effort[i]);
@@ -76,6 +77,15 @@ impl Inject for Injected {
                 row.q[i] = first.pass(time_s, row.q[i]);
                 row.qd[i] = second.pass(time_s, row.qd[i]);
             }
+        }
+    }
+
+    fn on_record_links(&mut self, time_s: f64, links: &mut [Option<f64>]) {
+        if self.effort_is_late {
+            return;
+        }
+        for (joint, [_, _, line]) in &mut self.lines {
+            links[*joint] = links[*joint].map(|q| line.pass(time_s, q));
         }
     }
 }

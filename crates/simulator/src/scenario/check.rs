@@ -8,7 +8,7 @@ use robot::{Gain, Loaded, Robot};
 use super::files::resolved;
 use super::{HiddenSpec, ScenarioSpec};
 use crate::effects::{EffectSpec, chain_rank};
-use crate::{Inject, JointSensor, Sensors, SimulatorError, Stepping};
+use crate::{Inject, JointSensor, LinkEncoder, Sensors, SimulatorError, Stepping};
 
 /// A scenario whose every value can be meant: ready to run.
 #[derive(Debug, Clone)]
@@ -130,8 +130,14 @@ impl Scenario {
             position_noise: of(&s.position_noise_rad, name),
             effort_noise: of(&s.effort_noise_nm, name),
         };
+        let (steps, noises) = (&s.link_position_resolution_rad, &s.link_position_noise_rad);
+        let link = |name: &str| {
+            let has_one = steps.contains_key(name) || noises.contains_key(name);
+            has_one.then(|| LinkEncoder { resolution: of(steps, name), noise: of(noises, name) })
+        };
         let joints = self.robot.joint_names().map(joint).collect();
-        Sensors::new(s.position, s.effort, s.velocity, joints, seed)
+        let links = self.robot.joint_names().map(link).collect();
+        Sensors::new(s.position, s.effort, s.velocity, joints, seed).with_links(links)
     }
 }
 
@@ -259,6 +265,10 @@ impl Checker<'_> {
         let s = &self.spec.sensors;
         self.by_joint(&path.key("position_resolution_rad"), &s.position_resolution_rad, 0.1)?;
         self.by_joint(&path.key("position_noise_rad"), &s.position_noise_rad, 0.1)?;
+        let steps = &s.link_position_resolution_rad;
+        self.by_joint(&path.key("link_position_resolution_rad"), steps, 0.1)?;
+        let noises = &s.link_position_noise_rad;
+        self.by_joint(&path.key("link_position_noise_rad"), noises, 0.1)?;
         self.by_joint(&path.key("effort_noise_nm"), &s.effort_noise_nm, 1000.0)?;
         self.within(&path.key("dropped_share"), s.dropped_share, 0.0, 0.5)?;
         if let crate::VelocitySource::FilteredDifference { cutoff_hz } = s.velocity {

@@ -90,6 +90,14 @@ pub struct SensorSpec {
     /// Standard deviation of the position reading of each joint (rad).
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub position_noise_rad: BTreeMap<String, f64>,
+    /// Step of a second encoder, at the link, of each joint that has one (rad); 0 for one
+    /// without steps.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub link_position_resolution_rad: BTreeMap<String, f64>,
+    /// Standard deviation of the reading of a second encoder, at the link, of each joint that
+    /// has one (rad).
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub link_position_noise_rad: BTreeMap<String, f64>,
     /// Standard deviation of the effort reading of each joint (N m).
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub effort_noise_nm: BTreeMap<String, f64>,
@@ -111,6 +119,8 @@ impl Default for SensorSpec {
             velocity: VelocitySource::FilteredDifference { cutoff_hz: 28.6 },
             position_resolution_rad: BTreeMap::new(),
             position_noise_rad: BTreeMap::new(),
+            link_position_resolution_rad: BTreeMap::new(),
+            link_position_noise_rad: BTreeMap::new(),
             effort_noise_nm: BTreeMap::new(),
             log_rate_hz: None,
             time_jitter_ms: 0.0,

@@ -161,6 +161,7 @@ fn made_up(robot: &Robot, n: usize) -> Samples {
         qdd: signal(3 * j + 2),
         qd_wide: Vec::new(),
         effort: vec![0.0; n],
+        link: None,
     });
     let run = PreparedRun {
         name: "made up".to_owned(),
