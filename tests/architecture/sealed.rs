@@ -8,8 +8,9 @@ use crate::tree::{rust_files, text};
 const SEALED: &str = "truth.json";
 
 /// Sources that may name it: folders, and files of the program.
-const KEEPERS: [&str; 4] = [
+const KEEPERS: [&str; 5] = [
     "crates/simulator/",
+    "crates/evaluation/src/sealed.rs",
     "crates/evaluation/src/trials/",
     "crates/cli/src/arguments.rs",
     "crates/cli/src/commands/simulate.rs",

@@ -10,6 +10,7 @@ mod diagnose;
 mod learn;
 mod program;
 mod replay;
+mod run;
 mod simulate;
 mod track;
 mod trials;

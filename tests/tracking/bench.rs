@@ -58,7 +58,7 @@ impl Bench {
     /// Learns from the arm's logs what the scenario asks for.
     pub fn learn(&self) -> Learned {
         let logs = simulated_logs(&self.scenario, &Silent).unwrap();
-        Learned::learn(&self.scenario, &logs, &Silent).unwrap()
+        Learned::learn(&self.scenario, &logs, None, &Silent).unwrap()
     }
 
     /// Tracks with everything that the scenario feeds forward.

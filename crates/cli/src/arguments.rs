@@ -1,8 +1,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema,
-    simulate, track, trials, view,
+    compare, demo, design, diagnose, effects, explain, learn, log_info, replay, robot_check, run,
+    schema, simulate, track, trials, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -32,6 +32,7 @@ Exit codes:
 
 const EXAMPLES: &str = "\
 Examples:
+  plumbline demo
   plumbline log info run_1.csv --robot robot.urdf
   plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out out
   plumbline explain FR02";
@@ -149,6 +150,38 @@ The output folder holds for each run
   NAME_motion.parquet        the torque simulated along the motion of the log, beside
                              <joint>.measured_effort, if the robot.toml has gains";
 
+const RUN_EXAMPLES: &str = "\
+Examples:
+  plumbline run scenarios/hidden.toml --seed 7
+  plumbline run scenarios/effects/backlash.toml --out backlash
+  plumbline run scenarios/tracking.toml --set control.gains=low-tenth
+
+A scenario of an arm is what simulate takes. All its runs but the last are diagnosed; the last shows
+what that gains, and its motion is tracked with the softest gains of robot.toml. A tracking scenario,
+which track takes, says which runs are learned from, and the motion, the gains and the models that
+are tracked.
+
+The output folder holds
+  report.html    what was put in, what was found, what that gains
+  recording.rrd  the measured arm beside the simulated one, for rerun's viewer: plumbline view out
+  metrics.json   the numbers, the same for the same scenario and seed
+  scenario.toml  the scenario with all that it extends, --set and --seed, to run again
+  logs/          what simulate writes: the logs, and apart from them what was put in
+  diagnosis/     what diagnose writes, the extended model among it
+  models/        the models that are fed forward
+  tracking/      what track writes
+  stages/        of what every stage was made: one that is there and whole is not made again
+
+Ctrl-C ends the run; what was finished is kept.";
+
+const DEMO_EXAMPLES: &str = "\
+Examples:
+  plumbline demo
+  plumbline demo --seed 7 --out other
+
+The scenario is scenarios/demo.toml of the repository; it and the robot are in the program and are
+written to source/ in the output folder, which plumbline run --help describes.";
+
 const TRIALS_EXIT_CODES: &str = "\
 Exit codes:
   0  done
@@ -188,6 +221,12 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Hides two effects in a simulated arm, finds them in its logs, and shows what that gains
+    #[command(after_help = format!("{DEMO_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
+    Demo(demo::Arguments),
+    /// Simulates an arm with effects, diagnoses it from its logs, and measures what that gains
+    #[command(after_help = format!("{RUN_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
+    Run(run::Arguments),
     /// Names what a model gets wrong in logs, writes the extended model, a report and a figure
     #[command(after_help = format!("{DIAGNOSE_EXAMPLES}\n\n{EXIT_CODES}"))]
     Diagnose(diagnose::Arguments),

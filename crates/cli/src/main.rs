@@ -14,8 +14,8 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
-    compare, design, diagnose, effects, explain, learn, log_info, replay, robot_check, schema,
-    simulate, track, trials, view,
+    compare, demo, design, diagnose, effects, explain, learn, log_info, replay, robot_check,
+    run as run_scenario, schema, simulate, track, trials, view,
 };
 use crate::error::CliError;
 
@@ -42,6 +42,8 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     match &arguments.command {
+        Command::Demo(arguments) => demo::run(arguments),
+        Command::Run(arguments) => run_scenario::run(arguments),
         Command::Diagnose(arguments) => diagnose::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Design(arguments) => design::run(arguments),

@@ -67,6 +67,11 @@ impl Line {
         self.0.bar.set_message(words.to_owned());
     }
 
+    /// Leaves words on the standard error, terminal or not, above the line.
+    pub fn leave(&self, words: &str) {
+        self.0.bar.suspend(|| anstream::eprintln!("{words}"));
+    }
+
     /// Takes the line away.
     pub fn finish(&self) {
         self.0.finish();

@@ -36,9 +36,23 @@ impl Watch {
             }
         })
         .map_err(|error| CliError::Signal { reason: error.to_string() })?;
-        let (stage, seconds, ended) =
-            (Mutex::default(), AtomicUsize::new(0), AtomicBool::new(false));
-        Ok(Self { line, stage, seconds, stop, ended })
+        Ok(Self { stop, ..Self::of_all(line) })
+    }
+
+    /// Shows what is done; Ctrl-C ends the program where it is.
+    pub fn of_all(line: Option<Line>) -> Self {
+        Self {
+            line,
+            stage: Mutex::default(),
+            seconds: AtomicUsize::new(0),
+            stop: Arc::default(),
+            ended: AtomicBool::new(false),
+        }
+    }
+
+    /// Leaves words on the standard error, where anything is shown.
+    pub fn leave(&self, words: &str) {
+        self.line.iter().for_each(|line| line.leave(words));
     }
 
     /// Something is done that has no stages of its own.
@@ -88,6 +102,14 @@ impl learner::Progress for Watch {
         self.ended.store(true, Ordering::Relaxed);
         ControlFlow::Break(())
     }
+}
+
+impl diagnosis::Progress for Watch {
+    fn stage(&self, name: &str, _: usize) {
+        self.begin(name);
+    }
+
+    fn step(&self) {}
 }
 
 impl evaluation::Progress for Watch {

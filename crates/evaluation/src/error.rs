@@ -94,6 +94,20 @@ pub enum EvaluationError {
         /// The campaign that was to be planned.
         planned: String,
     },
+    /// A robot has no gains to be tracked with.
+    #[error("{}: it has no set of gains, one [gains.NAME] at least was expected: the motion is tracked with the softest", path.display())]
+    NoGains {
+        /// The robot's file.
+        path: PathBuf,
+    },
+    /// A stage of a run can be neither kept nor made.
+    #[error("{}: {reason}, a file of a run was expected that can be read and written", path.display())]
+    Stage {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: String,
+    },
     /// The threads of a worker cannot be started.
     #[error("the threads of a worker cannot be started: {reason}")]
     NoThreads {

@@ -3,7 +3,9 @@ use std::path::Path;
 
 use diagnosis::Settings;
 use dynamics::ColumnSet;
-use learner::{Mean, Model, ModelKind, Regression, RobotTorque, Samples, TrainSettings, Training};
+use learner::{
+    Mean, Model, ModelKind, Regression, RigidBodyFit, RobotTorque, Samples, TrainSettings, Training,
+};
 use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare, rest_speeds};
 use robot::Robot;
 
@@ -61,7 +63,8 @@ impl Learned {
 
     /// Learns the models that a scenario feeds forward from the logs of its arm.
     ///
-    /// The arm's effects are found in the logs by a diagnosis that has nothing but the logs.
+    /// Without `named`, the robot extended by the arm's effects, those are found in the logs by a
+    /// diagnosis that has nothing but the logs.
     ///
     /// # Errors
     ///
@@ -69,6 +72,7 @@ impl Learned {
     pub fn learn(
         scenario: &TrackingScenario,
         logs: &[Run],
+        named: Option<&Robot>,
         progress: &dyn Progress,
     ) -> Result<Self, EvaluationError> {
         let mut models = BTreeMap::new();
@@ -84,19 +88,24 @@ impl Learned {
             return Ok(Self { models });
         }
         let data = Data::new(scenario, logs, &kinds)?;
-        let named = match kinds.iter().any(|kind| needs_names(*kind)) {
-            true => Some(extended(scenario, logs, progress)?),
-            false => None,
+        let named = match named {
+            None if kinds.iter().any(|kind| needs_names(*kind)) => {
+                Some(extended(scenario, logs, progress)?)
+            }
+            given => given.cloned(),
         };
-        progress.begin("regression of the rigid bodies");
-        let mut regression = Regression::new(scenario.robot(), ColumnSet::INERTIAL);
-        regression.add_samples(&data.regression)?;
-        let fit = regression.fit(None)?;
+        let described = |kind: &ModelKind| matches!(kind, ModelKind::Cad | ModelKind::Named);
+        let fit = match kinds.iter().all(described) {
+            true => None,
+            false => Some(rigid_bodies(scenario.robot(), &data.regression, progress)?),
+        };
         let settings =
             TrainSettings { points: scenario.learn().points, ..TrainSettings::default() };
         let (robot, speeds) = (scenario.robot(), data.rest_speeds.clone());
-        let mut training =
-            Training::new(robot, &data.train, speeds, &settings, progress)?.with_regression(&fit);
+        let mut training = Training::new(robot, &data.train, speeds, &settings, progress)?;
+        if let Some(fit) = &fit {
+            training = training.with_regression(fit);
+        }
         if let Some(named) = &named {
             training = training.with_named(named);
         }
@@ -117,6 +126,18 @@ fn kinds(scenario: &TrackingScenario) -> Vec<ModelKind> {
         }
     }
     kinds
+}
+
+/// The parameters of the rigid bodies that fit the samples best.
+fn rigid_bodies(
+    robot: &Robot,
+    samples: &Samples,
+    progress: &dyn Progress,
+) -> Result<RigidBodyFit, EvaluationError> {
+    progress.begin("regression of the rigid bodies");
+    let mut regression = Regression::new(robot, ColumnSet::INERTIAL);
+    regression.add_samples(samples)?;
+    Ok(regression.fit(None)?)
 }
 
 fn needs_names(kind: ModelKind) -> bool {

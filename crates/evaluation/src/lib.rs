@@ -4,6 +4,7 @@
 //! TrackingScenario --simulate--> logs --diagnose, learn--> Learned --track--> TrackedRun, Sweep
 //! logs, diagnosis --learn--> Residual: a process of what the findings leave
 //! logs, diagnosis --replay--> a recording of the measured arm beside the simulated one
+//! Experiment --simulate, diagnose, learn, track--> Metrics: found, torque, drift, tracking
 //! Trial --simulate, diagnose blind--> Score --many--> Tally
 //! Campaign --plan--> CampaignFolder --work--> shards of Records --> Merged: tally, power
 //! ```
@@ -12,34 +13,48 @@
 //! from the arm's logs alone.
 
 mod error;
+mod experiment;
 mod feedforward_kind;
+mod forward_gap;
 mod learned;
 mod median_time;
+mod metrics;
 mod predictions;
 mod progress;
 mod record_diagnosis;
 mod relevance;
 mod replayed;
 mod residual;
+mod sealed;
+mod stage;
 mod stream;
 mod sweep;
+mod torque_error;
 mod track;
+mod tracked_error;
 mod tracking_scenario;
 mod tracking_spec;
 mod trials;
 mod words;
 
 pub use error::EvaluationError;
+pub use experiment::Experiment;
 pub use feedforward_kind::FeedforwardKind;
+pub use forward_gap::{Drift, ForwardGap, ForwardWindow, forward_gap, forward_gap_of_logs};
 pub use learned::Learned;
 pub use median_time::median_time_s;
+pub use metrics::{Gain, Metrics};
 pub use progress::Progress;
 pub use record_diagnosis::{Diagnosed, record_diagnosis};
 pub use relevance::Relevance;
 pub use residual::{Residual, ResidualJoint, learn_residual};
+pub use sealed::Sealed;
+pub use stage::{Inputs, Product, Stage, Staged};
 pub use stream::Written;
 pub use sweep::{GainSweep, SweptModel, sweep};
+pub use torque_error::{TorqueError, torque_errors};
 pub use track::{Outputs, TrackedRun, simulated_logs, track_all};
+pub use tracked_error::TrackedError;
 pub use tracking_scenario::TrackingScenario;
 pub use tracking_spec::{
     AheadSpec, ClockSpec, ErrorRateSpec, LearnSpec, Measured, PredictionSpec, PredictionTimeSpec,

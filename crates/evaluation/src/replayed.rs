@@ -106,6 +106,6 @@ fn middle_drift(replays: &[Result<ForwardReplay, SimulatorError>]) -> Option<f64
 }
 
 /// A record up to some time after its start (s).
-fn first(record: &PreparedRun, duration_s: f64) -> PreparedRun {
+pub(crate) fn first(record: &PreparedRun, duration_s: f64) -> PreparedRun {
     record.part(0..(duration_s * record.rate_hz) as usize + 1)
 }

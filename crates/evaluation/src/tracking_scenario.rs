@@ -29,14 +29,17 @@ impl TrackingScenario {
     /// [`EvaluationError::Document`], at the value at fault, and what the plant's scenario is
     /// refused for.
     pub fn from_document(document: &Document) -> Result<Self, EvaluationError> {
+        let (plant, plant_file) = plant_of(document)?;
+        Self::new(document, Scenario::from_document(&plant)?, plant_file)
+    }
+
+    /// Reads a tracking scenario from a document, whose plant was read from `plant_file`.
+    pub(crate) fn new(
+        document: &Document,
+        plant: Scenario,
+        plant_file: PathBuf,
+    ) -> Result<Self, EvaluationError> {
         let spec: TrackingSpec = document.parse()?;
-        let plant_key = KeyPath::root().key("plant");
-        let plant_file = document.directory_of(&plant_key).join(&spec.plant);
-        if !plant_file.is_file() {
-            let message = format!("{}: there is no such file", plant_file.display());
-            return Err(document.mistake(&plant_key, message, None).into());
-        }
-        let plant = Scenario::from_document(&Document::read(&plant_file)?)?;
         let loaded = Robot::load(plant.robot_file())?;
         let check = Checker { document, spec: &spec, plant: &plant, loaded: &loaded };
         let gains = check.gains()?;
@@ -48,6 +51,16 @@ impl TrackingScenario {
         let motion = check.motion()?;
         let resolved = resolved(document, &spec);
         Ok(Self { spec, plant, plant_file, loaded, motion, gains, swept_gains, resolved })
+    }
+
+    /// The same of an arm that differs in its effects only.
+    pub(crate) fn of_arm(&self, plant: Scenario) -> Self {
+        Self { plant, ..self.clone() }
+    }
+
+    /// What it says.
+    pub(crate) fn spec(&self) -> &TrackingSpec {
+        &self.spec
     }
 
     /// The scenario as one text that extends nothing and can be read from any folder.
@@ -128,12 +141,29 @@ impl TrackingScenario {
     }
 }
 
+/// The document of a tracking scenario's plant, and its file.
+pub(crate) fn plant_of(document: &Document) -> Result<(Document, PathBuf), EvaluationError> {
+    let spec: TrackingSpec = document.parse()?;
+    let key = KeyPath::root().key("plant");
+    let file = document.directory_of(&key).join(&spec.plant);
+    if !file.is_file() {
+        let message = format!("{}: there is no such file", file.display());
+        return Err(document.mistake(&key, message, None).into());
+    }
+    Ok((Document::read(&file)?, file))
+}
+
+/// The file of the plant, from any folder.
 fn resolved(document: &Document, spec: &TrackingSpec) -> String {
-    let mut spec = spec.clone();
-    let folder = |key: &str| document.directory_of(&KeyPath::root().key(key));
-    let plant = folder("plant").join(&spec.plant);
-    spec.plant = plant.canonicalize().unwrap_or(plant);
-    spec.motion.anchor(folder("motion"));
+    let folder = document.directory_of(&KeyPath::root().key("plant"));
+    let plant = folder.join(&spec.plant);
+    with_plant(document, spec, plant.canonicalize().unwrap_or(plant))
+}
+
+/// The scenario as one text that extends nothing, its plant in `plant`.
+pub(crate) fn with_plant(document: &Document, spec: &TrackingSpec, plant: PathBuf) -> String {
+    let mut spec = TrackingSpec { plant, ..spec.clone() };
+    spec.motion.anchor(document.directory_of(&KeyPath::root().key("motion")));
     toml::to_string(&spec).unwrap_or_else(|_| document.to_toml())
 }
 

@@ -2,6 +2,8 @@ use askama::Template;
 use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 
 use crate::figures::figures_of;
+use crate::forward::{ForwardTable, forward_table};
+use crate::html_grid::rendered;
 use crate::numbers::{percent, significant};
 use crate::places::listed;
 use crate::residual::{ResidualRow, residual_rows};
@@ -22,8 +24,19 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
     page.render().map_err(|e| ReportError::Format { format: "HTML", reason: e.to_string() })
 }
 
+/// The sections of the page that say what was found, what is left, what every joint shows and what
+/// was ruled out.
+///
+/// # Errors
+///
+/// [`ReportError::Format`].
+pub(crate) fn sections_of(report: &Report) -> Result<String, ReportError> {
+    let page = Page::new(report)?;
+    rendered(&page.as_sections())
+}
+
 #[derive(Template)]
-#[template(path = "report.html")]
+#[template(path = "report.html", blocks = ["sections"])]
 struct Page<'a> {
     robot: &'a str,
     class: &'static str,
@@ -32,6 +45,7 @@ struct Page<'a> {
     warnings: &'a [String],
     joints: Vec<JointRow>,
     folds: Vec<Fold<'a>>,
+    forward: Option<ForwardTable>,
     causes: Vec<Cause>,
     figures: Vec<JointSection>,
     left: Vec<Left>,
@@ -99,6 +113,7 @@ impl<'a> Page<'a> {
             warnings: &diagnosis.warnings,
             joints: joint_rows(report),
             folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
+            forward: forward_table(report),
             causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
             figures: sections(report),
             left: left(diagnosis),

@@ -1,6 +1,8 @@
 use diagnosis::{
-    DataSummary, EffectAt, Estimate, Finding, Gain, JointReport, RuledOut, Unexplained, Verdict,
+    DataSummary, EffectAt, Estimate, Finding, InverseGain, JointReport, RuledOut, Unexplained,
+    Verdict,
 };
+use evaluation::ForwardGap;
 use serde::{Serialize, Serializer};
 
 use crate::{Provenance, Report, ReportError, ResidualModel};
@@ -46,12 +48,20 @@ struct Document<'a> {
     findings: Vec<FindingByName<'a>>,
     unexplained: &'a [Unexplained],
     ruled_out: &'a [RuledOut],
-    gain: &'a Gain,
+    gain: Gains<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     residual_model: Option<&'a ResidualModel>,
     data: &'a DataSummary,
     warnings: &'a [String],
     provenance: &'a Provenance,
+}
+
+/// What the extended model buys: in predicting torque, and in simulating motion.
+#[derive(Serialize)]
+struct Gains<'a> {
+    inverse: &'a InverseGain,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    forward: Option<&'a ForwardGap>,
 }
 
 #[derive(Serialize)]
@@ -82,7 +92,7 @@ impl<'a> Document<'a> {
             findings: diagnosis.findings.iter().map(FindingByName::new).collect(),
             unexplained: &diagnosis.unexplained,
             ruled_out: &diagnosis.ruled_out,
-            gain: &diagnosis.gain,
+            gain: Gains { inverse: &diagnosis.gain.inverse, forward: report.forward },
             residual_model: report.residual,
             data: &diagnosis.data,
             warnings: &diagnosis.warnings,

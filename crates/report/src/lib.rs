@@ -1,10 +1,11 @@
 //! What was found, for people and for programs: a page, a figure, a text for the terminal, JSON.
 //!
 //! ```text
-//! Report { diagnosis, traces, robot, residual, .. }     -> json(), html(), figure(), text(), markdown()
+//! Report { diagnosis, traces, robot, forward, .. }      -> json(), html(), figure(), text(), markdown()
 //! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
+//! RunReport { metrics, told, .. } of a run             -> json(), page(), text()
 //! evaluation::Merged { counts, tally, power } of trials -> trials_page()
 //! ```
 //!
@@ -18,6 +19,7 @@ mod draw;
 mod error;
 mod figures;
 mod files;
+mod forward;
 mod grid;
 mod html;
 mod html_grid;
@@ -31,6 +33,7 @@ mod places;
 mod poster;
 mod provenance;
 mod residual;
+mod run;
 #[cfg(test)]
 mod sample;
 mod sentence;
@@ -55,6 +58,7 @@ pub use numbers::{interval, percent, significant, unit};
 pub use poster::figure;
 pub use provenance::{FileHash, Provenance};
 pub use residual::{LengthScale, ResidualJoint, ResidualModel};
+pub use run::{RUN_SCHEMA, RunReport, Told, told};
 pub use sentence::{bottom_line, verdict_sentence};
 pub use tables::sizes;
 pub use terminal::{text, warnings};
@@ -76,6 +80,8 @@ pub struct Report<'a> {
     pub robot: &'a robot::Robot,
     /// The model of what the findings leave, where one was learned.
     pub residual: Option<&'a ResidualModel>,
+    /// How far simulations drift from the logs, where that was measured.
+    pub forward: Option<&'a evaluation::ForwardGap>,
     /// Where the answer comes from.
     pub provenance: &'a Provenance,
 }

@@ -27,6 +27,7 @@ impl Sample {
             traces: &self.traces,
             robot: &self.robot,
             residual: None,
+            forward: None,
             provenance: &self.provenance,
         }
     }

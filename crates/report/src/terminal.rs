@@ -2,6 +2,7 @@ use anstyle::{AnsiColor, Style};
 use diagnosis::{Finding, JointReport, Verdict};
 
 use crate::Report;
+use crate::forward::forward_sentence;
 use crate::numbers::{percent, significant};
 use crate::places::{JointUnits, acting_on, findings_of, listed};
 use crate::sentence::{bottom_line, verdict_sentence};
@@ -31,6 +32,10 @@ pub fn text(report: &Report) -> String {
         out.push_str(&format!("{style}{line}{style:#}\n"));
     }
     for line in wrapped(&format!("{}.", bottom_line(report)), WIDTH) {
+        out.push_str(&format!("{line}\n"));
+    }
+    for line in forward_sentence(report).iter().flat_map(|said| wrapped(&format!("{said}."), WIDTH))
+    {
         out.push_str(&format!("{line}\n"));
     }
     legend(&mut out, report);

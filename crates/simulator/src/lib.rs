@@ -28,7 +28,7 @@ pub use error::SimulatorError;
 pub use inject::{Efforts, Inject, Moment};
 pub use plant::{Plant, Transmission};
 pub use replay::{ForwardReplay, MotionReplay, Windows, replay_motion, replay_torque};
-pub use run::{LogFormat, Simulation, arm, simulate, simulate_only, write};
+pub use run::{LogFormat, Simulation, arm, drawn, simulate, simulate_only, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};
 pub use truth::Truth;

@@ -96,6 +96,16 @@ pub fn arm(scenario: &Scenario, part: u64) -> Result<Simulator, SimulatorError> 
     simulator(scenario.robot(), &effects, sensors, scenario.stepping())
 }
 
+/// A scenario whose hidden effects are drawn once for all that it is used for: it gives the same
+/// logs and the same arm.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when no effect could be drawn.
+pub fn drawn(scenario: &Scenario) -> Result<Scenario, SimulatorError> {
+    Ok(scenario.with_effects(all_effects(scenario)?))
+}
+
 /// The effects that a scenario states, and those that it draws.
 fn all_effects(scenario: &Scenario) -> Result<Vec<EffectSpec>, SimulatorError> {
     let mut effects = scenario.effects().to_vec();

@@ -40,6 +40,7 @@ pub use named_feedforward::NamedFeedforward;
 pub use rows::{Rows, Signal};
 pub use settings::{Ahead, Clock, Settings, VirtualClock, WallClock};
 pub use timing::{Latency, Timing, WallTiming};
+pub use tip::tip_in_base;
 pub use torque_limits::TorqueLimits;
 pub use track::track;
 pub use tracking::{End, Tracking};

@@ -6,7 +6,7 @@ use robot::Robot;
 /// ```text
 /// point_in_base = product over the joints that carry it of parent_from_child(q) * point_in_link
 /// ```
-pub(crate) fn tip_in_base(robot: &Robot, point_in_link: &Point3<f64>, q: &[f64]) -> Point3<f64> {
+pub fn tip_in_base(robot: &Robot, point_in_link: &Point3<f64>, q: &[f64]) -> Point3<f64> {
     let mut base_from_tip = Isometry3::identity();
     let mut next = robot.joint_count().checked_sub(1);
     while let Some(index) = next {

@@ -82,6 +82,7 @@ fn write(
             traces: &outcome.traces,
             robot: &loaded.robot,
             residual: None,
+            forward: None,
             provenance: &provenance,
         };
         let json = report::json(&report)?;

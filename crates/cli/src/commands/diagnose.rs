@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anstyle::AnsiColor;
 use diagnosis::{Diagnosis, HeldOutRobots, Progress, Settings, Silent, Verdict};
-use evaluation::Diagnosed;
+use evaluation::{Diagnosed, ForwardGap};
+use logs::Run;
 use report::{Report, ReportError};
 use robot::{Loaded, Robot};
 
@@ -80,6 +81,8 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     bar.finish();
     let outcome = outcome?;
 
+    let forward = forward(arguments, &loaded, &runs, &outcome);
+
     let learn = |ResidualKind::Gp| {
         residual::learn(&loaded.robot, &outcome, (!arguments.quiet).then(Line::new))
     };
@@ -93,6 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         traces: &outcome.traces,
         robot: &loaded.robot,
         residual: residual.as_ref().map(|learned| &learned.said),
+        forward: forward.as_ref(),
         provenance: &provenance,
     };
     let json = report::json(&report)?;
@@ -109,6 +113,27 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Verdict::Consistent | Verdict::Explained => Outcome::Good,
         Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => Outcome::Gap,
     })
+}
+
+/// How far simulations drift from the logs; a robot that cannot be simulated is a warning, as its
+/// torque can be told all the same.
+fn forward(
+    arguments: &Arguments,
+    loaded: &Loaded,
+    runs: &[Run],
+    outcome: &diagnosis::Outcome,
+) -> Option<ForwardGap> {
+    let bar = Bar::new();
+    let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
+    let (robots, data) = ([&loaded.robot, &outcome.extended], &outcome.diagnosis.data);
+    let gap = evaluation::forward_gap_of_logs(robots, runs, data.cutoff_hz, progress);
+    bar.finish();
+    gap.inspect_err(|error| warn(error)).ok()
+}
+
+fn warn(error: &dyn std::error::Error) {
+    let yellow = AnsiColor::Yellow.on_default();
+    anstream::eprintln!("{yellow}warning:{yellow:#} {error}");
 }
 
 /// Writes an output folder, all but the recording.
@@ -154,8 +179,7 @@ fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Option<PathBuf> {
     match written {
         Ok(written) => Some(written.path),
         Err(error) => {
-            let yellow = AnsiColor::Yellow.on_default();
-            anstream::eprintln!("{yellow}warning:{yellow:#} {error}");
+            warn(&error);
             None
         }
     }

@@ -1,6 +1,7 @@
 //! One file per command: its arguments and what it does.
 
 pub mod compare;
+pub mod demo;
 pub mod design;
 pub mod diagnose;
 pub mod effects;
@@ -9,6 +10,7 @@ pub mod learn;
 pub mod log_info;
 pub mod replay;
 pub mod robot_check;
+pub mod run;
 pub mod schema;
 pub mod simulate;
 pub mod track;

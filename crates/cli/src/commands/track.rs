@@ -16,7 +16,7 @@ use crate::output::{create_folder, print, shown};
 use crate::progress::Line;
 use crate::watch::Watch;
 
-use self::comparison::comparison;
+pub(super) use self::comparison::comparison;
 
 /// Arguments of `track`.
 #[derive(Debug, clap::Args)]
@@ -69,9 +69,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     });
     watch.finish();
     let (runs, swept) = tracked?;
-    let comparison = comparison(arguments, &scenario, &runs, swept.as_ref())?;
+    let comparison = comparison(&arguments.scenario, &scenario, &runs, swept.as_ref())?;
     // A full disk does not keep a long run from being told.
-    let written = write(arguments, &scenario, &comparison);
+    let written = write(&arguments.out, &scenario, &comparison);
     say(arguments, &comparison)?;
     written?;
     match problems(&runs).next() {
@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
 }
 
 /// What of the runs could not be written.
-fn problems(runs: &[TrackedRun]) -> impl Iterator<Item = &String> {
+pub(super) fn problems(runs: &[TrackedRun]) -> impl Iterator<Item = &String> {
     runs.iter().filter_map(|run| run.written.as_ref()).flat_map(|written| &written.problems)
 }
 
@@ -108,15 +108,16 @@ fn learned(
         return Ok(Learned::load(scenario, folder)?);
     }
     let logs = simulated_logs(scenario, watch)?;
-    let learned = Learned::learn(scenario, &logs, watch)?;
+    let learned = Learned::learn(scenario, &logs, None, watch)?;
     let folder = arguments.out.join("models");
     create_folder(&folder)?;
     learned.save(&folder)?;
     Ok(learned)
 }
 
-fn write(
-    arguments: &Arguments,
+/// Writes an output folder, all but the logs, recordings and models.
+pub(super) fn write(
+    out: &Path,
     scenario: &TrackingScenario,
     comparison: &TrackingComparison,
 ) -> Result<(), ReportError> {
@@ -132,7 +133,7 @@ fn write(
     }
     let files: Vec<(&str, &[u8])> =
         files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
-    report::write_folder(&arguments.out, &files)
+    report::write_folder(out, &files)
 }
 
 /// The joints of figure 4 of Nguyen-Tuong & Peters 2010, 4 to 6, as far as there are so many.

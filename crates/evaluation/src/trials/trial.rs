@@ -5,15 +5,11 @@ use diagnosis::{Settings, Silent};
 use document::Document;
 use logs::ReadOptions;
 use robot::{Loaded, Robot};
-use serde::Deserialize;
+use simulator::LogFormat;
 use simulator::scenario::{Scenario, ScenarioSpec};
-use simulator::{LogFormat, Truth};
 
 use super::{Hidden, Score};
-use crate::EvaluationError;
-
-/// Where a simulation seals what was put in.
-const TRUTH: &str = "truth.json";
+use crate::{EvaluationError, Sealed};
 
 /// One blind trial: an arm in which something is hidden, logged, diagnosed and scored.
 ///
@@ -92,7 +88,7 @@ pub fn judge(
         ..Settings::default()
     };
     let outcome = diagnosis::diagnose(&robot.robot, &runs, &settings, &Silent)?;
-    let sealed = opened(folder)?;
+    let sealed = Sealed::open(folder)?;
     let unknown = sealed.effects.iter().any(|truth| without.contains(&truth.effect));
     let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
     Ok(Score { looked_for: !unknown, ..score })
@@ -114,26 +110,11 @@ pub(super) fn unusable(folder: &Path) -> impl Fn(std::io::Error) -> EvaluationEr
     |error| EvaluationError::TrialFolder { path: folder.to_owned(), reason: error.to_string() }
 }
 
-/// `truth.json`
-#[derive(Deserialize)]
-struct Sealed {
-    seed: u64,
-    effects: Vec<Truth>,
-}
-
-fn opened(folder: &Path) -> Result<Sealed, EvaluationError> {
-    let path = folder.join(TRUTH);
-    let unreadable = |path, reason| EvaluationError::UnreadableTruth { path, reason };
-    let text =
-        std::fs::read_to_string(&path).map_err(|e| unreadable(path.clone(), e.to_string()))?;
-    serde_json::from_str(&text).map_err(|e| unreadable(path, e.to_string()))
-}
-
 /// Whether a folder holds the logs of this scenario, whole: the truth is the last to appear.
 fn holds(folder: &Path, scenario: &Scenario) -> bool {
     let spec = |document: Document| document.parse::<ScenarioSpec>().ok();
     let said = |document| spec(document).map(|spec| ScenarioSpec { robot: PathBuf::new(), ..spec });
     let there = Document::read(folder.join("scenario.toml")).ok().and_then(said);
     let wanted = Document::from_text("scenario.toml", scenario.resolved()).ok().and_then(said);
-    folder.join(TRUTH).is_file() && wanted.is_some() && there == wanted
+    folder.join(Sealed::FILE).is_file() && wanted.is_some() && there == wanted
 }

@@ -54,6 +54,21 @@ impl TrackingComparison {
         self.motion_drawn(joints, Place::Alone)
     }
 
+    /// The same of the three joints with the largest errors, for a page of the program's own.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Format`].
+    pub fn motion_in_page(&self) -> Result<String, ReportError> {
+        let error =
+            |joint: &usize| self.models.iter().map(|model| model.error(*joint)).fold(0.0, f64::max);
+        let mut joints: Vec<usize> = (0..self.joints.len()).collect();
+        joints.sort_by(|a, b| error(b).total_cmp(&error(a)));
+        joints.truncate(3);
+        joints.sort_unstable();
+        self.motion_drawn(&joints, Place::Page)
+    }
+
     pub(crate) fn motion_drawn(
         &self,
         joints: &[usize],

@@ -104,6 +104,12 @@ impl Scenario {
         self.spec.hidden.as_ref()
     }
 
+    /// The same arm with these effects and none to be drawn.
+    pub(crate) fn with_effects(&self, effects: Vec<EffectSpec>) -> Self {
+        let spec = ScenarioSpec { effect: effects, hidden: None, ..self.spec.clone() };
+        Self { spec, ..self.clone() }
+    }
+
     pub(crate) fn spec(&self) -> &ScenarioSpec {
         &self.spec
     }

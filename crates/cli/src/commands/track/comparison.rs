@@ -1,3 +1,5 @@
+use std::path::Path;
+
 use evaluation::{
     AheadSpec, ClockSpec, GainSweep, PredictionTimeSpec, TrackedRun, TrackingScenario,
 };
@@ -9,13 +11,12 @@ use report::{
 use robot::Gain;
 use tracking::{End, Signal};
 
-use super::Arguments;
 use crate::input::{hash, provenance};
 use crate::output::shown;
 
 /// What the runs of a scenario are reported as.
 pub fn comparison(
-    arguments: &Arguments,
+    scenario_file: &Path,
     scenario: &TrackingScenario,
     runs: &[TrackedRun],
     swept: Option<&GainSweep>,
@@ -23,12 +24,12 @@ pub fn comparison(
     let robot = scenario.robot();
     let file = scenario.plant().robot_file();
     let mut provenance = provenance(file, scenario.loaded(), None)?;
-    provenance.files.push(hash("scenario", &arguments.scenario)?);
+    provenance.files.push(hash("scenario", scenario_file)?);
     provenance.files.push(hash("plant", scenario.plant_file())?);
     Ok(TrackingComparison {
         robot: robot.name().to_owned(),
         joints: ComparedJoint::all(robot),
-        motion: format!("the motion of {}", shown(&arguments.scenario)),
+        motion: format!("the motion of {}", shown(scenario_file)),
         gains: gains(scenario.gains_name(), scenario.gains()),
         clock: clock(scenario),
         duration_s: scenario.motion().duration_s(),

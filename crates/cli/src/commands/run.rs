@@ -1,0 +1,160 @@
+mod stages;
+
+use std::cell::OnceCell;
+use std::path::{Path, PathBuf};
+
+use document::Document;
+use evaluation::Experiment;
+use report::{Provenance, RunReport};
+
+use crate::Outcome;
+use crate::error::CliError;
+use crate::input::{hash, provenance};
+use crate::output::{create_folder, print, shown};
+use crate::progress::Line;
+use crate::watch::Watch;
+
+use self::stages::Stages;
+
+/// Arguments of `run`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The scenario of an arm, or a tracking scenario (TOML)
+    scenario: PathBuf,
+    #[command(flatten)]
+    pub output: Output,
+    /// Seed of every random draw of the arm, instead of its scenario's
+    #[arg(long, value_parser = clap::value_parser!(u64).range(0..=i64::MAX as u64))]
+    seed: Option<u64>,
+    /// A value instead of the scenario's, such as hidden.count=[2,2]; may be given more than once
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Where a run is written and what is printed of it.
+#[derive(Debug, clap::Args)]
+pub struct Output {
+    /// Folder for all that the run makes; out/NAME where it is left out
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print metrics.json instead of the text
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but errors, and the JSON if it is asked for
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl Output {
+    /// Words on the standard error, unless nothing is to be printed.
+    pub fn leave(&self, words: &str) {
+        if !self.quiet {
+            anstream::eprintln!("{words}");
+        }
+    }
+}
+
+/// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains.
+pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    let mut document = Document::read(&arguments.scenario)?;
+    for assignment in &arguments.set {
+        document.set(assignment)?;
+    }
+    let experiment = Experiment::from_document(&document, arguments.seed)?;
+    let stem = arguments.scenario.file_stem().unwrap_or_default();
+    let out = arguments.output.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+    perform(&experiment, &arguments.scenario, &out, &arguments.output)
+}
+
+/// Runs an experiment, whose scenario was read from a file, and tells what came of it.
+pub fn perform(
+    experiment: &Experiment,
+    scenario: &Path,
+    out: &Path,
+    output: &Output,
+) -> Result<Outcome, CliError> {
+    create_folder(out)?;
+    let watch = Watch::of_all((!output.quiet).then(Line::new));
+    let made = Stages { experiment, out, scenario, watch: &watch, drawn: OnceCell::new() }.all();
+    watch.finish();
+    let (metrics, told) = made?;
+    let next = next(out);
+    let report = RunReport {
+        metrics: &metrics,
+        robot: experiment.plant().robot(),
+        told: &told.diagnosis,
+        motion: &told.motion,
+        next: &next,
+        provenance: &origin(experiment, scenario)?,
+    };
+    write(experiment, &report, out)?;
+    say(&report, out, output)?;
+    Ok(Outcome::Good)
+}
+
+/// This program and the files that the run was made from.
+fn origin(experiment: &Experiment, scenario: &Path) -> Result<Provenance, CliError> {
+    let tracked = experiment.scenario();
+    let mut origin = provenance(experiment.plant().robot_file(), tracked.loaded(), None)?;
+    origin.files.push(hash("scenario", scenario)?);
+    origin.seed = Some(experiment.plant().seed());
+    Ok(origin)
+}
+
+/// Commands that a reader may want next, each with what it does.
+fn next(out: &Path) -> [[String; 2]; 3] {
+    let of = |name: &str| shown(&out.join(name));
+    [
+        [
+            "The motion that separates what is still open, where something is:".to_owned(),
+            format!(
+                "plumbline design --robot {} --diagnosis {} --out {}",
+                of("diagnosis/extended.toml"),
+                of("diagnosis"),
+                of("next")
+            ),
+        ],
+        [
+            "The measured arm beside the simulated one, in rerun's viewer:".to_owned(),
+            format!("plumbline view {}", shown(out)),
+        ],
+        ["The same for a log of your own:".to_owned(), OWN_LOG.to_owned()],
+    ]
+}
+
+const OWN_LOG: &str =
+    "plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out diagnosis";
+
+fn write(experiment: &Experiment, report: &RunReport, out: &Path) -> Result<(), CliError> {
+    let (json, page) = (report.json()?, report.page()?);
+    report::write_folder(
+        out,
+        &[
+            ("scenario.toml", experiment.resolved().as_bytes()),
+            ("metrics.json", json.as_bytes()),
+            ("report.html", page.as_bytes()),
+        ],
+    )?;
+    Ok(())
+}
+
+/// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
+fn say(report: &RunReport, out: &Path, output: &Output) -> Result<(), CliError> {
+    let of = |name: &str| shown(&out.join(name));
+    let closing = format!(
+        "report         {}\nrecording      {} (plumbline view {})\nextended model {}\nyour own log   {OWN_LOG}\n",
+        of("report.html"),
+        of("recording.rrd"),
+        shown(out),
+        of("diagnosis/extended.toml"),
+    );
+    if output.json {
+        print(&report.json()?)?;
+    }
+    match (output.quiet, output.json) {
+        (true, _) => {}
+        (false, true) => anstream::eprint!("{closing}"),
+        (false, false) => print(&format!("{}\n{closing}", report.text()))?,
+    }
+    Ok(())
+}

@@ -1,0 +1,177 @@
+use std::path::{Path, PathBuf};
+
+use document::{Document, KeyPath};
+use learner::ModelKind;
+use robot::{Gain, Loaded, Robot};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use simulator::scenario::{Scenario, ScenarioSpec};
+
+use crate::tracking_scenario::{plant_of, with_plant};
+use crate::{
+    ErrorRateSpec, EvaluationError, FeedforwardKind, LearnSpec, PredictionSpec,
+    TrackingControlSpec, TrackingScenario, TrackingSpec,
+};
+
+/// An arm whose effects are found in some of its runs, and what finding them gains on the others.
+///
+/// ```text
+/// learn.train, learn.regression --diagnose, learn--> extended robot, models
+/// every other run of the plant --> their errors: torque, drift of the simulation
+/// motion --> their errors: tracking
+/// ```
+#[derive(Debug, Clone)]
+pub struct Experiment {
+    scenario: TrackingScenario,
+    resolved: String,
+}
+
+/// The robot as described and the extended one, which every experiment compares.
+const COMPARED: [FeedforwardKind; 2] =
+    [FeedforwardKind::Model(ModelKind::Cad), FeedforwardKind::Model(ModelKind::Named)];
+
+/// The scenario of the arm, beside the scenario that names it.
+const PLANT: &str = "logs/scenario.toml";
+
+impl Experiment {
+    /// Reads a tracking scenario or, with usual values for all the rest, the scenario of an arm:
+    /// its last run is the one that nothing is learned from, whose motion is tracked with the
+    /// softest gains of `robot.toml`. `seed` takes the place of that of the arm's scenario.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::Document`], at the value at fault, what the arm's scenario is refused
+    /// for, and [`EvaluationError::NoGains`].
+    pub fn from_document(document: &Document, seed: Option<u64>) -> Result<Self, EvaluationError> {
+        if document.parse::<Kind>()?.plant.is_none() {
+            return Self::of_arm(&seeded(document.clone(), seed)?);
+        }
+        let (plant, file) = plant_of(document)?;
+        let plant = Scenario::from_document(&seeded(plant, seed)?)?;
+        let document = &compared(document)?;
+        let scenario = TrackingScenario::new(document, plant, file)?;
+        let resolved = with_plant(document, scenario.spec(), PathBuf::from(PLANT));
+        let experiment = Self { scenario, resolved };
+        if experiment.test().next().is_none() {
+            let path = KeyPath::root().key("learn").key("train");
+            let message = "every run of the plant is learned from, one that is not was expected: \
+                           what is learned is tested on it";
+            return Err(document.mistake(&path, message, None).into());
+        }
+        Ok(experiment)
+    }
+
+    fn of_arm(document: &Document) -> Result<Self, EvaluationError> {
+        let plant = Scenario::from_document(document)?;
+        // The motions of this text can be read from any folder.
+        let spec: ScenarioSpec = Document::from_text(PLANT, plant.resolved())?.parse()?;
+        let (Some(test), [_, ..]) = (spec.run.last(), &spec.run[..spec.run.len() - 1]) else {
+            let path = KeyPath::root().key("run");
+            let message = "one run, two or more were expected: what is found in the others is \
+                           tested on the last one";
+            return Err(document.mistake(&path, message, None).into());
+        };
+        let learned = &spec.run[..spec.run.len() - 1];
+        let loaded = Robot::load(plant.robot_file())?;
+        let spec = TrackingSpec {
+            plant: PathBuf::from(PLANT),
+            motion: test.motion.clone(),
+            control: TrackingControlSpec {
+                gains: softest(&loaded, plant.robot_file())?,
+                kp_nm_per_rad: Default::default(),
+                kd_nm_s_per_rad: Default::default(),
+                error_rate: ErrorRateSpec::default(),
+            },
+            prediction: PredictionSpec::default(),
+            learn: LearnSpec {
+                train: learned.iter().map(|run| run.name.clone()).collect(),
+                ..LearnSpec::default()
+            },
+            feedforward: COMPARED.to_vec(),
+            sweep: None,
+        };
+        let text = toml::to_string(&spec).unwrap_or_default();
+        let said = Document::from_text("scenario.toml", &text)?;
+        let file = plant.robot_file().to_owned();
+        Ok(Self { scenario: TrackingScenario::new(&said, plant, file)?, resolved: text })
+    }
+
+    /// The arm, what is learned of it and how it is tracked.
+    pub fn scenario(&self) -> &TrackingScenario {
+        &self.scenario
+    }
+
+    /// The same with the hidden effects of the arm drawn, once for logs and tracking.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError::Simulator`] when no effect could be drawn.
+    pub fn drawn(&self) -> Result<TrackingScenario, EvaluationError> {
+        Ok(self.scenario.of_arm(simulator::drawn(self.plant())?))
+    }
+
+    /// The scenario as one text that extends nothing; its arm is that of
+    /// [`plant`](Self::plant), in `logs/scenario.toml` beside it.
+    pub fn resolved(&self) -> &str {
+        &self.resolved
+    }
+
+    /// The scenario of the arm.
+    pub fn plant(&self) -> &Scenario {
+        self.scenario.plant()
+    }
+
+    /// The runs that causes are found in and models learned from.
+    pub fn learned(&self) -> impl Iterator<Item = &str> {
+        self.names().filter(|name| self.is_learned(name))
+    }
+
+    /// The runs that what is found is tested on.
+    pub fn test(&self) -> impl Iterator<Item = &str> {
+        self.names().filter(|name| !self.is_learned(name))
+    }
+
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.plant().runs().iter().map(|run| run.name.as_str())
+    }
+
+    fn is_learned(&self, name: &str) -> bool {
+        let learn = self.scenario.learn();
+        learn.train.iter().chain(&learn.regression).any(|learned| learned == name)
+    }
+}
+
+/// A tracking scenario that feeds forward [`COMPARED`] before what else it does.
+fn compared(document: &Document) -> Result<Document, EvaluationError> {
+    let spec: TrackingSpec = document.parse()?;
+    let others = spec.feedforward.iter().filter(|kind| !COMPARED.contains(kind));
+    let names: Vec<String> =
+        COMPARED.iter().chain(others).map(|kind| format!("{:?}", kind.name())).collect();
+    let mut document = document.clone();
+    if COMPARED.iter().any(|kind| !spec.feedforward.contains(kind)) {
+        document.set(&format!("feedforward=[{}]", names.join(", ")))?;
+    }
+    Ok(document)
+}
+
+/// What tells a tracking scenario from the scenario of an arm.
+#[derive(Deserialize)]
+struct Kind {
+    plant: Option<IgnoredAny>,
+}
+
+fn seeded(mut document: Document, seed: Option<u64>) -> Result<Document, EvaluationError> {
+    if let Some(seed) = seed {
+        document.set(&format!("seed={seed}"))?;
+    }
+    Ok(document)
+}
+
+/// The set of gains with the least sum of `kp`.
+fn softest(loaded: &Loaded, file: &Path) -> Result<String, EvaluationError> {
+    let stiffness = |gains: &[Gain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
+    let sets = loaded.control.gain_sets.iter();
+    let softest = sets.min_by(|a, b| stiffness(a.1).total_cmp(&stiffness(b.1)));
+    let name = softest.map(|(name, _)| name.clone());
+    name.ok_or_else(|| EvaluationError::NoGains { path: file.to_owned() })
+}

@@ -1,0 +1,150 @@
+use learner::{Model, Samples, TorqueModel};
+use logs::{
+    LogError, LowPass, PrepareSettings, Prepared, PreparedRun, Run, centre_commands, prepare,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::{EvaluationError, Learned, TrackingScenario};
+
+/// Order of the low-pass of torques, as in the diagnosis.
+const ORDER: usize = 4;
+
+/// How well a model predicts the torque of runs that it has not seen, in the band of the motion.
+///
+/// ```text
+/// error = L(measured - predicted),   nMSE = mean(error²) / variance(L measured)
+/// ```
+///
+/// with `L` the low-pass of the diagnosis: what is faster is noise or vibration, which no model of
+/// the state predicts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TorqueError {
+    /// Name of the model.
+    pub model: String,
+    /// RMS of the error, by joint (N m or N).
+    pub rms_nm: Vec<f64>,
+    /// nMSE, by joint; none where the torque is constant.
+    pub nmse: Vec<Option<f64>>,
+}
+
+/// The errors of every model that a scenario feeds forward, on runs that it was not learned from.
+///
+/// # Errors
+///
+/// [`EvaluationError::Log`] for runs that cannot be prepared.
+pub fn torque_errors(
+    scenario: &TrackingScenario,
+    learned: &Learned,
+    test: &[Run],
+) -> Result<Vec<TorqueError>, EvaluationError> {
+    let mut prepared = prepare(test, &PrepareSettings::default())?;
+    centre_commands(scenario.robot(), &mut prepared.runs, scenario.loaded().control.rate_hz);
+    let mut errors: Vec<TorqueError> = Vec::new();
+    for kind in scenario.all_feedforward().into_iter().filter_map(|kind| kind.model()) {
+        let is_new = errors.iter().all(|error| error.model != kind.name());
+        if let Some(model) = learned.model(kind).filter(|_| is_new) {
+            errors.push(TorqueError::of(model, &prepared)?);
+        }
+    }
+    Ok(errors)
+}
+
+impl TorqueError {
+    fn of(model: &Model, test: &Prepared) -> Result<Self, LogError> {
+        let mut sums = vec![Sums::default(); model.joints()];
+        for run in &test.runs {
+            let part = Prepared {
+                runs: vec![run.clone()],
+                warnings: Vec::new(),
+                cutoff_reason: test.cutoff_reason.clone(),
+                cutoff_hz: test.cutoff_hz,
+            };
+            let predicted = model.torque(&Samples::new(&part));
+            let low_pass = LowPass::new(ORDER, test.cutoff_hz, run.rate_hz)?;
+            for (j, sums) in sums.iter_mut().enumerate() {
+                sums.add(run, j, (&predicted, &low_pass));
+            }
+        }
+        Ok(Self {
+            model: model.kind.name().to_owned(),
+            rms_nm: sums.iter().map(|sums| sums.mean(sums.error).sqrt()).collect(),
+            nmse: sums.iter().map(Sums::nmse).collect(),
+        })
+    }
+}
+
+/// Sums over the samples of a joint.
+#[derive(Debug, Clone, Default)]
+struct Sums {
+    samples: usize,
+    error: f64,
+    torque: f64,
+    square: f64,
+}
+
+impl Sums {
+    fn add(&mut self, run: &PreparedRun, j: usize, (predicted, filter): (&[f64], &LowPass)) {
+        let predicted = predicted.iter().skip(j).step_by(run.joints.len());
+        let mut torque = run.joints[j].effort.clone();
+        let mut error: Vec<f64> = torque.iter().zip(predicted).map(|(tau, p)| tau - p).collect();
+        filter.apply(&mut torque);
+        filter.apply(&mut error);
+        self.samples += torque.len();
+        self.error += error.iter().map(|e| e * e).sum::<f64>();
+        self.torque += torque.iter().sum::<f64>();
+        self.square += torque.iter().map(|tau| tau * tau).sum::<f64>();
+    }
+
+    fn mean(&self, sum: f64) -> f64 {
+        sum / self.samples as f64
+    }
+
+    fn nmse(&self) -> Option<f64> {
+        let variance = self.mean(self.square) - self.mean(self.torque).powi(2);
+        (variance > 0.0).then(|| self.mean(self.error) / variance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use logs::PreparedJoint;
+
+    /// Two joints of which the second has this torque.
+    fn run(torque: &[f64]) -> PreparedRun {
+        let joint = |effort: &[f64]| PreparedJoint {
+            q: vec![],
+            qd: vec![],
+            qdd: vec![],
+            qd_wide: vec![],
+            effort: effort.to_vec(),
+            link: None,
+        };
+        PreparedRun {
+            name: "run".into(),
+            rate_hz: 500.0,
+            time: (0..torque.len()).map(|k| 0.002 * k as f64).collect(),
+            joints: vec![joint(&vec![9.0; torque.len()]), joint(torque)],
+        }
+    }
+
+    #[test]
+    fn a_slow_error_counts_whole_and_a_fast_one_not_at_all() {
+        // Ten turns at 1 Hz, and a ripple of 100 Hz that no low-pass at 10 Hz lets through.
+        let wave = |k: usize, hz: f64| (std::f64::consts::TAU * hz * 0.002 * k as f64).sin();
+        let torque: Vec<f64> =
+            (0..5000).map(|k| 2.0 + wave(k, 1.0) + 0.5 * wave(k, 100.0)).collect();
+        let predicted: Vec<f64> = (0..5000).flat_map(|k| [0.0, 1.9 + wave(k, 1.0)]).collect();
+        let filter = LowPass::new(ORDER, 10.0, 500.0).unwrap();
+        let mut sums = Sums::default();
+        sums.add(&run(&torque), 1, (&predicted, &filter));
+        // A constant error of 0.1 N m, and a torque of variance 1/2.
+        assert!((sums.mean(sums.error).sqrt() - 0.1).abs() < 1e-3, "{sums:?}");
+        assert!((sums.nmse().unwrap() - 0.02).abs() < 1e-3, "{sums:?}");
+    }
+
+    #[test]
+    fn a_constant_torque_has_no_variance_to_compare_with() {
+        assert_eq!(Sums { samples: 4, error: 1.0, torque: 8.0, square: 16.0 }.nmse(), None);
+    }
+}

@@ -1,0 +1,68 @@
+use super::RunReport;
+use super::rows::{JointNumbers, joint_numbers};
+use crate::ReportError;
+use crate::bars::{Bars, JointBars};
+use crate::sheet::{Key, Place};
+
+/// Colours of the nominal and the extended model in a page.
+const COLOURS: [(&str, &str); 2] = [("nominal", "var(--nominal)"), ("extended", "var(--extended)")];
+
+/// A chart of the page, with what it shows.
+pub(crate) struct GainChart {
+    pub title: &'static str,
+    pub words: String,
+    pub svg: String,
+}
+
+impl RunReport<'_> {
+    /// The numbers before and after, joint by joint, as bars.
+    pub(crate) fn charts(&self) -> Result<Vec<GainChart>, ReportError> {
+        let numbers = joint_numbers(self.metrics);
+        let chart = |title: &'static str, axis: &'static str, of: fn(&JointNumbers) -> [f64; 2]| {
+            let joints = self.metrics.joints.iter().zip(&numbers);
+            let bars = Bars {
+                title: format!("{}: {title}", self.metrics.robot),
+                subtitle: String::new(),
+                axis,
+                keys: COLOURS.map(|(name, colour)| Key { name: name.to_owned(), colour }).to_vec(),
+                joints: joints
+                    .map(|(name, n)| JointBars { name: name.clone(), values: of(n).to_vec() })
+                    .collect(),
+                mark: None,
+            };
+            bars.svg(Place::Page)
+        };
+        let unseen = self.test_runs();
+        let [unit, thousandth] = self.position_units();
+        Ok(vec![
+            GainChart {
+                title: "Torque",
+                words: format!(
+                    "Mean square of measured minus predicted torque over the variance of the \
+                     measured torque, on {unseen}."
+                ),
+                svg: chart("error of the torque", "nMSE", |n| n.nmse)?,
+            },
+            GainChart {
+                title: "Simulation",
+                words: format!(
+                    "The simulation starts from the measured state and is moved by the measured \
+                     torque for 200 ms: how far it is off then, RMS over all such windows of \
+                     {unseen}."
+                ),
+                svg: chart("drift of the simulation", unit, |n| n.drift)?,
+            },
+            GainChart {
+                title: "Tracking",
+                words: format!(
+                    "RMS error of the arm along the motion of the scenario with the low gains {}, \
+                     the torque of the model fed forward.",
+                    self.metrics.gains
+                ),
+                svg: chart("error of the tracking", thousandth, |n| {
+                    n.tracking.map(|rms| 1e3 * rms)
+                })?,
+            },
+        ])
+    }
+}

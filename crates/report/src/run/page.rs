@@ -1,0 +1,160 @@
+use askama::Template;
+use evaluation::ForwardWindow;
+
+use super::RunReport;
+use super::charts::GainChart;
+use super::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
+use super::rows::{GainRow, gain_rows};
+use crate::forward::drifts;
+use crate::grid::{Cell, DIGITS};
+use crate::html::inert;
+use crate::html_grid::{Grid, rendered};
+use crate::numbers::significant;
+use crate::{Provenance, ReportError};
+
+#[derive(Template)]
+#[template(path = "run.html")]
+struct Page<'a> {
+    robot: &'a str,
+    class: &'a str,
+    sentence: &'a str,
+    bottom_line: &'a str,
+    score: String,
+    stray: Option<String>,
+    warnings: &'a [String],
+    hidden: Vec<HiddenRow>,
+    unseen: String,
+    gains: Vec<GainRow>,
+    remarks: Vec<String>,
+    charts: Vec<GainChart>,
+    tables: Vec<(String, String)>,
+    motion: &'a str,
+    sections: &'a str,
+    motions: &'a [String],
+    next: &'a [[String; 2]],
+    provenance: &'a Provenance,
+    json: String,
+}
+
+impl RunReport<'_> {
+    /// `report.html`: what was put in beside what was found, what finding it gains, and the
+    /// diagnosis, in one file that opens offline and without scripts.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Format`].
+    pub fn page(&self) -> Result<String, ReportError> {
+        let (metrics, told) = (self.metrics, self.told);
+        let page = Page {
+            robot: &metrics.robot,
+            class: &told.class,
+            sentence: &told.sentence,
+            bottom_line: &told.bottom_line,
+            score: score_sentence(&metrics.score),
+            stray: stray_sentence(&metrics.score),
+            warnings: &told.warnings,
+            hidden: hidden_rows(&metrics.score, self.robot),
+            unseen: self.test_runs(),
+            gains: gain_rows(metrics),
+            remarks: self.remarks(),
+            charts: self.charts()?,
+            tables: self.tables()?,
+            motion: self.motion,
+            sections: &told.sections,
+            motions: &told.motions,
+            next: self.next,
+            provenance: self.provenance,
+            json: inert(&self.json()?),
+        };
+        rendered(&page)
+    }
+
+    /// Every number joint by joint, one column a model.
+    fn tables(&self) -> Result<Vec<(String, String)>, ReportError> {
+        let metrics = self.metrics;
+        let nmse = metrics.torque.iter().map(|model| {
+            let nmse = model.nmse.iter().map(|nmse| nmse.unwrap_or(f64::NAN)).collect();
+            (model.model.clone(), nmse)
+        });
+        let rms = metrics.torque.iter().map(|model| (model.model.clone(), model.rms_nm.clone()));
+        let tracked = metrics.tracking.iter().map(|run| {
+            let rms = run.rms.iter().flatten().map(|rms| 1e3 * rms).collect();
+            (run.model.clone(), rms)
+        });
+        let [unit, thousandth] = self.position_units();
+        Ok(vec![
+            ("Torque, nMSE".to_owned(), self.by_joint(nmse.collect())?),
+            ("Torque, RMS error (N·m or N)".to_owned(), self.by_joint(rms.collect())?),
+            (format!("Drift of the simulation ({unit})"), self.by_joint(self.drift_columns())?),
+            (format!("Tracking, RMS error ({thousandth})"), self.by_joint(tracked.collect())?),
+        ])
+    }
+
+    fn drift_columns(&self) -> Vec<(String, Vec<f64>)> {
+        let columns = |window: &ForwardWindow| {
+            let ms = format!("{:.0}", 1e3 * window.window_s);
+            let [nominal, extended] =
+                drifts(window).map(|drift| drift.rms.clone().unwrap_or_default());
+            [(format!("{ms} ms, nominal"), nominal), (format!("{ms} ms, extended"), extended)]
+        };
+        self.metrics.forward.windows.iter().flat_map(columns).collect()
+    }
+
+    /// One row a joint; a number that is not there is a dash.
+    fn by_joint(&self, columns: Vec<(String, Vec<f64>)>) -> Result<String, ReportError> {
+        let row = |(joint, name): (usize, &String)| {
+            let number = |(_, numbers): &(String, Vec<f64>)| {
+                let number = numbers.get(joint).copied().unwrap_or(f64::NAN);
+                Cell::plain(significant(number, DIGITS))
+            };
+            (name.clone(), columns.iter().map(number).collect())
+        };
+        rendered(&Grid {
+            corner: "Joint".to_owned(),
+            header: columns.iter().map(|(name, _)| name.clone()).collect(),
+            rows: self.metrics.joints.iter().enumerate().map(row).collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::run::sample;
+
+    #[test]
+    fn the_page_is_self_contained_and_holds_both_sides_and_the_diagnosis() {
+        let sample = sample::run();
+        let page = sample.report().page().unwrap();
+        assert!(!page.contains("http://") && !page.contains("https://"));
+        assert!(page.contains("default-src 'none'") && !page.contains("<script>"));
+        for expected in [
+            "1 of 2 effects that were put in were found",
+            "2.00 (1.80 to 2.20)",
+            "not found",
+            "payload at &#60;elbow&#62;",
+            "Named, but not put in: TR01 backlash at elbow",
+            "20x",
+            "What was ruled out",
+            "plumbline view out",
+            "plumbline.run/1",
+        ] {
+            assert!(page.contains(expected), "{expected} is missing");
+        }
+        assert!(!page.contains("NaN"));
+        assert_eq!(page, sample.report().page().unwrap());
+    }
+
+    #[test]
+    fn names_cannot_end_the_embedded_json_and_nothing_at_all_is_still_a_page() {
+        let mut sample = sample::run();
+        sample.metrics.robot = "</script><img>".into();
+        sample.metrics.joints.clear();
+        sample.metrics.torque.clear();
+        sample.metrics.forward.windows.clear();
+        sample.metrics.tracking.clear();
+        sample.metrics.score.put_in.clear();
+        let page = sample.report().page().unwrap();
+        assert_eq!(page.matches("</script>").count(), 1);
+        assert!(!page.contains("<img>") && page.contains("Nothing was put in"));
+    }
+}

@@ -1,0 +1,47 @@
+use evaluation::Metrics;
+use robot::Robot;
+
+use super::Told;
+use crate::json::with_schema;
+use crate::{Provenance, ReportError};
+
+/// Name and version of the schema of `metrics.json`.
+pub const RUN_SCHEMA: &str = "plumbline.run/1";
+
+/// Everything that the report of a run shows.
+#[derive(Debug, Clone, Copy)]
+pub struct RunReport<'a> {
+    /// The numbers.
+    pub metrics: &'a Metrics,
+    /// The robot as described, for units.
+    pub robot: &'a Robot,
+    /// The diagnosis.
+    pub told: &'a Told,
+    /// The beginning of the motion that was tracked, drawn for a page.
+    pub motion: &'a str,
+    /// Commands for what to do next, each with what it does.
+    pub next: &'a [[String; 2]],
+    /// Where the answer comes from.
+    pub provenance: &'a Provenance,
+}
+
+impl RunReport<'_> {
+    /// The unit of the joints' positions, and of a thousandth of it.
+    pub(crate) fn position_units(&self) -> [&'static str; 2] {
+        let links = self.robot.links();
+        match links.iter().filter(|link| link.joint.kind.is_rotation()).count() {
+            0 => ["m", "mm"],
+            all if all == links.len() => ["rad", "mrad"],
+            _ => ["rad or m", "mrad or mm"],
+        }
+    }
+
+    /// `metrics.json`, in the schema [`RUN_SCHEMA`].
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Format`].
+    pub fn json(&self) -> Result<String, ReportError> {
+        with_schema(RUN_SCHEMA, self.metrics)
+    }
+}

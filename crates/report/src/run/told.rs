@@ -1,0 +1,44 @@
+use serde::{Deserialize, Serialize};
+
+use crate::html::sections_of;
+use crate::sentence::{bottom_line, verdict_sentence};
+use crate::tables::class_of;
+use crate::{Report, ReportError};
+
+/// A diagnosis as the report of a run tells it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Told {
+    /// The verdict in a sentence.
+    pub sentence: String,
+    /// What the extended model buys on data held out of the diagnosis, in a sentence.
+    pub bottom_line: String,
+    /// Class of the verdict in the style sheet.
+    pub class: String,
+    /// Doubts about the logs.
+    pub warnings: Vec<String>,
+    /// Motions that would tell the findings from their rivals.
+    pub motions: Vec<String>,
+    /// Findings, what is left, figures joint by joint and what was ruled out, as HTML.
+    pub sections: String,
+}
+
+/// What the report of a run tells of a diagnosis.
+///
+/// # Errors
+///
+/// [`ReportError::Format`].
+pub fn told(report: &Report) -> Result<Told, ReportError> {
+    let diagnosis = report.diagnosis;
+    let motions = diagnosis.findings.iter().filter_map(|f| f.told_apart_by);
+    let mut motions: Vec<String> = motions.map(str::to_owned).collect();
+    motions.sort_unstable();
+    motions.dedup();
+    Ok(Told {
+        sentence: verdict_sentence(diagnosis),
+        bottom_line: bottom_line(report),
+        class: class_of(diagnosis.verdict).to_owned(),
+        warnings: diagnosis.warnings.clone(),
+        motions,
+        sections: sections_of(report)?,
+    })
+}
