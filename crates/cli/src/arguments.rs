@@ -44,7 +44,8 @@ Examples:
   plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --residual gp --out out
 
 Logs have a column time (s) and the columns <joint>.position (rad or m) and <joint>.effort
-(N m or N), and <joint>.velocity, <joint>.acceleration where they were recorded.
+(N m or N), and <joint>.velocity, <joint>.acceleration where they were recorded, and
+<joint>.link_position (rad or m) of a second encoder behind the gear.
 
 The output folder holds
   report.html     the whole answer for a browser
