@@ -73,6 +73,15 @@ pub enum EvaluationError {
         /// The folder.
         path: PathBuf,
     },
+    /// A folder holds no campaign.
+    #[error(
+        "{}: no campaign was planned here: plumbline trials plan CAMPAIGN.toml --out {} plans one",
+        path.display(), path.display()
+    )]
+    NoCampaign {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A trial cannot be scored.
     #[error("{}: it does not tell what was put in: {reason}", path.display())]
     UnreadableTruth {

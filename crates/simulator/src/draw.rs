@@ -43,6 +43,9 @@ pub(crate) fn draw_hidden(scenario: &Scenario) -> Result<Vec<EffectSpec>, Simula
     let seed = hidden.seed.unwrap_or_else(|| mixed(scenario.seed(), u64::MAX));
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let count = random.random_range(hidden.count[0]..=hidden.count[1]);
+    if count == 0 {
+        return Ok(Vec::new());
+    }
     let all = EffectKind::ALL.to_vec();
     let kinds = if hidden.from.is_empty() { &all } else { &hidden.from };
     let bench = Bench::new(scenario)?;
@@ -117,14 +120,14 @@ impl<'a> Bench<'a> {
         random: &mut ChaCha8Rng,
     ) -> Result<EffectSpec, SimulatorError> {
         let [least, largest] = hidden.torque_share;
-        let mut last = String::new();
+        let mut last = "and none could be put into this arm".to_owned();
         for _ in 0..TRIES {
             let kind = kinds[random.random_range(0..kinds.len())];
             let joint = random.random_range(0..self.torque_rms.len());
             let goal = least * (largest / least).powf(random.random::<f64>());
             let seed = random.random::<u64>();
             let Some((effect, share)) = self.sized(kind, joint, goal, seed) else { continue };
-            last = format!("{} {kind} at {share:.3} of the torque", kind.code());
+            last = format!("the last was {} {kind} at {share:.3} of the torque", kind.code());
             let truth = effect.truth();
             let taken = drawn.iter().any(|d| {
                 let other = d.truth();

@@ -77,7 +77,7 @@ pub enum SimulatorError {
     },
     /// No effect could be drawn.
     #[error(
-        "hidden effects: none of {tried} draws gave a torque between {least} and {largest} of its joint's, the last was {last}"
+        "hidden effects: none of {tried} draws gave a torque between {least} and {largest} of its joint's, {last}"
     )]
     NothingDrawn {
         /// Number of draws.
@@ -86,7 +86,7 @@ pub enum SimulatorError {
         least: f64,
         /// Largest share.
         largest: f64,
-        /// The last draw and what it gave.
+        /// In words the last draw and what it gave, or that none could be put in.
         last: String,
     },
     /// A joint did what no joint may.

@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Seed of every random draw of the arm, instead of its scenario's
     #[arg(long, value_parser = clap::value_parser!(u64).range(0..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// A value instead of the scenario's, such as hidden.count=[2,2]; may be given more than once
+    /// A value instead of the scenario's, such as engine.step_ms=0.2; may be given more than once
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
 }

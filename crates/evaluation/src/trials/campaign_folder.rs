@@ -75,8 +75,11 @@ impl CampaignFolder {
     ///
     /// # Errors
     ///
-    /// What [`Campaign::from_document`] refuses.
+    /// [`EvaluationError::NoCampaign`] and what [`Campaign::from_document`] refuses.
     pub fn open(root: &Path) -> Result<Self, EvaluationError> {
+        if !root.join(CAMPAIGN).exists() {
+            return Err(EvaluationError::NoCampaign { path: root.to_owned() });
+        }
         let document = Document::read(root.join(CAMPAIGN))?;
         Ok(Self::of(root, Campaign::from_document(&document)?))
     }
