@@ -43,7 +43,7 @@ fn what_was_put_on_and_what_wore_is_what_changed() {
             finding(&answer.after.diagnosis, "FR02 Coulomb friction at j2_shoulder_pitch");
         let level = &friction.unwrap_or_else(|| panic!("{names:?}")).parameters[0];
         assert!((level.nominal - 1.5).abs() < 0.1 && (level.value - 2.5).abs() < 0.1, "{level:?}");
-        let load = finding(&answer.after.diagnosis, "IN02 inertial parameters at palm");
+        let load = finding(&answer.after.diagnosis, "IN01 payload at palm");
         let mass = &load.unwrap_or_else(|| panic!("{names:?}")).parameters[0];
         assert!((mass.value - mass.nominal - 1.0).abs() < 0.05, "{mass:?}");
         assert!(names.len() <= 3, "{names:?}");
