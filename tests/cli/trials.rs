@@ -243,7 +243,8 @@ fn what_cannot_be_written_ends_the_work_and_loses_nothing() {
     let answer = trials(path, &["plan", "campaign.toml", "--out", "file"]);
     assert_eq!(answer.code, 2);
     let answer = trials(path, &["work", "nowhere"]);
-    assert!(answer.code == 3 && answer.err.contains("nowhere/campaign.toml"), "{}", answer.err);
+    assert!(answer.err.contains("plumbline trials plan CAMPAIGN.toml --out nowhere"), "{answer:?}");
+    assert_eq!(answer.code, 3);
 }
 
 /// Logs of four seconds are too short to say anything.
