@@ -85,3 +85,15 @@ pub struct Report<'a> {
     /// Where the answer comes from.
     pub provenance: &'a Provenance,
 }
+
+impl<'a> Report<'a> {
+    /// What a diagnosis of logs of `robot` came to, and no more.
+    pub fn new(
+        outcome: &'a diagnosis::Outcome,
+        robot: &'a robot::Robot,
+        provenance: &'a Provenance,
+    ) -> Self {
+        let diagnosis::Outcome { diagnosis, traces, .. } = outcome;
+        Self { diagnosis, traces, robot, residual: None, forward: None, provenance }
+    }
+}

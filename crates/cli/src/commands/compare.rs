@@ -77,14 +77,7 @@ fn write(
         let mut provenance = provenance(&arguments.robot, loaded, map)?;
         provenance.files.extend(hashes_of(runs));
         provenance.seed = Some(arguments.search.seed);
-        let report = Report {
-            diagnosis: &outcome.diagnosis,
-            traces: &outcome.traces,
-            robot: &loaded.robot,
-            residual: None,
-            forward: None,
-            provenance: &provenance,
-        };
+        let report = Report::new(outcome, &loaded.robot, &provenance);
         let json = report::json(&report)?;
         diagnose::write(&arguments.out.join(name), loaded, outcome, (&report, &json), None)?;
     }

@@ -92,12 +92,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     provenance.files.extend(hashes_of(&runs));
     provenance.seed = Some(arguments.search.seed);
     let report = Report {
-        diagnosis: &outcome.diagnosis,
-        traces: &outcome.traces,
-        robot: &loaded.robot,
         residual: residual.as_ref().map(|learned| &learned.said),
         forward: forward.as_ref(),
-        provenance: &provenance,
+        ..Report::new(&outcome, &loaded.robot, &provenance)
     };
     let json = report::json(&report)?;
     write(&arguments.out, &loaded, &outcome, (&report, &json), residual.as_ref())?;

@@ -132,14 +132,7 @@ impl Stages<'_> {
             let mut provenance = provenance(file, loaded, None)?;
             provenance.files.extend(hashes_of(&runs));
             provenance.seed = Some(settings.seed);
-            let report = Report {
-                diagnosis: &outcome.diagnosis,
-                traces: &outcome.traces,
-                robot: &loaded.robot,
-                residual: None,
-                forward: None,
-                provenance: &provenance,
-            };
+            let report = Report::new(&outcome, &loaded.robot, &provenance);
             let json = report::json(&report)?;
             let folder = self.out.join(DIAGNOSIS);
             diagnose::write(&folder, loaded, &outcome, (&report, &json), None)?;
