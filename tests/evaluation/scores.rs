@@ -200,6 +200,22 @@ fn what_the_logs_would_not_have_shown_is_counted_apart() {
     assert_eq!((row.visibly.count, row.visibly.of), (1, 2));
 }
 
+/// However small an effect is said to be, a wrong name for it and the right one count.
+#[test]
+fn what_is_small_excuses_no_wrong_name() {
+    let mut named = score(
+        Verdict::Explained,
+        vec![finding(at_joint(TorqueOffset, ELBOW), 0.8, &[])],
+        &[coulomb()],
+    );
+    named.put_in[0].of_smallest = Some(0.0);
+    assert!(named.visible() && !named.exactly);
+    named.stray.clear();
+    assert!(!named.visible());
+    named.put_in[0].one_of = Some(0);
+    assert!(named.visible());
+}
+
 #[test]
 fn effects_that_are_not_looked_for_are_a_group_of_their_own() {
     let unknown =

@@ -97,9 +97,12 @@ impl Score {
         self.put_in.iter().all(|p| p.one_of.is_some())
     }
 
-    /// Whether the logs would have shown all that was put in, as far as the diagnosis tells.
+    /// Whether the logs show what was put in: all but a trial in which it is not among the findings
+    /// or their rivals, nothing wrong is named in its place, and the diagnosis says that it would
+    /// have found no effect of that size.
     pub fn visible(&self) -> bool {
-        self.put_in.iter().all(|p| p.of_smallest.is_none_or(|ratio| ratio >= 1.0))
+        let large = |p: &PutIn| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
+        self.found() || !self.stray.is_empty() || self.put_in.iter().all(large)
     }
 
     /// Whether it says that there is something that it cannot name, and names nothing wrong: the

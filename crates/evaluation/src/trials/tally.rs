@@ -43,7 +43,7 @@ pub struct Row {
     pub trials: usize,
     /// Trials in which it was named first, effect and place; nothing, in clean ones.
     pub exactly: Share,
-    /// The same of those trials in which the logs would have shown it.
+    /// The same of those trials whose logs show it, see [`Score::visible`].
     pub visibly: Share,
     /// Trials in which it was named first or a rival of what was.
     pub as_one_of: Share,
