@@ -115,6 +115,20 @@ fn blind_effects_are_named_first() {
     HIDDEN.par_iter().for_each(|(kind, seed)| check_named(kind.name(), *seed));
 }
 
+/// To first order a large offset moves gravity like a body does; about the robot that has it nothing
+/// of the body is left.
+#[test]
+fn blind_a_large_offset_of_an_encoder_leaves_no_body_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let offset = "effect=[{ encoder_offset={ joint='j4_elbow_pitch', offset_rad=0.168 } }]";
+    simulate(folder.path(), &[offset]);
+    let findings = look(folder.path()).findings;
+    let names: Vec<String> = findings.iter().map(|f| f.at.words()).collect();
+    assert_eq!(names, ["SE01 encoder offset at j4_elbow_pitch"]);
+    let offset = &findings[0].parameters[0];
+    assert!((offset.value - 0.168).abs() < 0.002, "{offset:?}");
+}
+
 /// A limit is stated, not drawn: most draws of one make the arm run away.
 #[test]
 fn blind_a_drive_that_ends_at_a_limit_is_named_with_it() {

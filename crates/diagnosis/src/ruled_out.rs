@@ -122,3 +122,25 @@ fn standard_errors(problem: &Problem, fit: &Fit, complement: &Complement) -> Vec
     let blocks = &inverse * meat * &inverse;
     (0..count).map(|k| inverse[(k, k)].max(blocks[(k, k)]).max(0.0).sqrt()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1e-4 rad/(N m) is 10000 N m/rad.
+    #[test]
+    fn a_weight_is_read_as_the_parameter_that_people_know() {
+        let name = |kind: EffectKind, (index, _): (usize, Option<f64>)| {
+            kind.entry().parameters[index].name
+        };
+        let (kind, found) = (EffectKind::JointElasticity, Some(1e-4));
+        let (index, size) = read(kind, 0, found);
+        assert_eq!(name(kind, (index, size)), "stiffness");
+        assert!((size.unwrap() / 1e4 - 1.0).abs() < 1e-12);
+        let named = |kind| name(kind, read(kind, 0, found));
+        assert_eq!(named(EffectKind::StribeckFriction), "breakaway");
+        assert_eq!(named(EffectKind::PreslidingFriction), "level");
+        assert_eq!(read(EffectKind::Payload, 2, found), (2, found));
+        assert_eq!(read(EffectKind::JointElasticity, 0, None), (0, None));
+    }
+}
