@@ -101,6 +101,16 @@ impl Evidence<'_> {
         is_one.then_some(skewed)
     }
 
+    /// Coulomb friction, where it may with an offset be the asymmetric friction `g`.
+    fn level_beside(&self, g: usize, rivals: &[usize]) -> Option<usize> {
+        let design = self.selection.problem.design;
+        let Hypothesis { kind, place } = design.groups[g].hypothesis;
+        let at = |kind| design.find(Hypothesis { kind, place });
+        let offset = at(EffectKind::TorqueOffset).filter(|offset| rivals.contains(offset));
+        offset.filter(|_| kind == EffectKind::AsymmetricFriction)?;
+        at(EffectKind::CoulombFriction).filter(|level| !rivals.contains(level))
+    }
+
     fn finding(
         &self,
         g: usize,
@@ -116,6 +126,8 @@ impl Evidence<'_> {
         };
         let mut rivals = rivals(self.selection, self.model, g);
         rivals.extend(self.skewed(g));
+        let level = self.level_beside(g, &rivals);
+        rivals.extend(level);
         rivals.extend(self.hidden_beside(g, fitted));
         let hypothesis = |m: &usize| problem.design.groups[*m].hypothesis;
         let level: Vec<Hypothesis> =

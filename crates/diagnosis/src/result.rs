@@ -184,10 +184,22 @@ impl Finding {
             own && near_rest && r.joint == self.at.joint
         };
         let (forms, others): (Vec<_>, Vec<_>) = self.not_separable_from.iter().partition(is_form);
+        let (parts, others): (Vec<_>, Vec<_>) =
+            others.into_iter().partition(|r| self.is_the_work_of(r));
+        let parts: Vec<String> = parts.into_iter().map(EffectAt::words).collect();
+        let together = (!parts.is_empty()).then(|| parts.join(" with "));
         (
-            others.into_iter().map(EffectAt::words).collect(),
+            together.into_iter().chain(others.into_iter().map(EffectAt::words)).collect(),
             forms.into_iter().map(|r| r.effect.label()).collect(),
         )
+    }
+
+    /// Whether a rival does its work only together with another one: Coulomb friction with an offset
+    /// that of asymmetric friction.
+    fn is_the_work_of(&self, rival: &EffectAt) -> bool {
+        use EffectKind::{AsymmetricFriction, CoulombFriction, TorqueOffset};
+        let part = matches!(rival.effect, CoulombFriction | TorqueOffset);
+        self.at.effect == AsymmetricFriction && part && rival.joint == self.at.joint
     }
 }
 

@@ -52,14 +52,42 @@ impl Selection<'_> {
             }
         }
         self.plainer(&mut model);
+        self.fewer(&mut model);
         model
     }
 
-    /// Names a disputed cause by its plainer rival, where that has as much evidence: Coulomb
-    /// friction with a torque offset for asymmetric friction (they differ only at
-    /// standstill), rotor inertia for the inertia of the link behind the same joint, a torque
-    /// constant for a gear ratio, Coulomb friction for one that grows with the load, friction of
-    /// each joint for that of motors they share.
+    /// Names one cause for two where it does the work of both: asymmetric friction for Coulomb
+    /// friction with a torque offset of the same joint, at most half its level. The two are the
+    /// same torque.
+    fn fewer(&self, model: &mut Model) {
+        for j in 0..self.problem.design.joints() {
+            let Some((two, one)) = self.two_for_one(model, Place::Joint(j)) else { continue };
+            let mut other = model.clone();
+            other.retain(|g| !two.contains(g));
+            other.insert(one);
+            if self.is_possible(&other, one) && self.is_as_evident(&other, model) {
+                *model = other;
+            }
+        }
+    }
+
+    /// Two findings of a joint that one hypothesis may replace; not where another finding says how
+    /// the level of the friction varies.
+    fn two_for_one(&self, model: &Model, place: Place) -> Option<([usize; 2], usize)> {
+        use EffectKind::{AsymmetricFriction, CoulombFriction, TorqueOffset};
+        let design = self.problem.design;
+        let at = |kind| design.find(Hypothesis { kind, place });
+        let two = [at(CoulombFriction)?, at(TorqueOffset)?];
+        let level = Hypothesis { kind: CoulombFriction, place };
+        let varies = |g: &usize| design.groups[*g].hypothesis.varies() == Some(level);
+        let are_there = two.iter().all(|g| model.contains(g)) && !model.iter().any(varies);
+        are_there.then_some((two, at(AsymmetricFriction)?))
+    }
+
+    /// Names a disputed cause by its plainer rival, where that has as much evidence: rotor inertia
+    /// for the inertia of the link behind the same joint, a torque constant for a gear ratio,
+    /// Coulomb friction for one that grows with the load, friction of each joint for that of
+    /// motors they share.
     fn plainer(&self, model: &mut Model) {
         for g in model.clone() {
             let plain = self.plainer_than(g);
@@ -69,27 +97,27 @@ impl Selection<'_> {
                 continue;
             }
             other.extend(plain.iter().copied());
-            let evidence = |m: &Model| self.problem.fit(m).map(|f| f.evidence);
-            let Some((ours, theirs)) = evidence(model).zip(evidence(&other)) else { continue };
-            if theirs > ours - LEAST_EVIDENCE && plain.iter().all(|&p| self.is_possible(&other, p))
-            {
+            let possible = || plain.iter().all(|&p| self.is_possible(&other, p));
+            if self.is_as_evident(&other, model) && possible() {
                 *model = other;
             }
         }
     }
 
+    /// Whether `other` has about as much evidence as `model`.
+    fn is_as_evident(&self, other: &Model, model: &Model) -> bool {
+        let evidence = |m: &Model| self.problem.fit(m).map(|f| f.evidence);
+        evidence(other).zip(evidence(model)).is_some_and(|(o, m)| o > m - LEAST_EVIDENCE)
+    }
+
     fn plainer_than(&self, g: usize) -> Vec<usize> {
         use EffectKind::{
-            AsymmetricFriction, CoulombFriction, DifferentialCoupling, InertialParameters,
-            LoadDependentFriction, RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
-            ViscousFriction,
+            CoulombFriction, DifferentialCoupling, InertialParameters, LoadDependentFriction,
+            RotorInertia, TorqueConstant, TransmissionRatio, ViscousFriction,
         };
         let design = self.problem.design;
         let Hypothesis { kind, place } = design.groups[g].hypothesis;
         let plain: Vec<Hypothesis> = match (kind, place) {
-            (AsymmetricFriction, _) => {
-                [CoulombFriction, TorqueOffset].map(|kind| Hypothesis { kind, place }).to_vec()
-            }
             (InertialParameters, Place::Link(j)) => {
                 vec![Hypothesis { kind: RotorInertia, place: Place::Joint(j) }]
             }
@@ -111,12 +139,11 @@ impl Selection<'_> {
         while let Some(fit) = self.problem.fit(model) {
             let held_out = self.problem.held_out(model);
             let entrant = self.ranked(model, &fit).into_iter().find(|&g| {
-                let mut larger = model.clone();
-                larger.insert(g);
+                let larger = self.joined(model, g);
                 self.is_possible(&larger, g) && self.pays(&held_out, &larger, g)
             });
             let Some(entrant) = entrant else { break };
-            model.insert(entrant);
+            *model = self.joined(model, entrant);
         }
     }
 
@@ -168,6 +195,15 @@ impl Selection<'_> {
             groups[m].hypothesis.excludes(groups[g].hypothesis)
                 && groups[g].columns.len() <= groups[m].columns.len()
         })
+    }
+
+    /// The model with `g`, without what `g` says more than.
+    fn joined(&self, model: &Model, g: usize) -> Model {
+        let hypothesis = |g: usize| self.problem.design.groups[g].hypothesis;
+        let mut larger = model.clone();
+        larger.retain(|&m| !hypothesis(m).excludes(hypothesis(g)));
+        larger.insert(g);
+        larger
     }
 
     /// Whether the fitted weights of `g` are physically possible.
@@ -224,7 +260,7 @@ impl Selection<'_> {
                 if other.contains(&h) || self.is_excluded(&other, h) {
                     continue;
                 }
-                other.insert(h);
+                let other = self.joined(&other, h);
                 let Some(evidence) = self.problem.fit(&other).map(|f| f.evidence) else { continue };
                 let bar = best.as_ref().map_or(fit.evidence + 1.0, |(e, _)| *e);
                 if evidence > bar

@@ -8,6 +8,10 @@ use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 /// the change of the mean level and half the change of the difference.
 pub(crate) struct AsymmetricFriction;
 
+/// Largest believable difference of the two levels, as a share of their sum: one that is three times
+/// the other.
+const LARGEST_SKEW: f64 = 0.5;
+
 impl Explain for AsymmetricFriction {
     fn kind(&self) -> EffectKind {
         EffectKind::AsymmetricFriction
@@ -35,10 +39,13 @@ impl Explain for AsymmetricFriction {
         [down_to_zero(a.coulomb_forward.min(a.coulomb_backward)), unbounded(1)].concat()
     }
 
+    /// A larger difference is that of an offset.
     fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
         let (Place::Joint(j), [level, skew]) = (place, weights) else { return false };
         let a = &robot.links()[j].actuator;
-        a.coulomb_forward + level + skew >= 0.0 && a.coulomb_backward + level - skew >= 0.0
+        let (forward, backward) =
+            (a.coulomb_forward + level + skew, a.coulomb_backward + level - skew);
+        (forward - backward).abs() <= LARGEST_SKEW * (forward + backward)
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {

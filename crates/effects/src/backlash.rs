@@ -67,7 +67,7 @@ impl Explain for Backlash {
 
 /// What a unit of gap adds to `theta - q` at joint `j`, whose links carry `load` (N·m or N).
 fn play_per_gap(motion: &Motion, j: usize, load: &[f64]) -> Vec<f64> {
-    let inertia = &motion.slopes[j].of[j][2];
+    let inertia = &motion.slopes(j).of[j][2];
     let at = |gap: f64| play(load, inertia, gap, motion.period_s);
     let gap = motion.drives[j].backlash;
     if gap > 0.0 {

@@ -94,16 +94,19 @@ impl Hypothesis {
     }
 
     /// Whether `self` and `other` are two names for changes of the same numbers,
-    /// so that both cannot be part of one model.
+    /// so that both cannot be part of one model. Asymmetric friction is Coulomb friction with an
+    /// offset.
     pub fn excludes(self, other: Self) -> bool {
-        use EffectKind::{AsymmetricFriction, CoulombFriction, InertialParameters, Payload};
-        let pair = (self.kind, other.kind);
-        self.place == other.place
-            && (matches!(pair, (InertialParameters, Payload) | (Payload, InertialParameters))
-                || matches!(
-                    pair,
-                    (AsymmetricFriction, CoulombFriction) | (CoulombFriction, AsymmetricFriction)
-                ))
+        use EffectKind::{
+            AsymmetricFriction, CoulombFriction, InertialParameters, Payload, TorqueOffset,
+        };
+        let pairs = [
+            (InertialParameters, Payload),
+            (AsymmetricFriction, CoulombFriction),
+            (AsymmetricFriction, TorqueOffset),
+        ];
+        let is = |(a, b)| (self.kind, other.kind) == (a, b) || (other.kind, self.kind) == (a, b);
+        self.place == other.place && pairs.into_iter().any(is)
     }
 
     /// The Coulomb friction whose level this effect makes vary.

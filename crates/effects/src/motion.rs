@@ -1,7 +1,8 @@
+use std::sync::OnceLock;
+
 use dynamics::{Dynamics, PARAMETERS_PER_LINK};
 use logs::{Prepared, rest_speeds};
 use nalgebra::{UnitVector3, Vector3};
-use rayon::prelude::*;
 use robot::{Actuator, Robot, SensingSide};
 
 use crate::dry_friction::dry_friction;
@@ -46,8 +47,11 @@ pub struct Motion {
     pub(crate) regressor: Vec<Vec<Vec<Vec<f64>>>>,
     /// `[joint][tilt]`: torque per radian of tilt about the two horizontal axes.
     pub(crate) tilt: Vec<[Vec<f64>; 2]>,
-    /// What moving the link of each joint changes.
-    pub(crate) slopes: Vec<Slopes>,
+    /// What moving the link of each joint changes, once it has been asked for: most fits ask for
+    /// few, and each costs six inverse dynamics a sample.
+    slopes: Vec<OnceLock<Slopes>>,
+    /// The nominal robot.
+    robot: Robot,
     /// The drives of the nominal robot.
     pub(crate) drives: Vec<Actuator>,
     /// Load of the links if they moved as was measured, where motor and link part.
@@ -135,7 +139,6 @@ impl Motion {
         let Encoders { reported, swift, links } = encoders;
         let Parted { motor, link, tight_load } =
             Parted::new(robot, corrected(robot, reported), links, period_s);
-        let slopes = (0..joints).into_par_iter().map(|j| Slopes::new(robot, &link, j)).collect();
         let [q, qd, qdd] = motor;
         let direction = (0..joints).map(|j| {
             let settled = |v: &f64| (v / frame.rest_speed[j]).clamp(-1.0, 1.0);
@@ -159,7 +162,8 @@ impl Motion {
             link,
             regressor: Vec::new(),
             tilt: Vec::new(),
-            slopes,
+            slopes: vec![OnceLock::new(); joints],
+            robot: robot.clone(),
             drives,
             tight_load,
         };
@@ -171,6 +175,11 @@ impl Motion {
     /// Number of samples.
     pub fn samples(&self) -> usize {
         self.q.first().map_or(0, Vec::len)
+    }
+
+    /// What moving the link of joint `j` changes.
+    pub(crate) fn slopes(&self, j: usize) -> &Slopes {
+        self.slopes[j].get_or_init(|| Slopes::new(&self.robot, &self.link, j))
     }
 
     /// Fills the regressor, the tilt signals and the rigid-body part of the load.
@@ -296,7 +305,7 @@ impl Motion {
     pub fn twist(&self, j: usize) -> Vec<f64> {
         let drive = &self.drives[j];
         let compliance = drive.elasticity.map_or(0.0, f64::recip);
-        let play = play(&self.load[j], &self.slopes[j].of[j][2], drive.backlash, self.period_s);
+        let play = play(&self.load[j], &self.slopes(j).of[j][2], drive.backlash, self.period_s);
         let signals = self.link[0][j].iter().zip(&self.load[j]).zip(play);
         let twist = |((q, load), x): ((&f64, &f64), f64)| {
             (q + compliance * load + x) / drive.transmission_ratio + drive.encoder_offset - q
@@ -328,7 +337,7 @@ impl Motion {
     /// ```
     pub(crate) fn displaced(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
         let part = |i: usize| {
-            let [dq, dqd, dqdd] = &self.slopes[j].of[i];
+            let [dq, dqd, dqdd] = &self.slopes(j).of[i];
             let load = |t: usize| dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t];
             self.carried(i, (0..s.len()).map(load))
         };
