@@ -1,16 +1,14 @@
-//! Effects hidden in the simulated arm, another engine with its own laws, and looked for through
-//! files: the diagnosis sees the logs and the robot, the test alone opens `truth.json`.
+//! Effects of stated size in the simulated arm, another engine with its own laws, looked for through
+//! files: what went wrong once and must not again.
 
 use std::path::Path;
 
 use catalogue::EffectKind;
 use checks::arms::{wam, workspace_root};
-use diagnosis::{Diagnosis, Outcome, Settings, Silent, Verdict, diagnose};
+use diagnosis::{Diagnosis, Outcome, Settings, Silent, diagnose};
 use document::Document;
 use logs::{ReadOptions, Run};
-use rayon::prelude::*;
 use robot::Robot;
-use simulator::Truth;
 use simulator::scenario::Scenario;
 
 const RUNS: &str = "run=[\
@@ -49,70 +47,6 @@ fn look(folder: &Path) -> Diagnosis {
 pub fn diagnosed(robot: &Robot, runs: &[Run]) -> Outcome {
     let settings = Settings { control_rate_hz: Some(500.0), ..Settings::default() };
     diagnose(robot, runs, &settings, &Silent).unwrap()
-}
-
-fn truth(folder: &Path) -> Vec<Truth> {
-    let text = std::fs::read_to_string(folder.join("truth.json")).unwrap();
-    let sealed: serde_json::Value = serde_json::from_str(&text).unwrap();
-    serde_json::from_value(sealed["effects"].clone()).unwrap()
-}
-
-#[test]
-fn blind_an_arm_without_effects_is_consistent() {
-    for seed in 1..=2 {
-        let folder = tempfile::tempdir().unwrap();
-        simulate(folder.path(), &[&format!("seed={seed}")]);
-        let diagnosis = look(folder.path());
-        assert_eq!(diagnosis.verdict, Verdict::Consistent, "seed {seed}: {:?}", diagnosis.findings);
-    }
-}
-
-/// The first name is the effect's, at its joint or link; a payload may as well be the last link.
-fn check_named(kind: &str, seed: u64) {
-    let folder = tempfile::tempdir().unwrap();
-    let hidden = format!("hidden={{ count=[1, 1], from=['{kind}'] }}");
-    simulate(folder.path(), &[&format!("seed={seed}"), &hidden]);
-    let diagnosis = look(folder.path());
-    let put_in = &truth(folder.path())[0];
-    println!("{put_in:?}");
-    let mut findings: Vec<_> = diagnosis.findings.iter().collect();
-    findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
-    let first = findings.first().unwrap_or_else(|| panic!("nothing found of {put_in:?}"));
-    println!("{} {:?}", first.at.words(), first.parameters);
-    let named = std::iter::once(&first.at).chain(&first.not_separable_from);
-    let mut places = named.map(|at| (at.effect, at.joint.clone(), at.link.clone()));
-    let expected = (put_in.effect, put_in.joint.clone(), put_in.link.clone());
-    assert!(places.any(|place| place == expected), "{} for {put_in:?}", first.at.words());
-}
-
-/// What is hidden, with the seed of its draw.
-pub const HIDDEN: [(EffectKind, u64); 20] = [
-    (EffectKind::CoulombFriction, 1),
-    (EffectKind::RotorInertia, 1),
-    (EffectKind::TorqueConstant, 1),
-    (EffectKind::Payload, 2),
-    (EffectKind::InertialParameters, 2),
-    (EffectKind::GravityDirection, 2),
-    (EffectKind::LoadDependentFriction, 1),
-    (EffectKind::EncoderOffset, 1),
-    (EffectKind::TransmissionRatio, 1),
-    (EffectKind::Backlash, 1),
-    (EffectKind::StribeckFriction, 1),
-    (EffectKind::PreslidingFriction, 101),
-    (EffectKind::PositionDependentFriction, 101),
-    (EffectKind::DifferentialCoupling, 1),
-    (EffectKind::TorqueRipple, 1),
-    (EffectKind::ExternalDisturbance, 1),
-    (EffectKind::JointElasticity, 1),
-    (EffectKind::TimeSkew, 1),
-    // Below 4 ms two runs of 15 s show nothing: another draw.
-    (EffectKind::ActuatorDelay, 101),
-    (EffectKind::ActuatorLag, 101),
-];
-
-#[test]
-fn blind_effects_are_named_first() {
-    HIDDEN.par_iter().for_each(|(kind, seed)| check_named(kind.name(), *seed));
 }
 
 /// To first order a large offset moves gravity like a body does; about the robot that has it nothing

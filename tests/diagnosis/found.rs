@@ -6,6 +6,7 @@
 //! The bodies move as the project's own inverse dynamics says, so this shows that the
 //! causes are told apart, not that the rigid-body model is right.
 
+use catalogue::EffectKind;
 use diagnosis::{Diagnosis, Estimate, Finding, Outcome, Verdict};
 use effects::MODELLED;
 use rayon::prelude::*;
@@ -94,14 +95,12 @@ fn text_of(e: &Estimate) -> String {
     format!("{} {:.4} [{:.4}, {:.4}]{open}", e.name, e.value, e.ci95[0], e.ci95[1])
 }
 
-/// Here, or with the simulated arm.
 #[test]
-fn every_effect_that_has_a_model_has_a_trial() {
+fn every_effect_that_has_a_model_is_hidden_in_the_simulated_arm() {
     for kind in MODELLED {
-        let trials = trials(kind);
-        let blind = crate::blind::HIDDEN.iter().any(|(k, _)| *k == kind);
-        assert!(blind || !trials.is_empty(), "{kind}");
-        assert!(trials.iter().all(|t| t.kind == kind), "{kind}");
+        let stated = kind == EffectKind::TorqueSaturation;
+        assert!(stated || crate::hidden::HIDDEN.contains(&kind), "{kind}");
+        assert!(trials(kind).iter().all(|t| t.kind == kind), "{kind}");
     }
 }
 

@@ -10,6 +10,7 @@ mod false_alarms;
 mod found;
 mod grafts;
 mod held_out;
+mod hidden;
 mod intervals;
 mod recorded;
 mod repeatable;

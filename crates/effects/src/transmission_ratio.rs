@@ -10,11 +10,11 @@ pub(crate) struct TransmissionRatio;
 
 /// Standard deviation of a ratio before any data: published ratios of one arm differ by up to
 /// 4.3 per cent (Barrett WAM).
-const RATIO_SD: f64 = 0.05;
+const RATIO_SD: f64 = 0.03;
 
 /// Largest believable relative error of a ratio: more than that of a pulley that was taken for
 /// another one.
-const RATIO_LIMIT: f64 = 0.4;
+const RATIO_LIMIT: f64 = 0.25;
 
 impl Explain for TransmissionRatio {
     fn kind(&self) -> EffectKind {

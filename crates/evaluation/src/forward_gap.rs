@@ -27,7 +27,7 @@ pub struct ForwardWindow {
     pub extended: Drift,
 }
 
-/// How far a simulation is off at the ends of windows.
+/// How far a simulation is off in windows, at their ends and on the way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Drift {
     /// RMS of simulated minus measured position, by joint (rad or m); none where a joint ran away
@@ -35,7 +35,10 @@ pub struct Drift {
     pub rms: Option<Vec<f64>>,
     /// RMS of the distance between the simulated and the measured origin of the last link (m).
     pub tip_rms_m: Option<f64>,
-    /// Windows in which a joint ran away, which count in neither.
+    /// The same at twenty equal steps through the windows, the last at their ends (m).
+    #[serde(default)]
+    pub tip_course_m: Vec<f64>,
+    /// Windows in which a joint ran away, which count in none of these.
     pub runaways: usize,
     /// Why the robot could not be simulated, where it could not.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -95,13 +98,17 @@ const SHORTEST_STEP_S: f64 = 1e-4;
 /// Lengths of time for which simulations are rolled forward (s).
 const WINDOWS_S: [f64; 3] = [0.05, 0.2, 1.0];
 
+/// Steps of the course of a drift.
+const STEPS: usize = 20;
+
 /// Squares summed over the windows of several records.
 #[derive(Default)]
 struct Sum {
     windows: usize,
     runaways: usize,
     joints: Vec<f64>,
-    tip: f64,
+    /// Of the tip, at every step through the windows.
+    tip: [f64; STEPS],
     trouble: Option<String>,
 }
 
@@ -127,7 +134,11 @@ impl Sum {
         for (sum, rms) in self.joints.iter_mut().zip(replay.drift_rms.iter().flatten()) {
             *sum += kept * rms * rms;
         }
-        self.tip += ends(replay, record).map(|[a, b]| apart(robot, &a, &b).powi(2)).sum::<f64>();
+        for courses in courses(replay, record) {
+            for (sum, [a, b]) in self.tip.iter_mut().zip(courses) {
+                *sum += apart(robot, &a, &b).powi(2);
+            }
+        }
     }
 
     fn drift(self) -> Drift {
@@ -135,7 +146,8 @@ impl Sum {
         let rms = |sum: &f64| (sum / kept as f64).sqrt();
         Drift {
             rms: (kept > 0).then(|| self.joints.iter().map(rms).collect()),
-            tip_rms_m: (kept > 0).then(|| rms(&self.tip)),
+            tip_rms_m: self.tip.last().filter(|_| kept > 0).map(rms),
+            tip_course_m: self.tip.iter().filter(|_| kept > 0).map(rms).collect(),
             runaways: self.runaways,
             trouble: self.trouble,
         }
@@ -159,23 +171,25 @@ fn replayed(
     }
 }
 
-/// Simulated and measured positions at the end of every window in which no joint ran away.
-fn ends<'a>(
+/// Simulated and measured positions at every step through every window in which no joint ran away.
+fn courses<'a>(
     replay: &'a ForwardReplay,
     record: &'a PreparedRun,
-) -> impl Iterator<Item = [Vec<f64>; 2]> + 'a {
+) -> impl Iterator<Item = Vec<[Vec<f64>; 2]>> + 'a {
     let samples = (replay.window_s * record.rate_hz).round() as usize;
-    (1..=replay.windows).filter_map(move |window| {
-        let end_s = record.time[window * samples];
+    let step = move |window: usize, k: usize| {
+        let sample = window * samples + (k * samples).div_ceil(STEPS);
+        let time_s = record.time[sample];
         // A window that was cut short has no row at its end.
-        let row = replay.motion.time.partition_point(|time_s| *time_s < end_s);
-        if replay.motion.time.get(row).is_none_or(|time_s| *time_s > end_s) {
+        let row = replay.motion.time.partition_point(|t| *t < time_s);
+        if replay.motion.time.get(row).is_none_or(|t| *t > time_s) {
             return None;
         }
         let simulated = replay.motion.joints.iter().map(|joint| joint.position[row]).collect();
-        let measured = record.joints.iter().map(|joint| joint.q[window * samples]).collect();
+        let measured = record.joints.iter().map(|joint| joint.q[sample]).collect();
         Some([simulated, measured])
-    })
+    };
+    (0..replay.windows).filter_map(move |window| (1..=STEPS).map(|k| step(window, k)).collect())
 }
 
 /// Distance of the origin of the last link between two positions of the joints (m).
@@ -234,6 +248,10 @@ mod tests {
             assert!(close(nominal.rms.as_ref().unwrap()[0], expected), "{window:?}");
             assert!(close(nominal.tip_rms_m.unwrap(), expected), "{window:?}");
             assert!(close(extended.rms.as_ref().unwrap()[0], 0.0), "{window:?}");
+            // Half the window is a quarter of the way, to the next sample.
+            let half = nominal.tip_course_m[STEPS / 2 - 1] / expected;
+            assert!((0.24..0.3).contains(&half), "{half}");
+            assert!(close(nominal.tip_course_m[STEPS - 1], expected), "{window:?}");
         }
     }
 

@@ -1,7 +1,7 @@
 use evaluation::{Drift, ForwardGap, ForwardWindow};
 
-use crate::Report;
 use crate::numbers::significant;
+use crate::{Axis, Chart, Report, Role, Series, Shape};
 
 /// How far both simulations drift in some lengths of time, as text.
 pub(crate) struct ForwardTable {
@@ -50,6 +50,28 @@ pub(crate) fn drifts(window: &ForwardWindow) -> [&Drift; 2] {
     [&window.nominal, &window.extended]
 }
 
+/// How the drift of the tip grows over the longest length of time that both simulations came
+/// through; none where there is no such.
+pub(crate) fn drift_chart(gap: &ForwardGap) -> Option<Chart> {
+    let both = |w: &&ForwardWindow| drifts(w).iter().all(|drift| !drift.tip_course_m.is_empty());
+    let window = gap.windows.iter().rfind(both)?;
+    let line = |(role, drift): (Role, &Drift)| {
+        let course = &drift.tip_course_m;
+        let step_ms = 1e3 * window.window_s / course.len() as f64;
+        let grown = course.iter().enumerate().map(|(k, m)| [step_ms * (k + 1) as f64, 1e3 * m]);
+        let points = std::iter::once([0.0, 0.0]).chain(grown).collect();
+        Series { role, shape: Shape::Line(points) }
+    };
+    let roles = [Role::Nominal, Role::Extended].into_iter().zip(drifts(window));
+    Some(Chart {
+        title: "Drift of the simulated tip".to_owned(),
+        x: Axis { label: "time since the measured state".to_owned(), unit: "ms" },
+        y: Axis { label: "drift of the tip, RMS".to_owned(), unit: "mm" },
+        series: roles.map(line).collect(),
+        size: (720.0, 240.0),
+    })
+}
+
 /// What was left out of the drifts, in sentences.
 pub(crate) fn remarks(windows: &[ForwardWindow]) -> Vec<String> {
     let told = windows.iter().filter_map(|window| {
@@ -79,11 +101,17 @@ mod tests {
 
     /// One length of time, of which two windows in five ran away with the nominal simulation.
     fn gap() -> ForwardGap {
-        let nominal =
-            Drift { rms: Some(vec![0.1, 0.02]), tip_rms_m: Some(0.05), runaways: 2, trouble: None };
+        let nominal = Drift {
+            rms: Some(vec![0.1, 0.02]),
+            tip_rms_m: Some(0.05),
+            tip_course_m: vec![0.02, 0.05],
+            runaways: 2,
+            trouble: None,
+        };
         let extended = Drift {
             rms: Some(vec![0.01, 0.002]),
             tip_rms_m: Some(0.004),
+            tip_course_m: vec![0.003, 0.004],
             runaways: 0,
             trouble: Some("a reason".into()),
         };
@@ -126,5 +154,17 @@ mod tests {
         let report = Report { forward: Some(&gap), ..sample.report() };
         assert_eq!(forward_table(&report).unwrap().rows[0].1, [["-".to_owned(), "-".to_owned()]]);
         assert!(forward_sentence(&report).is_none());
+    }
+
+    #[test]
+    fn the_drift_over_time_starts_at_nothing_and_ends_at_that_of_the_table() {
+        let mut gap = gap();
+        let chart = drift_chart(&gap).unwrap();
+        let lines: Vec<&Shape> = chart.series.iter().map(|series| &series.shape).collect();
+        let nominal = Shape::Line(vec![[0.0, 0.0], [100.0, 20.0], [200.0, 50.0]]);
+        let extended = Shape::Line(vec![[0.0, 0.0], [100.0, 3.0], [200.0, 4.0]]);
+        assert_eq!(lines, [&nominal, &extended]);
+        gap.windows[0].extended.tip_course_m.clear();
+        assert!(drift_chart(&gap).is_none());
     }
 }

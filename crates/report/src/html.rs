@@ -2,7 +2,7 @@ use askama::Template;
 use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 
 use crate::figures::figures_of;
-use crate::forward::{ForwardTable, forward_table};
+use crate::forward::{ForwardTable, drift_chart, forward_table};
 use crate::html_grid::rendered;
 use crate::numbers::{percent, significant};
 use crate::places::listed;
@@ -46,6 +46,7 @@ struct Page<'a> {
     joints: Vec<JointRow>,
     folds: Vec<Fold<'a>>,
     forward: Option<ForwardTable>,
+    drift: String,
     causes: Vec<Cause>,
     figures: Vec<JointSection>,
     left: Vec<Left>,
@@ -114,6 +115,7 @@ impl<'a> Page<'a> {
             joints: joint_rows(report),
             folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
             forward: forward_table(report),
+            drift: report.forward.and_then(drift_chart).map_or_else(String::new, |c| c.svg()),
             causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
             figures: sections(report),
             left: left(diagnosis),

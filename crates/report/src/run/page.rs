@@ -5,7 +5,7 @@ use super::RunReport;
 use super::charts::GainChart;
 use super::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
 use super::rows::{GainRow, gain_rows};
-use crate::forward::drifts;
+use crate::forward::{drift_chart, drifts};
 use crate::grid::{Cell, DIGITS};
 use crate::html::inert;
 use crate::html_grid::{Grid, rendered};
@@ -27,6 +27,7 @@ struct Page<'a> {
     gains: Vec<GainRow>,
     remarks: Vec<String>,
     charts: Vec<GainChart>,
+    drift: String,
     tables: Vec<(String, String)>,
     motion: &'a str,
     sections: &'a str,
@@ -58,6 +59,7 @@ impl RunReport<'_> {
             gains: gain_rows(metrics),
             remarks: self.remarks(),
             charts: self.charts()?,
+            drift: drift_chart(&metrics.forward).map_or_else(String::new, |c| c.svg()),
             tables: self.tables()?,
             motion: self.motion,
             sections: &told.sections,

@@ -54,6 +54,7 @@ fn metrics() -> Metrics {
     let drift = |tip: f64| Drift {
         rms: Some(vec![2.0 * tip, tip]),
         tip_rms_m: Some(tip),
+        tip_course_m: vec![0.5 * tip, tip],
         ..Drift::default()
     };
     let window =
