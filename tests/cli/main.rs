@@ -3,6 +3,7 @@
 
 mod arm;
 mod bad_input;
+mod campaign;
 mod commands;
 mod compare;
 mod design;

@@ -6,60 +6,8 @@ use std::time::{Duration, Instant};
 use evaluation::Record;
 
 use crate::arm;
-use crate::program::{Answer, plumbline, run};
-
-const ROBOT: &str = "urdf = \"arm.urdf\"\n\
-    joint.shoulder = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 400.0, kd_nm_s_per_rad = 20.0 }\n\
-    joint.elbow = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 200.0, kd_nm_s_per_rad = 10.0 }\n";
-
-const SCENARIO: &str = "robot = \"arm.toml\"\nengine.step_ms = 0.5\n\
-    sensors.effort_noise_nm = { shoulder = 0.1, elbow = 0.1 }\n\n[[run]]\nname = \"waves\"\n\
-    motion.sinusoids = { seed = 1, terms = 3, lowest_hz = 0.2, highest_hz = 1, duration_s = 6 }\n";
-
-const CAMPAIGN: &str = r#"scenario = "scenario.toml"
-hidden = ["clean", "FR02", "payload+backlash"]
-seeds = 2
-seed = 7
-settings = ["hidden.torque_share=[0.2, 0.3]"]
-"#;
-
-/// A folder with an arm of two joints and a campaign of six trials of it, a quarter of a second each.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path();
-    arm::write(path, "arm.urdf", arm::URDF);
-    arm::write(path, "arm.toml", ROBOT);
-    arm::write(path, "scenario.toml", SCENARIO);
-    arm::write(path, "campaign.toml", CAMPAIGN);
-    folder
-}
-
-fn trials(folder: &Path, arguments: &[&str]) -> Answer {
-    run(folder, &[&["trials"], arguments].concat())
-}
-
-/// With exit code 0 and nothing on the standard error.
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let answer = trials(folder, arguments);
-    assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{arguments:?}: {}", answer.out);
-    answer.out
-}
-
-/// The tables and files that a folder is merged into.
-fn merged(folder: &Path, name: &str) -> (String, Vec<Vec<u8>>) {
-    let text = done(folder, &["merge", name]);
-    let text = text.split("\nreport ").next().unwrap().to_owned();
-    let files = ["trials.parquet", "tally.json", "report.html"];
-    (text, files.map(|file| fs::read(folder.join(name).join(file)).unwrap()).to_vec())
-}
-
-fn shards(folder: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = fs::read_dir(folder.join("shards")) else { return Vec::new() };
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|e| e == "parquet"));
-    paths.sort();
-    paths
-}
+use crate::campaign::{CAMPAIGN, SCENARIO, done, folder, merged, shards, trials};
+use crate::program::{Answer, plumbline};
 
 #[test]
 fn a_campaign_is_planned_made_and_merged() {
@@ -135,6 +83,71 @@ fn jobs_parts_order_and_a_kill_make_no_difference() {
     assert!(other.wait().unwrap().code().is_some_and(|code| code <= 1));
     assert!(!answer.out.starts_with(&format!("{} trials made", 6 - made)), "they shared them");
     assert_eq!(merged(path, "c"), whole);
+}
+
+/// The logs of both trials with Coulomb friction, by name.
+fn kept(folder: &Path) -> [PathBuf; 2] {
+    let entries = fs::read_dir(folder.join("logs/coulomb_friction")).unwrap();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.try_into().unwrap()
+}
+
+#[test]
+fn logs_that_are_kept_are_used_again_by_their_own_trial_alone() {
+    let folder = folder();
+    let path = folder.path();
+    done(path, &["plan", "campaign.toml", "--out", "a"]);
+    let work = || done(path, &["work", "a", "--part", "2/3", "--keep"]);
+    let taken = || {
+        let shards = shards(&path.join("a"));
+        let bytes: Vec<_> = shards.iter().map(|shard| fs::read(shard).unwrap()).collect();
+        shards.iter().for_each(|shard| fs::remove_file(shard).unwrap());
+        bytes
+    };
+    assert_eq!(work(), "2 trials made; 0 left\n");
+    let logs = kept(&path.join("a"));
+    let written = || {
+        logs.clone()
+            .map(|logs| fs::metadata(logs.join("waves.parquet")).unwrap().modified().unwrap())
+    };
+    let (first, shards) = (written(), taken());
+    assert_eq!(work(), "2 trials made; 0 left\n");
+    assert_eq!(written(), first);
+    assert!(taken() == shards);
+
+    // Those of another trial, and those that are not whole, with a log that is none of theirs.
+    fs::remove_dir_all(&logs[0]).unwrap();
+    fs::rename(&logs[1], &logs[0]).unwrap();
+    fs::create_dir(&logs[1]).unwrap();
+    for name in ["scenario.toml", "waves.parquet"] {
+        fs::copy(logs[0].join(name), logs[1].join(name)).unwrap();
+    }
+    for logs in &logs {
+        fs::write(logs.join("another.parquet"), "no log").unwrap();
+    }
+    assert_eq!(work(), "2 trials made; 0 left\n");
+    assert!(taken() == shards);
+    assert!(logs.iter().all(|logs| !logs.join("another.parquet").exists()));
+}
+
+#[test]
+fn what_a_killed_worker_has_left_is_in_nobodys_way() {
+    let folder = folder();
+    let path = folder.path();
+    for name in ["a", "b"] {
+        done(path, &["plan", "campaign.toml", "--out", name, "--quiet"]);
+    }
+    done(path, &["work", "a", "--quiet"]);
+    let half = path.join("b/work/00001");
+    fs::create_dir_all(&half).unwrap();
+    fs::write(path.join("b/work/00001.lock"), "").unwrap();
+    for name in ["waves.parquet", "another.parquet", "scenario.toml", "truth.json"] {
+        fs::write(half.join(name), "half of").unwrap();
+    }
+    assert_eq!(done(path, &["work", "b"]), "6 trials made; 0 left\n");
+    assert_eq!(merged(path, "b"), merged(path, "a"));
+    assert_eq!(fs::read_dir(path.join("b/work")).unwrap().count(), 0);
 }
 
 #[cfg(unix)]

@@ -135,3 +135,28 @@ fn a_trial_that_another_process_makes_is_left_to_it() {
     assert_eq!(folder.left(Part::WHOLE).unwrap(), [1]);
     assert_eq!(fs::read_dir(root.path().join("work")).unwrap().count(), 0);
 }
+
+/// Removes the file of a lock while it is held, as the process that had it before may.
+struct Unlocking<'a>(&'a Path);
+
+impl WorkProgress for Unlocking<'_> {
+    fn begin(&self, _: usize) {}
+
+    fn made(&self, record: &Record, _: Duration) {
+        let lock = self.0.join(format!("work/{:05}.lock", record.task));
+        fs::remove_file(lock).unwrap();
+    }
+
+    fn is_stopped(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn a_lock_whose_file_is_gone_is_no_reason_to_end_the_work() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = planned(root.path());
+    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed };
+    work(&folder, &crew, &Unlocking(root.path())).unwrap();
+    assert_eq!(folder.left(Part::WHOLE).unwrap(), [0; 0]);
+}

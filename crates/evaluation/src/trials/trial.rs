@@ -57,6 +57,11 @@ impl Trial {
         judge(folder, &Robot::load(scenario.robot_file())?, &self.hidden.without())
     }
 
+    /// Whether a folder holds its logs, whole, so that they would be used again.
+    pub(super) fn is_logged(&self, folder: &Path) -> bool {
+        self.scenario().is_ok_and(|scenario| holds(folder, &scenario))
+    }
+
     fn scenario(&self) -> Result<Scenario, EvaluationError> {
         let mut document = Document::read(&self.scenario)?;
         document.set(&format!("seed={}", self.seed))?;

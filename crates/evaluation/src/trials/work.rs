@@ -32,7 +32,7 @@ pub struct Crew {
 pub enum TrialLogs {
     /// They are removed.
     Removed,
-    /// They are kept under `logs/KIND/SEED`.
+    /// They are kept under `logs/KIND/SEED`, and those of the trial that are there are used again.
     Kept,
 }
 
@@ -55,7 +55,8 @@ pub trait WorkProgress: Sync {
 /// ```
 ///
 /// A trial that cannot be simulated or diagnosed has a shard that says why. Trials that another
-/// process makes at the same time are left to it.
+/// process makes at the same time are left to it, as long as it lives: it holds a lock on a file,
+/// which falls with the process.
 ///
 /// # Errors
 ///
@@ -134,7 +135,9 @@ impl Shift<'_> {
                 TrialLogs::Removed => work.join(format!("{task:05}")),
                 TrialLogs::Kept => trial.folder(&self.folder.folder("logs")?),
             };
-            clear(&logs)?;
+            if self.logs == TrialLogs::Removed || !trial.is_logged(&logs) {
+                clear(&logs)?;
+            }
             let start = Instant::now();
             let score = told(catch_unwind(AssertUnwindSafe(|| pool.install(|| trial.run(&logs)))))?;
             let campaign = self.folder.hash().to_owned();
@@ -145,14 +148,20 @@ impl Shift<'_> {
             }
             self.progress.made(&record, start.elapsed());
         }
-        std::fs::remove_file(&lock_file).map_err(unusable(&lock_file))
+        // Whoever made it may have removed the file that this lock is on.
+        unless_missing(std::fs::remove_file(&lock_file), &lock_file)
     }
 }
 
 /// Removes the logs of a trial, whole or not.
 fn clear(logs: &Path) -> Result<(), EvaluationError> {
-    match std::fs::remove_dir_all(logs) {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(unusable(logs)(error)),
+    unless_missing(std::fs::remove_dir_all(logs), logs)
+}
+
+/// What came of a removal, for which it is as well that nothing was there.
+fn unless_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), EvaluationError> {
+    match removed {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(unusable(path)(error)),
         _ => Ok(()),
     }
 }
