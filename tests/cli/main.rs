@@ -9,10 +9,16 @@ mod compare;
 mod design;
 mod diagnose;
 mod learn;
+#[cfg(target_os = "linux")]
+mod loopback_slurm;
 mod program;
 mod replay;
 mod run;
 mod simulate;
+#[cfg(target_os = "linux")]
+mod slurm;
+#[cfg(unix)]
+mod submit;
 mod track;
 mod trials;
 mod view;

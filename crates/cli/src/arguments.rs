@@ -187,7 +187,8 @@ const TRIALS_EXIT_CODES: &str = "\
 Exit codes:
   0  done
   1  trials are left to make, or to make again: a damaged shard or one of another campaign
-  2  usage: arguments, or a folder that cannot be written or holds another campaign
+  2  usage: arguments, a folder that cannot be written or holds another campaign, or a job that
+     cannot be submitted
   3  a campaign, a scenario or a robot that cannot be used";
 
 const TRIALS_EXAMPLES: &str = "\
@@ -195,6 +196,7 @@ Examples:
   plumbline trials plan scenarios/trials.toml --out blind
   plumbline trials work blind --jobs 8
   plumbline trials work blind --part 1/4
+  plumbline trials submit blind --sbatch --partition=short
   plumbline trials status blind
   plumbline trials merge blind
 
@@ -202,6 +204,7 @@ The folder holds
   campaign.toml    what is to be made
   scenario.toml    the scenario of every trial, with all that it extends
   shards/          a file for every trial that is made: to make one again, remove it
+  slurm/           the job of submit, job.sh, and what its tasks have said
   trials.parquet   all of them, one row a trial; with merge
   tally.json       how often what was hidden was named, by kind and size; with merge
   report.html      the same for a browser; with merge

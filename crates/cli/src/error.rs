@@ -12,6 +12,7 @@ use robot::RobotError;
 use simulator::SimulatorError;
 
 use crate::commands::design::DesignError;
+use crate::commands::trials::SubmitError;
 use crate::commands::view::INSTALLATION;
 
 /// Why a command did not run to its end.
@@ -129,6 +130,9 @@ pub enum CliError {
     /// No motion can be designed.
     #[error(transparent)]
     Design(#[from] DesignError),
+    /// Trials cannot be submitted to a cluster.
+    #[error(transparent)]
+    Submit(#[from] SubmitError),
     /// The standard output cannot be written.
     #[error("the standard output cannot be written: {0}")]
     Output(#[from] io::Error),
@@ -159,6 +163,7 @@ impl CliError {
             | Self::NoViewer { .. }
             | Self::NotOpened { .. }
             | Self::Incomplete { .. }
+            | Self::Submit(_)
             | Self::Signal { .. } => 2,
             Self::Learner(error) => match error {
                 LearnerError::Setting { .. }
@@ -208,6 +213,7 @@ impl CliError {
                 return Some("--points N, or a model -inducing, which takes all samples");
             }
             Self::NoViewer { .. } => return Some(INSTALLATION),
+            Self::Submit(error) => return error.help(),
             Self::NotOpened { .. } => return Some("plumbline view --print names the files"),
             Self::Evaluation(error) => {
                 let lacks = matches!(**error, EvaluationError::NoModel { .. });

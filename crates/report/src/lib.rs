@@ -56,7 +56,7 @@ pub use learning::{
 pub use markdown::markdown;
 pub use numbers::{interval, percent, significant, unit};
 pub use poster::figure;
-pub use provenance::{FileHash, Provenance};
+pub use provenance::{FileHash, Provenance, quoted};
 pub use residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use run::{RUN_SCHEMA, RunReport, Told, told};
 pub use sentence::{bottom_line, verdict_sentence};

@@ -35,7 +35,8 @@ impl Provenance {
     }
 }
 
-fn quoted(argument: &str) -> String {
+/// An argument as a shell reads it back, in quotes where it needs them.
+pub fn quoted(argument: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
     if !argument.is_empty() && argument.chars().all(plain) {
         return argument.to_owned();

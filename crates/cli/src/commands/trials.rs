@@ -1,6 +1,7 @@
 mod crew;
 mod pace;
 mod shift;
+mod submit;
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,8 @@ use crate::error::CliError;
 use crate::output::{create_folder, print, shown};
 use crate::progress::Line;
 
+pub use self::submit::SubmitError;
+
 use self::shift::Shift;
 
 /// Characters of a line.
@@ -26,6 +29,8 @@ pub enum Action {
     Plan(Plan),
     /// Makes every trial that is left; may be ended and begun again, and run several times at once
     Work(crew::Arguments),
+    /// Has a cluster that shares the folder make every trial that is left, a part a task
+    Submit(submit::Arguments),
     /// Says how many trials are made, failed, broken and left
     Status(Folder),
     /// Puts the trials that are made together: tables, trials.parquet, tally.json, report.html
@@ -53,11 +58,12 @@ pub struct Folder {
     folder: PathBuf,
 }
 
-/// Plans, makes and puts together blind trials.
+/// Plans, makes, submits and puts together blind trials.
 pub fn run(action: &Action) -> Result<Outcome, CliError> {
     match action {
         Action::Plan(arguments) => plan(arguments),
         Action::Work(arguments) => make(arguments),
+        Action::Submit(arguments) => submit::run(arguments),
         Action::Status(arguments) => status(&arguments.folder),
         Action::Merge(arguments) => merge(&arguments.folder),
     }

@@ -19,6 +19,7 @@ const SHARD: &str = "parquet";
 /// shards/00012.parquet           a finished trial, by its task
 /// work/                          trials that are being made
 /// logs/KIND/SEED/                their logs, where they are kept
+/// slurm/                         job of `plumbline trials submit` and what its tasks have said
 /// ```
 ///
 /// The campaign less its shards is what is left.

@@ -1,4 +1,5 @@
 use std::fmt;
+use std::num::NonZeroUsize;
 use std::str::FromStr;
 
 /// One of several parts of a campaign, such as the first of four, `1/4`: every fourth trial.
@@ -18,6 +19,16 @@ pub struct NoPart(String);
 impl Part {
     /// All of it.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
+
+    /// The one that a task belongs to, of so many.
+    pub fn of_task(task: usize, of: NonZeroUsize) -> Self {
+        Self { number: task % of + 1, of: of.get() }
+    }
+
+    /// Which it is, counted from 1.
+    pub fn number(self) -> usize {
+        self.number
+    }
 
     /// Whether a task belongs to it.
     pub fn holds(self, task: usize) -> bool {
@@ -55,6 +66,17 @@ mod tests {
             assert!((0..23).all(|task| parts.iter().filter(|part| part.holds(task)).count() == 1));
         }
         assert_eq!("1/1".parse(), Ok(Part::WHOLE));
+    }
+
+    #[test]
+    fn a_task_belongs_to_the_part_that_holds_it() {
+        let of = NonZeroUsize::new(4).unwrap();
+        for task in 0..9 {
+            let part = Part::of_task(task, of);
+            assert!(part.holds(task));
+            assert_eq!(part.to_string(), format!("{}/4", part.number()));
+        }
+        assert_eq!(Part::of_task(7, NonZeroUsize::MIN), Part::WHOLE);
     }
 
     #[test]
