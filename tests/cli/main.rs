@@ -8,6 +8,7 @@ mod commands;
 mod compare;
 mod design;
 mod diagnose;
+mod figure;
 mod learn;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;

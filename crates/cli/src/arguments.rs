@@ -124,7 +124,7 @@ const TRACK_EXAMPLES: &str = "\
 Examples:
   plumbline track scenarios/tracking.toml --out out
   plumbline track scenarios/tracking.toml --out out --set prediction.clock=wall
-  plumbline track scenarios/paper/tracking.toml --out out --learned out/models
+  plumbline track scenarios/paper/fig3_4_tracking.toml --out out --learned out/models
 
 The output folder holds
   report.html           the comparison for a browser
@@ -156,6 +156,7 @@ Examples:
   plumbline run scenarios/hidden.toml --seed 7
   plumbline run scenarios/effects/backlash.toml --out backlash
   plumbline run scenarios/tracking.toml --set control.gains=low-tenth
+  plumbline run scenarios/paper/fig2_learning.toml
 
 A scenario of an arm is what simulate takes. All its runs but the last are diagnosed; the last shows
 what that gains, and its motion is tracked with the softest gains of robot.toml. A tracking scenario,
@@ -172,6 +173,12 @@ The output folder holds
   models/        the models that are fed forward
   tracking/      what track writes
   stages/        of what every stage was made: one that is there and whole is not made again
+
+A scenario that says [figure.prediction_time] or [figure.learning] draws that figure of Nguyen-Tuong &
+Peters 2010 and says of every claim whether it holds. Its folder has report.html, metrics.json,
+scenario.toml, stages/ and the figures as *.svg, and of the learning logs/, diagnosis/ and models/,
+each with simulated/ and real/. A tracking scenario that feeds all of the paper's models forward is
+told against its figures 3 and 4.
 
 Ctrl-C ends the run; what was finished is kept.";
 

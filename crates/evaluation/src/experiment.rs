@@ -160,7 +160,10 @@ struct Kind {
     plant: Option<IgnoredAny>,
 }
 
-fn seeded(mut document: Document, seed: Option<u64>) -> Result<Document, EvaluationError> {
+pub(crate) fn seeded(
+    mut document: Document,
+    seed: Option<u64>,
+) -> Result<Document, EvaluationError> {
     if let Some(seed) = seed {
         document.set(&format!("seed={seed}"))?;
     }

@@ -6,10 +6,10 @@ use dynamics::ColumnSet;
 use learner::{
     Mean, Model, ModelKind, Regression, RigidBodyFit, RobotTorque, Samples, TrainSettings, Training,
 };
-use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare, rest_speeds};
-use robot::Robot;
+use logs::{PrepareSettings, Prepared, PreparedRun, Run, centre_commands, prepare, rest_speeds};
+use robot::{Loaded, Robot};
 
-use crate::{EvaluationError, Progress, TrackingScenario};
+use crate::{EvaluationError, LearnSpec, Progress, TrackingScenario};
 
 /// The models that a scenario feeds forward, ready to be asked.
 #[derive(Debug, Clone)]
@@ -50,13 +50,22 @@ impl Learned {
     ///
     /// [`EvaluationError::NoModel`] and [`EvaluationError::Learner`].
     pub fn load(scenario: &TrackingScenario, folder: &Path) -> Result<Self, EvaluationError> {
+        Self::load_kinds(&kinds(scenario), scenario.robot(), folder)
+    }
+
+    /// Reads models of these kinds from such a folder.
+    pub(crate) fn load_kinds(
+        kinds: &[ModelKind],
+        robot: &Robot,
+        folder: &Path,
+    ) -> Result<Self, EvaluationError> {
         let mut models = BTreeMap::new();
-        for kind in kinds(scenario) {
+        for &kind in kinds {
             let path = folder.join(format!("{kind}.parquet"));
             if !path.exists() {
                 return Err(EvaluationError::NoModel { path, model: kind });
             }
-            models.insert(kind.name(), Model::load(&path, scenario.robot())?);
+            models.insert(kind.name(), Model::load(&path, robot)?);
         }
         Ok(Self { models })
     }
@@ -75,10 +84,26 @@ impl Learned {
         named: Option<&Robot>,
         progress: &dyn Progress,
     ) -> Result<Self, EvaluationError> {
+        let lesson = Lesson {
+            loaded: scenario.loaded(),
+            plant_file: scenario.plant_file(),
+            learn: scenario.learn(),
+            kinds: &kinds(scenario),
+            columns: ColumnSet::INERTIAL,
+        };
+        Self::of(&lesson, logs, named, progress)
+    }
+
+    /// Learns from the logs of an arm what a lesson says, `named` as in [`learn`](Self::learn).
+    pub(crate) fn of(
+        lesson: &Lesson,
+        logs: &[Run],
+        named: Option<&Robot>,
+        progress: &dyn Progress,
+    ) -> Result<Self, EvaluationError> {
         let mut models = BTreeMap::new();
-        let kinds = kinds(scenario);
+        let (kinds, robot) = (lesson.kinds, lesson.robot());
         if kinds.iter().all(|kind| *kind == ModelKind::Cad) {
-            let robot = scenario.robot();
             let joints = robot.joint_count();
             // Without friction no direction is asked for, so the speed of rest is of no account.
             let torque = RobotTorque::new(robot.clone(), vec![1e-3; joints]);
@@ -87,21 +112,20 @@ impl Learned {
             models.insert(ModelKind::Cad.name(), cad);
             return Ok(Self { models });
         }
-        let data = Data::new(scenario, logs, &kinds)?;
+        let data = Data::new(lesson, logs)?;
         let named = match named {
-            None if kinds.iter().any(|kind| needs_names(*kind)) => {
-                Some(extended(scenario, logs, progress)?)
+            None if kinds.iter().any(|kind| kind.needs_named()) => {
+                Some(extended(lesson, logs, progress)?)
             }
             given => given.cloned(),
         };
         let described = |kind: &ModelKind| matches!(kind, ModelKind::Cad | ModelKind::Named);
         let fit = match kinds.iter().all(described) {
             true => None,
-            false => Some(rigid_bodies(scenario.robot(), &data.regression, progress)?),
+            false => Some(rigid_bodies(lesson, &data.regression, progress)?),
         };
-        let settings =
-            TrainSettings { points: scenario.learn().points, ..TrainSettings::default() };
-        let (robot, speeds) = (scenario.robot(), data.rest_speeds.clone());
+        let settings = TrainSettings { points: lesson.learn.points, ..TrainSettings::default() };
+        let speeds = data.rest_speeds.clone();
         let mut training = Training::new(robot, &data.train, speeds, &settings, progress)?;
         if let Some(fit) = &fit {
             training = training.with_regression(fit);
@@ -109,11 +133,42 @@ impl Learned {
         if let Some(named) = &named {
             training = training.with_named(named);
         }
-        for kind in kinds {
+        for &kind in kinds {
             progress.begin(kind.name());
             models.insert(kind.name(), training.fit(kind)?.model);
         }
         Ok(Self { models })
+    }
+}
+
+/// What is learned, and from what.
+pub(crate) struct Lesson<'a> {
+    /// The robot as described.
+    pub loaded: &'a Loaded,
+    /// The scenario of the arm, whose runs there are.
+    pub plant_file: &'a Path,
+    /// The runs and how much of them.
+    pub learn: &'a LearnSpec,
+    /// The models.
+    pub kinds: &'a [ModelKind],
+    /// What the rigid bodies are made of.
+    pub columns: ColumnSet,
+}
+
+impl Lesson<'_> {
+    fn robot(&self) -> &Robot {
+        &self.loaded.robot
+    }
+
+    /// Logs behind the low pass at `cutoff_hz`, or at what they ask for.
+    pub fn prepared(
+        &self,
+        logs: &[Run],
+        cutoff_hz: Option<f64>,
+    ) -> Result<Prepared, EvaluationError> {
+        let mut prepared = prepare(logs, &PrepareSettings { cutoff_hz })?;
+        centre_commands(self.robot(), &mut prepared.runs, self.loaded.control.rate_hz);
+        Ok(prepared)
     }
 }
 
@@ -130,30 +185,26 @@ fn kinds(scenario: &TrackingScenario) -> Vec<ModelKind> {
 
 /// The parameters of the rigid bodies that fit the samples best.
 fn rigid_bodies(
-    robot: &Robot,
+    lesson: &Lesson,
     samples: &Samples,
     progress: &dyn Progress,
 ) -> Result<RigidBodyFit, EvaluationError> {
     progress.begin("regression of the rigid bodies");
-    let mut regression = Regression::new(robot, ColumnSet::INERTIAL);
+    let mut regression = Regression::new(lesson.robot(), lesson.columns);
     regression.add_samples(samples)?;
     Ok(regression.fit(None)?)
 }
 
-fn needs_names(kind: ModelKind) -> bool {
-    matches!(kind, ModelKind::Named | ModelKind::NamedGp | ModelKind::NamedGpInducing)
-}
-
 /// The robot extended by what a diagnosis names in the logs.
 fn extended(
-    scenario: &TrackingScenario,
+    lesson: &Lesson,
     logs: &[Run],
     progress: &dyn Progress,
 ) -> Result<Robot, EvaluationError> {
     progress.begin("diagnosis");
     let settings =
-        Settings { control_rate_hz: scenario.loaded().control.rate_hz, ..Settings::default() };
-    Ok(diagnosis::diagnose(scenario.robot(), logs, &settings, &diagnosis::Silent)?.extended)
+        Settings { control_rate_hz: lesson.loaded.control.rate_hz, ..Settings::default() };
+    Ok(diagnosis::diagnose(lesson.robot(), logs, &settings, &diagnosis::Silent)?.extended)
 }
 
 /// The samples of the logs, all through one filter.
@@ -164,34 +215,30 @@ struct Data {
 }
 
 impl Data {
-    fn new(
-        scenario: &TrackingScenario,
-        logs: &[Run],
-        kinds: &[ModelKind],
-    ) -> Result<Self, EvaluationError> {
-        let learn = scenario.learn();
-        if let ([], Some(&model)) = (learn.train.as_slice(), kinds.first()) {
-            let path = scenario.plant_file().to_owned();
+    fn new(lesson: &Lesson, logs: &[Run]) -> Result<Self, EvaluationError> {
+        let learn = lesson.learn;
+        if let ([], Some(&model)) = (learn.train.as_slice(), lesson.kinds.first()) {
+            let path = lesson.plant_file.to_owned();
             return Err(EvaluationError::NothingToLearnFrom { path, model });
         }
-        let mut prepared = prepare(logs, &PrepareSettings::default())?;
-        let rate_hz = scenario.loaded().control.rate_hz;
-        centre_commands(scenario.robot(), &mut prepared.runs, rate_hz);
-        let of = |names: &[String]| Prepared {
-            runs: (prepared.runs.iter())
-                .filter(|run| names.iter().any(|name| is_part_of(&run.name, name)))
-                .cloned()
-                .collect(),
-            warnings: Vec::new(),
-            cutoff_reason: prepared.cutoff_reason.clone(),
-            cutoff_hz: prepared.cutoff_hz,
-        };
-        let train = of(&learn.train);
+        let prepared = lesson.prepared(logs, None)?;
+        let train = runs_named(&prepared, &learn.train);
         let regression = match learn.regression.as_slice() {
             [] => Samples::new(&train),
-            names => Samples::new(&of(names)),
+            names => Samples::new(&runs_named(&prepared, names)),
         };
         Ok(Self { rest_speeds: rest_speeds(&train), train: Samples::new(&train), regression })
+    }
+}
+
+/// The prepared runs that are logs of these names or parts of them.
+pub(crate) fn runs_named(prepared: &Prepared, names: &[String]) -> Prepared {
+    let is_meant = |run: &&PreparedRun| names.iter().any(|name| is_part_of(&run.name, name));
+    Prepared {
+        runs: prepared.runs.iter().filter(is_meant).cloned().collect(),
+        warnings: Vec::new(),
+        cutoff_reason: prepared.cutoff_reason.clone(),
+        cutoff_hz: prepared.cutoff_hz,
     }
 }
 

@@ -5,6 +5,7 @@
 //! logs, diagnosis --learn--> Residual: a process of what the findings leave
 //! logs, diagnosis --replay--> a recording of the measured arm beside the simulated one
 //! Experiment --simulate, diagnose, learn, track--> Metrics: found, torque, drift, tracking
+//! LearningFigure --simulate, diagnose, learn--> LearningErrors --judge--> Claims
 //! Trial --simulate, diagnose blind--> Score --many--> Tally
 //! Campaign --plan--> CampaignFolder --work--> shards of Records --> Merged: tally, power
 //! ```
@@ -19,6 +20,7 @@ mod forward_gap;
 mod learned;
 mod median_time;
 mod metrics;
+mod paper;
 mod predictions;
 mod progress;
 mod record_diagnosis;
@@ -44,6 +46,12 @@ pub use forward_gap::{Drift, ForwardGap, ForwardWindow, forward_gap, forward_gap
 pub use learned::Learned;
 pub use median_time::median_time_s;
 pub use metrics::{Gain, Metrics};
+pub use paper::{
+    Claim, ClaimCase, DataSpec, FigureScenario, FigureSpec, LearningErrors, LearningFigure,
+    LearningFigureSpec, ModelErrors, ModelTime, PAPER_MODELS, PaperData, PaperPlant,
+    PredictionTimeFigure, PredictionTimeFigureSpec, Scope, Verdict, learning_claims, time_claims,
+    tracking_claims,
+};
 pub use progress::Progress;
 pub use record_diagnosis::{Diagnosed, record_diagnosis};
 pub use relevance::Relevance;

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use crate::{ForwardGap, Score, TorqueError, TrackedError};
+use crate::{Claim, ForwardGap, Score, TorqueError, TrackedError};
 
 /// What came of an [`Experiment`](crate::Experiment): what was put in and found, and what finding
 /// it gains on runs that took no part in it.
@@ -24,6 +24,10 @@ pub struct Metrics {
     pub gains: String,
     /// Errors of the tracking, by what is fed forward.
     pub tracking: Vec<TrackedError>,
+    /// What is claimed of the tracking, judged; nothing where not all of the models were fed
+    /// forward that the claims are about.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub claims: Vec<Claim>,
 }
 
 /// The error of the robot as described beside that of the extended one.

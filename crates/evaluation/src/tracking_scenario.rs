@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
-use motion::Motion;
+use motion::{Motion, MotionSpec};
 use robot::{Gain, Loaded, Robot};
 use simulator::scenario::Scenario;
 
@@ -144,13 +144,51 @@ impl TrackingScenario {
 /// The document of a tracking scenario's plant, and its file.
 pub(crate) fn plant_of(document: &Document) -> Result<(Document, PathBuf), EvaluationError> {
     let spec: TrackingSpec = document.parse()?;
-    let key = KeyPath::root().key("plant");
-    let file = document.directory_of(&key).join(&spec.plant);
+    document_at(document, &KeyPath::root().key("plant"), &spec.plant)
+}
+
+/// The document in the file that a value of another document names, and that file.
+pub(crate) fn document_at(
+    document: &Document,
+    key: &KeyPath,
+    named: &Path,
+) -> Result<(Document, PathBuf), EvaluationError> {
+    let file = document.directory_of(key).join(named);
     if !file.is_file() {
         let message = format!("{}: there is no such file", file.display());
-        return Err(document.mistake(&key, message, None).into());
+        return Err(document.mistake(key, message, None).into());
     }
     Ok((Document::read(&file)?, file))
+}
+
+/// Refuses names in a list of a document that no run of the plant has.
+pub(crate) fn known_runs(
+    document: &Document,
+    list: &KeyPath,
+    named: &[String],
+    plant: &Scenario,
+) -> Result<(), DocumentError> {
+    let names: Vec<&str> = plant.runs().iter().map(|run| run.name.as_str()).collect();
+    match named.iter().position(|name| !names.contains(&name.as_str())) {
+        None => Ok(()),
+        Some(i) => {
+            Err(document.unknown_name(&list.index(i), "run of the plant", &named[i], &names))
+        }
+    }
+}
+
+/// The motion that stands at a path of a document.
+pub(crate) fn motion_at(
+    document: &Document,
+    path: &KeyPath,
+    spec: &MotionSpec,
+    robot: &Robot,
+) -> Result<Motion, DocumentError> {
+    spec.build(robot, document.directory_of(path)).map_err(|error| {
+        let inside: KeyPath = error.key().parse().unwrap_or_else(|_| KeyPath::root());
+        let segments = path.segments().iter().chain(inside.segments()).cloned();
+        document.mistake(&segments.collect(), error.to_string(), None)
+    })
 }
 
 /// The file of the plant, from any folder.
@@ -257,19 +295,8 @@ impl Checker<'_> {
     fn learn(&self) -> Result<(), DocumentError> {
         let path = KeyPath::root().key("learn");
         let learn = &self.spec.learn;
-        let names: Vec<&str> = self.plant.runs().iter().map(|run| run.name.as_str()).collect();
         for (key, runs) in [("train", &learn.train), ("regression", &learn.regression)] {
-            for (i, name) in runs.iter().enumerate() {
-                if !names.contains(&name.as_str()) {
-                    let path = path.key(key).index(i);
-                    return Err(self.document.unknown_name(
-                        &path,
-                        "run of the plant",
-                        name,
-                        &names,
-                    ));
-                }
-            }
+            known_runs(self.document, &path.key(key), runs, self.plant)?;
         }
         if learn.points == 0 {
             return Err(self.mistake(&path.key("points"), "0, at least one was expected"));
@@ -300,11 +327,6 @@ impl Checker<'_> {
 
     fn motion(&self) -> Result<Motion, DocumentError> {
         let path = KeyPath::root().key("motion");
-        let folder = self.document.directory_of(&path);
-        self.spec.motion.build(&self.loaded.robot, folder).map_err(|error| {
-            let inside: KeyPath = error.key().parse().unwrap_or_else(|_| KeyPath::root());
-            let segments = path.segments().iter().chain(inside.segments()).cloned();
-            self.mistake(&segments.collect(), error.to_string())
-        })
+        motion_at(self.document, &path, &self.spec.motion, &self.loaded.robot)
     }
 }

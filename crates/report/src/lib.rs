@@ -6,6 +6,7 @@
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
 //! RunReport { metrics, told, .. } of a run             -> json(), page(), text()
+//! LearningFigureReport, PredictionTimeFigureReport     -> json(), page(), figures, text()
 //! evaluation::Merged { counts, tally, power } of trials -> trials_page()
 //! ```
 //!
@@ -29,6 +30,7 @@ mod linear_axis;
 mod log_axis;
 mod markdown;
 mod numbers;
+mod paper;
 mod places;
 mod poster;
 mod provenance;
@@ -55,6 +57,10 @@ pub use learning::{
 };
 pub use markdown::markdown;
 pub use numbers::{interval, percent, significant, unit};
+pub use paper::{
+    LEARNING_FIGURE_SCHEMA, LearningFigureReport, PREDICTION_TIME_FIGURE_SCHEMA,
+    PredictionTimeFigureReport,
+};
 pub use poster::figure;
 pub use provenance::{FileHash, Provenance, quoted};
 pub use residual::{LengthScale, ResidualJoint, ResidualModel};

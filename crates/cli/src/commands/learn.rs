@@ -1,4 +1,4 @@
-mod benchmark;
+pub(super) mod benchmark;
 mod compare;
 mod data;
 mod peers;

@@ -1,10 +1,13 @@
+mod bench;
+mod learning_figure;
+mod prediction_time_figure;
 mod stages;
 
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use document::Document;
-use evaluation::Experiment;
+use evaluation::{Experiment, FigureScenario, FigureSpec};
 use report::{Provenance, RunReport};
 
 use crate::Outcome;
@@ -52,17 +55,40 @@ impl Output {
             anstream::eprintln!("{words}");
         }
     }
+
+    /// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
+    fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
+        if self.json {
+            print(json)?;
+        }
+        match (self.quiet, self.json) {
+            (true, _) => {}
+            (false, true) => anstream::eprint!("{closing}"),
+            (false, false) => print(&format!("{text}\n{closing}"))?,
+        }
+        Ok(())
+    }
 }
 
-/// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains.
+/// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains, or
+/// draws the figure that it asks for.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let mut document = Document::read(&arguments.scenario)?;
     for assignment in &arguments.set {
         document.set(assignment)?;
     }
-    let experiment = Experiment::from_document(&document, arguments.seed)?;
     let stem = arguments.scenario.file_stem().unwrap_or_default();
     let out = arguments.output.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+    if FigureScenario::is_meant(&document)? {
+        let scenario: FigureScenario = document.parse()?;
+        return match scenario.figure {
+            FigureSpec::PredictionTime(_) => {
+                prediction_time_figure::run(arguments, &document, &out)
+            }
+            FigureSpec::Learning(_) => learning_figure::run(arguments, &document, &out),
+        };
+    }
+    let experiment = Experiment::from_document(&document, arguments.seed)?;
     perform(&experiment, &arguments.scenario, &out, &arguments.output)
 }
 
@@ -138,7 +164,6 @@ fn write(experiment: &Experiment, report: &RunReport, out: &Path) -> Result<(), 
     Ok(())
 }
 
-/// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
 fn say(report: &RunReport, out: &Path, output: &Output) -> Result<(), CliError> {
     let of = |name: &str| shown(&out.join(name));
     let closing = format!(
@@ -148,13 +173,5 @@ fn say(report: &RunReport, out: &Path, output: &Output) -> Result<(), CliError> 
         shown(out),
         of("diagnosis/extended.toml"),
     );
-    if output.json {
-        print(&report.json()?)?;
-    }
-    match (output.quiet, output.json) {
-        (true, _) => {}
-        (false, true) => anstream::eprint!("{closing}"),
-        (false, false) => print(&format!("{}\n{closing}", report.text()))?,
-    }
-    Ok(())
+    output.say(&report.json()?, &report.text(), &closing)
 }

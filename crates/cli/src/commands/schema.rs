@@ -1,5 +1,5 @@
 use clap::ValueEnum;
-use evaluation::{CampaignSpec, TrackingSpec};
+use evaluation::{CampaignSpec, FigureScenario, TrackingSpec};
 use schemars::{json_schema, schema_for};
 use simulator::scenario::ScenarioSpec;
 
@@ -15,7 +15,7 @@ pub struct Arguments {
     command: Kind,
 }
 
-/// A command that takes a scenario.
+/// What a scenario is for.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Kind {
     /// Runs of a simulated arm
@@ -24,6 +24,8 @@ enum Kind {
     Track,
     /// A campaign of blind trials
     Trials,
+    /// A figure of the paper
+    Figure,
 }
 
 /// Prints the JSON schema of scenario files, which editors complete and check keys with.
@@ -34,6 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Kind::Simulate => schema_for!(ScenarioSpec),
         Kind::Track => schema_for!(TrackingSpec),
         Kind::Trials => schema_for!(CampaignSpec),
+        Kind::Figure => schema_for!(FigureScenario),
     };
     schema.remove("required");
     let file = json_schema!({ "type": "string" });

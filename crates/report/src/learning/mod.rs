@@ -3,7 +3,7 @@
 mod comparison;
 mod error_chart;
 #[cfg(test)]
-mod sample;
+pub(crate) mod sample;
 mod table;
 mod time_chart;
 mod times;

@@ -11,6 +11,9 @@ const HEIGHT: f64 = 480.0;
 const X: [f64; 2] = [78.0, 664.0];
 const Y: [f64; 2] = [92.0, 420.0];
 
+/// What a page saves at the top, where it tells the title itself (px).
+const TITLE: f64 = 68.0;
+
 /// Where the names of the curves begin, least distance between two of them, and characters
 /// that fit (px).
 const NAMES: f64 = 716.0;
@@ -61,34 +64,45 @@ impl PredictionTimes {
     ///
     /// [`ReportError::Format`].
     pub fn figure(&self) -> Result<String, ReportError> {
-        let drawing = Drawing::new(self);
+        self.drawn(Place::Alone)
+    }
+
+    pub(crate) fn drawn(&self, place: Place) -> Result<String, ReportError> {
+        let drawing = Drawing::new(self, place);
         drawing.render().map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
     }
 }
 
 impl Drawing {
-    fn new(times: &PredictionTimes) -> Self {
+    fn new(times: &PredictionTimes, place: Place) -> Self {
         let points = || times.curves.iter().flat_map(|curve| &curve.points);
+        let saved = match place {
+            Place::Alone => 0.0,
+            Place::Page => TITLE,
+        };
+        let edges = Y.map(|y| y - saved);
+        let [upper, lower] = edges;
         let x = LogAxis::over(points().map(|p| p.n as f64), X);
-        let y = LogAxis::over_decades(points().map(|p| p.microseconds), MOST_DECADES, [Y[1], Y[0]]);
+        let y =
+            LogAxis::over_decades(points().map(|p| p.microseconds), MOST_DECADES, [lower, upper]);
         let axes = x.zip(y);
         let title =
             format!("Time of one prediction for the {} joints of {}", times.joints, times.robot);
         Self {
-            sheet: Sheet::new(&title, &times.machine, Vec::new(), Place::Alone).down_to(HEIGHT),
+            sheet: Sheet::new(&title, &times.machine, Vec::new(), place).down_to(HEIGHT - saved),
             x: X,
-            y: Y,
+            y: edges,
             x_ticks: x.map(|axis| axis.ticks()).unwrap_or_default(),
             y_ticks: y.map(|axis| axis.ticks()).unwrap_or_default(),
             period: y.filter(|axis| axis.holds(PERIOD_US)).map(|axis| axis.at(PERIOD_US)),
-            lines: axes.map(|axes| lines(&times.curves, axes)).unwrap_or_default(),
+            lines: axes.map(|axes| lines(&times.curves, axes, lower)).unwrap_or_default(),
             names: NAMES,
         }
     }
 }
 
 /// The curves that have points, their names far enough apart.
-fn lines(curves: &[Curve], (x, y): (LogAxis, LogAxis)) -> Vec<Line> {
+fn lines(curves: &[Curve], (x, y): (LogAxis, LogAxis), lower: f64) -> Vec<Line> {
     let (mut colours, mut dashes) = (COLOURS.iter().cycle(), DASHES.iter().cycle());
     let mut lines: Vec<Line> = curves
         .iter()
@@ -106,19 +120,19 @@ fn lines(curves: &[Curve], (x, y): (LogAxis, LogAxis)) -> Vec<Line> {
         })
         .collect();
     lines.sort_by(|a, b| a.end[1].total_cmp(&b.end[1]));
-    let places = spread(&lines.iter().map(|line| line.end[1]).collect::<Vec<_>>());
+    let places = spread(&lines.iter().map(|line| line.end[1]).collect::<Vec<_>>(), lower);
     lines.iter_mut().zip(places).for_each(|(line, place)| line.name_y = rounded(place));
     lines
 }
 
 /// Rising places near `wanted`, which rise, at least [`APART`] from each other and above the
 /// lower edge.
-fn spread(wanted: &[f64]) -> Vec<f64> {
+fn spread(wanted: &[f64], lower: f64) -> Vec<f64> {
     let mut places = wanted.to_vec();
     for i in 1..places.len() {
         places[i] = places[i].max(places[i - 1] + APART);
     }
-    let mut most = Y[1];
+    let mut most = lower;
     for place in places.iter_mut().rev() {
         *place = place.min(most);
         most = *place - APART;
@@ -134,15 +148,15 @@ mod tests {
 
     #[test]
     fn names_keep_their_distance_and_their_order() {
-        assert_eq!(spread(&[100.0, 101.0, 300.0]), [100.0, 116.0, 300.0]);
-        assert_eq!(spread(&[410.0, 419.0, 420.0]), [388.0, 404.0, 420.0]);
-        assert!(spread(&[]).is_empty());
+        assert_eq!(spread(&[100.0, 101.0, 300.0], Y[1]), [100.0, 116.0, 300.0]);
+        assert_eq!(spread(&[410.0, 419.0, 420.0], Y[1]), [388.0, 404.0, 420.0]);
+        assert!(spread(&[], Y[1]).is_empty());
     }
 
     #[test]
     fn peers_are_dashed_and_equal_ratios_are_equal_lengths() {
         let times = sample::times();
-        let drawing = Drawing::new(&times);
+        let drawing = Drawing::new(&times, Place::Alone);
         let find = |name: &str| drawing.lines.iter().find(|line| line.name == name).unwrap();
         assert_eq!(find("scikit-learn").dashes, "7 4");
         assert_eq!((find("rbd").dashes, find("gp").dashes), ("", ""));
@@ -151,6 +165,8 @@ mod tests {
         assert_eq!(find("rbd").path, format!("78,{at} 664,{at}"));
         // 0.1 to 10⁶ us are seven powers of ten: 1 ms is three below the top.
         assert_eq!(drawing.period, Some(rounded(92.0 + 328.0 * 3.0 / 7.0)));
+        let in_page = Drawing::new(&times, Place::Page);
+        assert_eq!(in_page.period, Some(rounded(24.0 + 328.0 * 3.0 / 7.0)));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::grid::{Cell, Column, grid};
 use crate::json::with_schema;
@@ -27,7 +27,7 @@ pub struct PredictionTimes {
 }
 
 /// The times of one model or program.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Its name.
     pub name: String,
@@ -38,7 +38,7 @@ pub struct Curve {
 }
 
 /// Whose a model is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Maker {
     /// This program.
@@ -48,7 +48,7 @@ pub enum Maker {
 }
 
 /// A number of training points and the time that a prediction takes with them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TimePoint {
     /// Training points.
     pub n: usize,
@@ -68,6 +68,18 @@ impl PredictionTimes {
 
     /// The times as a table for a terminal, one row a number of points.
     pub fn text(&self) -> String {
+        let (labels, columns) = self.table();
+        let mut out = format!(
+            "Median time of one prediction for the {} joints of {} (us)\n{}\n\n",
+            self.joints, self.robot, self.machine
+        );
+        out.push_str(&grid("points", &labels, &columns));
+        notes(&mut out, &self.remarks);
+        out
+    }
+
+    /// One row a number of points, one column a curve.
+    pub(crate) fn table(&self) -> (Vec<String>, Vec<Column>) {
         let rows = self.numbers();
         let labels: Vec<String> = rows.iter().map(|n| format!("{n:>6}")).collect();
         let columns = self.curves.iter().map(|curve| {
@@ -77,13 +89,7 @@ impl PredictionTimes {
             });
             Column { header: curve.name.clone(), cells: cells.collect() }
         });
-        let mut out = format!(
-            "Median time of one prediction for the {} joints of {} (us)\n{}\n\n",
-            self.joints, self.robot, self.machine
-        );
-        out.push_str(&grid("points", &labels, &columns.collect::<Vec<_>>()));
-        notes(&mut out, &self.remarks);
-        out
+        (labels, columns.collect())
     }
 
     /// Every number of points that occurs, rising.

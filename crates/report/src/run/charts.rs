@@ -2,7 +2,7 @@ use super::RunReport;
 use super::rows::{JointNumbers, joint_numbers};
 use crate::ReportError;
 use crate::bars::{Bars, JointBars};
-use crate::sheet::{Key, Place};
+use crate::sheet::{COLOURS as MODEL_COLOURS, Key, Place};
 
 /// Colours of the nominal and the extended model in a page.
 const COLOURS: [(&str, &str); 2] = [("nominal", "var(--nominal)"), ("extended", "var(--extended)")];
@@ -64,5 +64,27 @@ impl RunReport<'_> {
                 })?,
             },
         ])
+    }
+
+    /// The errors of the tracking with everything that was fed forward, as bars.
+    pub(crate) fn all_tracked(&self) -> Result<String, ReportError> {
+        let runs = self.metrics.tracking.iter().zip(MODEL_COLOURS);
+        let error = |rms: &Option<Vec<f64>>, j: usize| {
+            let rms = rms.as_ref().and_then(|rms| rms.get(j)).copied();
+            1e3 * rms.unwrap_or(f64::NAN)
+        };
+        let joints = self.metrics.joints.iter().enumerate().map(|(j, name)| JointBars {
+            name: name.clone(),
+            values: self.metrics.tracking.iter().map(|run| error(&run.rms, j)).collect(),
+        });
+        let bars = Bars {
+            title: format!("{}: error of the tracking with every model", self.metrics.robot),
+            subtitle: String::new(),
+            axis: self.position_units()[1],
+            keys: runs.map(|(run, colour)| Key { name: run.model.clone(), colour }).collect(),
+            joints: joints.collect(),
+            mark: None,
+        };
+        bars.svg(Place::Page)
     }
 }

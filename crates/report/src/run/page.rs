@@ -10,6 +10,7 @@ use crate::grid::{Cell, DIGITS};
 use crate::html::inert;
 use crate::html_grid::{Grid, rendered};
 use crate::numbers::significant;
+use crate::paper::{ClaimRow, claim_rows};
 use crate::{Provenance, ReportError};
 
 #[derive(Template)]
@@ -30,6 +31,9 @@ struct Page<'a> {
     drift: String,
     tables: Vec<(String, String)>,
     motion: &'a str,
+    /// What is claimed of the tracking with every model, and its errors.
+    claims: Vec<ClaimRow>,
+    all_tracked: String,
     sections: &'a str,
     motions: &'a [String],
     next: &'a [[String; 2]],
@@ -62,6 +66,8 @@ impl RunReport<'_> {
             drift: drift_chart(&metrics.forward).map_or_else(String::new, |c| c.svg()),
             tables: self.tables()?,
             motion: self.motion,
+            claims: claim_rows(&metrics.claims, self.tracked_quantity()),
+            all_tracked: self.all_tracked()?,
             sections: &told.sections,
             motions: &told.motions,
             next: self.next,

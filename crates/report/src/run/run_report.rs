@@ -3,6 +3,7 @@ use robot::Robot;
 
 use super::Told;
 use crate::json::with_schema;
+use crate::paper::Quantity;
 use crate::{Provenance, ReportError};
 
 /// Name and version of the schema of `metrics.json`.
@@ -34,6 +35,11 @@ impl RunReport<'_> {
             all if all == links.len() => ["rad", "mrad"],
             _ => ["rad or m", "mrad or mm"],
         }
+    }
+
+    /// What errors of the tracking are, as they are printed.
+    pub(crate) fn tracked_quantity(&self) -> Quantity {
+        Quantity { scale: 1e3, unit: self.position_units()[1] }
     }
 
     /// `metrics.json`, in the schema [`RUN_SCHEMA`].

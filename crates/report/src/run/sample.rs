@@ -73,6 +73,7 @@ fn metrics() -> Metrics {
             tracked("named", Some(0.001)),
             tracked("gp", None),
         ],
+        claims: Vec::new(),
     }
 }
 

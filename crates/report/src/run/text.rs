@@ -4,6 +4,7 @@ use super::rows::{gain_rows, joint_numbers};
 use crate::forward::remarks;
 use crate::grid::{Cell, Column, DIGITS, grid};
 use crate::numbers::significant;
+use crate::paper::claim_text;
 use crate::terminal::{BOLD, WIDTH, notes};
 use crate::wrap::wrapped;
 
@@ -19,6 +20,10 @@ impl RunReport<'_> {
         out.push_str(&self.gains());
         out.push('\n');
         out.push_str(&self.joints());
+        if !self.metrics.claims.is_empty() {
+            out.push('\n');
+            out.push_str(&claim_text(&self.metrics.claims, self.tracked_quantity()));
+        }
         notes(&mut out, &self.remarks());
         out
     }
@@ -112,6 +117,8 @@ fn pair([before, after]: [f64; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use evaluation::{Claim, ClaimCase, Scope};
+
     use crate::run::sample;
     use crate::terminal::without_escapes;
 
@@ -141,5 +148,23 @@ mod tests {
         assert_eq!(row("shoulder"), "shoulder 0.0900 -> 0.000900 0.0800 -> 0.00400 30.0 -> 1.00");
         assert_eq!(row("elbow"), "elbow - -> - 0.0400 -> 0.00200 15.0 -> 0.500");
         row("The run with gp fed forward did not come to its end.");
+        assert!(!text.contains("holds"), "{text}");
+    }
+
+    #[test]
+    fn claims_about_the_tracking_are_told_in_thousandths() {
+        let mut sample = sample::run();
+        let case = ClaimCase::beside(
+            ("gp-rbd", Some(0.004)),
+            ("rbd", Some(0.002)),
+            "shoulder",
+            (1.0, 0.0),
+        );
+        sample.metrics.claims = vec![Claim::new("it is closer", Scope::Every, vec![case])];
+        let text = without_escapes(&sample.report().text());
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains("does not hold: it is closer (in 0 of 1 case, not gp-rbd at shoulder: 4.00 mrad, 2.00 times the 2.00 mrad of rbd)."), "{text}");
+        let page = sample.report().page().unwrap();
+        assert!(page.contains("it is closer") && page.contains("tracking/report.html"));
     }
 }

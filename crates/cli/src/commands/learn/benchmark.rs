@@ -22,6 +22,9 @@ const POINTS: [usize; 6] = [100, 300, 1000, 3000, 10_000, 30_000];
 /// States that predictions are asked for.
 const STATES: usize = 1000;
 
+/// The curve of the rigid-body kernel that is evaluated for every training point.
+pub const AS_WRITTEN: &str = "rbd-kernel as in eq. 10";
+
 /// Models of made-up points that are timed, by the name of their curve.
 const MODELS: [ModelKind; 4] =
     [ModelKind::Rbd, ModelKind::Gp, ModelKind::GpRbd, ModelKind::RbdKernel];
@@ -31,7 +34,7 @@ const MODELS: [ModelKind; 4] =
 pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outcome, CliError> {
     let robot = &loaded.robot;
     let mut remarks = Vec::new();
-    let mut curves = curves(robot, watch)?;
+    let mut curves = curves(robot, MadeUp { points: &POINTS, seed: 0 }, watch)?;
     if robot.joint_count() == peers::JOINTS {
         watch.begin("scikit-learn and NumPy");
         match peers::measure(&POINTS) {
@@ -76,25 +79,34 @@ fn text(arguments: &Arguments, times: &PredictionTimes) -> String {
     text
 }
 
+/// The training points that models are made of.
+#[derive(Clone, Copy)]
+pub struct MadeUp<'a> {
+    /// How many, rising.
+    pub points: &'a [usize],
+    /// Where their sequence begins.
+    pub seed: u64,
+}
+
 /// Our own curves, as far as they are not stopped.
-fn curves(robot: &Robot, watch: &Watch) -> Result<Vec<Curve>, CliError> {
+pub fn curves(robot: &Robot, made_up: MadeUp, watch: &Watch) -> Result<Vec<Curve>, CliError> {
     let curve =
         |name: &str| Curve { name: name.to_owned(), maker: Maker::Plumbline, points: Vec::new() };
     let mut curves: Vec<Curve> = MODELS.iter().map(|kind| curve(kind.name())).collect();
-    let mut as_written = curve("rbd-kernel as in eq. 10");
-    let states = made_up(robot, STATES);
-    for n in POINTS {
+    let mut as_written = curve(AS_WRITTEN);
+    let states = samples(robot, STATES, made_up.seed);
+    for &n in made_up.points {
         for (kind, curve) in MODELS.into_iter().zip(&mut curves) {
             if watch.is_stopped() {
                 break;
             }
             watch.begin(&format!("{kind}: {n} points"));
-            let microseconds = median_query_us(&model(robot, kind, n)?, &states);
+            let microseconds = median_query_us(&model(robot, kind, (n, made_up.seed))?, &states);
             curve.points.push(TimePoint { n, microseconds });
         }
         if !watch.is_stopped() {
             watch.begin(&format!("{}: {n} points", as_written.name));
-            let microseconds = equation_10_us(robot, n, &states)?;
+            let microseconds = equation_10_us(robot, (n, made_up.seed), &states)?;
             as_written.points.push(TimePoint { n, microseconds });
         }
     }
@@ -103,7 +115,7 @@ fn curves(robot: &Robot, watch: &Watch) -> Result<Vec<Curve>, CliError> {
 }
 
 /// A model of `n` made-up points. The rigid-body kernel sums up to a mean, so it is one.
-fn model(robot: &Robot, kind: ModelKind, n: usize) -> Result<Model, LearnerError> {
+fn model(robot: &Robot, kind: ModelKind, points: (usize, u64)) -> Result<Model, LearnerError> {
     let joints = robot.joint_count();
     let beta: Vec<f64> = robot.links().iter().flat_map(|l| l.inertia.parameters()).collect();
     let mean = match kind {
@@ -112,15 +124,15 @@ fn model(robot: &Robot, kind: ModelKind, n: usize) -> Result<Model, LearnerError
     };
     let mut model = Model::new(kind, robot, mean, vec![1.0; joints]);
     if kind != ModelKind::Rbd {
-        model.process = Some(process(robot, n)?);
+        model.process = Some(process(robot, points)?);
     }
     Ok(model)
 }
 
 /// A process over `n` made-up points.
-fn process(robot: &Robot, n: usize) -> Result<Process, LearnerError> {
+fn process(robot: &Robot, (n, seed): (usize, u64)) -> Result<Process, LearnerError> {
     let joints = robot.joint_count();
-    let samples = made_up(robot, n);
+    let samples = samples(robot, n, seed);
     let inputs = Inputs::new(&samples, Vec::new());
     let width = inputs.width();
     let kernel = |joint: usize| GaussianKernel {
@@ -139,9 +151,13 @@ fn weights(joints: usize, n: usize) -> Vec<Vec<f64>> {
 }
 
 /// Median time of one prediction by equation 10 as it is written (us).
-fn equation_10_us(robot: &Robot, n: usize, states: &Samples) -> Result<f64, LearnerError> {
-    let model = model(robot, ModelKind::Gp, n)?;
-    let mut kernel = RegressorKernel::new(robot, &made_up(robot, n));
+fn equation_10_us(
+    robot: &Robot,
+    (n, seed): (usize, u64),
+    states: &Samples,
+) -> Result<f64, LearnerError> {
+    let model = model(robot, ModelKind::Gp, (n, seed))?;
+    let mut kernel = RegressorKernel::new(robot, &samples(robot, n, seed));
     let alpha = weights(robot.joint_count(), n);
     let (mut ws, mut tau) = (model.workspace(), vec![0.0; robot.joint_count()]);
     Ok(median_us(|index| {
@@ -152,9 +168,11 @@ fn equation_10_us(robot: &Robot, n: usize, states: &Samples) -> Result<f64, Lear
     }))
 }
 
-/// `n` states between -2 and 2, without torque.
-fn made_up(robot: &Robot, n: usize) -> Samples {
-    let signal = |d: usize| (0..n).map(|i| 4.0 * spread(i, d) - 2.0).collect::<Vec<f64>>();
+/// `n` states between -2 and 2, without torque, of the sequence that `seed` begins.
+fn samples(robot: &Robot, n: usize, seed: u64) -> Samples {
+    // Beyond 2^20 numbers of the sequence, rounding would leave little of their fractions.
+    let first = (seed % (1 << 20)) as usize;
+    let signal = |d: usize| (0..n).map(|i| 4.0 * spread(first + i, d) - 2.0).collect::<Vec<f64>>();
     let joints = (0..robot.joint_count()).map(|j| PreparedJoint {
         q: signal(3 * j),
         qd: signal(3 * j + 1),
@@ -184,7 +202,7 @@ fn spread(i: usize, d: usize) -> f64 {
 }
 
 /// The processor and how many of its threads there are.
-fn machine() -> String {
+pub fn machine() -> String {
     let cpus = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = cpus.lines().find(|line| line.starts_with("model name"));
     let model = model.and_then(|line| line.split_once(": ")).map(|(_, name)| name);

@@ -1,23 +1,20 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-use diagnosis::Settings;
 use evaluation::{
     Diagnosed, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product, Score, Sealed,
-    Stage, Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap,
-    record_diagnosis, torque_errors, track_all,
+    Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap, record_diagnosis,
+    torque_errors, track_all, tracking_claims,
 };
-use logs::{PrepareSettings, ReadOptions, Run};
+use logs::{PrepareSettings, Run};
 use recording::Live;
-use report::{Report, Told, TrackedModel, TrackingComparison};
+use report::{Told, TrackedModel, TrackingComparison};
 use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
-use simulator::LogFormat;
 
-use crate::commands::{diagnose, track};
+use super::bench::{self, Bench, DiagnosedRuns, diagnosis_files};
+use crate::commands::track;
 use crate::error::CliError;
-use crate::input::{hashes_of, provenance};
 use crate::output::create_folder;
 use crate::watch::Watch;
 
@@ -73,9 +70,11 @@ impl Stages<'_> {
         let experiment = self.experiment;
         let owned = |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect();
         let robot = experiment.plant().robot();
+        let joints: Vec<String> = robot.joint_names().map(str::to_owned).collect();
         let metrics = Metrics {
             robot: robot.name().to_owned(),
-            joints: robot.joint_names().map(str::to_owned).collect(),
+            claims: tracking_claims(&tracked.errors, &joints),
+            joints,
             score,
             learned: owned(&mut experiment.learned()),
             test: owned(&mut experiment.test()),
@@ -90,29 +89,8 @@ impl Stages<'_> {
     /// Simulates the logs and, apart from them, the truth.
     fn logs(&self) -> Result<Staged<()>, CliError> {
         let plant = self.experiment.plant();
-        let mut inputs = self.inputs(plant.resolved())?;
-        for run in plant.runs() {
-            // A recorded motion may change where its name does not.
-            for k in 0..=(100.0 * run.motion.duration_s()) as usize {
-                let q = run.motion.at(0.01 * k as f64).q;
-                inputs = q.iter().fold(inputs, |inputs, q| inputs.and(&q.to_le_bytes()));
-            }
-        }
-        let seconds: f64 = plant.runs().iter().map(|run| run.motion.duration_s()).sum();
-        let words = format!("{} runs, {seconds:.0} s of motion", plant.runs().len());
-        self.stage("simulation", &words, inputs, || {
-            create_folder(&self.out.join(LOGS))?;
-            evaluation::Progress::begin(
-                self.watch,
-                &format!("simulating {seconds:.0} s of motion"),
-            );
-            let second = || evaluation::Progress::second(self.watch);
-            let simulation = simulator::simulate(self.drawn()?.plant(), &second)?;
-            simulator::write(&self.out.join(LOGS), plant, &simulation, LogFormat::Parquet)?;
-            let logs = plant.runs().iter().map(|run| log_file(&run.name));
-            let others = ["scenario.toml", Sealed::FILE].map(|name| Path::new(LOGS).join(name));
-            Ok(Product { value: (), files: logs.chain(others).collect() })
-        })
+        let place = ("simulation", Path::new(LOGS));
+        self.bench().logs(place, plant, self.loaded(), || Ok(self.drawn()?.plant()))
     }
 
     /// Diagnoses the logs through their files, and when that is written opens the truth.
@@ -124,28 +102,18 @@ impl Stages<'_> {
         }
         let words = format!("from {} of the logs alone", names.len());
         self.stage("diagnosis", &words, inputs, || {
-            let (loaded, file) = (self.loaded(), self.experiment.plant().robot_file());
+            let loaded = self.loaded();
             let runs = self.runs(&names)?;
-            let settings =
-                Settings { control_rate_hz: loaded.control.rate_hz, ..Settings::default() };
-            let outcome = diagnosis::diagnose(&loaded.robot, &runs, &settings, self.watch)?;
-            let mut provenance = provenance(file, loaded, None)?;
-            provenance.files.extend(hashes_of(&runs));
-            provenance.seed = Some(settings.seed);
-            let report = Report::new(&outcome, &loaded.robot, &provenance);
-            let json = report::json(&report)?;
-            let folder = self.out.join(DIAGNOSIS);
-            diagnose::write(&folder, loaded, &outcome, (&report, &json), None)?;
-            let verdict = &report::markdown(&report);
-            let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict };
+            let robot = (self.experiment.plant().robot_file(), loaded);
+            let DiagnosedRuns { outcome, verdict, told } =
+                self.bench().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
+            let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             record_diagnosis(&self.out.join(RECORDING), &diagnosed, self.watch)?;
             let sealed = Sealed::open(&self.out.join(LOGS))?;
             let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
-            let files =
-                ["report.html", "figure.svg", "diagnosis.json", "extended.toml", "robot.urdf"];
-            let files = files.map(|name| Path::new(DIAGNOSIS).join(name));
-            let files = files.into_iter().chain([PathBuf::from(RECORDING)]).collect();
-            Ok(Product { value: Found { told: report::told(&report)?, score }, files })
+            let mut files = diagnosis_files(Path::new(DIAGNOSIS));
+            files.push(PathBuf::from(RECORDING));
+            Ok(Product { value: Found { told, score }, files })
         })
     }
 
@@ -236,7 +204,10 @@ impl Stages<'_> {
         Ok(Product { value, files: pages.into_iter().chain(runs_files).collect() })
     }
 
-    /// What a stage of this name has made or makes, and a line that says so.
+    fn bench(&self) -> Bench<'_> {
+        Bench { out: self.out, watch: self.watch }
+    }
+
     fn stage<T: Serialize + for<'de> Deserialize<'de>>(
         &self,
         name: &str,
@@ -244,21 +215,11 @@ impl Stages<'_> {
         inputs: Inputs,
         make: impl FnOnce() -> Result<Product<T>, CliError>,
     ) -> Result<Staged<T>, CliError> {
-        let start = Instant::now();
-        let made = Stage::new(self.out, name).make(inputs, make)?;
-        let time = match made.is_kept {
-            true => "made before".to_owned(),
-            false => format!("{:.1} s", start.elapsed().as_secs_f64()),
-        };
-        self.watch.leave(&format!("{name:<12} {words:<50} {time:>12}"));
-        Ok(made)
+        self.bench().stage(name, words, inputs, make)
     }
 
-    /// What every stage depends on: the program, the robot and something said.
     fn inputs(&self, said: &str) -> Result<Inputs, CliError> {
-        let (loaded, file) = (self.loaded(), self.experiment.plant().robot_file());
-        let inputs = Inputs::of(env!("CARGO_PKG_VERSION")).and(said.as_bytes());
-        Ok(inputs.and_file(file)?.and_file(&loaded.urdf_path)?)
+        Bench::inputs(self.experiment.plant().robot_file(), self.loaded(), said)
     }
 
     fn drawn(&self) -> Result<&TrackingScenario, CliError> {
@@ -283,11 +244,7 @@ impl Stages<'_> {
 
     /// Logs, read from their files.
     fn runs(&self, names: &[&str]) -> Result<Vec<Run>, CliError> {
-        let options = ReadOptions { map: None, effort: "effort" };
-        let read = |name: &&str| {
-            logs::read_run(&self.out.join(log_file(name)), &self.loaded().robot, &options)
-        };
-        Ok(names.iter().map(read).collect::<Result<_, _>>()?)
+        self.bench().runs(Path::new(LOGS), names, &self.loaded().robot)
     }
 }
 
@@ -304,5 +261,5 @@ fn compared(comparison: TrackingComparison) -> TrackingComparison {
 
 /// The log of a run, relative to the folder.
 fn log_file(run: &str) -> PathBuf {
-    Path::new(LOGS).join(format!("{run}.{}", LogFormat::Parquet.extension()))
+    bench::log_file(Path::new(LOGS), run)
 }
