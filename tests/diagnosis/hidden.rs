@@ -25,18 +25,30 @@ const SHAPES: [&str; 7] =
 const CABLE: f64 = 0.5;
 const BRISTLES: f64 = 2.0;
 
-fn trial(hidden: Hidden, seed: u64) -> Trial {
+/// Motions slow enough for a spring to give way as if it were at rest.
+const SLOW: &str = "terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0";
+
+/// Motions as fast as those of a disturbance.
+const LIVELY: &str = "terms=4, lowest_hz=0.4, highest_hz=1.5, duration_s=15.0";
+
+fn trial(hidden: Hidden, seed: u64, motion: &str) -> Trial {
     let run = |name: &str, seed: u64| {
-        let motion = "terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0";
         format!("{{ name='{name}', motion={{ sinusoids={{ seed={seed}, {motion} }} }} }}")
     };
-    let settings = vec![format!("run=[{}, {}]", run("a", 11), run("b", 12))];
+    let mut settings = vec![format!("run=[{}, {}]", run("a", 11), run("b", 12))];
+    if motion == LIVELY {
+        settings.push("hidden.torque_share=[0.2, 0.3]".to_owned());
+    }
     Trial { scenario: workspace_root().join("scenarios/clean.toml"), hidden, seed, settings }
 }
 
 fn score(hidden: Hidden, seed: u64) -> Score {
+    score_along(hidden, seed, SLOW)
+}
+
+fn score_along(hidden: Hidden, seed: u64, motion: &str) -> Score {
     let folder = tempfile::tempdir().unwrap();
-    let score = trial(hidden, seed).run(folder.path()).unwrap();
+    let score = trial(hidden, seed, motion).run(folder.path()).unwrap();
     println!("{}", score.words());
     score
 }
@@ -122,6 +134,16 @@ fn hidden_pairs_are_both_found() {
     for (a, b, seed) in pairs {
         let found = score(Hidden::Two(a, b), seed);
         assert!(found.as_one_of && found.stray.is_empty(), "{}", found.words());
+        check_sizes(&found, &[]);
+    }
+}
+
+/// Its frequency lies in the band of the motion.
+#[test]
+fn hidden_slow_disturbances_are_told_from_the_motion() {
+    for seed in [1, 2] {
+        let found = score_along(Hidden::One(E::ExternalDisturbance), seed, LIVELY);
+        assert!(found.exactly, "{}", found.words());
         check_sizes(&found, &[]);
     }
 }

@@ -57,7 +57,7 @@ fn oracle_motion_of_joint_b_changes_the_friction_of_joint_a() {
 /// Motor torques `f` are the load `f_sum + f_difference` on a and `ratio (f_sum - f_difference)` on
 /// b: without a load on b both motors carry the same, and the weaker one breaks away alone when a
 /// is loaded with twice its level. A load of both levels breaks both away. Up to then the joints
-/// give by micro-radians and stay.
+/// give by some ten micro-radians and stay.
 #[test]
 fn oracle_loaded_joints_stick_for_good_and_break_away_at_the_level_of_a_motor() {
     for load in [[2.0 * DIFFERENCE, 0.0], [SUM + DIFFERENCE, RATIO * (SUM - DIFFERENCE)]] {
@@ -67,12 +67,12 @@ fn oracle_loaded_joints_stick_for_good_and_break_away_at_the_level_of_a_motor() 
         let torque = |t: f64| load.map(|l| l * share(t)).to_vec();
         let rows = run(&mut wheels, 9.5, |r| torque(r.time_s)).unwrap();
         let (soon, late) = (&rows[500], &rows[3999]);
-        assert!((1e-7..1e-5).contains(&soon.q_true[0]), "{}", soon.q_true[0]);
+        assert!((1e-7..4e-5).contains(&soon.q_true[0]), "{}", soon.q_true[0]);
         for i in 0..2 {
             assert!((late.q_true[i] - soon.q_true[i]).abs() < 1e-12, "joint {i} creeps");
         }
-        let moving = rows[4000..].iter().find(|r| r.qd_true[0] > 2e-6).unwrap();
-        assert!((moving.time_s - 9.0).abs() < 0.02, "{}", moving.time_s);
+        let moving = rows[4000..].iter().find(|r| r.qd_true[0] > 8e-6).unwrap();
+        assert!((moving.time_s - 9.0).abs() < 0.03, "{}", moving.time_s);
         let [a, b] = [0, 1].map(|i| rows.last().unwrap().qd_true[i]);
         let sum = (a + RATIO * b).abs() / a;
         assert!(if load[1] > 0.0 { sum > 1.0 } else { sum < 1e-3 }, "{a} and {b} rad/s");

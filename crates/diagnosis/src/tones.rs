@@ -39,6 +39,13 @@ const EVEN: f64 = 2.0;
 /// Least share of what is left at a joint that a tone must be.
 const SHARE: f64 = 0.02;
 
+/// Least share of what is left, in every run, that a tone as slow as the motion must be.
+const SHARE_OF_SLOW: f64 = 0.5;
+
+/// Share of the speed of a joint at the frequency of such a tone that makes it the motion's, where
+/// every run has a joint with it.
+const SHARE_OF_SPEED: f64 = 0.4;
+
 /// Most tones of one joint.
 const MOST: usize = 3;
 
@@ -61,7 +68,8 @@ pub(crate) struct Rest {
 /// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
 /// lines of the spectrum over time and over position that stand out in every run.
 ///
-/// A line below `slowest_hz` may be the motion's.
+/// A line below `slowest_hz` may be the motion's, unless there is a run in which no joint moves much at
+/// its frequency, and it is most of what is left in all.
 pub(crate) fn tones(
     robot: &Robot,
     wide: &Prepared,
@@ -107,10 +115,14 @@ fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec
             left: &left,
             highest: by_speed.clone(),
         };
-        let band_hz = [slowest_hz.max(LOWEST_HZ), HIGHEST * cutoff_hz];
+        let slowest_hz = slowest_hz.max(LOWEST_HZ);
+        let line = |band_hz: [f64; 2]| {
+            clock.found(j, Coherence::EachRun(cutoff_hz), |clock| clock.lines(band_hz))
+        };
         let found = [
             position.found(j, Coherence::AllRuns, |position| position.waves()),
-            clock.found(j, Coherence::EachRun(cutoff_hz), |clock| clock.lines(band_hz)),
+            line([slowest_hz, HIGHEST * cutoff_hz]),
+            line([LOWEST_HZ, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, runs)),
         ];
         let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
         let Some(tone) = strongest else { break };
@@ -121,6 +133,26 @@ fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec
         tones.push(tone);
     }
     tones
+}
+
+/// Whether a tone is most of what is left in every run, and no motion: in some run no joint has much
+/// of its speed at its frequency.
+fn is_no_motion(tone: &Tone, clock: &Joint, runs: &[Rest]) -> bool {
+    let Beat::Clock(frequency_hz) = tone.beat else { return false };
+    let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+    let most = clock
+        .without(tone)
+        .iter()
+        .zip(clock.left)
+        .all(|(without, with)| power(without) < (1.0 - SHARE_OF_SLOW) * power(with));
+    let speed = |run: &Rest, qd: &Vec<f64>| {
+        let turning =
+            qd.iter().zip(&run.time).map(|(v, t)| Complex::cis(-TAU * frequency_hz * t) * v);
+        // Of a sine alone the sum is n / 2 times its amplitude, the power n / 2 times its square.
+        2.0 * turning.sum::<Complex<f64>>().norm_sqr() / qd.len().max(1) as f64
+            > SHARE_OF_SPEED * power(qd)
+    };
+    most && !runs.iter().all(|run| run.qd.iter().any(|qd| speed(run, qd)))
 }
 
 /// The spectra of all runs over the same values.

@@ -25,6 +25,9 @@ pub struct Backlash {
     pub gap_rad: f64,
 }
 
+/// Largest play that is drawn (rad or m).
+const LARGEST: f64 = 0.03;
+
 impl Effect for Backlash {
     const KIND: EffectKind = EffectKind::Backlash;
 
@@ -43,9 +46,11 @@ impl Effect for Backlash {
     /// ```text
     /// share torque = gap / 2  d torque / dq
     /// ```
+    ///
+    /// A drive with more play than 30 mrad (1.7 degrees) is broken, and no longer to be diagnosed.
     fn draw(at: &Surroundings<'_>, share: f64, _: &mut ChaCha8Rng) -> Self {
         let gap = 2.0 * share * at.torque_rms / at.torque_per_position();
-        Self { joint: at.joint_name(), gap_rad: gap.min(0.5) }
+        Self { joint: at.joint_name(), gap_rad: gap.min(LARGEST) }
     }
 }
 

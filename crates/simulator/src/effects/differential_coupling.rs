@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::{Efforts, Inject, Moment, Truth};
 
-/// Frequency of a rotor on the bristles (Hz): 0.19 rad a step of 0.1 ms.
-const BRISTLE_HZ: f64 = 300.0;
+/// Frequency of a rotor on the bristles (Hz): 0.19 rad a step of 0.2 ms.
+const BRISTLE_HZ: f64 = 150.0;
 
 /// Damping ratio of a rotor on the bristles.
 const DAMPING_RATIO: f64 = 0.5;
@@ -32,8 +32,8 @@ const DAMPING_RATIO: f64 = 0.5;
 /// ```
 ///
 /// Below its level it does not creep. With `J = min(J_a, J_b / ratio^2)` of the rotor inertias,
-/// `k = J omega^2 / 2` puts the two rotors on their bristles at no more than `omega`, 300 Hz; the
-/// way to break is `level / k`, 3 microradians per newton metre at a WAM's shoulder.
+/// `k = J omega^2 / 2` puts the two rotors on their bristles at no more than `omega`, 150 Hz; the
+/// way to break is `level / k`, 12 microradians per newton metre at a WAM's shoulder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DifferentialCoupling {
