@@ -28,7 +28,7 @@ const BRISTLES: f64 = 2.0;
 /// Motions slow enough for a spring to give way as if it were at rest.
 const SLOW: &str = "terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0";
 
-/// Motions as fast as those of a disturbance.
+/// Motions fast enough to tell a delay from a lag.
 const LIVELY: &str = "terms=4, lowest_hz=0.4, highest_hz=1.5, duration_s=15.0";
 
 fn trial(hidden: Hidden, seed: u64, motion: &str) -> Trial {
@@ -136,6 +136,15 @@ fn hidden_pairs_are_both_found() {
         assert!(found.as_one_of && found.stray.is_empty(), "{}", found.words());
         check_sizes(&found, &[]);
     }
+}
+
+/// In columns about the robot without either the two are one.
+#[test]
+fn hidden_delays_are_told_from_lags_in_lively_motions() {
+    let found = score_along(Hidden::One(E::ActuatorDelay), 1, LIVELY);
+    assert!(found.exactly, "{}", found.words());
+    assert!(!names(&found).any(|at| at.effect == E::ActuatorLag), "{}", found.words());
+    check_sizes(&found, &[]);
 }
 
 /// Its frequency lies in the band of the motion.

@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+
 use catalogue::EffectKind;
 use effects::{Hypothesis, Place};
 use robot::Robot;
@@ -28,6 +30,8 @@ pub(crate) struct Evidence<'a> {
     pub selection: &'a Selection<'a>,
     pub model: &'a Model,
     pub significance: &'a Significance,
+    /// Findings and those that do worse in their place once the robot has either.
+    pub apart: &'a BTreeSet<(usize, usize)>,
     pub seed: u64,
 }
 
@@ -125,6 +129,7 @@ impl Evidence<'_> {
             if whole > 0.0 { ((without - after) / whole).clamp(0.0, 1.0) } else { 0.0 }
         };
         let mut rivals = rivals(self.selection, self.model, g);
+        rivals.retain(|&h| !self.apart.contains(&(g, h)));
         rivals.extend(self.skewed(g));
         let level = self.level_beside(g, &rivals);
         rivals.extend(level);

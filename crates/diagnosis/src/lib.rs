@@ -12,6 +12,7 @@ mod blocks;
 #[cfg(test)]
 mod calibration;
 mod compare;
+mod contest;
 mod design;
 mod diagnose;
 mod diagnosed;

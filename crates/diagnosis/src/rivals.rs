@@ -7,13 +7,25 @@ use crate::select::Selection;
 const RECOVERS: f64 = 0.5;
 
 /// Standard errors by which a rival must be worse to be told apart.
-const TOLD_APART: f64 = 2.0;
+pub(crate) const TOLD_APART: f64 = 2.0;
 
 /// Hypotheses that explain the held-out data as well in place of `group`.
 ///
 /// With `d_b` the held-out deviance that block `b` gains when the rival takes the place of
 /// the finding, the two are told apart if `mean(d) > 2 sd(d) / sqrt(blocks)`.
 pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
+    let problem = selection.problem;
+    let with = problem.held_out(model);
+    let mut without = model.clone();
+    without.remove(&group);
+    let same = |h: &usize| {
+        !is_worse(problem, &with, &problem.held_out(&replaced(problem, &without, group, *h)))
+    };
+    contenders(selection, model, group).into_iter().filter(same).collect()
+}
+
+/// Hypotheses that explain much of the held-out data in place of `group`, be it as well or not.
+pub(crate) fn contenders(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
     let problem = selection.problem;
     let with = problem.held_out(model);
     let mut without = model.clone();
@@ -28,17 +40,15 @@ pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<
             if !selection.is_possible(&replaced, h) {
                 return false;
             }
-            let rival = problem.held_out(&replaced);
-            let recovered = bare.total() - rival.total();
+            let recovered = bare.total() - problem.held_out(&replaced).total();
             recovered > RECOVERS * (bare.total() - with.total())
-                && !is_worse(problem, &with, &rival)
         })
         .collect()
 }
 
 /// The model with `rival` in the place of `group`. Asymmetric friction leaves its symmetric
 /// part behind: only the asymmetry is disputed.
-fn replaced(problem: &Problem, without: &Model, group: usize, rival: usize) -> Model {
+pub(crate) fn replaced(problem: &Problem, without: &Model, group: usize, rival: usize) -> Model {
     let mut model = without.clone();
     model.insert(rival);
     let hypothesis = problem.design.groups[group].hypothesis;

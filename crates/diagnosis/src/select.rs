@@ -110,6 +110,7 @@ impl Selection<'_> {
         evidence(other).zip(evidence(model)).is_some_and(|(o, m)| o > m - LEAST_EVIDENCE)
     }
 
+    /// Hypotheses that have the name where they do the work of `g`, alone or together.
     fn plainer_than(&self, g: usize) -> Vec<usize> {
         use EffectKind::{
             CoulombFriction, DifferentialCoupling, InertialParameters, LoadDependentFriction,

@@ -1,8 +1,11 @@
+use std::collections::BTreeSet;
+
 use effects::weeded;
 use robot::Robot;
 
 use crate::between::{Between, between};
 use crate::blocks::{Block, FEWEST_BLOCKS, Folding, blocks};
+use crate::contest::Contest;
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extend::{Solved, solved};
@@ -27,6 +30,9 @@ use crate::tone_finding::tone_finding;
 use crate::traces::{RunTraces, traces};
 use crate::uncertainty::{Fitted, untenable};
 use crate::verdict::{Situation, overall};
+
+/// Most contests in which a finding is exchanged for what does better in its place.
+const EXCHANGES: usize = 4;
 
 /// Everything a diagnosis looks at, once the logs are prepared.
 #[derive(Debug, Clone, Copy)]
@@ -63,6 +69,8 @@ pub(crate) struct Conclusion<'a> {
     pub model: Model,
     pub significance: Significance,
     pub solution: Solved,
+    /// Findings and those that do worse in their place once the robot has either.
+    pub apart: BTreeSet<(usize, usize)>,
 }
 
 impl Study<'_> {
@@ -170,26 +178,46 @@ impl Study<'_> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let (problem, model) = record.search(&all);
         progress.step();
-        let (mut model, mut significance) = significant(&problem, model, self.settings);
-        let solution = loop {
-            let solution = solved(self.robot, &self.log, &problem, &model)?;
-            let first = self.fitted(&problem, &model, &solution);
-            let open = solution.tell(&first, |fitted| untenable(&problem, &model, fitted));
-            let Some(open) = open else { break solution };
-            model.remove(&open);
-            (model, significance) = significant(&problem, model, self.settings);
-        };
+        let (mut model, mut significance, mut solution) = self.settled(&problem, model)?;
+        let selection = record.selection(&problem);
+        let contest = Contest { study: self, selection: &selection };
+        let mut apart = BTreeSet::new();
+        for _ in 0..EXCHANGES {
+            let decided = contest.decide(&model, &solution)?;
+            apart = decided.apart;
+            let Some(better) = decided.better else { break };
+            (model, significance, solution) = self.settled(&problem, better)?;
+        }
         progress.step();
-        Ok(Conclusion { problem, model, significance, solution })
+        drop(selection);
+        Ok(Conclusion { problem, model, significance, solution, apart })
+    }
+
+    /// What is significant and of a size that is decided of a model, and the robot with it.
+    fn settled(
+        &self,
+        problem: &Problem,
+        model: Model,
+    ) -> Result<(Model, Significance, Solved), DiagnosisError> {
+        let (mut model, mut significance) = significant(problem, model, self.settings);
+        loop {
+            let solution = solved(self.robot, &self.log, problem, &model)?;
+            let first = self.fitted(problem, &model, &solution);
+            let open = solution.tell(&first, |fitted| untenable(problem, &model, fitted));
+            let Some(open) = open else { return Ok((model, significance, solution)) };
+            model.remove(&open);
+            (model, significance) = significant(problem, model, self.settings);
+        }
     }
 
     /// The findings of a conclusion, and what they leave out.
     pub fn told(&self, record: &Record, conclusion: &Conclusion) -> (Vec<Found>, Vec<RuledOut>) {
-        let Conclusion { problem, model, significance, solution } = conclusion;
+        let Conclusion { problem, model, significance, solution, apart } = conclusion;
         let evidence = Evidence {
             selection: &record.selection(problem),
             model,
             significance,
+            apart,
             seed: self.settings.seed,
         };
         let first = self.fitted(problem, model, solution);
@@ -226,7 +254,8 @@ impl Study<'_> {
         answer.ruled_out.iter().chain(between).cloned().collect()
     }
 
-    fn fitted<'b>(
+    /// A model as it was solved first, about the robot without findings.
+    pub fn fitted<'b>(
         &'b self,
         problem: &'b Problem<'b>,
         model: &'b Model,

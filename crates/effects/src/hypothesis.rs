@@ -109,6 +109,14 @@ impl Hypothesis {
         self.place == other.place && pairs.into_iter().any(is)
     }
 
+    /// Whether `self` and `other` have the same columns about a robot without either.
+    pub fn is_twin(self, other: Self) -> bool {
+        use EffectKind::{ActuatorDelay, ActuatorLag};
+        let kinds = (self.kind, other.kind);
+        let are_late = [(ActuatorDelay, ActuatorLag), (ActuatorLag, ActuatorDelay)];
+        self.place == other.place && are_late.contains(&kinds)
+    }
+
     /// The Coulomb friction whose level this effect makes vary.
     pub fn varies(self) -> Option<Self> {
         use EffectKind::{
