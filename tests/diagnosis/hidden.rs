@@ -20,10 +20,11 @@ const SHAPE: f64 = 0.15;
 const SHAPES: [&str; 7] =
     ["stribeck_velocity", "periods_per_turn", "share", "frequency", "ratio", "rest", "gap"];
 
-/// The stiffness of a cable that stiffens and drags, and of bristles that are damped as well: neither
-/// is in the model. Misses, not standards.
+/// The stiffness of a cable that stiffens and drags, which is not in the model: a miss, not a standard.
 const CABLE: f64 = 0.5;
-const BRISTLES: f64 = 2.0;
+
+/// Bristles in motions that hardly dwell near rest.
+const BRISTLES: f64 = 0.5;
 
 /// Motions slow enough for a spring to give way as if it were at rest.
 const SLOW: &str = "terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0";

@@ -27,7 +27,7 @@ torque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
 [joint.elbow]
 coulomb_forward_nm = 1\ncoulomb_backward_nm = 2
 stribeck_excess_nm = 0.3\nstribeck_velocity_rad_per_s = 0.04\nload_friction = 0.05
-presliding_rad = 0.001\nactuator_lag_ms = 3\neffort_skew_ms = -2\nencoder_offset_rad = -0.02
+presliding_rad = 0.001\npresliding_damping_nm_s_per_rad = 0.7\nactuator_lag_ms = 3\neffort_skew_ms = -2\nencoder_offset_rad = -0.02
 transmission_ratio = 1.01
 friction_wave = { share = 0.2, periods_per_turn = 7, phase_rad = 0.5 }
 torque_ripple = { amplitude_nm = 0.06, periods_per_turn = 120 }\nsensing = \"link\"\ntorque_source = \"measured\"
@@ -53,6 +53,7 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((b.sensing, b.torque_source), (SensingSide::Link, TorqueSource::Measured));
     assert_eq!(b.stribeck, Some(Stribeck { excess: 0.3, velocity: 0.04 }));
     assert_eq!((b.load_friction, b.presliding, b.lag_s), (0.05, Some(0.001), 0.003));
+    assert_eq!((a.presliding_damping, b.presliding_damping), (None, Some(0.7)));
     assert_eq!((b.encoder_offset, b.transmission_ratio), (-0.02, 1.01));
     assert_eq!(b.friction_wave, Some(Wave { share: 0.2, periods: 7.0, phase: 0.5 }));
     assert_eq!(b.ripple, Some(Ripple { amplitude: 0.06, periods: 120.0, phase: 0.0 }));
@@ -109,7 +110,7 @@ fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
          `coulomb_backward_nm`, `spring_stiffness_nm_per_rad`, `spring_rest_rad`, `torque_gain`, \
          `torque_offset_nm`, `backlash_rad`, `elasticity_nm_per_rad`, `actuator_delay_ms`, \
          `stribeck_excess_nm`, `stribeck_velocity_rad_per_s`, `load_friction`, `presliding_rad`, \
-         `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `effort_skew_ms`, \
+         `presliding_damping_nm_s_per_rad`, `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `effort_skew_ms`, \
          `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`, `friction_wave`, \
          `torque_ripple`, `coupling`"
     );
@@ -251,6 +252,11 @@ fn keys_that_disagree_are_refused() {
         refused("[joint.elbow]\nstribeck_velocity_rad_per_s = 1"),
         "robot.toml: joint elbow: stribeck_velocity_rad_per_s is there alone, \
          stribeck_excess_nm as well was expected"
+    );
+    assert_eq!(
+        refused("[joint.elbow]\npresliding_damping_nm_s_per_rad = 1"),
+        "robot.toml: joint elbow: presliding_damping_nm_s_per_rad is there alone, \
+         presliding_rad as well was expected"
     );
     assert_eq!(
         refused("[gains.soft]\nkp_nm_per_rad = [1]\nkd_nm_s_per_rad = [1, 2]"),

@@ -102,6 +102,7 @@ proptest! {
         a.stribeck = dry.map(|(excess, velocity, ..)| Stribeck { excess, velocity });
         a.load_friction = dry.map_or(0.0, |(_, _, load, _)| load);
         a.presliding = dry.map(|(.., way)| way);
+        a.presliding_damping = dry.map(|(_, velocity, ..)| velocity);
         a.friction_wave = waves.map(|(share, periods, phase, _)| Wave { share, periods, phase });
         a.ripple = waves.map(|(_, periods, phase, amplitude)| Ripple { amplitude, periods, phase });
         a.lag_s = 1e-3 * sensor.0;

@@ -53,57 +53,64 @@ fn a_described_arm_moves_bit_for_bit_as_one_with_the_effect_put_in() {
     }
 }
 
+/// What a drive says, and the effects that do the same.
+const DESCRIBED: [(&str, Describe); 9] = [
+    (
+        "stribeck_friction = { joint = 'joint', coulomb_nm = 0.5, breakaway_nm = 0.75, \
+         stribeck_velocity_rad_per_s = 0.25 }",
+        |a| a.stribeck = Some(Stribeck { excess: 0.25, velocity: 0.25 }),
+    ),
+    (
+        "load_dependent_friction = { joint = 'joint', coefficient = 0.3 }\n[[effect]]\n\
+         coulomb_friction = { joint = 'joint', level_nm = 0.5 }",
+        |a| a.load_friction = 0.3,
+    ),
+    (
+        "presliding_friction = { joint = 'joint', stiffness_nm_per_rad = 64.0, \
+         damping_nm_s_per_rad = 2.5298221281347035, level_nm = 0.5 }",
+        |a| a.presliding = Some(0.5 / 64.0),
+    ),
+    (
+        "presliding_friction = { joint = 'joint', stiffness_nm_per_rad = 64.0, \
+         damping_nm_s_per_rad = 1.5, level_nm = 0.5 }",
+        |a| (a.presliding, a.presliding_damping) = (Some(0.5 / 64.0), Some(1.5)),
+    ),
+    (
+        "position_dependent_friction = { joint = 'joint', level_nm = 0.5, share = 0.4, \
+         periods_per_turn = 40.0, phase_rad = 0.7 }",
+        |a| a.friction_wave = Some(Wave { share: 0.4, periods: 40.0, phase: 0.7 }),
+    ),
+    (
+        "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+         torque_ripple = { joint = 'joint', amplitude_nm = 0.3, periods_per_turn = 50.0, \
+         phase_rad = 0.7 }",
+        |a| a.ripple = Some(Ripple { amplitude: 0.3, periods: 50.0, phase: 0.7 }),
+    ),
+    (
+        "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+         actuator_lag = { joint = 'joint', time_constant_ms = 4.0 }",
+        |a| a.lag_s = 0.004,
+    ),
+    (
+        "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+         encoder_offset = { joint = 'joint', offset_rad = 0.1 }",
+        |a| a.encoder_offset = 0.1,
+    ),
+    (
+        "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
+         transmission_ratio = { joint = 'joint', ratio = 1.1 }\n[[effect]]\n\
+         encoder_offset = { joint = 'joint', offset_rad = 0.1 }",
+        |a| (a.transmission_ratio, a.encoder_offset) = (1.1, 0.1),
+    ),
+];
+
 /// All that a drive can say beside its transmission and its delay, next to the scenario's way of
 /// saying it; the wheel has Coulomb friction of 0.5 N m where both have it.
 #[test]
 fn what_a_drive_says_moves_the_wheel_as_the_effect_put_in_does() {
-    let cases: [(&str, Describe); 8] = [
-        (
-            "stribeck_friction = { joint = 'joint', coulomb_nm = 0.5, breakaway_nm = 0.75, \
-             stribeck_velocity_rad_per_s = 0.25 }",
-            |a| a.stribeck = Some(Stribeck { excess: 0.25, velocity: 0.25 }),
-        ),
-        (
-            "load_dependent_friction = { joint = 'joint', coefficient = 0.3 }\n[[effect]]\n\
-             coulomb_friction = { joint = 'joint', level_nm = 0.5 }",
-            |a| a.load_friction = 0.3,
-        ),
-        (
-            "presliding_friction = { joint = 'joint', stiffness_nm_per_rad = 64.0, \
-             damping_nm_s_per_rad = 2.5298221281347035, level_nm = 0.5 }",
-            |a| a.presliding = Some(0.5 / 64.0),
-        ),
-        (
-            "position_dependent_friction = { joint = 'joint', level_nm = 0.5, share = 0.4, \
-             periods_per_turn = 40.0, phase_rad = 0.7 }",
-            |a| a.friction_wave = Some(Wave { share: 0.4, periods: 40.0, phase: 0.7 }),
-        ),
-        (
-            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
-             torque_ripple = { joint = 'joint', amplitude_nm = 0.3, periods_per_turn = 50.0, \
-             phase_rad = 0.7 }",
-            |a| a.ripple = Some(Ripple { amplitude: 0.3, periods: 50.0, phase: 0.7 }),
-        ),
-        (
-            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
-             actuator_lag = { joint = 'joint', time_constant_ms = 4.0 }",
-            |a| a.lag_s = 0.004,
-        ),
-        (
-            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
-             encoder_offset = { joint = 'joint', offset_rad = 0.1 }",
-            |a| a.encoder_offset = 0.1,
-        ),
-        (
-            "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
-             transmission_ratio = { joint = 'joint', ratio = 1.1 }\n[[effect]]\n\
-             encoder_offset = { joint = 'joint', offset_rad = 0.1 }",
-            |a| (a.transmission_ratio, a.encoder_offset) = (1.1, 0.1),
-        ),
-    ];
     let rough = |a: &mut Actuator| (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.5);
     let ideal = rows(&wheel(rough), "effect = []");
-    for (effects, describe) in cases {
+    for (effects, describe) in DESCRIBED {
         let injected = rows(&wheel(|_| ()), &format!("[[effect]]\n{effects}"));
         let described = wheel(|a| {
             rough(a);

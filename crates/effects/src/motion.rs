@@ -368,7 +368,13 @@ pub(crate) fn motor_torque(
 ) -> f64 {
     let ripple = drive.ripple.map_or(0.0, |r| r.amplitude * (r.periods * q + r.phase).sin());
     let friction = drive.viscous * qd + dry_friction(drive, [q, qd], direction, load);
-    drive.rotor_inertia * qdd + friction + ripple
+    let damping = drive.presliding.and(drive.presliding_damping).unwrap_or(0.0);
+    drive.rotor_inertia * qdd + friction + ripple + damping * bending(qd, direction)
+}
+
+/// Speed at which bristles bend that hold the share `s` of dry friction: `qd - |qd| s`.
+pub(crate) fn bending(qd: f64, s: f64) -> f64 {
+    qd - qd.abs() * s
 }
 
 /// The part of the drive's torque that is spent at the link (N·m or N).

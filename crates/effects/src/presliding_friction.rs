@@ -1,21 +1,25 @@
-use catalogue::{EffectKind, Parameter};
+use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
-use crate::explain::{actuator_quantity, at_joint, every_joint};
-use crate::motion::bristles;
+use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
+use crate::motion::{bending, bristles};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
-/// Dry friction that builds up over a way: one weight a joint. In a robot without, it is the
-/// friction (N·m or N) that builds up over a small way instead of at once; in a robot with a way,
-/// the change of the way.
+/// Dry friction that builds up over a way. In a robot without, one weight a joint: the friction (N·m or
+/// N) that builds up over a small way instead of at once. In a robot with a way two: the changes of the
+/// way and of the damping, which has no sense until there is a way to damp.
 ///
 /// ```text
-/// s(way) - sign(qd),   level (s(1.1 way) - s(0.9 way)) / (0.2 way)
+/// s(way) - sign(qd)
+/// level (s(1.1 way) - s(0.9 way)) / (0.2 way),   qd - |qd| s(way)
 /// ```
 pub(crate) struct PreslidingFriction;
 
 /// Way for which the column of a robot without one is made (rad or m).
 const SMALL: f64 = 0.002;
+
+/// Shortest way that is one (rad or m): drives have 0.2 to 5 mrad, and encoders count in tenths of that.
+const SHORTEST: f64 = 1e-4;
 
 /// Relative difference of the ways whose motions are compared.
 const STEP: f64 = 0.1;
@@ -35,11 +39,6 @@ impl Explain for PreslidingFriction {
         EffectKind::PreslidingFriction
     }
 
-    /// All but the damping of the bristles.
-    fn parameters(&self) -> &'static [Parameter] {
-        &self.kind().entry().parameters[..2]
-    }
-
     fn places(&self, robot: &Robot) -> Vec<Place> {
         every_joint(robot)
     }
@@ -48,52 +47,58 @@ impl Explain for PreslidingFriction {
         let Place::Joint(j) = place else { return Vec::new() };
         let (gain, drive) = (motion.gain[j], &motion.drives[j]);
         let held = |way: f64| bristles(&motion.q[j], way);
-        let column = match drive.presliding {
-            None => {
-                let slower = held(SMALL).into_iter().zip(&motion.direction[j]);
-                at_joint(j, slower.map(|(held, s)| gain * (held - s)))
-            }
-            Some(way) => {
-                let (long, short) = (held((1.0 + STEP) * way), held((1.0 - STEP) * way));
-                let unit = gain * level(drive) / (2.0 * STEP * way);
-                at_joint(j, long.into_iter().zip(short).map(|(l, s)| unit * (l - s)))
-            }
+        let Some(way) = drive.presliding else {
+            let slower = held(SMALL).into_iter().zip(&motion.direction[j]);
+            return vec![at_joint(j, slower.map(|(held, s)| gain * (held - s)))];
         };
-        vec![column]
+        let (long, short) = (held((1.0 + STEP) * way), held((1.0 - STEP) * way));
+        let unit = gain * level(drive) / (2.0 * STEP * way);
+        let longer = long.into_iter().zip(short).map(|(l, s)| unit * (l - s));
+        let speeds = motion.qd[j].iter().zip(&motion.direction[j]);
+        let damped = speeds.map(|(qd, s)| gain * bending(*qd, *s));
+        vec![at_joint(j, longer), at_joint(j, damped)]
     }
 
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let Place::Joint(j) = place else { return Vec::new() };
-        let way = robot.links()[j].actuator.presliding;
-        vec![if way.is_some() { WAY_SD } else { scale.effort[j] }]
+        match robot.links()[j].actuator.presliding {
+            Some(_) => vec![WAY_SD, scale.effort_per(j, &scale.speed)],
+            None => vec![scale.effort[j]],
+        }
     }
 
     fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
         let Place::Joint(j) = place else { return Vec::new() };
+        let drive = &robot.links()[j].actuator;
+        let Some(way) = drive.presliding else { return vec![(0.0, f64::INFINITY)] };
         let (least, most) = WAY_STEP;
-        let way = robot.links()[j].actuator.presliding;
-        vec![way.map_or((0.0, f64::INFINITY), |way| (least * way, most * way))]
+        let damping = down_to_zero(drive.presliding_damping.unwrap_or(0.0));
+        [vec![(least * way, most * way)], damping].concat()
     }
 
-    /// Whether there is dry friction that builds up.
+    /// Whether there is dry friction that builds up, and slowly enough to be told from one that is
+    /// there at once.
     fn is_sound(&self, place: Place, extended: &Robot) -> bool {
         let Place::Joint(j) = place else { return false };
         let drive = &extended.links()[j].actuator;
-        drive.presliding.is_some() && level(drive) > 0.0
+        drive.presliding.is_some_and(|way| way >= SHORTEST) && level(drive) > 0.0
     }
 
     /// To first order in the way, half the friction over a way is all of it over half the way.
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [change]) = (place, weights) else { return };
+        let (Place::Joint(j), [change, damping @ ..]) = (place, weights) else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
         let level = level(drive);
-        match &mut drive.presliding {
+        match drive.presliding.as_mut() {
             Some(way) => *way += change,
             None if level > 0.0 && *change > 0.0 => {
                 drive.presliding = Some(SMALL * change / level);
             }
             None => {}
+        }
+        if let [damping] = damping {
+            drive.presliding_damping = Some(drive.presliding_damping.unwrap_or(0.0) + damping);
         }
     }
 
@@ -104,6 +109,7 @@ impl Explain for PreslidingFriction {
         vec![
             actuator_quantity(self.kind(), 0, j, robots, stiffness),
             actuator_quantity(self.kind(), 1, j, robots, level),
+            actuator_quantity(self.kind(), 2, j, robots, |a| a.presliding_damping.unwrap_or(0.0)),
         ]
     }
 }

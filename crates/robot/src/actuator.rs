@@ -103,6 +103,7 @@ pub struct Coupling {
 /// ```text
 /// load   = tau_rb + spring_stiffness (q - spring_rest)
 /// tau    = load + rotor_inertia qdd + viscous qd + level s + ripple(q)
+///          + presliding_damping (qd - |qd| s)
 /// effort = transmission_ratio torque_gain tau + torque_offset
 ///
 /// level  = coulomb (1 + friction_wave(q)) + stribeck(qd) + load_friction |load|
@@ -146,6 +147,9 @@ pub struct Actuator {
     /// Way over which dry friction builds up after a reversal (rad or m); `None` where it is
     /// there at once.
     pub presliding: Option<f64>,
+    /// Friction per unit of the speed at which that way is gone (N·m·s/rad or N·s/m), not below 0;
+    /// `None` where it is not known.
+    pub presliding_damping: Option<f64>,
     /// Variation of the Coulomb level with position; `None` without.
     pub friction_wave: Option<Wave>,
     /// Torque ripple of the motor; `None` without.
@@ -191,6 +195,7 @@ impl Default for Actuator {
             stribeck: None,
             load_friction: 0.0,
             presliding: None,
+            presliding_damping: None,
             friction_wave: None,
             ripple: None,
             coupling: None,

@@ -51,6 +51,9 @@ pub(crate) struct JointEntry {
     /// Way over which dry friction builds up; a joint without it has it at once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub presliding_rad: Option<f64>,
+    /// Friction per unit of the speed at which that way is gone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub presliding_damping_nm_s_per_rad: Option<f64>,
     /// Time constant of the torque behind its command.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub actuator_lag_ms: Option<f64>,
@@ -188,6 +191,7 @@ impl JointEntry {
                 *field = Some(value);
             }
         }
+        self.bristles(thing, a)?;
         self.times(thing, a)?;
         a.stribeck = self.stribeck(thing)?.or(a.stribeck);
         a.friction_wave = self.wave(thing)?.or(a.friction_wave);
@@ -209,6 +213,18 @@ impl JointEntry {
                 *field = 1e-3 * value_ms;
             }
         }
+        Ok(())
+    }
+
+    fn bristles(&self, thing: &str, a: &mut Actuator) -> Result<(), RobotError> {
+        let key = "presliding_damping_nm_s_per_rad";
+        let Some(damping) = self.presliding_damping_nm_s_per_rad else { return Ok(()) };
+        if a.presliding.is_none() {
+            let found = "presliding_damping_nm_s_per_rad is there alone";
+            return lonely(thing, found, "presliding_rad as well");
+        }
+        in_range(thing, key, damping, Range::NotNegative)?;
+        a.presliding_damping = Some(damping);
         Ok(())
     }
 

@@ -104,6 +104,7 @@ fn joint_entry([new, old]: [&Link; 2], names: &[&str], gain: Option<Gain>) -> Jo
         stribeck_velocity_rad_per_s: a.stribeck.map(|s| s.velocity),
         load_friction: changed(a.load_friction, b.load_friction),
         presliding_rad: a.presliding,
+        presliding_damping_nm_s_per_rad: a.presliding_damping,
         actuator_lag_ms: changed(a.lag_s, b.lag_s).map(milliseconds),
         effort_skew_ms: changed(a.effort_skew_s, b.effort_skew_s).map(milliseconds),
         encoder_offset_rad: changed(a.encoder_offset, b.encoder_offset),

@@ -55,7 +55,7 @@ impl Transmission {
 /// `effort = torque_gain tau + torque_offset`. What else the actuators say acts as the effect of
 /// the same name would: friction beyond the Coulomb level, presliding and ripple at the motor,
 /// delay and lag on the way of the command, ratio and offset of the encoder in what is reported.
-/// Bristles of presliding are damped with half of critical damping, for which there is no key.
+/// Bristles of presliding whose damping is not said are damped with half of critical damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plant {
     /// Links, joints, actuators, gravity.

@@ -133,7 +133,7 @@ impl Inject for Injected {
 pub(super) fn bending(joint: usize, drive: &Actuator, stiffness: f64) -> Box<dyn Inject> {
     let bristles = Bristles { way: drive.presliding.unwrap_or(f64::INFINITY), ..RELAXED };
     let critical = 2.0 * (stiffness * drive.rotor_inertia).sqrt();
-    let damping = DAMPING_RATIO * critical;
+    let damping = drive.presliding_damping.unwrap_or(DAMPING_RATIO * critical);
     Box::new(Bending { joint, stiffness, damping, bristles, has_started: false })
 }
 
