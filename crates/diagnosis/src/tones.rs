@@ -1,7 +1,8 @@
 use std::f64::consts::{LN_2, TAU};
+use std::ops::Range;
 
 use effects::Frame;
-use logs::{LogError, Prepared};
+use logs::{LogError, LowPass, Prepared};
 use nalgebra::Complex;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
@@ -39,12 +40,23 @@ const EVEN: f64 = 2.0;
 /// Least share of what is left at a joint that a tone must be.
 const SHARE: f64 = 0.02;
 
-/// Least share of what is left, in every run, that a tone as slow as the motion must be.
+/// Least share of what is left, in every window, that a tone as slow as the motion must be.
 const SHARE_OF_SLOW: f64 = 0.5;
 
-/// Share of the speed of a joint at the frequency of such a tone that makes it the motion's, where
-/// every run has a joint with it.
+/// Share of the speed of a joint at the frequency of such a tone that may make it the motion's.
 const SHARE_OF_SPEED: f64 = 0.4;
+
+/// Cut-off of what is left beside such a tone, in bandwidths of the motion.
+const TWICE: f64 = 2.0;
+
+/// Order of that low-pass.
+const ORDER: usize = 4;
+
+/// Length of a window in which that is asked (s): some turns of the slowest line that is looked for.
+const WINDOW_S: f64 = 5.0;
+
+/// Fewest windows in which no joint has that share.
+const FEWEST_STILL: usize = 2;
 
 /// Most tones of one joint.
 const MOST: usize = 3;
@@ -68,8 +80,8 @@ pub(crate) struct Rest {
 /// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
 /// lines of the spectrum over time and over position that stand out in every run.
 ///
-/// A line below `slowest_hz` may be the motion's, unless there is a run in which no joint moves much at
-/// its frequency, and it is most of what is left in all.
+/// A line below `slowest_hz` may be the motion's, unless it is most of what is left all the time, and
+/// some of the time no joint moves much at its frequency.
 pub(crate) fn tones(
     robot: &Robot,
     wide: &Prepared,
@@ -122,7 +134,8 @@ fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec
         let found = [
             position.found(j, Coherence::AllRuns, |position| position.waves()),
             line([slowest_hz, HIGHEST * cutoff_hz]),
-            line([LOWEST_HZ, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, runs)),
+            line([LOWEST_HZ, slowest_hz])
+                .filter(|tone| is_no_motion(tone, &clock, runs, slowest_hz)),
         ];
         let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
         let Some(tone) = strongest else { break };
@@ -135,24 +148,54 @@ fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec
     tones
 }
 
-/// Whether a tone is most of what is left in every run, and no motion: in some run no joint has much
-/// of its speed at its frequency.
-fn is_no_motion(tone: &Tone, clock: &Joint, runs: &[Rest]) -> bool {
+/// Whether a tone is most of what is left wherever one looks, and no motion: some of the time no joint
+/// has much of its speed at its frequency.
+fn is_no_motion(tone: &Tone, clock: &Joint, runs: &[Rest], slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
-    let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
-    let most = clock
-        .without(tone)
-        .iter()
-        .zip(clock.left)
-        .all(|(without, with)| power(without) < (1.0 - SHARE_OF_SLOW) * power(with));
-    let speed = |run: &Rest, qd: &Vec<f64>| {
-        let turning =
-            qd.iter().zip(&run.time).map(|(v, t)| Complex::cis(-TAU * frequency_hz * t) * v);
-        // Of a sine alone the sum is n / 2 times its amplitude, the power n / 2 times its square.
-        2.0 * turning.sum::<Complex<f64>>().norm_sqr() / qd.len().max(1) as f64
-            > SHARE_OF_SPEED * power(qd)
+    let slow = |left: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let low_pass = |(x, run): (&Vec<f64>, &Rest)| slowly(x, &run.time, slowest_hz);
+        left.iter().zip(runs).map(low_pass).collect()
     };
-    most && !runs.iter().all(|run| run.qd.iter().any(|qd| speed(run, qd)))
+    let (with, without) = (slow(clock.left), slow(&clock.without(tone)));
+    let windows = || {
+        let of = |(r, run): (usize, &Rest)| windows(&run.time).into_iter().map(move |w| (r, w));
+        runs.iter().enumerate().flat_map(of)
+    };
+    let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+    let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
+    let is_most = |(r, w): (usize, Range<usize>)| {
+        in_window(&without[r], &w) < (1.0 - SHARE_OF_SLOW) * in_window(&with[r], &w)
+    };
+    let is_still = |(r, w): &(usize, Range<usize>)| {
+        let moves = |qd: &Vec<f64>| {
+            let samples = qd.iter().zip(&runs[*r].time).take(w.end).skip(w.start);
+            let turning = samples.map(|(v, t)| Complex::cis(-TAU * frequency_hz * t) * v);
+            // Of a sine alone the sum is n / 2 times its amplitude, the power n / 2 times its square.
+            2.0 * turning.sum::<Complex<f64>>().norm_sqr() / w.len().max(1) as f64
+                > SHARE_OF_SPEED * in_window(qd, w)
+        };
+        !runs[*r].qd.iter().any(moves)
+    };
+    windows().all(is_most) && windows().filter(is_still).count() >= FEWEST_STILL
+}
+
+/// What is as slow as the motion of a signal, and twice as fast.
+fn slowly(x: &[f64], time: &[f64], slowest_hz: f64) -> Vec<f64> {
+    let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+    let rate_hz = time.len().saturating_sub(1) as f64 / span;
+    let mut slow = x.to_vec();
+    // A rate that leaves no room for it has nothing faster.
+    if let Ok(low_pass) = LowPass::new(ORDER, TWICE * slowest_hz, rate_hz) {
+        low_pass.apply(&mut slow);
+    }
+    slow
+}
+
+/// Parts of a run of some `WINDOW_S`.
+fn windows(time: &[f64]) -> Vec<Range<usize>> {
+    let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+    let count = ((span / WINDOW_S) as usize).max(1);
+    (0..count).map(|i| i * time.len() / count..(i + 1) * time.len() / count).collect()
 }
 
 /// The spectra of all runs over the same values.
