@@ -16,6 +16,7 @@ fn whatever_is_drawn_can_be_put_in_and_is_drawn_again_from_the_same_seed() {
             acceleration_rms: 2.0,
             range: (-0.8, 1.1),
             torque_rate_rms: 20.0,
+            inertia: [2.0, 2.0, 0.3, 0.2, 0.01, 0.01, 0.001][joint],
         };
         let still = Surroundings {
             speed_rms: 0.0,

@@ -6,7 +6,7 @@ use rand_chacha::rand_core::SeedableRng;
 use crate::effects::{EffectSpec, Surroundings};
 use crate::run::{Following, Row, follow, mixed, simulator};
 use crate::scenario::{HiddenSpec, Scenario, ScenarioRun};
-use crate::{JointSensor, Sensors, SimulatorError};
+use crate::{JointSensor, Sensors, Simulator, SimulatorError};
 
 /// Longest part of the first run that sizes are measured on (s).
 const MEASURED_S: f64 = 10.0;
@@ -63,13 +63,19 @@ struct Bench<'a> {
     nominal: Vec<Row>,
     /// Root mean square of each joint's torque, the noise of its sensor included.
     torque_rms: Vec<f64>,
+    /// What each joint turns where the run begins.
+    inertia: Vec<f64>,
 }
 
 impl<'a> Bench<'a> {
     fn new(scenario: &'a Scenario) -> Result<Self, SimulatorError> {
         let run = scenario.runs()[0].clone();
-        let mut bench = Self { scenario, run, nominal: Vec::new(), torque_rms: Vec::new() };
+        let (nominal, torque_rms, inertia) = (Vec::new(), Vec::new(), Vec::new());
+        let mut bench = Self { scenario, run, nominal, torque_rms, inertia };
         bench.nominal = bench.rows(&[])?;
+        let mut simulator = bench.simulator(&[])?;
+        simulator.start(&bench.run.motion.at(0.0).q);
+        bench.inertia = simulator.inertia();
         let noise = &scenario.spec().sensors.effort_noise_nm;
         let torque = |(j, name): (usize, &str)| {
             let torque = rms(bench.nominal.iter().map(|r| r.reading.effort[j]));
@@ -79,8 +85,8 @@ impl<'a> Bench<'a> {
         Ok(bench)
     }
 
-    /// The run with the scenario's effects and more.
-    fn rows(&self, more: &[EffectSpec]) -> Result<Vec<Row>, SimulatorError> {
+    /// The arm with the scenario's effects and more, seen without noise.
+    fn simulator(&self, more: &[EffectSpec]) -> Result<Simulator, SimulatorError> {
         let scenario = self.scenario;
         let effects = [scenario.effects(), more].concat();
         let joints = scenario.robot().joint_count();
@@ -88,8 +94,13 @@ impl<'a> Bench<'a> {
         let seen = &scenario.spec().sensors;
         let silent = vec![silent; joints];
         let sensors = Sensors::new(seen.position, seen.effort, seen.velocity, silent, 0);
-        let stepping = scenario.stepping();
-        let mut simulator = simulator(scenario.robot(), &effects, sensors, stepping)?;
+        simulator(scenario.robot(), &effects, sensors, scenario.stepping())
+    }
+
+    /// The run with the scenario's effects and more.
+    fn rows(&self, more: &[EffectSpec]) -> Result<Vec<Row>, SimulatorError> {
+        let scenario = self.scenario;
+        let mut simulator = self.simulator(more)?;
         let (gains, robot) = (scenario.gains(), scenario.robot());
         let following = Following { gains, robot, run: &self.run, longest_s: MEASURED_S };
         follow(&mut simulator, &following, &|| {})
@@ -156,6 +167,10 @@ impl<'a> Bench<'a> {
         for _ in 0..CORRECTIONS {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             let effect = EffectSpec::draw(kind, &at, asked, &mut random);
+            // Beyond what is drawn at all nothing grows.
+            if best.as_ref().is_some_and(|(known, _)| *known == effect) {
+                break;
+            }
             let share = effect.inject(at.robot).ok().and_then(|_| self.share(&effect));
             // An arm that runs away has more than enough.
             let share = share.unwrap_or(f64::INFINITY);
@@ -191,6 +206,7 @@ impl<'a> Bench<'a> {
                 positions.fold(f64::NEG_INFINITY, f64::max),
             ),
             torque_rate_rms: rms(rate),
+            inertia: self.inertia[joint],
         }
     }
 }

@@ -161,6 +161,12 @@ impl Simulator {
         }
     }
 
+    /// What each joint turns where it stands, all other joints free, its rotor included (kg m² or
+    /// kg).
+    pub(crate) fn inertia(&mut self) -> Vec<f64> {
+        self.arm.inverse_inertia().into_iter().map(f64::recip).collect()
+    }
+
     /// Time since the start (s).
     pub fn time_s(&self) -> f64 {
         self.steps as f64 * self.arm.step_s()

@@ -30,6 +30,9 @@ pub struct InertialParameters {
 /// anyone makes.
 const LEAST_DRAWN: f64 = 0.2;
 
+/// Largest mass that is drawn, as a share of the described one: twice as heavy is another link.
+const MOST_DRAWN: f64 = 2.0;
+
 /// Longest way by which a drawn centre of mass is off (m).
 const FARTHEST_DRAWN_M: f64 = 0.15;
 
@@ -65,7 +68,7 @@ impl Effect for InertialParameters {
         let nominal =
             at.robot.links().get(at.joint).map_or_else(Inertia::zero, |l| l.inertia.clone());
         let factor = if random.random_bool(0.5) { 1.0 + share } else { 1.0 / (1.0 + share) };
-        let mass = (nominal.mass * factor).clamp(LEAST_DRAWN * nominal.mass, 1000.0);
+        let mass = nominal.mass * factor.clamp(LEAST_DRAWN, MOST_DRAWN);
         let shift = (share * at.torque_rms / (at.fall() * mass)).min(FARTHEST_DRAWN_M);
         let com: Vector3<f64> = nominal.com_in_link + direction(random) * shift;
         Self { link: at.link_name(), mass_kg: mass, com_m: com.into(), inertia_kg_m2: None }

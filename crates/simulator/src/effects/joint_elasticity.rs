@@ -1,3 +1,5 @@
+use std::f64::consts::TAU;
+
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -27,6 +29,9 @@ pub struct JointElasticity {
     pub damping_nm_s_per_rad: f64,
 }
 
+/// Lowest frequency at which a joint rings on the spring that is drawn (Hz).
+const SLOWEST_HZ: f64 = 3.0;
+
 impl Effect for JointElasticity {
     const KIND: EffectKind = EffectKind::JointElasticity;
 
@@ -53,9 +58,11 @@ impl Effect for JointElasticity {
     /// share torque = torque / stiffness  d torque / dq
     /// ```
     ///
-    /// with 0.5 to 5 % of critical damping against the rotor.
+    /// with 0.5 to 5 % of critical damping against the rotor. A drive so soft that the joint rings
+    /// below 3 Hz is not drawn: arms with springs put in their drives on purpose are about as soft.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
-        let stiffness = (at.torque_per_position() / share).clamp(1.0, 1e7);
+        let softest = (TAU * SLOWEST_HZ).powi(2) * at.inertia;
+        let stiffness = (at.torque_per_position() / share).max(softest).clamp(1.0, 1e7);
         let rotor = at.robot.links().get(at.joint).map_or(0.0, |l| l.actuator.rotor_inertia);
         let ratio = random.random_range(0.005..0.05);
         Self {

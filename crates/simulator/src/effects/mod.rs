@@ -92,6 +92,8 @@ pub struct Surroundings<'a> {
     pub range: (f64, f64),
     /// Root mean square of the derivative of its torque (N m/s or N/s).
     pub torque_rate_rms: f64,
+    /// What it turns, all other joints free (kg m² or kg).
+    pub inertia: f64,
 }
 
 impl Surroundings<'_> {
