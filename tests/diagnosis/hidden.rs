@@ -17,11 +17,17 @@ const LINEAR: f64 = 0.05;
 const SHAPE: f64 = 0.15;
 
 /// Parameters that shape an effect, rather than scale it.
-const SHAPES: [&str; 7] =
-    ["stribeck_velocity", "periods_per_turn", "share", "frequency", "ratio", "rest", "gap"];
-
-/// The stiffness of a cable that stiffens and drags, which is not in the model: a miss, not a standard.
-const CABLE: f64 = 0.5;
+const SHAPES: [&str; 9] = [
+    "stribeck_velocity",
+    "periods_per_turn",
+    "share",
+    "frequency",
+    "ratio",
+    "rest",
+    "gap",
+    "cubic",
+    "hysteresis",
+];
 
 /// Bristles in motions that hardly dwell near rest.
 const BRISTLES: f64 = 0.5;
@@ -123,7 +129,7 @@ hidden! {
     hidden_differential_coupling: E::DifferentialCoupling, 1, Name::First, [];
     hidden_transmission_ratio: E::TransmissionRatio, 1, Name::First, [];
     hidden_gravity_direction: E::GravityDirection, 2, Name::First, [];
-    hidden_cable_spring: E::CableSpring, 1, Name::First, [("stiffness", CABLE)];
+    hidden_cable_spring: E::CableSpring, 1, Name::First, [];
     hidden_external_disturbance: E::ExternalDisturbance, 1, Name::First, [];
     hidden_encoder_offset: E::EncoderOffset, 1, Name::First, [];
     hidden_time_skew: E::TimeSkew, 1, Name::First, [];

@@ -21,7 +21,7 @@ fn every_key_arrives() {
 torque_source = \"current\"\ndifferentials = [[\"elbow\", \"shoulder\"]]
 [joint.shoulder]
 rotor_inertia_kg_m2 = 0.1\nviscous_nm_s_per_rad = 0.2\ncoulomb_nm = 0.3
-spring_stiffness_nm_per_rad = 0.4\nspring_rest_rad = 0.5\ntorque_gain = 0.6
+spring_stiffness_nm_per_rad = 0.4\nspring_rest_rad = 0.5\nspring_cubic_nm_per_rad3 = 0.06\nspring_hysteresis_nm = 0.07\ntorque_gain = 0.6
 torque_offset_nm = 0.7\nbacklash_rad = 0.01\nelasticity_nm_per_rad = 2000\nactuator_delay_ms = 4
 torque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
 [joint.elbow]
@@ -43,6 +43,7 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((a.rotor_inertia, a.viscous), (0.1, 0.2));
     assert_eq!((a.coulomb_forward, a.coulomb_backward), (0.3, 0.3));
     assert_eq!((a.spring_stiffness, a.spring_rest), (0.4, 0.5));
+    assert_eq!((a.spring_cubic, a.spring_hysteresis), (0.06, 0.07));
     assert_eq!((a.torque_gain, a.torque_offset), (0.6, 0.7));
     assert_eq!((a.backlash, a.elasticity, a.delay_s), (0.01, Some(2000.0), 0.004));
     assert_eq!((a.sensing, a.torque_source), (SensingSide::Motor, TorqueSource::Current));
@@ -107,7 +108,8 @@ fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
         refused("[joint.elbow]\nviscous = 1"),
         "robot.toml: line 3, column 1: unknown field `viscous`, expected one of \
          `rotor_inertia_kg_m2`, `viscous_nm_s_per_rad`, `coulomb_nm`, `coulomb_forward_nm`, \
-         `coulomb_backward_nm`, `spring_stiffness_nm_per_rad`, `spring_rest_rad`, `torque_gain`, \
+         `coulomb_backward_nm`, `spring_stiffness_nm_per_rad`, `spring_rest_rad`, \
+         `spring_cubic_nm_per_rad3`, `spring_hysteresis_nm`, `torque_gain`, \
          `torque_offset_nm`, `backlash_rad`, `elasticity_nm_per_rad`, `actuator_delay_ms`, \
          `stribeck_excess_nm`, `stribeck_velocity_rad_per_s`, `load_friction`, `presliding_rad`, \
          `presliding_damping_nm_s_per_rad`, `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `effort_skew_ms`, \

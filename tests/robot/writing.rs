@@ -101,6 +101,7 @@ proptest! {
         a.delay_s = 1e-3 * transmission.2;
         a.stribeck = dry.map(|(excess, velocity, ..)| Stribeck { excess, velocity });
         a.load_friction = dry.map_or(0.0, |(_, _, load, _)| load);
+        (a.spring_cubic, a.spring_hysteresis) = (0.1 * sensor.0, dry.map_or(0.0, |(excess, ..)| excess));
         a.presliding = dry.map(|(.., way)| way);
         a.presliding_damping = dry.map(|(_, velocity, ..)| velocity);
         a.friction_wave = waves.map(|(share, periods, phase, _)| Wave { share, periods, phase });

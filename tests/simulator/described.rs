@@ -123,6 +123,26 @@ fn what_a_drive_says_moves_the_wheel_as_the_effect_put_in_does() {
     }
 }
 
+/// What the plant has of a cable and what acts beside it are one cable.
+#[test]
+fn a_described_cable_moves_the_wheel_as_the_effect_put_in_does() {
+    let cable = "cable_spring = { joint = 'joint', stiffness_nm_per_rad = 4.0, rest_rad = 0.1, \
+                 cubic_nm_per_rad3 = 20.0, hysteresis_nm = 0.3 }";
+    let injected = rows(&wheel(|_| ()), &format!("[[effect]]\n{cable}"));
+    let described = |a: &mut Actuator| {
+        (a.spring_stiffness, a.spring_rest) = (4.0, 0.1);
+        (a.spring_cubic, a.spring_hysteresis) = (20.0, 0.3);
+    };
+    let linear = |a: &mut Actuator| (a.spring_stiffness, a.spring_rest) = (4.0, 0.1);
+    let apart = |described: fn(&mut Actuator)| {
+        let rows = rows(&wheel(described), "effect = []");
+        let pairs = rows.iter().zip(&injected);
+        pairs.map(|(a, b)| (a.q_true[0] - b.q_true[0]).abs()).fold(0.0, f64::max)
+    };
+    assert!(apart(described) < 1e-9, "{} rad apart", apart(described));
+    assert!(apart(linear) > 1e-3, "the loop moves the wheel by {} rad only", apart(linear));
+}
+
 /// A wheel that has slid holds the sum of its levels while it turns on at constant speed:
 /// `tau = coulomb (1 + share) + excess / e` at the Stribeck velocity, where the wave has its top.
 #[test]

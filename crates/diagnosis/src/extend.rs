@@ -16,10 +16,11 @@ const ROUNDS: usize = 8;
 /// Relative fall of what is left below which a round has changed nothing.
 const SETTLED: f64 = 1e-4;
 
-/// Whether the columns of an effect are those of a small change only, or follow from what the
-/// other findings change.
+/// Whether the columns of an effect are those of a small change only, follow from what the other
+/// findings change, or are more about a robot that has it.
 fn is_tangent(kind: EffectKind) -> bool {
-    is_doubtful(kind) || matches!(kind, EffectKind::TorqueConstant | EffectKind::GravityDirection)
+    use EffectKind::{CableSpring, GravityDirection, TorqueConstant};
+    is_doubtful(kind) || matches!(kind, TorqueConstant | GravityDirection | CableSpring)
 }
 
 /// Whether the columns of an effect are made of the model's own torque, which is wrong wherever

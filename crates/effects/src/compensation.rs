@@ -16,7 +16,8 @@ const CROSSING_ACCELERATION: f64 = 1.0;
 /// The links need `tau_link`, which passes through transmissions that give way:
 ///
 /// ```text
-/// tau_link  = M(q) qdd + C(q, qd) qd + g(q) + spring_stiffness (q - spring_rest)
+/// tau_link  = M(q) qdd + C(q, qd) qd + g(q) + spring_stiffness x + spring_cubic x³
+///             + spring_hysteresis tanh(qd / rest_speed),   x = q - spring_rest
 /// q_motor   = q + tau_link / elasticity + (backlash / 2) tanh(tau_link / tau_0)
 /// tau_motor = tau_link + rotor_inertia qdd_motor + viscous qd_motor + ripple(q_motor)
 ///             + level(q_motor, qd_motor, tau_link) direction + friction of shared motors(qd)
@@ -25,8 +26,9 @@ const CROSSING_ACCELERATION: f64 = 1.0;
 /// q_seen    = q_motor / transmission_ratio + encoder_offset
 /// ```
 ///
-/// with the level of dry friction and the ripple of [`Actuator`]. The way over which presliding
-/// friction builds up after a reversal is left out: only its level is asked for.
+/// with the level of dry friction and the ripple of [`Actuator`]. The ways over which presliding
+/// friction and the loop of a spring build up after a reversal are left out: only their levels are
+/// asked for.
 ///
 /// `qd_motor` and `qdd_motor` are those of the motion plus central differences of
 /// `q_motor - q`. `tau_0 = M_jj(q) x 1 rad/s²` is the load that gives the links one unit of
@@ -157,8 +159,10 @@ impl Compensation {
         let (dynamics, n) = (&mut ws.dynamics, self.drives.len());
         for (tau, [q, qd, qdd]) in ws.tau_link.iter_mut().zip(states) {
             self.dynamics.inverse_dynamics_into(dynamics, q, qd, qdd, tau);
-            let joints = tau.iter_mut().zip(&self.drives).zip(*q);
-            joints.for_each(|((tau, drive), q)| *tau += spring_torque(drive, *q));
+            for (j, (tau, drive)) in tau.iter_mut().zip(&self.drives).enumerate() {
+                let dragged = drive.spring_hysteresis * self.direction(j, qd[j]);
+                *tau += spring_torque(drive, q[j]) + dragged;
+            }
         }
         if !self.drives.iter().all(is_rigid) {
             self.dynamics.mass_matrix_into(dynamics, q_now, &mut ws.mass_matrix);
@@ -210,8 +214,12 @@ impl Compensation {
     /// (N·m or N).
     fn motor_torque(&self, j: usize, [q, qd, qdd]: [f64; 3], tau_link: f64) -> f64 {
         let drive = &self.drives[j];
-        let direction = (qd / self.rest_speed[j].max(f64::MIN_POSITIVE)).tanh();
-        tau_link + motor_torque(drive, [q, qd, qdd], direction, tau_link)
+        tau_link + motor_torque(drive, [q, qd, qdd], self.direction(j, qd), tau_link)
+    }
+
+    /// Direction of motion of joint `j`, in [-1, 1].
+    fn direction(&self, j: usize, qd: f64) -> f64 {
+        (qd / self.rest_speed[j].max(f64::MIN_POSITIVE)).tanh()
     }
 }
 
@@ -382,29 +390,32 @@ mod tests {
         }
     }
 
-    /// Held against its weight `w` while it creeps: with `x = periods q + phase`,
+    /// Held against its weight and a cable, together `w`, while it creeps: with `x = periods q + phase`,
     ///
     /// ```text
     /// tau = w + (coulomb (1 + share cos(x)) + excess exp(-(qd / velocity)²) + c |w|) direction
     ///       + amplitude sin(x)
     /// ```
     #[test]
-    fn friction_beyond_the_coulomb_level_and_ripple_are_asked_for_as_the_closed_form_says() {
+    fn cables_friction_beyond_the_coulomb_level_and_ripple_are_asked_for_as_the_closed_form_says() {
         let robot = hinge("0 1 0", |a| {
             (a.coulomb_forward, a.coulomb_backward) = (0.6, 0.4);
             a.stribeck = Some(Stribeck { excess: 0.3, velocity: 0.05 });
             a.load_friction = 0.04;
+            (a.spring_stiffness, a.spring_rest) = (2.0, 0.1);
+            (a.spring_cubic, a.spring_hysteresis) = (0.5, 0.15);
             a.friction_wave = Some(Wave { share: 0.3, periods: 3.0, phase: 0.5 });
             a.ripple = Some(Ripple { amplitude: 0.2, periods: 40.0, phase: -1.0 });
         });
         for qd in [-0.2_f64, -0.01, 0.0, 0.01, 0.2] {
             let q = 0.7_f64;
-            let load = -WEIGHT * q.cos();
+            let direction = (qd / REST).tanh();
+            let load = -WEIGHT * q.cos() + 2.0 * 0.6 + 0.5 * 0.6_f64.powi(3) + 0.15 * direction;
             let coulomb = if qd > 0.0 { 0.6 } else { 0.4 };
             let level = coulomb * (1.0 + 0.3 * (3.0 * q + 0.5).cos())
                 + 0.3 * (-(qd / 0.05).powi(2)).exp()
                 + 0.04 * load.abs();
-            let expected = load + level * (qd / REST).tanh() + 0.2 * (40.0 * q - 1.0).sin();
+            let expected = load + level * direction + 0.2 * (40.0 * q - 1.0).sin();
             let [tau, ..] = along(&robot, |_| [q, qd, 0.0], 0.0);
             assert!((tau - expected).abs() < 1e-12, "{tau}, not {expected}, at {qd} rad/s");
         }

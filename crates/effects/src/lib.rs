@@ -12,6 +12,7 @@
 
 mod asymmetric_friction;
 mod backlash;
+mod cable_loop;
 mod cable_spring;
 mod compensation;
 mod coulomb_friction;

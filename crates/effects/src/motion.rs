@@ -5,6 +5,7 @@ use logs::{Prepared, rest_speeds};
 use nalgebra::{UnitVector3, Vector3};
 use robot::{Actuator, Robot, SensingSide};
 
+use crate::cable_loop::Loop;
 use crate::dry_friction::dry_friction;
 use crate::slopes::Slopes;
 use crate::timing::{Timing, rate};
@@ -104,7 +105,7 @@ impl Motion {
     ///
     /// ```text
     /// q = transmission_ratio (q reported - encoder_offset)
-    /// load   = Y pi + stiffness (q_link - rest)
+    /// load   = Y pi + stiffness x + cubic x³ + loop,   x = q_link - rest
     /// torque = load + rotor_inertia qdd + viscous qd + dry friction
     /// effort(t) = transmission_ratio torque_gain torque(t + delay - skew) + torque_offset
     /// ```
@@ -225,6 +226,8 @@ impl Motion {
         for (i, a) in self.drives.iter().enumerate() {
             let spring = |(load, q): (&mut f64, &f64)| *load += spring_torque(a, *q);
             self.load[i].iter_mut().zip(&self.link[0][i]).for_each(spring);
+            let dragged = Loop::of(a, &self.link[0][i]);
+            self.load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
             let torque = |t: usize| {
                 let (state, load) =
                     ([self.q[i][t], self.qd[i][t], self.qdd[i][t]], self.load[i][t]);
@@ -336,9 +339,11 @@ impl Motion {
     /// d load / dq s + d load / dqd sd + d load / dqdd sdd
     /// ```
     pub(crate) fn displaced(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
+        let dragged = Loop::of(&self.drives[j], &self.link[0][j]).displaced(s);
         let part = |i: usize| {
             let [dq, dqd, dqdd] = &self.slopes(j).of[i];
-            let load = |t: usize| dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t];
+            let own = |t: usize| if i == j { dragged[t] } else { 0.0 };
+            let load = |t: usize| dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t] + own(t);
             self.carried(i, (0..s.len()).map(load))
         };
         (0..self.q.len()).map(part).collect()
@@ -349,12 +354,11 @@ impl Motion {
 /// `q, qd, qdd`, with `direction` of motion in [-1, 1] and `tau_rb` the rigid bodies' torque:
 ///
 /// ```text
-/// load = tau_rb + stiffness (q - rest)
-/// rotor_inertia qdd + viscous qd + dry friction(q, qd, direction, load) + ripple(q)
-///     + stiffness (q - rest)
+/// load = tau_rb + stiffness x + cubic x³ + hysteresis direction,   x = q - rest
+/// load - tau_rb + rotor_inertia qdd + viscous qd + dry friction(q, qd, direction, load) + ripple(q)
 /// ```
 pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f64) -> f64 {
-    let spring = spring_torque(drive, state[0]);
+    let spring = spring_torque(drive, state[0]) + drive.spring_hysteresis * direction;
     spring + motor_torque(drive, state, direction, tau_rb + spring)
 }
 
@@ -377,9 +381,10 @@ pub(crate) fn bending(qd: f64, s: f64) -> f64 {
     qd - qd.abs() * s
 }
 
-/// The part of the drive's torque that is spent at the link (N·m or N).
+/// The torque of a joint's spring without its loop (N·m or N): `stiffness x + cubic x³`.
 pub(crate) fn spring_torque(drive: &Actuator, q: f64) -> f64 {
-    drive.spring_stiffness * (q - drive.spring_rest)
+    let x = q - drive.spring_rest;
+    drive.spring_stiffness * x + drive.spring_cubic * x.powi(3)
 }
 
 /// The share of dry friction that bristles hold, in [-1, 1], of a joint that follows `q`:

@@ -29,7 +29,9 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
         K::Payload | K::InertialParameters | K::GravityDirection => {
             Ok("inverse dynamics of the robot that has it")
         }
-        K::CableSpring => Ok("the torque of its stiffness at the position of the link"),
+        K::CableSpring => {
+            Ok("the torque of its spring at the position of the link, and the level of its loop")
+        }
         K::TorqueConstant => Ok("asking for as much more or less"),
         K::TorqueOffset => Ok("asking for the offset as well"),
         K::ActuatorDelay => Ok("asking for the torque of the motion that much ahead"),

@@ -15,7 +15,8 @@ pub(crate) struct Slopes {
 }
 
 impl Slopes {
-    /// The derivatives of rigid-body and spring torques along `link` by the state of joint `j`.
+    /// The derivatives of rigid-body and spring torques along `link` by the state of joint `j`, but for
+    /// the loop of the spring, which has a past.
     pub fn new(robot: &Robot, link: &State, j: usize) -> Self {
         let n = robot.joint_count();
         let samples = link[0].first().map_or(0, Vec::len);
@@ -24,7 +25,7 @@ impl Slopes {
         let mut ws = dynamics.workspace();
         let mut state = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
         let (mut up, mut down) = (vec![0.0; n], vec![0.0; n]);
-        let stiffness = robot.links()[j].actuator.spring_stiffness;
+        let drive = &robot.links()[j].actuator;
         // Torque is linear in the acceleration: a step of one is exact.
         let steps = [STEP, STEP, 0.5];
         for t in 0..samples {
@@ -42,7 +43,8 @@ impl Slopes {
                     slopes[k][t] = (up[i] - down[i]) / (2.0 * step);
                 }
             }
-            of[j][0][t] += stiffness;
+            let x = state[0][j] - drive.spring_rest;
+            of[j][0][t] += drive.spring_stiffness + 3.0 * drive.spring_cubic * x * x;
         }
         Self { of }
     }

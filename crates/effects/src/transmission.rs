@@ -1,6 +1,7 @@
 use dynamics::Dynamics;
 use robot::{Robot, SensingSide};
 
+use crate::cable_loop::Loop;
 use crate::motion::{Link, State};
 use crate::timing::rate;
 
@@ -90,6 +91,10 @@ fn loads(robot: &Robot, state: &State) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
             load[i][t] = tau[i] + crate::motion::spring_torque(&link.actuator, at[0][i]);
             inertia[i][t] = mass[i * n + i];
         }
+    }
+    for (i, link) in robot.links().iter().enumerate() {
+        let dragged = Loop::of(&link.actuator, &state[0][i]);
+        load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
     }
     (load, inertia)
 }

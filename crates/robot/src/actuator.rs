@@ -101,7 +101,8 @@ pub struct Coupling {
 /// The effort that the model expects in a log is, with `tau_rb` the rigid-body torque,
 ///
 /// ```text
-/// load   = tau_rb + spring_stiffness (q - spring_rest)
+/// load   = tau_rb + spring_stiffness x + spring_cubic x³ + h,   x = q - spring_rest
+/// dh     = spring_stiffness dq while |h| < spring_hysteresis, else 0
 /// tau    = load + rotor_inertia qdd + viscous qd + level s + ripple(q)
 ///          + presliding_damping (qd - |qd| s)
 /// effort = transmission_ratio torque_gain tau + torque_offset
@@ -160,6 +161,10 @@ pub struct Actuator {
     pub spring_stiffness: f64,
     /// Position at which that spring is slack (rad or m).
     pub spring_rest: f64,
+    /// Torque of that spring per cube of displacement (N·m/rad³ or N/m³).
+    pub spring_cubic: f64,
+    /// Half the width of the loop of its torque over position (N·m or N), not below 0.
+    pub spring_hysteresis: f64,
     /// Reported effort per unit of true torque.
     pub torque_gain: f64,
     /// Effort reported at zero torque (N·m or N).
@@ -201,6 +206,8 @@ impl Default for Actuator {
             coupling: None,
             spring_stiffness: 0.0,
             spring_rest: 0.0,
+            spring_cubic: 0.0,
+            spring_hysteresis: 0.0,
             torque_gain: 1.0,
             torque_offset: 0.0,
             backlash: 0.0,

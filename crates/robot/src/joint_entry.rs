@@ -26,6 +26,12 @@ pub(crate) struct JointEntry {
     pub spring_stiffness_nm_per_rad: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_rest_rad: Option<f64>,
+    /// Torque of the spring per cube of displacement.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spring_cubic_nm_per_rad3: Option<f64>,
+    /// Half the width of the loop of its torque over position.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spring_hysteresis_nm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_gain: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -163,13 +169,6 @@ impl JointEntry {
             ("viscous_nm_s_per_rad", self.viscous_nm_s_per_rad, Finite, &mut a.viscous),
             ("coulomb_forward_nm", forward, Finite, &mut a.coulomb_forward),
             ("coulomb_backward_nm", backward, Finite, &mut a.coulomb_backward),
-            (
-                "spring_stiffness_nm_per_rad",
-                self.spring_stiffness_nm_per_rad,
-                Finite,
-                &mut a.spring_stiffness,
-            ),
-            ("spring_rest_rad", self.spring_rest_rad, Finite, &mut a.spring_rest),
             ("torque_gain", self.torque_gain, Positive, &mut a.torque_gain),
             ("torque_offset_nm", self.torque_offset_nm, Finite, &mut a.torque_offset),
             ("backlash_rad", self.backlash_rad, NotNegative, &mut a.backlash),
@@ -191,6 +190,7 @@ impl JointEntry {
                 *field = Some(value);
             }
         }
+        self.spring(thing, a)?;
         self.bristles(thing, a)?;
         self.times(thing, a)?;
         a.stribeck = self.stribeck(thing)?.or(a.stribeck);
@@ -198,6 +198,37 @@ impl JointEntry {
         a.ripple = self.ripple(thing)?.or(a.ripple);
         a.sensing = self.sensing.unwrap_or(a.sensing);
         a.torque_source = self.torque_source.unwrap_or(a.torque_source);
+        Ok(())
+    }
+
+    fn spring(&self, thing: &str, a: &mut Actuator) -> Result<(), RobotError> {
+        use Range::{Finite, NotNegative};
+        for (key, value, range, field) in [
+            (
+                "spring_stiffness_nm_per_rad",
+                self.spring_stiffness_nm_per_rad,
+                Finite,
+                &mut a.spring_stiffness,
+            ),
+            ("spring_rest_rad", self.spring_rest_rad, Finite, &mut a.spring_rest),
+            (
+                "spring_cubic_nm_per_rad3",
+                self.spring_cubic_nm_per_rad3,
+                Finite,
+                &mut a.spring_cubic,
+            ),
+            (
+                "spring_hysteresis_nm",
+                self.spring_hysteresis_nm,
+                NotNegative,
+                &mut a.spring_hysteresis,
+            ),
+        ] {
+            if let Some(value) = value {
+                in_range(thing, key, value, range)?;
+                *field = value;
+            }
+        }
         Ok(())
     }
 

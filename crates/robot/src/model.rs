@@ -121,6 +121,8 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
         a.coulomb_backward,
         a.spring_stiffness,
         a.spring_rest,
+        a.spring_cubic,
+        a.spring_hysteresis,
         a.torque_gain,
         a.torque_offset,
         a.backlash,

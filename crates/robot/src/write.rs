@@ -95,6 +95,8 @@ fn joint_entry([new, old]: [&Link; 2], names: &[&str], gain: Option<Gain>) -> Jo
         coulomb_backward_nm: backward.filter(|_| both.is_none()),
         spring_stiffness_nm_per_rad: changed(a.spring_stiffness, b.spring_stiffness),
         spring_rest_rad: changed(a.spring_rest, b.spring_rest),
+        spring_cubic_nm_per_rad3: changed(a.spring_cubic, b.spring_cubic),
+        spring_hysteresis_nm: changed(a.spring_hysteresis, b.spring_hysteresis),
         torque_gain: changed(a.torque_gain, b.torque_gain),
         torque_offset_nm: changed(a.torque_offset, b.torque_offset),
         backlash_rad: changed(a.backlash, b.backlash),

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::Robot;
+use robot::{Actuator, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -76,8 +76,7 @@ impl Effect for CableSpring {
             let found = format!("{} without a stiffness, 0 was expected", self.hysteresis_nm);
             return Err(Mistake { key: "hysteresis_nm", found });
         }
-        let reach = reach(robot, joint, self.rest_rad);
-        Ok(Box::new(Injected { joint, cable: self.clone(), reach, x: 0.0, sliding: 0.0 }))
+        Ok(Box::new(Injected::new(robot, joint, self.clone(), self.stiffness_nm_per_rad)))
     }
 
     /// A spring about a place in the joint's range, whose torque a quarter of the range away is
@@ -108,9 +107,32 @@ fn reach(robot: &Robot, joint: usize, rest: f64) -> f64 {
     }
 }
 
+/// What the description says of a joint's cable apart from `stiffness x`, which is part of the
+/// [`Plant`](crate::Plant).
+pub(super) fn beyond_linear(
+    robot: &Robot,
+    joint: usize,
+    drive: &Actuator,
+) -> Option<Box<dyn Inject>> {
+    let bends = drive.spring_cubic.abs() > 0.0 || drive.spring_hysteresis > 0.0;
+    bends.then(|| {
+        let cable = CableSpring {
+            joint: String::new(),
+            stiffness_nm_per_rad: drive.spring_stiffness,
+            rest_rad: drive.spring_rest,
+            cubic_nm_per_rad3: drive.spring_cubic,
+            hysteresis_nm: drive.spring_hysteresis,
+            pulls: Pulls::Both,
+        };
+        Box::new(Injected::new(robot, joint, cable, 0.0)) as Box<dyn Inject>
+    })
+}
+
 struct Injected {
     joint: usize,
     cable: CableSpring,
+    /// Torque per unit of displacement that acts here; the loop has the cable's.
+    linear: f64,
     /// Farthest expected displacement (rad or m).
     reach: f64,
     /// Displacement at the last step (rad or m).
@@ -120,6 +142,11 @@ struct Injected {
 }
 
 impl Injected {
+    fn new(robot: &Robot, joint: usize, cable: CableSpring, linear: f64) -> Self {
+        let reach = reach(robot, joint, cable.rest_rad);
+        Self { joint, cable, linear, reach, x: 0.0, sliding: 0.0 }
+    }
+
     /// How far the cable is drawn out of its slack (rad or m).
     fn displacement(&self, q: f64) -> f64 {
         let x = q - self.cable.rest_rad;
@@ -141,8 +168,7 @@ impl Inject for Injected {
         let (cable, x) = (&self.cable, self.displacement(moment.q[self.joint]));
         let sliding = self.sliding + cable.stiffness_nm_per_rad * (x - self.x);
         self.sliding = sliding.clamp(-cable.hysteresis_nm, cable.hysteresis_nm);
-        let pull =
-            cable.stiffness_nm_per_rad * x + cable.cubic_nm_per_rad3 * x.powi(3) + self.sliding;
+        let pull = self.linear * x + cable.cubic_nm_per_rad3 * x.powi(3) + self.sliding;
         self.x = x;
         efforts.link[self.joint] -= match cable.pulls {
             Pulls::Both => pull,
@@ -156,6 +182,6 @@ impl Inject for Injected {
         let cable = &self.cable;
         let sliding = if cable.hysteresis_nm > 0.0 { cable.stiffness_nm_per_rad } else { 0.0 };
         let cubic = 3.0 * cable.cubic_nm_per_rad3 * self.reach.powi(2);
-        vec![(self.joint, cable.stiffness_nm_per_rad + sliding + cubic)]
+        vec![(self.joint, self.linear + sliding + cubic)]
     }
 }
