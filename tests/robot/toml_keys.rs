@@ -255,6 +255,13 @@ fn keys_that_disagree_are_refused() {
         "robot.toml: joint elbow: stribeck_velocity_rad_per_s is there alone, \
          stribeck_excess_nm as well was expected"
     );
+    for stiffness in ["", "\nspring_stiffness_nm_per_rad = -1"] {
+        assert_eq!(
+            refused(&format!("[joint.elbow]\nspring_hysteresis_nm = 0.1{stiffness}")),
+            "robot.toml: joint elbow: spring_hysteresis_nm is there without a spring that holds it, \
+             spring_stiffness_nm_per_rad above 0 as well was expected"
+        );
+    }
     assert_eq!(
         refused("[joint.elbow]\npresliding_damping_nm_s_per_rad = 1"),
         "robot.toml: joint elbow: presliding_damping_nm_s_per_rad is there alone, \

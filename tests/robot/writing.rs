@@ -102,6 +102,9 @@ proptest! {
         a.stribeck = dry.map(|(excess, velocity, ..)| Stribeck { excess, velocity });
         a.load_friction = dry.map_or(0.0, |(_, _, load, _)| load);
         (a.spring_cubic, a.spring_hysteresis) = (0.1 * sensor.0, dry.map_or(0.0, |(excess, ..)| excess));
+        if a.spring_hysteresis > 0.0 {
+            a.spring_stiffness = 1e-3 + a.spring_stiffness.abs();
+        }
         a.presliding = dry.map(|(.., way)| way);
         a.presliding_damping = dry.map(|(_, velocity, ..)| velocity);
         a.friction_wave = waves.map(|(share, periods, phase, _)| Wave { share, periods, phase });

@@ -20,9 +20,10 @@ pub(crate) struct Loop {
 }
 
 impl Loop {
-    /// The loop of a drive whose link follows `q`.
-    pub fn of(drive: &Actuator, q: &[f64]) -> Self {
-        Self::new(drive.spring_stiffness, drive.spring_hysteresis, q)
+    /// The loop of a drive whose link follows `q`; none of a spring that does not slide.
+    pub fn of(drive: &Actuator, q: &[f64]) -> Option<Self> {
+        let slides = drive.spring_hysteresis > 0.0;
+        slides.then(|| Self::new(drive.spring_stiffness, drive.spring_hysteresis, q))
     }
 
     pub fn new(stiffness: f64, hysteresis: f64, q: &[f64]) -> Self {

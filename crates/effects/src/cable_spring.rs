@@ -18,9 +18,9 @@ use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 /// of motion, the offset is not decided beside it, and the spring has it.
 pub(crate) struct CableSpring;
 
-/// Way over which the loop is believed to be drawn out that a robot has not yet, in quarters of the
-/// range of motion.
-const WAY: f64 = 0.25;
+/// Way over which the loop is believed to be drawn out that a robot has not yet, over the range of
+/// motion.
+const WAY: f64 = 1.0 / 16.0;
 
 /// Standard deviation of the rest position before any data, over the range of motion.
 const REST_SD: f64 = 0.25;
@@ -49,7 +49,7 @@ impl Explain for CableSpring {
             let (low, high) = q
                 .iter()
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(*q), h.max(*q)));
-            drive.spring_stiffness * WAY * 0.25 * (high - low)
+            drive.spring_stiffness * WAY * (high - low)
         };
         let dragged = Loop::new(drive.spring_stiffness, hysteresis, q);
         let x = || q.iter().map(|q| q - drive.spring_rest);
@@ -100,6 +100,13 @@ impl Explain for CableSpring {
             unbounded(1),
         ]
         .concat()
+    }
+
+    /// Whether what slides is held by a spring.
+    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
+        let Place::Joint(j) = place else { return false };
+        let drive = &extended.links()[j].actuator;
+        drive.spring_hysteresis == 0.0 || is_there(drive)
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {

@@ -226,8 +226,9 @@ impl Motion {
         for (i, a) in self.drives.iter().enumerate() {
             let spring = |(load, q): (&mut f64, &f64)| *load += spring_torque(a, *q);
             self.load[i].iter_mut().zip(&self.link[0][i]).for_each(spring);
-            let dragged = Loop::of(a, &self.link[0][i]);
-            self.load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
+            if let Some(dragged) = Loop::of(a, &self.link[0][i]) {
+                self.load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
+            }
             let torque = |t: usize| {
                 let (state, load) =
                     ([self.q[i][t], self.qd[i][t], self.qdd[i][t]], self.load[i][t]);
@@ -339,11 +340,13 @@ impl Motion {
     /// d load / dq s + d load / dqd sd + d load / dqdd sdd
     /// ```
     pub(crate) fn displaced(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
-        let dragged = Loop::of(&self.drives[j], &self.link[0][j]).displaced(s);
+        let dragged = Loop::of(&self.drives[j], &self.link[0][j]).map(|h| h.displaced(s));
         let part = |i: usize| {
             let [dq, dqd, dqdd] = &self.slopes(j).of[i];
-            let own = |t: usize| if i == j { dragged[t] } else { 0.0 };
-            let load = |t: usize| dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t] + own(t);
+            let own = dragged.as_ref().filter(|_| i == j);
+            let load = |t: usize| {
+                dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t] + own.map_or(0.0, |h| h[t])
+            };
             self.carried(i, (0..s.len()).map(load))
         };
         (0..self.q.len()).map(part).collect()

@@ -93,8 +93,9 @@ fn loads(robot: &Robot, state: &State) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
         }
     }
     for (i, link) in robot.links().iter().enumerate() {
-        let dragged = Loop::of(&link.actuator, &state[0][i]);
-        load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
+        if let Some(dragged) = Loop::of(&link.actuator, &state[0][i]) {
+            load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
+        }
     }
     (load, inertia)
 }

@@ -229,6 +229,10 @@ impl JointEntry {
                 *field = value;
             }
         }
+        if a.spring_hysteresis > 0.0 && a.spring_stiffness <= 0.0 {
+            let found = "spring_hysteresis_nm is there without a spring that holds it";
+            return lonely(thing, found, "spring_stiffness_nm_per_rad above 0 as well");
+        }
         Ok(())
     }
 
