@@ -64,6 +64,17 @@ fn shaped(size: f64) -> Robot {
     robot
 }
 
+/// The same with friction that builds up over a way, damped.
+fn bristly() -> Robot {
+    let mut robot = worn();
+    for j in 0..robot.joint_count() {
+        let a = &mut robot.link_mut(j).unwrap().actuator;
+        (a.coulomb_forward, a.coulomb_backward, a.load_friction) = (0.35, 0.35, 0.0);
+        (a.presliding, a.presliding_damping) = (Some(0.4), Some(0.3));
+    }
+    robot
+}
+
 fn frame(robot: &Robot) -> Frame {
     let n = robot.joint_count();
     Frame { rest_speed: vec![0.01; n], centre: (0..n).map(|j| 0.1 * j as f64).collect() }
@@ -195,6 +206,7 @@ fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
     for robot in [shaped(0.0), shaped(1.0)] {
         check_columns(&robot, |kind| frictions.contains(&kind));
     }
+    check_columns(&bristly(), |kind| kind == EffectKind::PreslidingFriction);
 }
 
 fn check_columns(robot: &Robot, looked_at: impl Fn(EffectKind) -> bool) {
@@ -211,9 +223,12 @@ fn check_columns(robot: &Robot, looked_at: impl Fn(EffectKind) -> bool) {
             let is_ratio = h.kind == EffectKind::DifferentialCoupling && weight == 4;
             // A loop that grows slides later: a step must not reach the next sample.
             let is_loop = h.kind == EffectKind::CableSpring && weight == 2;
+            // The way of bristles is compared over a tenth of itself, as its column is.
+            let is_way = h.kind == EffectKind::PreslidingFriction && weight == 0;
             let step = match () {
                 () if is_ratio => 0.02 * 0.8,
                 () if is_loop => 1e-6,
+                () if is_way => 0.1 * 0.4,
                 () => STEP * prior[weight],
             };
             let slope = derivative(robot, h, weight, step);

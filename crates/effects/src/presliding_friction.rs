@@ -11,7 +11,7 @@ use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 ///
 /// ```text
 /// s(way) - sign(qd)
-/// level (s(1.1 way) - s(0.9 way)) / (0.2 way),   qd - |qd| s(way)
+/// (level - damping |qd|) (s(1.1 way) - s(0.9 way)) / (0.2 way),   qd - |qd| s(way)
 /// ```
 pub(crate) struct PreslidingFriction;
 
@@ -52,8 +52,12 @@ impl Explain for PreslidingFriction {
             return vec![at_joint(j, slower.map(|(held, s)| gain * (held - s)))];
         };
         let (long, short) = (held((1.0 + STEP) * way), held((1.0 - STEP) * way));
-        let unit = gain * level(drive) / (2.0 * STEP * way);
-        let longer = long.into_iter().zip(short).map(|(l, s)| unit * (l - s));
+        let (level, damping) = (level(drive), drive.presliding_damping.unwrap_or(0.0));
+        let per_way = gain / (2.0 * STEP * way);
+        let share = |((long, short), qd): ((f64, f64), &f64)| {
+            per_way * (level - damping * qd.abs()) * (long - short)
+        };
+        let longer = long.into_iter().zip(short).zip(&motion.qd[j]).map(share);
         let speeds = motion.qd[j].iter().zip(&motion.direction[j]);
         let damped = speeds.map(|(qd, s)| gain * bending(*qd, *s));
         vec![at_joint(j, longer), at_joint(j, damped)]
