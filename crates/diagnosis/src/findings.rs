@@ -1,9 +1,8 @@
-use std::collections::BTreeSet;
-
 use catalogue::EffectKind;
 use effects::{Hypothesis, Place};
 use robot::Robot;
 
+use crate::contest::Apart;
 use crate::log::Look;
 use crate::problem::{HeldOut, Model, Problem};
 use crate::result::{EffectAt, Finding};
@@ -31,7 +30,7 @@ pub(crate) struct Evidence<'a> {
     pub model: &'a Model,
     pub significance: &'a Significance,
     /// Findings and those that do worse in their place once the robot has either.
-    pub apart: &'a BTreeSet<(usize, usize)>,
+    pub apart: &'a Apart,
     pub seed: u64,
 }
 

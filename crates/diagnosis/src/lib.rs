@@ -52,6 +52,7 @@ mod tones;
 mod traces;
 mod uncertainty;
 mod verdict;
+mod worse;
 
 pub use compare::{Comparison, FirstSize, compare};
 pub use diagnose::{Outcome, diagnose};

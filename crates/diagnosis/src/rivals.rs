@@ -2,48 +2,49 @@ use catalogue::EffectKind;
 
 use crate::problem::{HeldOut, Model, Problem};
 use crate::select::Selection;
+use crate::worse::Worse;
 
 /// Least share of a finding's held-out gain that a rival must reach to be one.
 const RECOVERS: f64 = 0.5;
 
-/// Standard errors by which a rival must be worse to be told apart.
-pub(crate) const TOLD_APART: f64 = 2.0;
-
-/// Hypotheses that explain the held-out data as well in place of `group`.
-///
-/// With `d_b` the held-out deviance that block `b` gains when the rival takes the place of
-/// the finding, the two are told apart if `mean(d) > 2 sd(d) / sqrt(blocks)`.
+/// Hypotheses that explain the held-out data as well in place of `group`, block by block.
 pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
     let problem = selection.problem;
     let with = problem.held_out(model);
-    let mut without = model.clone();
-    without.remove(&group);
-    let same = |h: &usize| {
-        !is_worse(problem, &with, &problem.held_out(&replaced(problem, &without, group, *h)))
+    let is_as_good = |rival: &HeldOut| {
+        !Worse::new(problem.of.iter().map(|&b| (with.deviance[b], rival.deviance[b])))
+            .is_told_apart()
     };
-    contenders(selection, model, group).into_iter().filter(same).collect()
+    let contenders = contenders(selection, model, group, |_| true).into_iter();
+    contenders.filter(|(_, rival)| is_as_good(rival)).map(|(h, _)| h).collect()
 }
 
-/// Hypotheses that explain much of the held-out data in place of `group`, be it as well or not.
-pub(crate) fn contenders(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
+/// Those of the hypotheses asked for that explain much of the held-out data in place of `group`, be it
+/// as well or not, and what they leave of it.
+pub(crate) fn contenders(
+    selection: &Selection,
+    model: &Model,
+    group: usize,
+    is_asked_for: impl Fn(usize) -> bool,
+) -> Vec<(usize, HeldOut)> {
     let problem = selection.problem;
-    let with = problem.held_out(model);
+    let asked_for =
+        |h: &usize| is_asked_for(*h) && !model.contains(h) && !is_special_case(problem, group, *h);
+    let candidates: Vec<usize> =
+        selection.neighbours(group).into_iter().filter(asked_for).collect();
+    if candidates.is_empty() {
+        return Vec::new();
+    }
     let mut without = model.clone();
     without.remove(&group);
-    let bare = problem.held_out(&without);
-    selection
-        .neighbours(group)
-        .into_iter()
-        .filter(|h| !model.contains(h) && !is_special_case(problem, group, *h))
-        .filter(|&h| {
-            let replaced = replaced(problem, &without, group, h);
-            if !selection.is_possible(&replaced, h) {
-                return false;
-            }
-            let recovered = bare.total() - problem.held_out(&replaced).total();
-            recovered > RECOVERS * (bare.total() - with.total())
-        })
-        .collect()
+    let bare = problem.held_out(&without).total();
+    let much = RECOVERS * (bare - problem.held_out(model).total());
+    let recovers = |h: usize| {
+        let replaced = replaced(problem, &without, group, h);
+        let left = selection.is_possible(&replaced, h).then(|| problem.held_out(&replaced))?;
+        (bare - left.total() > much).then_some((h, left))
+    };
+    candidates.into_iter().filter_map(recovers).collect()
 }
 
 /// The model with `rival` in the place of `group`. Asymmetric friction leaves its symmetric
@@ -66,13 +67,4 @@ fn is_special_case(problem: &Problem, group: usize, other: usize) -> bool {
     let columns = |g: usize| &problem.design.groups[g].columns;
     columns(other).len() > columns(group).len()
         && columns(group).iter().all(|k| columns(other).contains(k))
-}
-
-fn is_worse(problem: &Problem, with: &HeldOut, rival: &HeldOut) -> bool {
-    let n = problem.of.len() as f64;
-    let change: Vec<f64> =
-        problem.of.iter().map(|&b| rival.deviance[b] - with.deviance[b]).collect();
-    let mean = change.iter().sum::<f64>() / n;
-    let variance = change.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
-    mean > TOLD_APART * (variance / n).sqrt()
 }

@@ -1,11 +1,9 @@
-use std::collections::BTreeSet;
-
 use effects::weeded;
 use robot::Robot;
 
 use crate::between::{Between, between};
 use crate::blocks::{Block, FEWEST_BLOCKS, Folding, blocks};
-use crate::contest::Contest;
+use crate::contest::{Apart, Contest, Decided};
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extend::{Solved, solved};
@@ -69,8 +67,14 @@ pub(crate) struct Conclusion<'a> {
     pub model: Model,
     pub significance: Significance,
     pub solution: Solved,
-    /// Findings and those that do worse in their place once the robot has either.
-    pub apart: BTreeSet<(usize, usize)>,
+    pub apart: Apart,
+}
+
+/// A model that is significant and of a size that is decided, and the robot with it.
+struct Settled {
+    model: Model,
+    significance: Significance,
+    solution: Solved,
 }
 
 impl Study<'_> {
@@ -178,33 +182,40 @@ impl Study<'_> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let (problem, model) = record.search(&all);
         progress.step();
-        let (mut model, mut significance, mut solution) = self.settled(&problem, model)?;
-        let selection = record.selection(&problem);
-        let contest = Contest { study: self, selection: &selection };
-        let mut apart = BTreeSet::new();
-        for _ in 0..EXCHANGES {
-            let decided = contest.decide(&model, &solution)?;
-            apart = decided.apart;
-            let Some(better) = decided.better else { break };
-            (model, significance, solution) = self.settled(&problem, better)?;
-        }
+        let (Settled { model, significance, solution }, apart) =
+            self.contested(record, &problem, model)?;
         progress.step();
-        drop(selection);
         Ok(Conclusion { problem, model, significance, solution, apart })
     }
 
-    /// What is significant and of a size that is decided of a model, and the robot with it.
-    fn settled(
+    /// A model once no twin of a finding does better in its place, and the twins that do worse.
+    fn contested(
         &self,
+        record: &Record,
         problem: &Problem,
         model: Model,
-    ) -> Result<(Model, Significance, Solved), DiagnosisError> {
+    ) -> Result<(Settled, Apart), DiagnosisError> {
+        let contest = Contest { study: self, selection: &record.selection(problem) };
+        let mut settled = self.settled(problem, model)?;
+        let mut left = EXCHANGES;
+        loop {
+            let Decided { apart, better } = contest.decide(&settled.model, &settled.solution)?;
+            match better.filter(|_| left > 0) {
+                Some(better) => settled = self.settled(problem, better)?,
+                None => return Ok((settled, apart)),
+            }
+            left -= 1;
+        }
+    }
+
+    /// What is significant and of a size that is decided of a model.
+    fn settled(&self, problem: &Problem, model: Model) -> Result<Settled, DiagnosisError> {
         let (mut model, mut significance) = significant(problem, model, self.settings);
         loop {
             let solution = solved(self.robot, &self.log, problem, &model)?;
             let first = self.fitted(problem, &model, &solution);
             let open = solution.tell(&first, |fitted| untenable(problem, &model, fitted));
-            let Some(open) = open else { return Ok((model, significance, solution)) };
+            let Some(open) = open else { return Ok(Settled { model, significance, solution }) };
             model.remove(&open);
             (model, significance) = significant(problem, model, self.settings);
         }

@@ -46,8 +46,8 @@ const SHARE_OF_SLOW: f64 = 0.5;
 /// Share of the speed of a joint at the frequency of such a tone that may make it the motion's.
 const SHARE_OF_SPEED: f64 = 0.4;
 
-/// Cut-off of what is left beside such a tone, in bandwidths of the motion.
-const TWICE: f64 = 2.0;
+/// Cut-off of what such a tone is compared with, in bandwidths of the motion.
+const SLOW_BAND: f64 = 2.0;
 
 /// Order of that low-pass.
 const ORDER: usize = 4;
@@ -153,8 +153,8 @@ fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec
 fn is_no_motion(tone: &Tone, clock: &Joint, runs: &[Rest], slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
     let slow = |left: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        let low_pass = |(x, run): (&Vec<f64>, &Rest)| slowly(x, &run.time, slowest_hz);
-        left.iter().zip(runs).map(low_pass).collect()
+        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, SLOW_BAND * slowest_hz);
+        left.iter().zip(runs).map(of).collect()
     };
     let (with, without) = (slow(clock.left), slow(&clock.without(tone)));
     let windows = || {
@@ -179,13 +179,13 @@ fn is_no_motion(tone: &Tone, clock: &Joint, runs: &[Rest], slowest_hz: f64) -> b
     windows().all(is_most) && windows().filter(is_still).count() >= FEWEST_STILL
 }
 
-/// What is as slow as the motion of a signal, and twice as fast.
-fn slowly(x: &[f64], time: &[f64], slowest_hz: f64) -> Vec<f64> {
+/// What of a signal is slower than a cut-off.
+fn low_passed(x: &[f64], time: &[f64], cutoff_hz: f64) -> Vec<f64> {
     let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
     let rate_hz = time.len().saturating_sub(1) as f64 / span;
     let mut slow = x.to_vec();
     // A rate that leaves no room for it has nothing faster.
-    if let Ok(low_pass) = LowPass::new(ORDER, TWICE * slowest_hz, rate_hz) {
+    if let Ok(low_pass) = LowPass::new(ORDER, cutoff_hz, rate_hz) {
         low_pass.apply(&mut slow);
     }
     slow
