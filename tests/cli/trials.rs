@@ -139,15 +139,16 @@ fn what_a_killed_worker_has_left_is_in_nobodys_way() {
         done(path, &["plan", "campaign.toml", "--out", name, "--quiet"]);
     }
     done(path, &["work", "a", "--quiet"]);
-    let half = path.join("b/work/00001");
+    let work = path.join("b").join("work");
+    let half = work.join("00001");
     fs::create_dir_all(&half).unwrap();
-    fs::write(path.join("b/work/00001.lock"), "").unwrap();
+    fs::write(work.join("00001.lock"), "").unwrap();
     for name in ["waves.parquet", "another.parquet", "scenario.toml", "truth.json"] {
         fs::write(half.join(name), "half of").unwrap();
     }
     assert_eq!(done(path, &["work", "b"]), "6 trials made; 0 left\n");
     assert_eq!(merged(path, "b"), merged(path, "a"));
-    assert_eq!(fs::read_dir(path.join("b/work")).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(work).unwrap().count(), 0);
 }
 
 #[cfg(unix)]

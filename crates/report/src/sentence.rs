@@ -71,8 +71,8 @@ pub fn bottom_line(report: &Report) -> String {
     let Some(fall) = total.fall() else {
         return "No joint has held-out data on which a gain could be measured".to_owned();
     };
-    let (before, after) = (significant(total.before, 3), significant(total.after, 3));
-    if fall.abs() < LEAST_FALL {
+    let (before, after) = total.told();
+    if before == after {
         return format!("On held-out data ({held_out}) the {what} over {over} is {before}{unit}");
     }
     let way = if fall > 0.0 { "falls" } else { "rises" };
@@ -87,14 +87,10 @@ pub(crate) fn short_bottom_line(report: &Report) -> String {
     let total = Total::new(report);
     let Total { what, unit, over, .. } = total;
     let Some(fall) = total.fall() else { return bottom_line(report) };
-    let (before, after) = (significant(total.before, 3), significant(total.after, 3));
-    let change =
-        if fall.abs() < LEAST_FALL { String::new() } else { format!(" ({})", less_or_more(fall)) };
+    let (before, after) = total.told();
+    let change = if before == after { String::new() } else { format!(" ({})", less_or_more(fall)) };
     format!("Held-out {what} over {over}: {before} → {after}{unit}{change}")
 }
-
-/// Change of the error that is worth words.
-const LEAST_FALL: f64 = 0.0005;
 
 /// The error over the joints that the logs show something of.
 struct Total {
@@ -123,6 +119,11 @@ impl Total {
             let (before, after) = (mean(&shown(&gain.nmse_before)), mean(&shown(&gain.nmse_after)));
             Self { over, what: "mean nMSE of torque and force", unit: "", before, after }
         }
+    }
+
+    /// Both as they are told: a change that these do not show is worth no words.
+    fn told(&self) -> (String, String) {
+        (significant(self.before, 3), significant(self.after, 3))
     }
 
     /// Relative fall; none when there is nothing to compare.

@@ -135,9 +135,10 @@ mod tests {
         let expected = "torque per unit of displacement (N·m/rad, or N/m): \
                         0.1 to 2 on an arm like the WAM";
         assert_eq!(spring.parameters.first().map(meaning).as_deref(), Some(expected));
+        assert_eq!(diagnosed(spring), "yes, by its columns in a regression");
         assert_eq!(
-            diagnosed(spring),
-            "yes, by its columns in a regression: stiffness and rest only"
+            diagnosed(EffectKind::ExternalDisturbance.entry()),
+            "yes, as a line of the spectrum over time: amplitude and frequency and phase only"
         );
     }
 }
