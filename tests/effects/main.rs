@@ -7,7 +7,8 @@ mod undone;
 use catalogue::EffectKind;
 use checks::synthetic::wam;
 use effects::{
-    Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Scale, hypotheses, model,
+    Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Scale, hypotheses,
+    model,
 };
 use robot::{Coupling, Robot, Stribeck, TorqueSource, Wave};
 
@@ -72,6 +73,13 @@ fn bristly() -> Robot {
         (a.coulomb_forward, a.coulomb_backward, a.load_friction) = (0.35, 0.35, 0.0);
         (a.presliding, a.presliding_damping) = (Some(0.4), Some(0.3));
     }
+    robot
+}
+
+/// The WAM of [`worn`] with a spring at joint `j`.
+fn springy(j: usize) -> Robot {
+    let mut robot = worn();
+    robot.link_mut(j).unwrap().actuator.elasticity = Some(30_000.0);
     robot
 }
 
@@ -193,7 +201,7 @@ fn derivative(robot: &Robot, h: Hypothesis, weight: usize, step: f64) -> Vec<Vec
 
 #[test]
 fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
-    check_columns(&worn(), |kind| !STARTS_AT_ZERO.contains(&kind));
+    check_columns(&worn(), |h| !STARTS_AT_ZERO.contains(&h.kind));
     let frictions = [
         EffectKind::ViscousFriction,
         EffectKind::CoulombFriction,
@@ -204,17 +212,23 @@ fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
     ];
     // Where friction varies with position, what moves a position moves it as well, to first order.
     for robot in [shaped(0.0), shaped(1.0)] {
-        check_columns(&robot, |kind| frictions.contains(&kind));
+        check_columns(&robot, |h| frictions.contains(&h.kind));
     }
-    check_columns(&bristly(), |kind| kind == EffectKind::PreslidingFriction);
+    check_columns(&bristly(), |h| h.kind == EffectKind::PreslidingFriction);
+    for j in [0, 1, 3] {
+        let of_spring = Hypothesis { kind: EffectKind::JointElasticity, place: Place::Joint(j) };
+        check_columns(&springy(j), |h| h == of_spring);
+    }
 }
 
-fn check_columns(robot: &Robot, looked_at: impl Fn(EffectKind) -> bool) {
+fn check_columns(robot: &Robot, looked_at: impl Fn(Hypothesis) -> bool) {
     let nominal = motion(robot);
-    for h in hypotheses(robot).into_iter().filter(|h| looked_at(h.kind)) {
+    for h in hypotheses(robot).into_iter().filter(|h| looked_at(*h)) {
         let prior = h.prior(robot, &scale(robot));
         let tolerance = match h.kind {
             kind if TIMES.contains(&kind) => 1e-3,
+            // How a spring gives is known along the measured motion, not along the link's.
+            EffectKind::JointElasticity => 0.003,
             _ => TOLERANCE,
         };
         for (weight, column) in h.columns(&nominal).iter().enumerate() {

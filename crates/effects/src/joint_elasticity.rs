@@ -32,7 +32,7 @@ impl Explain for JointElasticity {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![motion.twisted(j, motion.tight_load(j))]
+        vec![motion.twisted(j, &motion.load[j])]
     }
 
     fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {

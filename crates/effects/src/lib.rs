@@ -21,6 +21,7 @@ mod dry_friction;
 mod encoder_offset;
 mod explain;
 mod germ;
+mod give;
 mod gravity_direction;
 mod hypothesis;
 mod inertial_parameters;

@@ -7,8 +7,9 @@ use robot::{Actuator, Robot, SensingSide};
 
 use crate::cable_loop::Loop;
 use crate::dry_friction::dry_friction;
+use crate::give::Give;
 use crate::slopes::Slopes;
-use crate::timing::{Timing, rate};
+use crate::timing::{Timing, curvature, rate};
 use crate::transmission::{Parted, corrected, play};
 use crate::{Column, Part};
 
@@ -57,6 +58,8 @@ pub struct Motion {
     pub(crate) drives: Vec<Actuator>,
     /// Load of the links if they moved as was measured, where motor and link part.
     tight_load: Option<Vec<Vec<f64>>>,
+    /// How each joint gives that has a spring between its encoder and its link.
+    gives: Vec<Option<Give>>,
 }
 
 /// Position, velocity and acceleration, each `[joint][sample]`.
@@ -138,7 +141,7 @@ impl Motion {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
         let Encoders { reported, swift, links } = encoders;
-        let Parted { motor, link, tight_load } =
+        let Parted { motor, link, tight_load, gives } =
             Parted::new(robot, corrected(robot, reported), links, period_s);
         let [q, qd, qdd] = motor;
         let direction = (0..joints).map(|j| {
@@ -167,6 +170,7 @@ impl Motion {
             robot: robot.clone(),
             drives,
             tight_load,
+            gives,
         };
         motion.rigid_body(robot);
         motion.drive();
@@ -317,11 +321,13 @@ impl Motion {
         signals.map(twist).collect()
     }
 
-    /// What changes in the efforts where motor and link of joint `j` part by `twist`,
-    /// `theta - q`: the one that was not measured moves otherwise.
+    /// What changes in the efforts where motor and link of joint `j` part by `twist`, `theta - q`, and by
+    /// what its spring gives to that: the one that was not measured moves otherwise.
     pub(crate) fn twisted(&self, j: usize, twist: &[f64]) -> Column {
+        let given = self.gives[j].as_ref().map(|give| give.under(twist));
+        let twist = given.as_deref().unwrap_or(twist);
         let first = rate(twist, self.period_s);
-        let second = rate(&first, self.period_s);
+        let second = curvature(twist, self.period_s);
         let drive = &self.drives[j];
         if drive.sensing == SensingSide::Link {
             let motor = |(v, a): (&f64, &f64)| drive.viscous * v + drive.rotor_inertia * a;

@@ -66,6 +66,15 @@ pub(crate) fn rate(x: &[f64], period_s: f64) -> Vec<f64> {
     (0..x.len()).map(at).collect()
 }
 
+/// The second derivative of a signal (1/s²), by central differences; 0 at its ends.
+pub(crate) fn curvature(x: &[f64], period_s: f64) -> Vec<f64> {
+    let at = |t: usize| match (t.checked_sub(1), x.get(t + 1)) {
+        (Some(before), Some(after)) => (x[before] - 2.0 * x[t] + after) / (period_s * period_s),
+        _ => 0.0,
+    };
+    (0..x.len()).map(at).collect()
+}
+
 /// `x` at `steps` samples later, by cubic interpolation (Catmull & Rom 1974); the first and the
 /// last sample are held.
 fn shifted(x: &[f64], steps: f64) -> Vec<f64> {

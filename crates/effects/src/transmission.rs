@@ -2,8 +2,10 @@ use dynamics::Dynamics;
 use robot::{Robot, SensingSide};
 
 use crate::cable_loop::Loop;
+use crate::give::Give;
 use crate::motion::{Link, State};
-use crate::timing::rate;
+use crate::slopes::Slopes;
+use crate::timing::{curvature, rate};
 
 /// The motion of the motors behind what their encoders report:
 /// `q = transmission_ratio (reported - encoder_offset)`.
@@ -22,53 +24,109 @@ pub(crate) fn corrected(robot: &Robot, mut reading: State) -> State {
 /// theta - q = load / elasticity + x,  |x| <= backlash / 2
 /// ```
 ///
-/// with the load that the links would need if they moved as was measured.
+/// with the load that the links need as they move, and play `x` under the one that they would need if
+/// they moved as was measured.
 #[derive(Debug)]
 pub(crate) struct Parted {
     pub motor: State,
     pub link: State,
     /// That load; none where motors and links move as one.
     pub tight_load: Option<Vec<Vec<f64>>>,
+    /// Of each joint that has a spring between its encoder and its link.
+    pub gives: Vec<Option<Give>>,
 }
+
+/// Rounds in which the twist of springs and the load where it leaves the links come to agree: the first is
+/// all of it but for gravity's and other joints' share in the change.
+const ROUNDS: usize = 3;
 
 impl Parted {
     /// Parts what was `measured` every `period_s`, but for the joints whose `links` were measured
     /// too.
     pub fn new(robot: &Robot, measured: State, links: Vec<Option<Link>>, period_s: f64) -> Self {
-        let mut motor = measured.clone();
-        let mut link = measured;
+        let joints = robot.joint_count();
         let parts = |(i, l): (usize, &robot::Link)| {
             let drive = &l.actuator;
             let seen = links.get(i).is_some_and(Option::is_some);
-            !seen && (drive.elasticity.is_some() || drive.backlash > 0.0)
+            (!seen && (drive.elasticity.is_some() || drive.backlash > 0.0)).then_some(i)
         };
-        let parting: Vec<usize> =
-            robot.links().iter().enumerate().filter(|l| parts(*l)).map(|(i, _)| i).collect();
+        let parting: Vec<usize> = robot.links().iter().enumerate().filter_map(parts).collect();
+        let mut motor = measured.clone();
+        let mut link = measured;
         for (i, seen) in links.into_iter().enumerate() {
             let signals = seen.into_iter().flatten();
             link.iter_mut().zip(signals).for_each(|(x, signal)| x[i] = signal);
         }
+        let mut gives = vec![None; joints];
         if parting.is_empty() {
-            return Self { motor, link, tight_load: None };
+            return Self { motor, link, tight_load: None, gives };
         }
         let (load, inertia) = loads(robot, &link);
+        let mut of_motor = Vec::new();
         for i in parting {
             let drive = &robot.links()[i].actuator;
-            let compliance = drive.elasticity.map_or(0.0, f64::recip);
-            let mut twist: Vec<f64> = load[i].iter().map(|load| compliance * load).collect();
-            if drive.backlash > 0.0 {
-                let play = play(&load[i], &inertia[i], drive.backlash, period_s);
-                twist.iter_mut().zip(play).for_each(|(t, x)| *t += x);
+            let twist = match drive.backlash > 0.0 {
+                true => play(&load[i], &inertia[i], drive.backlash, period_s),
+                false => vec![0.0; load[i].len()],
+            };
+            if drive.sensing == SensingSide::Link {
+                let compliance = drive.elasticity.map_or(0.0, f64::recip);
+                let twist: Vec<f64> =
+                    twist.iter().zip(&load[i]).map(|(x, load)| x + compliance * load).collect();
+                moved(&mut motor, i, &twist, period_s);
+                continue;
             }
-            let at_link = drive.sensing == SensingSide::Link;
-            let (moved, sign) = if at_link { (&mut motor, 1.0) } else { (&mut link, -1.0) };
-            let first = rate(&twist, period_s);
-            let second = rate(&first, period_s);
-            for (x, change) in moved.iter_mut().zip([twist, first, second]) {
-                x[i].iter_mut().zip(change).for_each(|(x, change)| *x += sign * change);
-            }
+            gives[i] = drive.elasticity.map(|stiffness| {
+                let slopes = Slopes::new(robot, &link, i);
+                Give::new(stiffness.recip(), &slopes.of[i], period_s)
+            });
+            of_motor.push((i, twist));
         }
-        Self { motor, link, tight_load: Some(load) }
+        let link = behind_motors(robot, link, (of_motor, &gives), period_s);
+        Self { motor, link, tight_load: Some(load), gives }
+    }
+}
+
+/// By how much motor and link of some joints part, `theta - q` along the motion (rad or m).
+type Twists = Vec<(usize, Vec<f64>)>;
+
+/// Motion of the links behind motors with `play` that moved as `measured`, with the springs that give.
+fn behind_motors(
+    robot: &Robot,
+    measured: State,
+    (play, gives): (Twists, &[Option<Give>]),
+    period_s: f64,
+) -> State {
+    let behind = |twists: &Twists| {
+        let mut link = measured.clone();
+        for (i, twist) in twists {
+            let back: Vec<f64> = twist.iter().map(|s| -s).collect();
+            moved(&mut link, *i, &back, period_s);
+        }
+        link
+    };
+    let mut twists = play.clone();
+    if gives.iter().all(Option::is_none) {
+        return behind(&twists);
+    }
+    for _ in 0..ROUNDS {
+        let (load, _) = loads(robot, &behind(&twists));
+        for ((i, twist), (_, play)) in twists.iter_mut().zip(&play) {
+            let drive = &robot.links()[*i].actuator;
+            let (Some(give), Some(stiffness)) = (&gives[*i], drive.elasticity) else { continue };
+            let parts = play.iter().zip(twist.iter()).zip(&load[*i]);
+            let missing: Vec<f64> = parts.map(|((x, s), load)| load / stiffness + x - s).collect();
+            twist.iter_mut().zip(give.under(&missing)).for_each(|(s, more)| *s += more);
+        }
+    }
+    behind(&twists)
+}
+
+/// Moves joint `i` by `change`.
+fn moved(state: &mut State, i: usize, change: &[f64], period_s: f64) {
+    let changes = [change.to_vec(), rate(change, period_s), curvature(change, period_s)];
+    for (x, change) in state.iter_mut().zip(changes) {
+        x[i].iter_mut().zip(change).for_each(|(x, change)| *x += change);
     }
 }
 
