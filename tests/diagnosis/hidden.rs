@@ -32,7 +32,7 @@ const SHAPES: [&str; 9] = [
 /// A motion in parts, each of sines.
 type Parts = [&'static str];
 
-/// Slow enough for a spring to give way as if it were at rest.
+/// What most effects show in.
 const SLOW: &Parts = &["terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0"];
 
 /// Fast enough to tell a delay from a lag.
@@ -173,6 +173,16 @@ fn hidden_delays_are_told_from_lags_in_lively_motions() {
     assert!(found.exactly, "{}", found.words());
     assert!(!names(&found).any(|at| at.effect == E::ActuatorLag), "{}", found.words());
     check_sizes(&found);
+}
+
+/// Links whose motion is not far below where they ring on their springs.
+#[test]
+fn hidden_springs_swing() {
+    for seed in [1, 2] {
+        let found = score_along(Hidden::One(E::JointElasticity), seed, LIVELY);
+        assert!(found.exactly && found.stray.is_empty(), "{}", found.words());
+        check_sizes(&found);
+    }
 }
 
 /// Its frequency lies in the band of the motion.

@@ -16,6 +16,9 @@ const ROUNDS: usize = 8;
 /// Relative fall of what is left below which a round has changed nothing.
 const SETTLED: f64 = 1e-4;
 
+/// Shortest share of a step that is tried.
+const SHORTEST: f64 = 0.125;
+
 /// Whether the columns of an effect are those of a small change only, follow from what the other
 /// findings change, or are more about a robot that has it.
 fn is_tangent(kind: EffectKind) -> bool {
@@ -65,6 +68,31 @@ pub(crate) struct Refit {
     pub model: Model,
     /// What is still changed.
     pub weights: Vec<f64>,
+    /// Weighted sum of squares that the robot leaves.
+    left: f64,
+}
+
+impl Refit {
+    fn new(
+        about: Robot,
+        log: &Log,
+        problem: &Problem,
+        hypotheses: &[Hypothesis],
+    ) -> Result<Self, LogError> {
+        let design = Design::of(&about, log, hypotheses)?;
+        let grams = Grams::new(&design, problem.blocks);
+        let model: Model = (0..design.groups.len()).collect();
+        let weight = problem.weight.clone();
+        let fit = Problem::new(&design, problem.blocks, &grams, &problem.of, weight);
+        let weights = settle(&fit, &model, &fit.info, &about);
+        let left = fit.info.yy;
+        Ok(Self { about, design, grams, model, weights, left })
+    }
+
+    /// The robot a share of the way on that is still to go.
+    fn stepped(&self, share: f64) -> Robot {
+        extended(&self.about, &self.design, &self.model, &scaled(&self.weights, share))
+    }
 }
 
 /// The robot with the findings of a model.
@@ -80,7 +108,7 @@ pub(crate) struct Solved {
 impl Solved {
     /// What `tell` says of the last fit: `first` is the one about the robot without findings.
     pub fn tell<T>(&self, first: &Fitted, tell: impl FnOnce(&Fitted) -> T) -> T {
-        let Some(Refit { about, design, grams, model, weights }) = &self.refit else {
+        let Some(Refit { about, design, grams, model, weights, .. }) = &self.refit else {
             return tell(first);
         };
         let Problem { blocks, of, weight, .. } = first.problem;
@@ -91,8 +119,8 @@ impl Solved {
 
 /// The robot changed by the weights of a model, with what is left of the changes fitted
 /// again about it where columns are tangents only: a gain scales what the other findings
-/// add, and a tilt turns gravity on a circle. A Gauss-Newton iteration, which ends where it
-/// gets no better.
+/// add, a tilt turns gravity on a circle, and a spring twists the more the softer it is. A Gauss-Newton
+/// iteration, whose steps are halved where they lead to worse, and which ends where it gets no better.
 pub(crate) fn solved(
     robot: &Robot,
     log: &Log,
@@ -100,35 +128,46 @@ pub(crate) fn solved(
     model: &Model,
 ) -> Result<Solved, LogError> {
     let first = settle(problem, model, &problem.info, robot);
-    let mut changed = extended(robot, problem.design, model, &first);
     let hypotheses: Vec<Hypothesis> =
         model.iter().map(|&g| problem.design.groups[g].hypothesis).collect();
     if !hypotheses.iter().any(|h| is_tangent(h.kind)) {
-        return Ok(Solved { weights: first, robot: changed, refit: None });
+        let robot = extended(robot, problem.design, model, &first);
+        return Ok(Solved { weights: first, robot, refit: None });
     }
-    let mut best: Option<(f64, Refit)> = None;
+    let (mut best, mut worse): (Option<Refit>, Option<Refit>) = (None, None);
+    let (mut least, mut share) = (problem.info.yy, 1.0);
     for _ in 0..ROUNDS {
-        let design = Design::of(&changed, log, &hypotheses)?;
-        let grams = Grams::new(&design, problem.blocks);
-        let model: Model = (0..design.groups.len()).collect();
-        let weight = problem.weight.clone();
-        let about = Problem::new(&design, problem.blocks, &grams, &problem.of, weight);
-        let left = about.info.yy;
-        if let Some((_, known)) = best.as_mut().filter(|(least, _)| left >= *least) {
-            known.weights.fill(0.0);
-            break;
+        let about = match &best {
+            Some(best) => best.stepped(share),
+            None => extended(robot, problem.design, model, &scaled(&first, share)),
+        };
+        let fit = Refit::new(about, log, problem, &hypotheses)?;
+        if fit.left > (1.0 + SETTLED) * least {
+            worse = Some(fit);
+            share *= 0.5;
+            if share < SHORTEST {
+                break;
+            }
+            continue;
         }
-        let weights = settle(&about, &model, &about.info, &changed);
-        let next = extended(&changed, &design, &model, &weights);
-        let about = std::mem::replace(&mut changed, next);
-        let better = best.as_ref().is_none_or(|(least, _)| left < (1.0 - SETTLED) * least);
-        best = Some((left, Refit { about, design, grams, model, weights }));
-        if !better {
+        let is_settled = fit.left >= (1.0 - SETTLED) * least;
+        (least, share, worse) = (fit.left, 1.0, None);
+        best = Some(fit);
+        if is_settled {
             break;
         }
     }
-    let refit = best.map(|(_, refit)| refit);
-    let robot =
-        refit.as_ref().map_or(changed, |r| extended(&r.about, &r.design, &r.model, &r.weights));
+    // Where the last step led to worse, it is not taken.
+    if let Some(best) = best.as_mut().filter(|_| worse.is_some()) {
+        best.weights.fill(0.0);
+    }
+    let refit = best.or(worse);
+    let robot = refit
+        .as_ref()
+        .map_or_else(|| extended(robot, problem.design, model, &first), |refit| refit.stepped(1.0));
     Ok(Solved { weights: first, robot, refit })
+}
+
+fn scaled(weights: &[f64], share: f64) -> Vec<f64> {
+    weights.iter().map(|w| share * w).collect()
 }
