@@ -77,6 +77,19 @@ fn blind_a_drive_that_ends_at_a_limit_is_named_with_it() {
     assert!((finding.parameters[0].value / 5.3 - 1.0).abs() < 0.05, "{:?}", finding.parameters);
 }
 
+/// With an encoder turned by 143 degrees the effort of the palm has nothing to do with what the model
+/// expects, and the less of it counts the less is left: no limit does that.
+#[test]
+fn blind_effort_that_the_model_gets_wrong_is_not_beyond_a_limit() {
+    let folder = tempfile::tempdir().unwrap();
+    let offset = "effect=[{ encoder_offset={ joint='j7_palm_yaw', offset_rad=2.5 } }]";
+    simulate(folder.path(), &[offset]);
+    let diagnosis = look(folder.path());
+    let names: Vec<String> = diagnosis.findings.iter().map(|f| f.at.words()).collect();
+    let limited = diagnosis.findings.iter().any(|f| f.at.effect == EffectKind::TorqueSaturation);
+    assert!(!limited, "{names:?}");
+}
+
 /// Commands are held for 2 ms, so they act 1 ms later than they are logged. Taken as they stand,
 /// the viscous friction of the shoulder comes out 1.5 % small and its interval misses.
 #[test]

@@ -176,7 +176,8 @@ fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogE
         return Ok(None);
     };
     let unlimited = left.residual.norm_squared();
-    if curve[best].1 > (1.0 - SHARE) * unlimited {
+    // Where the least limit does best, less effort is better: it is not the limit that explains it.
+    if best == 0 || curve[best].1 > (1.0 - SHARE) * unlimited {
         return Ok(None);
     }
     // The trials next to the best bracket it: thirds of that are dropped until nothing is left.
