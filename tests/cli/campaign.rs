@@ -17,7 +17,7 @@ pub const SCENARIO: &str = "robot = \"arm.toml\"\nengine.step_ms = 0.5\n\
 
 /// Six trials.
 pub const CAMPAIGN: &str = r#"scenario = "scenario.toml"
-hidden = ["clean", "FR02", "payload+backlash"]
+hidden = ["clean", "FR02", "payload+rotor_inertia"]
 seeds = 2
 seed = 7
 settings = ["hidden.torque_share=[0.2, 0.3]"]

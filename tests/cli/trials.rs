@@ -14,11 +14,16 @@ fn a_campaign_is_planned_made_and_merged() {
     let folder = folder();
     let path = folder.path();
     let out = done(path, &["plan", "campaign.toml", "--out", "a"]);
-    assert!(out.starts_with("6 trials, 2 of each kind:\nclean, coulomb_friction, "), "{out}");
+    assert!(
+        out.starts_with(
+            "6 trials, 2 of each kind:\nclean, coulomb_friction, rotor_inertia+payload"
+        ),
+        "{out}"
+    );
     let status = trials(path, &["status", "a"]);
     assert_eq!(status.code, 1);
     assert!(
-        status.out.contains(" all                  0       0       0     6\n"),
+        status.out.contains(" all                       0       0       0     6\n"),
         "{}",
         status.out
     );
@@ -26,7 +31,7 @@ fn a_campaign_is_planned_made_and_merged() {
     assert_eq!(done(path, &["work", "a", "--jobs", "2"]), "6 trials made; 0 left\n");
     assert_eq!(done(path, &["work", "a"]), "0 trials made; 0 left\n");
     let status = done(path, &["status", "a"]);
-    assert!(status.contains(" all                  6       0       0     0\n"), "{status}");
+    assert!(status.contains(" all                       6       0       0     0\n"), "{status}");
 
     let (text, files) = merged(path, "a");
     for expected in ["FR02 Coulomb friction", "two effects", "clean", "named first", "level (N m)"]
@@ -272,7 +277,7 @@ fn a_trial_that_cannot_be_diagnosed_is_counted_and_told() {
     assert_eq!(done(path, &["work", "a"]), "0 trials made; 0 left\n");
     let (text, _) = merged(path, "a");
     assert!(text.contains(" all        0       6       0     0\n"), "{text}");
-    assert!(text.contains("2 failed of backlash+payload, seed "), "{text}");
+    assert!(text.contains("2 failed of rotor_inertia+payload, seed "), "{text}");
     let page = fs::read_to_string(path.join("a/report.html")).unwrap();
     assert!(page.contains("No trial has a score") && page.contains("clean, 2 times, seed "));
     let records = Record::read(&path.join("a/trials.parquet")).unwrap();
@@ -286,9 +291,9 @@ fn a_mistake_in_a_campaign_is_underlined() {
         ("\"FR02\"", "\"clean\"", "\"clean\"", "clean is there already"),
         (
             "\"FR02\"",
-            "\"backlash+payload\"",
-            "\"payload+backlash\"",
-            "backlash+payload is there already",
+            "\"rotor_inertia+payload\"",
+            "\"payload+rotor_inertia\"",
+            "rotor_inertia+payload is there already",
         ),
         ("seeds = 2", "seeds = 0", "0", "0, a number from 1 to 1000000 was expected"),
         ("seeds = 2", "seed_count = 2", "seed_count", "unknown key `seed_count`"),
@@ -310,7 +315,7 @@ fn a_mistake_in_a_campaign_is_underlined() {
     arm::write(
         folder.path(),
         "campaign.toml",
-        &CAMPAIGN.replace("\"clean\", \"FR02\", \"payload+backlash\"", ""),
+        &CAMPAIGN.replace("\"clean\", \"FR02\", \"payload+rotor_inertia\"", ""),
     );
     let answer = trials(folder.path(), &["plan", "campaign.toml", "--out", "a"]);
     assert!(answer.err.contains("nothing, at least one kind was expected"), "{}", answer.err);
