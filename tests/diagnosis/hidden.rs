@@ -2,7 +2,7 @@
 //! and asked for through files; the truth is opened after the answer. Each has a twin: the same arm,
 //! seed and motion without it, in which it must not be named.
 //!
-//! Two runs of 15 s are a quarter of what blind trials have (`scenarios/trials.toml`), which count how
+//! Two runs of 15 s, or of 30 s where bristles bend, are a quarter or half of what blind trials have (`scenarios/trials.toml`), which count how
 //! often this comes out right.
 
 use catalogue::EffectKind;

@@ -18,8 +18,8 @@ pub(crate) struct Give {
     below: [Vec<f64>; 2],
 }
 
-/// Twist at the frequency at which the link rings: half the inverse of this over what the torque alone
-/// would twist.
+/// Weight of what holds the twist: close to the frequency at which the link rings it grows to some half
+/// of the inverse of this, and there it is none.
 const RESISTS: f64 = 0.2;
 
 /// Least pivot: a load that falls with the twist as fast as the spring grows holds nothing.
