@@ -112,9 +112,7 @@ fn state(robot: &Robot) -> [Vec<Vec<f64>>; 3] {
 }
 
 fn motion(robot: &Robot) -> Motion {
-    let state = state(robot);
-    let qd = state[1].clone();
-    Motion::new(robot, &frame(robot), state, &qd, 0.05)
+    Motion::new(robot, &frame(robot), state(robot), 0.05)
 }
 
 /// The same motion, with encoders at the links that do not quite say the same.
@@ -126,8 +124,7 @@ fn seen(robot: &Robot) -> Motion {
         Some([q.iter().map(|q| 0.97 * q + 0.01).collect(), scaled(qd), scaled(qdd)])
     };
     let links = (0..robot.joint_count()).map(link).collect();
-    let swift = reported[1].clone();
-    Motion::seen(robot, &frame(robot), Encoders { reported, swift, links }, 0.05)
+    Motion::seen(robot, &frame(robot), Encoders { reported, links }, 0.05)
 }
 
 /// The WAM of [`worn`] with transmissions that give.
@@ -218,6 +215,21 @@ fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
     for j in [0, 1, 3] {
         let of_spring = Hypothesis { kind: EffectKind::JointElasticity, place: Place::Joint(j) };
         check_columns(&springy(j), |h| h == of_spring);
+    }
+}
+
+/// Friction that is gone before the direction of motion is known has neither height nor width in a
+/// log, so its velocity stays above twice the speed of rest.
+#[test]
+fn the_velocity_of_stribeck_friction_stays_where_logs_show_it() {
+    let (before, frame) = (shaped(1.0), frame(&worn()));
+    let h = Hypothesis { kind: EffectKind::StribeckFriction, place: Place::Joint(2) };
+    for (step, expected) in [(-0.19, 0.02), (-0.1, 0.1), (0.1, 0.3)] {
+        let mut after = before.clone();
+        h.extend(&mut after, &[0.05, step], &frame);
+        let stribeck = after.links()[2].actuator.stribeck.unwrap();
+        assert!((stribeck.velocity - expected).abs() < 1e-12, "{stribeck:?}");
+        assert!((stribeck.excess - 0.35).abs() < 1e-12, "{stribeck:?}");
     }
 }
 

@@ -44,14 +44,7 @@ pub fn beside([q1, _]: [f64; 2], [v1, v2]: [f64; 2]) -> [f64; 2] {
 
 /// One run at 50 Hz of two sines a joint, phases by `seed`; `share` of [`beside`] is in it.
 pub fn run(seed: f64, samples: usize, share: f64) -> Prepared {
-    let empty = PreparedJoint {
-        q: vec![],
-        qd: vec![],
-        qdd: vec![],
-        qd_wide: vec![],
-        effort: vec![],
-        link: None,
-    };
+    let empty = PreparedJoint::exact([vec![], vec![], vec![]], vec![]);
     let mut joints = vec![empty.clone(), empty];
     let time: Vec<f64> = (0..samples).map(|i| 0.02 * i as f64).collect();
     for &t in &time {
@@ -72,7 +65,7 @@ pub fn run(seed: f64, samples: usize, share: f64) -> Prepared {
             joint.q.push(q[k]);
             joint.qd.push(v[k]);
             joint.qdd.push(acc[k]);
-            joint.qd_wide.push(v[k]);
+            joint.wide.qd.push(v[k]);
             // A ripple of 5 mN m stands for noise.
             let noise = 0.005 * (1e4 * t + seed + k as f64).sin();
             joint.effort.push(rigid[k] + share * rest[k] + noise);

@@ -341,7 +341,7 @@ fn logs_that_tell_nothing_still_train() {
         TrainSettings { points: 30, inducing_points: 10, search, ..TrainSettings::default() };
     let mut still = arm::run(1.0, 40, 1.0);
     for joint in &mut still.runs[0].joints {
-        for signal in [&mut joint.q, &mut joint.qd, &mut joint.qdd, &mut joint.qd_wide] {
+        for signal in [&mut joint.q, &mut joint.qd, &mut joint.qdd, &mut joint.wide.qd] {
             signal.fill(0.0);
         }
     }

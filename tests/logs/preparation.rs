@@ -53,6 +53,26 @@ fn velocity_and_acceleration_of_a_sine_are_its_derivatives() {
     assert!(errors.iter().all(|&e| e < 1e-4), "{errors:?}");
 }
 
+/// `1 / (1 + (f / cut-off)^8)` of a sine is left: half at the cut-off, all but 2e-5 at a quarter.
+#[test]
+fn wide_signals_have_what_is_as_fast_as_the_cutoff() {
+    let time = clock(4000, 200.0);
+    let settings = PrepareSettings { cutoff_hz: Some(0.8) };
+    let runs = [run(time.clone(), vec![follows("j1", &time, motion)])];
+    let mut prepared = prepare(&runs, &settings).unwrap().runs.remove(0);
+    let joint = &mut prepared.joints[0];
+    let wide = std::mem::take(&mut joint.wide);
+    let half = [&joint.q, &joint.qd, &joint.qdd].map(|x| x.iter().map(|x| 2.0 * x).collect());
+    let errors_of = |prepared: &PreparedRun| errors_within(prepared, 4.0);
+    [joint.q, joint.qd, joint.qdd] = half;
+    let doubled = errors_of(&prepared);
+    assert!(doubled.iter().all(|&e| e < 1e-3), "{doubled:?}");
+    let joint = &mut prepared.joints[0];
+    [joint.q, joint.qd, joint.qdd] = [wide.q, wide.qd, wide.qdd];
+    let whole = errors_of(&prepared);
+    assert!(whole.iter().all(|&e| e < 1e-3), "{whole:?}");
+}
+
 /// `q = motion - twist` of a link whose motor follows [`motion`].
 #[test]
 fn the_motion_of_a_link_and_its_twist_are_those_of_its_encoder() {

@@ -16,13 +16,9 @@ fn record(effort: &str, more: &str) -> PreparedRun {
     document.set(&format!("sensors.effort={effort}")).unwrap();
     let scenario = Scenario::from_document(&document).unwrap();
     let run = simulator::simulate(&scenario, &|| {}).unwrap().runs.remove(0);
-    let joint = |c: logs::Channels| PreparedJoint {
-        q: c.position,
-        qd: c.velocity.clone().unwrap(),
-        qdd: c.desired_acceleration.unwrap(),
-        qd_wide: c.velocity.unwrap(),
-        effort: c.effort,
-        link: None,
+    let joint = |c: logs::Channels| {
+        let state = [c.position, c.velocity.unwrap(), c.desired_acceleration.unwrap()];
+        PreparedJoint::exact(state, c.effort)
     };
     let joints = run.joints.into_iter().map(joint).collect();
     PreparedRun { name: run.name, rate_hz: 500.0, time: run.time, joints }

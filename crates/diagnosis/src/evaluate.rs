@@ -58,8 +58,7 @@ impl<'a> Along<'a> {
             Some([&link.q, &link.qd, &link.qdd].map(|x| decimate(x, first)))
         };
         let encoders = Encoders {
-            reported: [signals(|j| &j.q), signals(|j| &j.qd), signals(|j| &j.qdd)],
-            swift: signals(|j| &j.qd_wide),
+            reported: [signals(|j| &j.wide.q), signals(|j| &j.wide.qd), signals(|j| &j.wide.qdd)],
             links: run.joints.iter().map(link).collect(),
         };
         let motion = Motion::seen(robot, frame, encoders, rate.recip());

@@ -27,8 +27,8 @@ pub struct Motion {
     /// Direction of motion, in [-1, 1]: the sign of the velocity, in proportion to it below
     /// the rest speed; with presliding, the share of dry friction that the bristles hold.
     pub direction: Vec<Vec<f64>>,
-    /// Velocity that is filtered less, whose sign is that of the motion (rad/s or m/s).
-    swift: Vec<Vec<f64>>,
+    /// Velocity as reported, whose sign is that of the motion (rad/s or m/s).
+    reported: Vec<Vec<f64>>,
     /// Speed below which a joint counts as at rest (rad/s or m/s).
     rest_speed: Vec<f64>,
     /// Torque that the transmission carries to the link (N·m or N).
@@ -74,8 +74,6 @@ pub struct Encoders {
     /// Position, velocity and acceleration as reported, each `[joint][sample]` (rad or m, /s,
     /// /s²).
     pub reported: [Vec<Vec<f64>>; 3],
-    /// Velocity that is filtered less, whose sign is that of the motion (rad/s or m/s).
-    pub swift: Vec<Vec<f64>>,
     /// The same of the links that have an encoder of their own; `reported` is then the motor's.
     pub links: Vec<Option<[Vec<f64>; 3]>>,
 }
@@ -103,8 +101,7 @@ impl Frame {
 
 impl Motion {
     /// Evaluates the nominal robot along `reading`: `q`, `qd`, `qdd` as reported (each
-    /// `[joint][sample]`, every `period_s`), with directions from `swift`, a velocity that is
-    /// filtered less.
+    /// `[joint][sample]`, every `period_s`).
     ///
     /// ```text
     /// q = transmission_ratio (q reported - encoder_offset)
@@ -119,15 +116,9 @@ impl Motion {
     /// # Panics
     ///
     /// When the signals do not have one entry a joint of equal length.
-    pub fn new(
-        robot: &Robot,
-        frame: &Frame,
-        reading: [Vec<Vec<f64>>; 3],
-        swift: &[Vec<f64>],
-        period_s: f64,
-    ) -> Self {
+    pub fn new(robot: &Robot, frame: &Frame, reading: [Vec<Vec<f64>>; 3], period_s: f64) -> Self {
         let links = vec![None; robot.joint_count()];
-        let encoders = Encoders { reported: reading, swift: swift.to_vec(), links };
+        let encoders = Encoders { reported: reading, links };
         Self::seen(robot, frame, encoders, period_s)
     }
 
@@ -140,14 +131,16 @@ impl Motion {
     pub fn seen(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
-        let Encoders { reported, swift, links } = encoders;
+        let Encoders { reported, links } = encoders;
+        let velocity = reported[1].clone();
         let Parted { motor, link, tight_load, gives } =
             Parted::new(robot, corrected(robot, reported), links, period_s);
         let [q, qd, qdd] = motor;
         let direction = (0..joints).map(|j| {
             let settled = |v: &f64| (v / frame.rest_speed[j]).clamp(-1.0, 1.0);
             let way = drives[j].presliding;
-            way.map_or_else(|| swift[j].iter().map(settled).collect(), |way| bristles(&q[j], way))
+            let by_speed = || velocity[j].iter().map(settled).collect();
+            way.map_or_else(by_speed, |way| bristles(&q[j], way))
         });
         let direction = direction.collect();
         let mut motion = Self {
@@ -155,7 +148,7 @@ impl Motion {
             qd,
             qdd,
             direction,
-            swift,
+            reported: velocity,
             rest_speed: frame.rest_speed.clone(),
             load: vec![Vec::new(); joints],
             torque: vec![Vec::new(); joints],
@@ -268,7 +261,7 @@ impl Motion {
     pub(crate) fn motor(&self, j: usize, other: usize, ratio: f64) -> Vec<(f64, f64)> {
         let rest = self.rest_speed[j] + ratio.abs() * self.rest_speed[other];
         let of = |signal: &[Vec<f64>], t: usize| signal[j][t] + ratio * signal[other][t];
-        let settled = |t: usize| (of(&self.swift, t) / rest).clamp(-1.0, 1.0);
+        let settled = |t: usize| (of(&self.reported, t) / rest).clamp(-1.0, 1.0);
         (0..self.samples()).map(|t| (of(&self.qd, t), settled(t))).collect()
     }
 

@@ -20,6 +20,10 @@ const SHARES: [f64; 4] = [0.02, 0.04, 0.08, 0.16];
 /// Least excess, as a share of the Coulomb level.
 const LEAST: f64 = 0.1;
 
+/// Least velocity, in speeds at which the joint counts as at rest: of what is gone before the
+/// direction of motion is known, the logs show neither height nor width.
+const LEAST_OF_REST: f64 = 2.0;
+
 /// Least and largest change of a velocity in one step, over the velocity.
 const VELOCITY_STEP: (f64, f64) = (-0.5, 1.0);
 
@@ -91,12 +95,13 @@ impl Explain for StribeckFriction {
         of(drive).is_some_and(|s| s.excess > LEAST * level)
     }
 
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
         let (Place::Joint(j), [excess, velocity @ ..]) = (place, weights) else { return };
         let Some(link) = robot.link_mut(j) else { return };
         if let Some(known) = &mut link.actuator.stribeck {
             known.excess += excess;
-            known.velocity += velocity.first().unwrap_or(&0.0);
+            let velocity = known.velocity + velocity.first().unwrap_or(&0.0);
+            known.velocity = velocity.max(LEAST_OF_REST * frame.rest_speed[j]);
         }
     }
 

@@ -224,15 +224,9 @@ mod tests {
         let acceleration = FORCE / MASS;
         let time: Vec<f64> = (0..520).map(|k| 0.002 * f64::from(k)).collect();
         let of = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { time.iter().map(|t| f(*t)).collect() };
-        let qd = of(&|t| acceleration * t);
-        let joint = PreparedJoint {
-            q: of(&|t| 0.5 * acceleration * t * t),
-            qdd: of(&|_| acceleration),
-            qd_wide: qd.clone(),
-            qd,
-            effort: of(&|_| FORCE),
-            link: None,
-        };
+        let q = of(&|t| 0.5 * acceleration * t * t);
+        let state = [q, of(&|t| acceleration * t), of(&|_| acceleration)];
+        let joint = PreparedJoint::exact(state, of(&|_| FORCE));
         PreparedRun { name: "run".into(), rate_hz: 500.0, time, joints: vec![joint] }
     }
 

@@ -112,14 +112,8 @@ mod tests {
 
     /// Two joints of which the second has this torque.
     fn run(torque: &[f64]) -> PreparedRun {
-        let joint = |effort: &[f64]| PreparedJoint {
-            q: vec![],
-            qd: vec![],
-            qdd: vec![],
-            qd_wide: vec![],
-            effort: effort.to_vec(),
-            link: None,
-        };
+        let joint =
+            |effort: &[f64]| PreparedJoint::exact([vec![], vec![], vec![]], effort.to_vec());
         PreparedRun {
             name: "run".into(),
             rate_hz: 500.0,

@@ -296,14 +296,8 @@ mod tests {
 
     #[test]
     fn samples_of_another_arm_are_refused() {
-        let joint = logs::PreparedJoint {
-            q: vec![0.0],
-            qd: vec![0.0],
-            qdd: vec![0.0],
-            qd_wide: vec![0.0],
-            effort: vec![1.0],
-            link: None,
-        };
+        let state = [vec![0.0], vec![0.0], vec![0.0]];
+        let joint = logs::PreparedJoint::exact(state, vec![1.0]);
         let run = logs::PreparedRun {
             name: "run".to_owned(),
             rate_hz: 500.0,

@@ -22,22 +22,28 @@ pub(crate) struct Filtered {
     pub joints: Vec<FilteredJoint>,
 }
 
-/// `qd` and `qdd` are derivatives of `q` until [`choose_sources`] has looked at the
-/// measured ones.
 pub(crate) struct FilteredJoint {
+    /// Behind the cut-off.
+    pub own: Band,
+    /// Behind [`WIDE`] times that.
+    pub wide: Band,
+    /// Position, velocity and acceleration of the link.
+    pub link: Option<[Vec<f64>; 3]>,
+}
+
+/// The signals of a joint behind one low-pass. `qd` and `qdd` are derivatives of `q` until
+/// [`choose_sources`] has looked at the measured ones.
+pub(crate) struct Band {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
     pub qdd: Vec<f64>,
-    pub qd_wide: Vec<f64>,
-    /// Position, velocity and acceleration of the link.
-    pub link: Option<[Vec<f64>; 3]>,
     velocity: Option<Vec<f64>>,
-    velocity_wide: Option<Vec<f64>>,
     acceleration: Option<Vec<f64>>,
 }
 
-/// Cut-off of the velocity whose sign is taken, in cut-offs of the other signals. A filter
-/// rings where a motion starts and stops; four times as wide it rings a quarter as long.
+/// Cut-off of the wide signals, in cut-offs of the others. What is as fast as the cut-off is weakened
+/// by less than 1e-5 there, and a filter that rings where a motion starts and stops rings a quarter
+/// as long.
 const WIDE: f64 = 4.0;
 
 /// Largest cut-off, as a share of the sampling rate.
@@ -56,27 +62,10 @@ impl Filtered {
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate_hz)?;
         let wide_hz = (WIDE * cutoff_hz).min(WIDEST * rate_hz).max(cutoff_hz);
         let wide = LowPass::new(ORDER, wide_hz, rate_hz)?;
-        let pass = |low_pass: &LowPass, x: &Vec<f64>| {
-            let mut x = x.clone();
-            low_pass.apply(&mut x);
-            x
-        };
-        let filter = |x: &Vec<f64>| pass(&low_pass, x);
-        let joint = |raw: &UniformJoint| {
-            let q = filter(&raw.q);
-            let qd = differentiate(&q, rate_hz);
-            let qdd = differentiate(&qd, rate_hz);
-            let velocity = raw.velocity.as_ref().map(filter);
-            let acceleration = raw.acceleration.as_ref().map(filter);
-            let qd_wide = differentiate(&pass(&wide, &raw.q), rate_hz);
-            let velocity_wide = raw.velocity.as_ref().map(|v| pass(&wide, v));
-            let link = raw.link.as_ref().map(|link| {
-                let q = filter(link);
-                let qd = differentiate(&q, rate_hz);
-                let qdd = differentiate(&qd, rate_hz);
-                [q, qd, qdd]
-            });
-            FilteredJoint { q, qd, qdd, qd_wide, link, velocity, velocity_wide, acceleration }
+        let joint = |raw: &UniformJoint| FilteredJoint {
+            own: Band::of(raw, &low_pass, rate_hz),
+            wide: Band::of(raw, &wide, rate_hz),
+            link: raw.link.as_ref().map(|link| derived(passed(&low_pass, link), rate_hz)),
         };
         let joints = piece.joints.iter().map(joint).collect();
         Ok(Self { rate_hz, cutoff_hz, samples: piece.time.len(), joints })
@@ -91,7 +80,7 @@ impl Filtered {
 
     /// The velocity column of a joint against the derivative of its position.
     pub(crate) fn velocity_agreement(&self, joint: usize) -> Option<Agreement> {
-        let joint = &self.joints[joint];
+        let joint = &self.joints[joint].own;
         self.compare(joint.velocity.as_ref()?, &joint.qd)
     }
 
@@ -99,6 +88,41 @@ impl Filtered {
         let kept = self.settled();
         Agreement::of(&measured[kept.clone()], &derived[kept], self.rate_hz, self.cutoff_hz)
     }
+}
+
+impl Band {
+    fn of(raw: &UniformJoint, low_pass: &LowPass, rate_hz: f64) -> Self {
+        let pass = |x: &Vec<f64>| passed(low_pass, x);
+        let [q, qd, qdd] = derived(pass(&raw.q), rate_hz);
+        let velocity = raw.velocity.as_ref().map(pass);
+        let acceleration = raw.acceleration.as_ref().map(pass);
+        Self { q, qd, qdd, velocity, acceleration }
+    }
+
+    /// Takes the measured velocity.
+    fn take_velocity(&mut self, rate_hz: f64) {
+        self.qd = self.velocity.take().unwrap_or_default();
+        self.qdd = differentiate(&self.qd, rate_hz);
+    }
+
+    /// Takes the measured acceleration.
+    fn take_acceleration(&mut self) {
+        self.qdd = self.acceleration.take().unwrap_or_default();
+    }
+}
+
+/// The signal behind a low-pass.
+fn passed(low_pass: &LowPass, x: &[f64]) -> Vec<f64> {
+    let mut x = x.to_vec();
+    low_pass.apply(&mut x);
+    x
+}
+
+/// Position, velocity and acceleration.
+fn derived(q: Vec<f64>, rate_hz: f64) -> [Vec<f64>; 3] {
+    let qd = differentiate(&q, rate_hz);
+    let qdd = differentiate(&qd, rate_hz);
+    [q, qd, qdd]
 }
 
 /// Takes the measured velocity and acceleration of a joint where they agree with the
@@ -112,26 +136,27 @@ pub(crate) fn choose_sources(
     let motion_hz = cutoff_hz / MULTIPLE;
     let mut disagreements = Vec::new();
     let velocity = worst(pieces, in_motion, motion_hz, |piece| {
-        let j = &piece.joints[joint];
+        let j = &piece.joints[joint].own;
         Some((j.velocity.as_ref()?, &j.qd))
     });
     if velocity.is_some_and(|(_, a)| a.holds(motion_hz)) {
         for piece in pieces.iter_mut() {
-            let j = &mut piece.joints[joint];
-            j.qd = j.velocity.take().unwrap_or_default();
-            j.qd_wide = j.velocity_wide.take().unwrap_or_default();
-            j.qdd = differentiate(&j.qd, piece.rate_hz);
+            let FilteredJoint { own, wide, .. } = &mut piece.joints[joint];
+            own.take_velocity(piece.rate_hz);
+            wide.take_velocity(piece.rate_hz);
         }
     } else if let Some((piece, agreement)) = velocity {
         disagreements.push(Disagreement { piece, agreement, is_velocity: true });
     }
     let acceleration = worst(pieces, in_motion, motion_hz, |piece| {
-        let j = &piece.joints[joint];
+        let j = &piece.joints[joint].own;
         Some((j.acceleration.as_ref()?, &j.qdd))
     });
     if acceleration.is_some_and(|(_, a)| a.holds(motion_hz)) {
-        for j in pieces.iter_mut().map(|p| &mut p.joints[joint]) {
-            j.qdd = j.acceleration.take().unwrap_or_default();
+        for piece in pieces.iter_mut() {
+            let FilteredJoint { own, wide, .. } = &mut piece.joints[joint];
+            own.take_acceleration();
+            wide.take_acceleration();
         }
     } else if let Some((piece, agreement)) = acceleration {
         disagreements.push(Disagreement { piece, agreement, is_velocity: false });

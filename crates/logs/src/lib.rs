@@ -51,7 +51,9 @@ pub use error::LogError;
 pub use filter::{LowPass, decimate};
 pub use held::centre_commands;
 pub use info::{Gap, JointInfo, LogInfo, log_info};
-pub use prepare::{PrepareSettings, Prepared, PreparedJoint, PreparedLink, PreparedRun, prepare};
+pub use prepare::{
+    PrepareSettings, Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide, prepare,
+};
 pub use read::{ReadOptions, read_run};
 pub use rest::rest_speeds;
 pub use run::{Channel, Channels, Run};

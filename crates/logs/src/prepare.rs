@@ -55,13 +55,25 @@ pub struct PreparedJoint {
     pub qd: Vec<f64>,
     /// Acceleration, low-passed (rad/s² or m/s²).
     pub qdd: Vec<f64>,
-    /// Velocity with four times the cut-off, whose sign is that of the motion up to the
-    /// moments at which it starts and stops (rad/s or m/s).
-    pub qd_wide: Vec<f64>,
+    /// The same behind four times the cut-off.
+    pub wide: Wide,
     /// Effort on the same clock, not low-passed (N·m or N).
     pub effort: Vec<f64>,
     /// The motion of the link, where a second encoder shows it in every run.
     pub link: Option<PreparedLink>,
+}
+
+/// Motion behind four times the cut-off of the other signals: what a model makes of it and the
+/// measured effort may then pass the same low-pass, and the sign of the velocity is that of the
+/// motion up to the moments at which it starts and stops.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Wide {
+    /// Position (rad or m).
+    pub q: Vec<f64>,
+    /// Velocity (rad/s or m/s).
+    pub qd: Vec<f64>,
+    /// Acceleration (rad/s² or m/s²).
+    pub qdd: Vec<f64>,
 }
 
 /// What a second encoder at the link of a joint shows.
@@ -83,7 +95,8 @@ pub struct PreparedLink {
 ///    interpolated (cubic) at its usual rate, rounded. It is split at gaps of more than
 ///    five samples.
 /// 2. Low-pass: zero-phase Butterworth of order 4 ([`LowPass`]), one cut-off for all runs
-///    and joints. It is five times the bandwidth of the motion, unless it is given.
+///    and joints. It is five times the bandwidth of the motion, unless it is given. The same
+///    signals behind four times that are kept beside ([`Wide`]).
 /// 3. Derivatives ([`differentiate`], of low-passed signals):
 ///
 /// ```text
@@ -145,6 +158,14 @@ impl Prepared {
     }
 }
 
+impl PreparedJoint {
+    /// A joint without second encoder whose motion is exact: no low-pass has a part in it.
+    pub fn exact([q, qd, qdd]: [Vec<f64>; 3], effort: Vec<f64>) -> Self {
+        let wide = Wide { q: q.clone(), qd: qd.clone(), qdd: qdd.clone() };
+        Self { q, qd, qdd, wide, effort, link: None }
+    }
+}
+
 impl PreparedRun {
     /// The run's `samples` alone; what lies beyond its end is left out.
     pub fn part(&self, samples: Range<usize>) -> Self {
@@ -155,7 +176,7 @@ impl PreparedRun {
             q: part(&j.q),
             qd: part(&j.qd),
             qdd: part(&j.qdd),
-            qd_wide: part(&j.qd_wide),
+            wide: Wide { q: part(&j.wide.q), qd: part(&j.wide.qd), qdd: part(&j.wide.qdd) },
             effort: part(&j.effort),
             link: j.link.as_ref().map(|link| PreparedLink {
                 q: part(&link.q),
@@ -210,10 +231,10 @@ fn without_ends(piece: UniformRun, filtered: Filtered) -> PreparedRun {
                 qdd: cut(qdd),
                 twist: cut(raw.q.iter().zip(link).map(|(q, link)| q - link).collect()),
             }),
-            q: cut(f.q),
-            qd: cut(f.qd),
-            qdd: cut(f.qdd),
-            qd_wide: cut(f.qd_wide),
+            q: cut(f.own.q),
+            qd: cut(f.own.qd),
+            qdd: cut(f.own.qdd),
+            wide: Wide { q: cut(f.wide.q), qd: cut(f.wide.qd), qdd: cut(f.wide.qdd) },
             effort: cut(raw.effort),
         })
         .collect();

@@ -19,7 +19,7 @@ pub fn rest_speeds(prepared: &Prepared) -> Vec<f64> {
 }
 
 fn rest_speed(prepared: &Prepared, j: usize) -> f64 {
-    let all = prepared.runs.iter().flat_map(|r| &r.joints[j].qd_wide);
+    let all = prepared.runs.iter().flat_map(|r| &r.joints[j].wide.qd);
     let mut speeds: Vec<f64> = all.map(|v| v.abs()).collect();
     speeds.sort_by(f64::total_cmp);
     let largest = speeds.last().copied().unwrap_or(0.0);

@@ -237,7 +237,7 @@ mod tests {
             (0..(duration_s * rate_hz) as u32).map(|k| at(f64::from(k) / rate_hz)).collect()
         };
         let [q, qd, qdd] = [0, 1, 2].map(|d| vec![signal(d)]);
-        let record = Record { swift: qd.clone(), state: [q, qd, qdd], period_s: 1.0 / rate_hz };
+        let record = Record { state: [q, qd, qdd], period_s: 1.0 / rate_hz };
         let frame = Frame { rest_speed: vec![1e-6], centre: vec![0.0] };
         let at = |kind| Hypothesis { kind, place: Place::Joint(0) };
         let layout = Layout {

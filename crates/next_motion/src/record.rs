@@ -8,8 +8,6 @@ use robot::Robot;
 pub(crate) struct Record {
     /// Position, velocity, acceleration.
     pub state: [Vec<Vec<f64>>; 3],
-    /// Velocity that says the direction of motion.
-    pub swift: Vec<Vec<f64>>,
     /// Time between samples (s).
     pub period_s: f64,
 }
@@ -20,11 +18,10 @@ impl Record {
         let every = |x: &Vec<f64>| x.iter().step_by(stride).copied().collect::<Vec<f64>>();
         Self {
             state: [
-                run.joints.iter().map(|j| every(&j.q)).collect(),
-                run.joints.iter().map(|j| every(&j.qd)).collect(),
-                run.joints.iter().map(|j| every(&j.qdd)).collect(),
+                run.joints.iter().map(|j| every(&j.wide.q)).collect(),
+                run.joints.iter().map(|j| every(&j.wide.qd)).collect(),
+                run.joints.iter().map(|j| every(&j.wide.qdd)).collect(),
             ],
-            swift: run.joints.iter().map(|j| every(&j.qd_wide)).collect(),
             period_s: stride as f64 / run.rate_hz,
         }
     }
@@ -41,11 +38,11 @@ impl Record {
                 signal.iter_mut().zip(now).for_each(|(x, value)| x.push(*value));
             }
         }
-        Self { swift: signals[1].clone(), state: signals, period_s: rate_hz.recip() }
+        Self { state: signals, period_s: rate_hz.recip() }
     }
 
     /// The nominal robot along it.
     pub fn evaluate(self, robot: &Robot, frame: &Frame) -> Motion {
-        Motion::new(robot, frame, self.state, &self.swift, self.period_s)
+        Motion::new(robot, frame, self.state, self.period_s)
     }
 }

@@ -48,15 +48,14 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
         let at = |k: u32| 0.3 * w.powi(derivative) * (w * f64::from(k) / RATE_HZ + quarter).sin();
         (0..3000).map(at).collect()
     };
-    let [q, qd, qdd] = [wave(0), wave(1), wave(2)];
+    let state = [wave(0), wave(1), wave(2)];
     let mut run = PreparedRun {
         name: "run".to_owned(),
         rate_hz: RATE_HZ,
-        time: (0..q.len()).map(|k| k as f64 / RATE_HZ).collect(),
+        time: (0..state[0].len()).map(|k| k as f64 / RATE_HZ).collect(),
         joints: Vec::new(),
     };
-    let effort = vec![0.0; 3000];
-    let joint = PreparedJoint { q, qd: qd.clone(), qdd, qd_wide: qd, effort, link: None };
+    let joint = PreparedJoint::exact(state, vec![0.0; 3000]);
     run.joints = vec![joint; joints];
     let frame = Frame { rest_speed: vec![1e-3; joints], centre: vec![0.0; joints] };
     let motion = Record::of_run(&run, 1).evaluate(robot, &frame);

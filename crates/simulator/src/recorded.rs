@@ -160,14 +160,8 @@ mod tests {
                     + 0.1 * carried.abs();
                 let ripple = 0.2 * (40.0 * q - 1.0).sin();
                 let tau = carried + 0.1 * qdd + 0.3 * qd + ripple + level * qd.signum();
-                let joint = PreparedJoint {
-                    q: vec![q / 1.25 + 0.02],
-                    qd: vec![qd / 1.25],
-                    qdd: vec![qdd / 1.25],
-                    qd_wide: vec![qd / 1.25],
-                    effort: vec![1.25 * 1.1 * tau + 0.05],
-                    link: None,
-                };
+                let state = [vec![q / 1.25 + 0.02], vec![qd / 1.25], vec![qdd / 1.25]];
+                let joint = PreparedJoint::exact(state, vec![1.25 * 1.1 * tau + 0.05]);
                 let found = load(&drive, &joint, 0, 500.0);
                 assert!((found - carried).abs() < 1e-12, "{found}, not {carried} N m");
             }

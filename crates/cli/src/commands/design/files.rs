@@ -171,8 +171,7 @@ fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
     };
     let [q, qd, qdd] = [signal(|s| &s.q), signal(|s| &s.qd), signal(|s| &s.qdd)];
     let frame = Frame { rest_speed: vec![REST_SPEED; joints], centre: vec![0.0; joints] };
-    let along =
-        Along::new(robot, &frame, [q.clone(), qd.clone(), qdd.clone()], &qd, rate_hz.recip());
+    let along = Along::new(robot, &frame, [q.clone(), qd.clone(), qdd.clone()], rate_hz.recip());
     let channels = |(j, name): (usize, &str)| Channels {
         name: name.to_owned(),
         position: q[j].clone(),

@@ -173,13 +173,9 @@ fn samples(robot: &Robot, n: usize, seed: u64) -> Samples {
     // Beyond 2^20 numbers of the sequence, rounding would leave little of their fractions.
     let first = (seed % (1 << 20)) as usize;
     let signal = |d: usize| (0..n).map(|i| 4.0 * spread(first + i, d) - 2.0).collect::<Vec<f64>>();
-    let joints = (0..robot.joint_count()).map(|j| PreparedJoint {
-        q: signal(3 * j),
-        qd: signal(3 * j + 1),
-        qdd: signal(3 * j + 2),
-        qd_wide: Vec::new(),
-        effort: vec![0.0; n],
-        link: None,
+    let joints = (0..robot.joint_count()).map(|j| {
+        let state = [signal(3 * j), signal(3 * j + 1), signal(3 * j + 2)];
+        PreparedJoint::exact(state, vec![0.0; n])
     });
     let run = PreparedRun {
         name: "made up".to_owned(),
