@@ -69,7 +69,8 @@ fn trial(hidden: Hidden, seed: u64, motion: &Parts) -> Trial {
     if motion != SLOW {
         settings.push("hidden.torque_share=[0.2, 0.3]".to_owned());
     }
-    Trial { scenario: workspace_root().join("scenarios/clean.toml"), hidden, seed, settings }
+    let scenario = workspace_root().join("scenarios/clean.toml");
+    Trial { scenario, hidden, seed, settings, gains: false }
 }
 
 fn score(hidden: Hidden, seed: u64) -> Score {

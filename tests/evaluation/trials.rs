@@ -17,7 +17,8 @@ pub fn cheap(hidden: Hidden, seed: u64) -> Trial {
         "hidden.torque_share=[0.2, 0.3]",
     ];
     let settings = settings.map(str::to_owned).to_vec();
-    Trial { scenario: workspace_root().join("scenarios/clean.toml"), hidden, seed, settings }
+    let scenario = workspace_root().join("scenarios/clean.toml");
+    Trial { scenario, hidden, seed, settings, gains: false }
 }
 
 /// Seeds and kinds for which the answer is plain: what is tested here is the way through files.

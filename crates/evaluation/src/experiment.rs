@@ -1,7 +1,8 @@
 use std::path::{Path, PathBuf};
 
 use document::{Document, KeyPath};
-use learner::ModelKind;
+use learner::{ModelKind, Silent};
+use logs::{PrepareSettings, Run, prepare};
 use robot::{Gain, Loaded, Robot};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -9,8 +10,9 @@ use simulator::scenario::{Scenario, ScenarioSpec};
 
 use crate::tracking_scenario::{plant_of, with_plant};
 use crate::{
-    ErrorRateSpec, EvaluationError, FeedforwardKind, LearnSpec, PredictionSpec,
-    TrackingControlSpec, TrackingScenario, TrackingSpec,
+    ErrorRateSpec, EvaluationError, FeedforwardKind, Gains, LearnSpec, Learned, PredictionSpec,
+    TrackedError, TrackingControlSpec, TrackingScenario, TrackingSpec, forward_gap, torque_errors,
+    track_all,
 };
 
 /// An arm whose effects are found in some of its runs, and what finding them gains on the others.
@@ -129,6 +131,28 @@ impl Experiment {
     /// The runs that what is found is tested on.
     pub fn test(&self) -> impl Iterator<Item = &str> {
         self.names().filter(|name| !self.is_learned(name))
+    }
+
+    /// What `extended`, found in the runs that are learned from, gains on the others; `drawn` is
+    /// the scenario with the effects of its arm.
+    ///
+    /// # Errors
+    ///
+    /// [`EvaluationError`] when the logs cannot be prepared or the arm cannot track the motion.
+    pub fn gains(
+        &self,
+        drawn: &TrackingScenario,
+        [learned, test]: [&[Run]; 2],
+        extended: &Robot,
+    ) -> Result<Gains, EvaluationError> {
+        let models = Learned::learn(drawn, learned, Some(extended), &Silent)?;
+        let torque = torque_errors(drawn, &models, test)?;
+        let prepared = prepare(test, &PrepareSettings::default())?;
+        let robots = [self.plant().robot(), extended];
+        let forward = forward_gap(robots, &prepared.runs, &diagnosis::Silent);
+        let runs = track_all(drawn, &models, None, &Silent)?;
+        let tracking: Vec<TrackedError> = runs.iter().map(TrackedError::of).collect();
+        Ok(Gains::of(&torque, &forward, &tracking))
     }
 
     fn names(&self) -> impl Iterator<Item = &str> {

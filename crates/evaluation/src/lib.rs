@@ -17,6 +17,7 @@ mod error;
 mod experiment;
 mod feedforward_kind;
 mod forward_gap;
+mod gain;
 mod learned;
 mod median_time;
 mod metrics;
@@ -43,9 +44,10 @@ pub use error::EvaluationError;
 pub use experiment::Experiment;
 pub use feedforward_kind::FeedforwardKind;
 pub use forward_gap::{Drift, ForwardGap, ForwardWindow, forward_gap, forward_gap_of_logs};
+pub use gain::{Gain, Gains};
 pub use learned::Learned;
 pub use median_time::median_time_s;
-pub use metrics::{Gain, Metrics};
+pub use metrics::Metrics;
 pub use paper::{
     Claim, ClaimCase, DataSpec, FigureScenario, FigureSpec, LearningErrors, LearningFigure,
     LearningFigureSpec, ModelErrors, ModelTime, PAPER_MODELS, PaperData, PaperPlant,
@@ -70,7 +72,7 @@ pub use tracking_spec::{
 };
 pub use trials::{
     BrokenShard, Campaign, CampaignFolder, CampaignSpec, Confusion, Crew, Estimated, Failure,
-    Group, Hidden, KindCount, MERGED_SCHEMA, Made, Merged, Named, NoPart, Part, Power, PutIn,
-    Record, Row, Score, Share, Size, SizeClass, SizeTally, Tally, TextTable, Trial, TrialLogs,
-    WorkProgress, judge, work,
+    Gained, Group, Hidden, KindCount, Lessened, MERGED_SCHEMA, Made, Merged, Named, NoPart, Part,
+    Power, PutIn, Record, Row, Score, Share, Size, SizeClass, SizeTally, Tally, TextTable, Trial,
+    TrialLogs, WorkProgress, judge, work,
 };

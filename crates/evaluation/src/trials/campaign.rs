@@ -42,6 +42,10 @@ pub struct CampaignSpec {
     /// Settings of the scenario, `key=value` as `--set` takes them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub settings: Vec<String>,
+    /// Whether the last run of the scenario takes no part in the diagnosis and shows what that
+    /// gains: in torque, in simulation and in tracking.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub gains: bool,
 }
 
 fn names_of_kinds(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
@@ -77,6 +81,7 @@ pub struct Campaign {
     seed: u64,
     /// The scenario with the settings, as one text that can be read from any folder.
     scenario: String,
+    gains: bool,
 }
 
 impl Campaign {
@@ -93,7 +98,7 @@ impl Campaign {
             return Err(document.mistake(&KeyPath::root().key("seeds"), message, None).into());
         }
         let scenario = scenario(document, &spec)?;
-        Ok(Self { kinds, seeds: spec.seeds, seed: spec.seed, scenario })
+        Ok(Self { kinds, seeds: spec.seeds, seed: spec.seed, scenario, gains: spec.gains })
     }
 
     /// The campaign as one text, beside a scenario that is called so.
@@ -105,6 +110,7 @@ impl Campaign {
             seeds: self.seeds,
             seed: self.seed,
             settings: Vec::new(),
+            gains: self.gains,
         };
         // What has come from TOML can be written as TOML.
         toml::to_string(&spec).unwrap_or_default()
@@ -140,7 +146,8 @@ impl Campaign {
     /// The trial of a task, which starts from the scenario in a file.
     pub(super) fn trial(&self, task: usize, scenario: &Path) -> Trial {
         let (hidden, seed) = self.task(task);
-        Trial { scenario: scenario.to_owned(), hidden, seed, settings: Vec::new() }
+        let (scenario, settings) = (scenario.to_owned(), Vec::new());
+        Trial { scenario, hidden, seed, settings, gains: self.gains }
     }
 }
 
@@ -221,7 +228,7 @@ mod tests {
 
     fn campaign(kinds: &[&str], seeds: usize, seed: u64) -> Campaign {
         let kinds = kinds.iter().map(|kind| kind.parse().unwrap()).collect();
-        Campaign { kinds, seeds, seed, scenario: String::new() }
+        Campaign { kinds, seeds, seed, scenario: String::new(), gains: false }
     }
 
     /// The digests are those of `printf '%s' 7/backlash/1 | sha256sum`.
@@ -254,6 +261,7 @@ mod tests {
             campaign(&["clean", "backlash"], 3, 7),
             campaign(&["clean", "backlash"], 2, 8),
             Campaign { scenario, ..usual.clone() },
+            Campaign { gains: true, ..usual.clone() },
         ];
         assert!(others.iter().all(|other| other.hash() != usual.hash()));
         assert_eq!(campaign(&["clean", "TR01"], 2, 7).hash(), usual.hash());

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{CampaignFolder, KindCount, Made, Power, Score, SizeClass, Tally, TextTable};
+use super::{CampaignFolder, Gained, KindCount, Made, Power, Score, SizeClass, Tally, TextTable};
 
 /// The schema that `tally.json` follows.
 pub const MERGED_SCHEMA: &str = "plumbline.trials/1";
@@ -23,6 +23,9 @@ pub struct Merged {
     pub tally: Tally,
     /// How often effects are named, by their size.
     pub power: Vec<Power>,
+    /// What naming effects gains, where that was measured.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gained: Vec<Gained>,
 }
 
 /// Trials that failed alike.
@@ -56,6 +59,7 @@ impl Merged {
             failures: failures.into_iter().map(failure).collect(),
             tally: Tally::of(&scores),
             power: Power::all(&scores),
+            gained: Gained::all(&scores),
         }
     }
 
@@ -64,12 +68,20 @@ impl Merged {
         let counts = KindCount::table(&self.counts[self.counts.len().saturating_sub(1)..]);
         let mut text =
             format!("{}\n{}\n{}", counts.text(1), self.tally.text(), self.powers().text(1));
+        if let Some(gained) = self.gained() {
+            text.push_str(&format!("\n{}", gained.text(1)));
+        }
         for failure in &self.failures {
             let Failure { hidden, error, seeds } = failure;
             let first = seeds.first().map_or(String::new(), |seed| format!(", seed {seed} first"));
             text.push_str(&format!("\n{} failed of {hidden}{first}: {error}\n", seeds.len()));
         }
         text
+    }
+
+    /// What naming an effect gains, where that was measured.
+    pub fn gained(&self) -> Option<TextTable> {
+        (!self.gained.is_empty()).then(|| Gained::table(&self.gained))
     }
 
     /// How often an effect is named first, by thirds of the trials in order of its size.

@@ -3,6 +3,7 @@
 mod campaign;
 mod campaign_folder;
 mod confusion;
+mod gained;
 mod hidden;
 mod kind_count;
 mod merged;
@@ -23,6 +24,7 @@ mod work;
 pub use campaign::{Campaign, CampaignSpec};
 pub use campaign_folder::{BrokenShard, CampaignFolder, Made};
 pub use confusion::Confusion;
+pub use gained::{Gained, Lessened};
 pub use hidden::Hidden;
 pub use kind_count::KindCount;
 pub use merged::{Failure, MERGED_SCHEMA, Merged};

@@ -4,6 +4,7 @@ use simulator::Truth;
 
 use super::smallest::of_smallest;
 use super::{Size, stored};
+use crate::Gains;
 
 /// How well a diagnosis names what was put in.
 ///
@@ -28,6 +29,9 @@ pub struct Score {
     /// Findings that are neither true nor rivals of a true one.
     #[serde(deserialize_with = "stored::places")]
     pub stray: Vec<EffectAt>,
+    /// What the findings gain, where that was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gains: Option<Gains>,
 }
 
 /// An effect that was put in.
@@ -87,9 +91,16 @@ impl Score {
             exactly: among_first(|p| p.finding),
             as_one_of: among_first(|p| p.one_of),
             stray,
+            gains: None,
             findings: findings.into_iter().map(Named::new).collect(),
             put_in,
         }
+    }
+
+    /// Share of the nominal residual's power that goes with the findings that name what was put in.
+    pub fn explained(&self) -> f64 {
+        let own = self.put_in.iter().filter_map(|p| p.finding);
+        own.map(|finding| self.findings[finding].share_explained).sum()
     }
 
     /// Whether all that was put in is among the findings or their rivals, wherever.

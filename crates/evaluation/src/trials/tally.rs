@@ -78,16 +78,7 @@ pub struct SizeTally {
 impl Tally {
     /// The tally of some scores, whatever their order.
     pub fn of(scores: &[Score]) -> Self {
-        let mut groups: Vec<(Group, Vec<&Score>)> = Vec::new();
-        for score in scores {
-            for group in Group::all_of(score) {
-                match groups.iter_mut().find(|(other, _)| *other == group) {
-                    Some((_, members)) => members.push(score),
-                    None => groups.push((group, vec![score])),
-                }
-            }
-        }
-        groups.sort_by(|(a, _), (b, _)| a.order(*b));
+        let groups = Group::sorted(scores);
         Self {
             rows: groups.into_iter().map(|(group, members)| Row::new(group, &members)).collect(),
         }
@@ -95,6 +86,21 @@ impl Tally {
 }
 
 impl Group {
+    /// Scores by group, in the order of the rows of a tally.
+    pub(super) fn sorted(scores: &[Score]) -> Vec<(Self, Vec<&Score>)> {
+        let mut groups: Vec<(Self, Vec<&Score>)> = Vec::new();
+        for score in scores {
+            for group in Self::all_of(score) {
+                match groups.iter_mut().find(|(other, _)| *other == group) {
+                    Some((_, members)) => members.push(score),
+                    None => groups.push((group, vec![score])),
+                }
+            }
+        }
+        groups.sort_by(|(a, _), (b, _)| a.order(*b));
+        groups
+    }
+
     fn all_of(score: &Score) -> Vec<Self> {
         match &score.put_in[..] {
             _ if !score.looked_for => vec![Self::Unknown],
@@ -183,7 +189,7 @@ impl SizeTally {
 }
 
 /// The middle number, or the mean of the two in the middle.
-fn median(mut numbers: Vec<f64>) -> Option<f64> {
+pub(super) fn median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
     let (last, half) = (numbers.len().checked_sub(1)?, numbers.len() / 2);
     Some(0.5 * (numbers[last - half] + numbers[half]))

@@ -1,21 +1,22 @@
 use std::path::{Path, PathBuf};
 
 use catalogue::EffectKind;
-use diagnosis::{Settings, Silent};
+use diagnosis::{Outcome, Settings, Silent};
 use document::Document;
-use logs::ReadOptions;
+use logs::{ReadOptions, Run};
 use robot::{Loaded, Robot};
 use simulator::LogFormat;
 use simulator::scenario::{Scenario, ScenarioSpec};
 
 use super::{Hidden, Score};
-use crate::{EvaluationError, Sealed};
+use crate::{EvaluationError, Experiment, Sealed};
 
 /// One blind trial: an arm in which something is hidden, logged, diagnosed and scored.
 ///
 /// ```text
 /// scenario, hidden, seed --simulate--> *.parquet --diagnose--> diagnosis --\
 ///                                 \--> truth.json ---------- opened last ----> Score
+/// with gains: diagnosis --> extended robot --torque, replay, tracking of the last run--> Gains
 /// ```
 ///
 /// The score follows from these fields alone, so that a trial may be made anywhere, at any time
@@ -30,6 +31,8 @@ pub struct Trial {
     pub seed: u64,
     /// Settings of the scenario besides, `key=value` as `--set` takes them.
     pub settings: Vec<String>,
+    /// Whether its last run takes no part in the diagnosis and shows what that gains.
+    pub gains: bool,
 }
 
 impl Trial {
@@ -48,13 +51,24 @@ impl Trial {
     /// [`EvaluationError`] when the scenario cannot be meant or simulated, a file cannot be
     /// written or read, or the logs cannot be diagnosed.
     pub fn run(&self, folder: &Path) -> Result<Score, EvaluationError> {
-        let scenario = self.scenario()?;
+        let document = self.document()?;
+        let scenario = Scenario::from_document(&document)?;
         if !holds(folder, &scenario) {
             std::fs::create_dir_all(folder).map_err(unusable(folder))?;
             let simulation = simulator::simulate(&scenario, &|| {})?;
             simulator::write(folder, &scenario, &simulation, LogFormat::Parquet)?;
         }
-        judge(folder, &Robot::load(scenario.robot_file())?, &self.hidden.without())
+        let (robot, without) = (Robot::load(scenario.robot_file())?, self.hidden.without());
+        if !self.gains {
+            return judge(folder, &robot, &without);
+        }
+        let experiment = Experiment::from_document(&document, None)?;
+        let runs = runs_of(folder, &robot.robot)?;
+        let is_learned = |run: &Run| experiment.learned().any(|name| name == run.name);
+        let (learned, test): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(is_learned);
+        let answer = answer(&robot, &learned, &without)?;
+        let gains = experiment.gains(&experiment.drawn()?, [&learned, &test], &answer.extended)?;
+        Ok(Score { gains: Some(gains), ..scored(folder, &answer, &without)? })
     }
 
     /// Whether a folder holds its logs, whole, so that they would be used again.
@@ -63,12 +77,16 @@ impl Trial {
     }
 
     fn scenario(&self) -> Result<Scenario, EvaluationError> {
+        Ok(Scenario::from_document(&self.document()?)?)
+    }
+
+    fn document(&self) -> Result<Document, EvaluationError> {
         let mut document = Document::read(&self.scenario)?;
         document.set(&format!("seed={}", self.seed))?;
         for setting in self.settings.iter().chain(&self.hidden.settings()) {
             document.set(setting)?;
         }
-        Ok(Scenario::from_document(&document)?)
+        Ok(document)
     }
 }
 
@@ -84,19 +102,40 @@ pub fn judge(
     robot: &Loaded,
     without: &[EffectKind],
 ) -> Result<Score, EvaluationError> {
-    let options = ReadOptions { map: None, effort: "effort" };
-    let read = |path: &PathBuf| logs::read_run(path, &robot.robot, &options);
-    let runs = logs_of(folder)?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let answer = answer(robot, &runs_of(folder, &robot.robot)?, without)?;
+    scored(folder, &answer, without)
+}
+
+/// What a diagnosis that has nothing but the logs comes to.
+fn answer(
+    robot: &Loaded,
+    runs: &[Run],
+    without: &[EffectKind],
+) -> Result<Outcome, EvaluationError> {
     let settings = Settings {
         control_rate_hz: robot.control.rate_hz,
         without: without.to_vec(),
         ..Settings::default()
     };
-    let outcome = diagnosis::diagnose(&robot.robot, &runs, &settings, &Silent)?;
+    Ok(diagnosis::diagnose(&robot.robot, runs, &settings, &Silent)?)
+}
+
+/// Opens the truth about a folder and scores the answer.
+fn scored(
+    folder: &Path,
+    answer: &Outcome,
+    without: &[EffectKind],
+) -> Result<Score, EvaluationError> {
     let sealed = Sealed::open(folder)?;
     let unknown = sealed.effects.iter().any(|truth| without.contains(&truth.effect));
-    let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
+    let score = Score::new(&answer.diagnosis, &sealed.effects, sealed.seed);
     Ok(Score { looked_for: !unknown, ..score })
+}
+
+fn runs_of(folder: &Path, robot: &Robot) -> Result<Vec<Run>, EvaluationError> {
+    let options = ReadOptions { map: None, effort: "effort" };
+    let read = |path: &PathBuf| Ok(logs::read_run(path, robot, &options)?);
+    logs_of(folder)?.iter().map(read).collect()
 }
 
 /// The logs of a folder, by name.

@@ -19,15 +19,15 @@ pub(crate) struct GainRow {
 pub(crate) fn gain_rows(metrics: &Metrics) -> Vec<GainRow> {
     let mut rows = vec![gain_row(
         "torque error, RMS over all joints".to_owned(),
-        metrics.torque_gain(),
+        Gain::of_torque(&metrics.torque),
         ("N·m", 1.0),
     )];
     for ForwardWindow { window_s, .. } in &metrics.forward.windows {
         let what = format!("drift of the simulated tip in {:.0} ms", 1e3 * window_s);
-        rows.push(gain_row(what, metrics.drift_gain(*window_s), ("mm", 1e3)));
+        rows.push(gain_row(what, Gain::of_drift(&metrics.forward, *window_s), ("mm", 1e3)));
     }
     let what = format!("tracking error of the tip, gains {}", metrics.gains);
-    rows.push(gain_row(what, metrics.tracking_gain(), ("mm", 1e3)));
+    rows.push(gain_row(what, Gain::of_tracking(&metrics.tracking), ("mm", 1e3)));
     rows
 }
 

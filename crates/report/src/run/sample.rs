@@ -107,6 +107,7 @@ fn score() -> Score {
         exactly: false,
         as_one_of: false,
         stray: vec![at(catalogue::EffectKind::Backlash, "elbow")],
+        gains: None,
         put_in: vec![
             PutIn {
                 at: friction,

@@ -17,6 +17,7 @@ struct Page<'a> {
     confusion: String,
     shares: String,
     powers: String,
+    gained: String,
     sizes: String,
     counts: String,
     failures: &'a [Failure],
@@ -48,6 +49,7 @@ pub fn trials_page(
         confusion: confusion_figure(&merged.tally.confusion())?,
         shares: table(shares)?,
         powers: table(merged.powers())?,
+        gained: merged.gained().map_or_else(|| Ok(String::new()), table)?,
         sizes: table(sizes)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
@@ -93,7 +95,7 @@ fn table(table: TextTable) -> Result<String, ReportError> {
 #[cfg(test)]
 mod tests {
     use catalogue::EffectKind::{Backlash, CoulombFriction};
-    use evaluation::{MERGED_SCHEMA, Power, Row, Share, SizeClass, Tally};
+    use evaluation::{Gained, Lessened, MERGED_SCHEMA, Power, Row, Share, SizeClass, Tally};
 
     use super::*;
 
@@ -146,7 +148,16 @@ mod tests {
                 unit: "rad",
                 classes: vec![class],
             }],
+            gained: vec![gained()],
         }
+    }
+
+    fn gained() -> Gained {
+        let halved = Share::new(3, 4);
+        let torque = Lessened { median: Some(11.7), least: Some(0.4), halved };
+        let drift = Lessened { median: Some(2.0), ..torque.clone() };
+        let tracking = Lessened { median: None, least: None, halved: Share::new(0, 0) };
+        Gained { put_in: Group::Kind(Backlash), trials: 4, torque, drift, tracking }
     }
 
     fn page(merged: &Merged, doubts: &[String]) -> String {
@@ -170,6 +181,8 @@ mod tests {
             "One hidden effect is named exactly 3 of 4 times; something is made up in 0 of 4 clean",
             "<title>TR01 backlash: FR02 named first in 1 of 4</title>",
             "0.0002-0.003: 3/4",
+            "12x (0.4x)",
+            "3 of 4",
             "<li>3 trials are left</li><li>1 of the trials failed, ",
             "plumbline.trials/1",
         ] {
