@@ -55,6 +55,23 @@ fn an_effect_that_is_not_looked_for_is_not_named() {
     assert!(!score.exactly && !score.found());
 }
 
+/// The last run takes no part in the diagnosis, and every error at the joint is less on it.
+#[test]
+fn what_naming_an_effect_gains_is_measured_where_it_was_not_looked_for() {
+    let root = tempfile::tempdir().unwrap();
+    let trial = Trial { gains: true, ..cheap(Hidden::One(EffectKind::CoulombFriction), 3) };
+    let folder = trial.folder(root.path());
+    let score = trial.run(&folder).unwrap();
+    assert!(score.exactly && score.explained() > 0.5, "{}", score.words());
+    let gains = score.gains.unwrap();
+    for gain in [gains.torque, gains.drift, gains.tracking] {
+        assert!(gain.unwrap().times() > 2.0, "{gains:?}");
+    }
+    let of_all = Trial { gains: false, ..trial }.run(&folder).unwrap();
+    assert_eq!(of_all.gains, None);
+    assert_ne!(of_all.put_in[0].sizes, score.put_in[0].sizes, "both runs were diagnosed");
+}
+
 /// A truth that was changed since shows that nothing was simulated anew.
 #[test]
 fn logs_that_are_there_are_used_again_and_those_of_another_trial_are_not() {

@@ -133,8 +133,8 @@ impl Experiment {
         self.names().filter(|name| !self.is_learned(name))
     }
 
-    /// What `extended`, found in the runs that are learned from, gains on the others; `drawn` is
-    /// the scenario with the effects of its arm.
+    /// What `extended`, found in the runs that are learned from, gains on the others, at a joint or
+    /// over all of them; `drawn` is the scenario with the effects of its arm.
     ///
     /// # Errors
     ///
@@ -144,6 +144,7 @@ impl Experiment {
         drawn: &TrackingScenario,
         [learned, test]: [&[Run]; 2],
         extended: &Robot,
+        joint: Option<usize>,
     ) -> Result<Gains, EvaluationError> {
         let models = Learned::learn(drawn, learned, Some(extended), &Silent)?;
         let torque = torque_errors(drawn, &models, test)?;
@@ -152,7 +153,10 @@ impl Experiment {
         let forward = forward_gap(robots, &prepared.runs, &diagnosis::Silent);
         let runs = track_all(drawn, &models, None, &Silent)?;
         let tracking: Vec<TrackedError> = runs.iter().map(TrackedError::of).collect();
-        Ok(Gains::of(&torque, &forward, &tracking))
+        Ok(match joint {
+            Some(j) => Gains::at(j, &torque, &forward, &tracking),
+            None => Gains::of_all(&torque, &forward, &tracking),
+        })
     }
 
     fn names(&self) -> impl Iterator<Item = &str> {

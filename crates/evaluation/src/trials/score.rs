@@ -29,7 +29,8 @@ pub struct Score {
     /// Findings that are neither true nor rivals of a true one.
     #[serde(deserialize_with = "stored::places")]
     pub stray: Vec<EffectAt>,
-    /// What the findings gain, where that was measured.
+    /// What the findings gain, where that was measured: at the joint of a single effect that has
+    /// one, and otherwise over all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gains: Option<Gains>,
 }

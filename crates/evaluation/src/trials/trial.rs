@@ -67,8 +67,16 @@ impl Trial {
         let is_learned = |run: &Run| experiment.learned().any(|name| name == run.name);
         let (learned, test): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(is_learned);
         let answer = answer(&robot, &learned, &without)?;
-        let gains = experiment.gains(&experiment.drawn()?, [&learned, &test], &answer.extended)?;
-        Ok(Score { gains: Some(gains), ..scored(folder, &answer, &without)? })
+        let score = scored(folder, &answer, &without)?;
+        let place = match &score.put_in[..] {
+            [one] => {
+                robot.robot.joint_names().position(|name| one.at.joint.as_deref() == Some(name))
+            }
+            _ => None,
+        };
+        let drawn = experiment.drawn()?;
+        let gains = experiment.gains(&drawn, [&learned, &test], &answer.extended, place)?;
+        Ok(Score { gains: Some(gains), ..score })
     }
 
     /// Whether a folder holds its logs, whole, so that they would be used again.
