@@ -66,7 +66,7 @@ fn trial(hidden: Hidden, seed: u64, motion: &Parts) -> Trial {
         format!("{{ name='{name}', motion={{ {} }} }}", motion_of(motion, seed))
     };
     let mut settings = vec![format!("run=[{}, {}]", run("a", 11), run("b", 12))];
-    if motion != SLOW {
+    if ![SLOW, LONG].contains(&motion) {
         settings.push("hidden.torque_share=[0.2, 0.3]".to_owned());
     }
     let scenario = workspace_root().join("scenarios/clean.toml");
@@ -158,6 +158,18 @@ hidden! {
     hidden_external_disturbance: E::ExternalDisturbance, 1, Name::First, SLOW;
     hidden_encoder_offset: E::EncoderOffset, 1, Name::First, SLOW;
     hidden_time_skew: E::TimeSkew, 1, Name::First, SLOW;
+}
+
+/// In half that time it is named as well, with sizes that their intervals hold.
+#[test]
+fn hidden_cable_springs_are_named_in_short_logs() {
+    let found = score(Hidden::One(E::CableSpring), 1);
+    assert!(found.exactly, "{}", found.words());
+    for estimate in found.put_in[0].sizes.iter().filter_map(|size| size.estimate.as_ref()) {
+        assert!(!estimate.determined || estimate.covers, "{estimate:?}");
+    }
+    let twin = score(Hidden::Nothing, 1);
+    assert!(!names(&twin).any(|at| *at == found.put_in[0].at), "twin: {}", twin.words());
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub struct Motion {
     /// the rest speed; with presliding, the share of dry friction that the bristles hold.
     pub direction: Vec<Vec<f64>>,
     /// Velocity as reported, whose sign is that of the motion (rad/s or m/s).
-    reported: Vec<Vec<f64>>,
+    qd_reported: Vec<Vec<f64>>,
     /// Speed below which a joint counts as at rest (rad/s or m/s).
     rest_speed: Vec<f64>,
     /// Torque that the transmission carries to the link (N·m or N).
@@ -132,14 +132,14 @@ impl Motion {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
         let Encoders { reported, links } = encoders;
-        let velocity = reported[1].clone();
+        let qd_reported = reported[1].clone();
         let Parted { motor, link, tight_load, gives } =
             Parted::new(robot, corrected(robot, reported), links, period_s);
         let [q, qd, qdd] = motor;
         let direction = (0..joints).map(|j| {
             let settled = |v: &f64| (v / frame.rest_speed[j]).clamp(-1.0, 1.0);
             let way = drives[j].presliding;
-            let by_speed = || velocity[j].iter().map(settled).collect();
+            let by_speed = || qd_reported[j].iter().map(settled).collect();
             way.map_or_else(by_speed, |way| bristles(&q[j], way))
         });
         let direction = direction.collect();
@@ -148,7 +148,7 @@ impl Motion {
             qd,
             qdd,
             direction,
-            reported: velocity,
+            qd_reported,
             rest_speed: frame.rest_speed.clone(),
             load: vec![Vec::new(); joints],
             torque: vec![Vec::new(); joints],
@@ -261,7 +261,7 @@ impl Motion {
     pub(crate) fn motor(&self, j: usize, other: usize, ratio: f64) -> Vec<(f64, f64)> {
         let rest = self.rest_speed[j] + ratio.abs() * self.rest_speed[other];
         let of = |signal: &[Vec<f64>], t: usize| signal[j][t] + ratio * signal[other][t];
-        let settled = |t: usize| (of(&self.reported, t) / rest).clamp(-1.0, 1.0);
+        let settled = |t: usize| (of(&self.qd_reported, t) / rest).clamp(-1.0, 1.0);
         (0..self.samples()).map(|t| (of(&self.qd, t), settled(t))).collect()
     }
 

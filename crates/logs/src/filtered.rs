@@ -42,7 +42,7 @@ pub(crate) struct Band {
 }
 
 /// Cut-off of the wide signals, in cut-offs of the others. What is as fast as the cut-off is weakened
-/// by less than 1e-5 there, and a filter that rings where a motion starts and stops rings a quarter
+/// by 2e-5 there, and a filter that rings where a motion starts and stops rings a quarter
 /// as long.
 const WIDE: f64 = 4.0;
 
