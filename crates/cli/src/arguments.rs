@@ -159,9 +159,9 @@ Examples:
   plumbline run scenarios/paper/fig2_learning.toml
 
 A scenario of an arm is what simulate takes. All its runs but the last are diagnosed; the last shows
-what that gains, and its motion is tracked with the softest gains of robot.toml. A tracking scenario,
-which track takes, says which runs are learned from, and the motion, the gains and the models that
-are tracked.
+what that gains, and its motion is tracked with the softest gains of robot.toml that hold the arm, as
+described and extended, against gravity. A tracking scenario, which track takes, says which runs are
+learned from, and the motion, the gains and the models that are tracked.
 
 The output folder holds
   report.html    what was put in, what was found, what that gains

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::design::{JointDesign, RunDesign};
+use crate::left_over::LeftOver;
 use crate::limits::Limit;
 use crate::log::Look;
 use crate::tone::Tone;
@@ -124,6 +125,18 @@ impl<'a> Along<'a> {
             sum[tone.joint].iter_mut().zip(values).for_each(|(sum, x)| *sum += x);
         }
         self.all_thinned(sum)
+    }
+
+    /// What the robot leaves of the efforts that became torque.
+    pub fn left_over(&self) -> Result<LeftOver, LogError> {
+        let measured = self.measured()?;
+        let less = |x: &mut f64, y: f64| *x -= y;
+        let mut left = measured.clone();
+        for ((left, effort), known) in left.iter_mut().zip(&self.motion.effort).zip(self.known()?) {
+            left.iter_mut().zip(self.finish(effort.clone())).for_each(|(x, y)| less(x, y));
+            left.iter_mut().zip(known).for_each(|(x, y)| less(x, y));
+        }
+        Ok(LeftOver { measured, left })
     }
 
     /// What the robot leaves of the efforts, with the positions and speeds of the motors.

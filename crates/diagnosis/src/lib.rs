@@ -27,6 +27,7 @@ mod floor;
 mod gain;
 mod gram;
 mod held_out;
+mod left_over;
 mod limits;
 mod log;
 mod noise;
@@ -59,6 +60,7 @@ pub use diagnose::{Outcome, diagnose};
 pub use diagnosed::{Diagnosed, diagnosed};
 pub use error::DiagnosisError;
 pub use held_out::{HeldOut, Span};
+pub use left_over::{LeftOver, left_over};
 pub use progress::{Progress, Silent};
 pub use result::{
     DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,

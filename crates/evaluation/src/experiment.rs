@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use document::{Document, KeyPath};
 use learner::{ModelKind, Silent};
 use logs::{PrepareSettings, Run, prepare};
-use robot::{Gain, Loaded, Robot};
+use robot::{Loaded, Robot};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use simulator::scenario::{Scenario, ScenarioSpec};
@@ -26,6 +26,8 @@ use crate::{
 pub struct Experiment {
     scenario: TrackingScenario,
     resolved: String,
+    /// Whether the gains are to be the softest that hold the arm.
+    chooses_gains: bool,
 }
 
 /// The robot as described and the extended one, which every experiment compares.
@@ -38,7 +40,7 @@ const PLANT: &str = "logs/scenario.toml";
 impl Experiment {
     /// Reads a tracking scenario or, with usual values for all the rest, the scenario of an arm:
     /// its last run is the one that nothing is learned from, whose motion is tracked with the
-    /// softest gains of `robot.toml`. `seed` takes the place of that of the arm's scenario.
+    /// softest gains of `robot.toml` that hold the arm. `seed` takes the place of that of the arm's scenario.
     ///
     /// # Errors
     ///
@@ -53,7 +55,7 @@ impl Experiment {
         let document = &compared(document)?;
         let scenario = TrackingScenario::new(document, plant, file)?;
         let resolved = with_plant(document, scenario.spec(), PathBuf::from(PLANT));
-        let experiment = Self { scenario, resolved };
+        let experiment = Self { scenario, resolved, chooses_gains: false };
         if experiment.test().next().is_none() {
             let path = KeyPath::root().key("learn").key("train");
             let message = "every run of the plant is learned from, one that is not was expected: \
@@ -79,7 +81,7 @@ impl Experiment {
             plant: PathBuf::from(PLANT),
             motion: test.motion.clone(),
             control: TrackingControlSpec {
-                gains: softest(&loaded, plant.robot_file())?,
+                gains: some_set(&loaded, plant.robot_file())?,
                 kp_nm_per_rad: Default::default(),
                 kd_nm_s_per_rad: Default::default(),
                 error_rate: ErrorRateSpec::default(),
@@ -95,7 +97,10 @@ impl Experiment {
         let text = toml::to_string(&spec).unwrap_or_default();
         let said = Document::from_text("scenario.toml", &text)?;
         let file = plant.robot_file().to_owned();
-        Ok(Self { scenario: TrackingScenario::new(&said, plant, file)?, resolved: text })
+        let scenario = TrackingScenario::new(&said, plant, file)?;
+        let scenario = scenario.held(&[scenario.robot()]);
+        let resolved = toml::to_string(scenario.spec()).unwrap_or_default();
+        Ok(Self { scenario, resolved, chooses_gains: true })
     }
 
     /// The arm, what is learned of it and how it is tracked.
@@ -110,6 +115,15 @@ impl Experiment {
     /// [`EvaluationError::Simulator`] when no effect could be drawn.
     pub fn drawn(&self) -> Result<TrackingScenario, EvaluationError> {
         Ok(self.scenario.of_arm(simulator::drawn(self.plant())?))
+    }
+
+    /// `drawn`, the scenario with the effects of its arm, as it is to be tracked: where no scenario
+    /// says with which gains, with the softest that hold the extended robot too.
+    pub fn held(&self, drawn: &TrackingScenario, extended: &Robot) -> TrackingScenario {
+        match self.chooses_gains {
+            true => drawn.held(&[drawn.robot(), extended]),
+            false => drawn.clone(),
+        }
     }
 
     /// The scenario as one text that extends nothing; its arm is that of
@@ -151,7 +165,7 @@ impl Experiment {
         let prepared = prepare(test, &PrepareSettings::default())?;
         let robots = [self.plant().robot(), extended];
         let forward = forward_gap(robots, &prepared.runs, &diagnosis::Silent);
-        let runs = track_all(drawn, &models, None, &Silent)?;
+        let runs = track_all(&self.held(drawn, extended), &models, None, &Silent)?;
         let tracking: Vec<TrackedError> = runs.iter().map(TrackedError::of).collect();
         Ok(match joint {
             Some(j) => Gains::at(j, &torque, &forward, &tracking),
@@ -198,11 +212,8 @@ pub(crate) fn seeded(
     Ok(document)
 }
 
-/// The set of gains with the least sum of `kp`.
-fn softest(loaded: &Loaded, file: &Path) -> Result<String, EvaluationError> {
-    let stiffness = |gains: &[Gain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
-    let sets = loaded.control.gain_sets.iter();
-    let softest = sets.min_by(|a, b| stiffness(a.1).total_cmp(&stiffness(b.1)));
-    let name = softest.map(|(name, _)| name.clone());
+/// A set of gains of the robot, until it is known which ones hold it.
+fn some_set(loaded: &Loaded, file: &Path) -> Result<String, EvaluationError> {
+    let name = loaded.control.gain_sets.keys().next().cloned();
     name.ok_or_else(|| EvaluationError::NoGains { path: file.to_owned() })
 }

@@ -1,4 +1,5 @@
-use learner::{Model, Samples, TorqueModel};
+use diagnosis::{LeftOver, left_over};
+use learner::{Mean, Model, Samples, TorqueModel};
 use logs::{
     LogError, LowPass, PrepareSettings, Prepared, PreparedRun, Run, centre_commands, prepare,
 };
@@ -16,7 +17,8 @@ const ORDER: usize = 4;
 /// ```
 ///
 /// with `L` the low-pass of the diagnosis: what is faster is noise or vibration, which no model of
-/// the state predicts.
+/// the state predicts. A description of the robot predicts along the motion, with delays, springs
+/// and encoders that err ([`left_over`]), a learned model from the state at each instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TorqueError {
     /// Name of the model.
@@ -51,19 +53,14 @@ pub fn torque_errors(
 
 impl TorqueError {
     fn of(model: &Model, test: &Prepared) -> Result<Self, LogError> {
+        let left_over = match (&model.mean, &model.process) {
+            (Mean::Robot(torque), None) => left_over(torque.robot(), torque.rest_speed(), test)?,
+            _ => left_by(model, test)?,
+        };
         let mut sums = vec![Sums::default(); model.joints()];
-        for run in &test.runs {
-            let part = Prepared {
-                runs: vec![run.clone()],
-                warnings: Vec::new(),
-                cutoff_reason: test.cutoff_reason.clone(),
-                cutoff_hz: test.cutoff_hz,
-            };
-            let predicted = model.torque(&Samples::new(&part));
-            let low_pass = LowPass::new(ORDER, test.cutoff_hz, run.rate_hz)?;
-            for (j, sums) in sums.iter_mut().enumerate() {
-                sums.add(run, j, (&predicted, &low_pass));
-            }
+        for run in left_over {
+            let joints = run.measured.iter().zip(&run.left);
+            sums.iter_mut().zip(joints).for_each(|(sums, (torque, left))| sums.add(torque, left));
         }
         Ok(Self {
             model: model.kind.name().to_owned(),
@@ -71,6 +68,33 @@ impl TorqueError {
             nmse: sums.iter().map(Sums::nmse).collect(),
         })
     }
+}
+
+/// What a learned model leaves of each run.
+fn left_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogError> {
+    let of = |run: &PreparedRun| {
+        let part = Prepared {
+            runs: vec![run.clone()],
+            warnings: Vec::new(),
+            cutoff_reason: test.cutoff_reason.clone(),
+            cutoff_hz: test.cutoff_hz,
+        };
+        let low_pass = LowPass::new(ORDER, test.cutoff_hz, run.rate_hz)?;
+        Ok(in_band(run, &model.torque(&Samples::new(&part)), &low_pass))
+    };
+    test.runs.iter().map(of).collect()
+}
+
+/// The efforts of a run and what `predicted`, row-major, leaves of them.
+fn in_band(run: &PreparedRun, predicted: &[f64], low_pass: &LowPass) -> LeftOver {
+    let mut measured: Vec<Vec<f64>> = run.joints.iter().map(|j| j.effort.clone()).collect();
+    let mut left = measured.clone();
+    for (j, left) in left.iter_mut().enumerate() {
+        let predicted = predicted.iter().skip(j).step_by(run.joints.len());
+        left.iter_mut().zip(predicted).for_each(|(left, predicted)| *left -= predicted);
+    }
+    measured.iter_mut().chain(&mut left).for_each(|signal| low_pass.apply(signal));
+    LeftOver { measured, left }
 }
 
 /// Sums over the samples of a joint.
@@ -83,12 +107,7 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, run: &PreparedRun, j: usize, (predicted, filter): (&[f64], &LowPass)) {
-        let predicted = predicted.iter().skip(j).step_by(run.joints.len());
-        let mut torque = run.joints[j].effort.clone();
-        let mut error: Vec<f64> = torque.iter().zip(predicted).map(|(tau, p)| tau - p).collect();
-        filter.apply(&mut torque);
-        filter.apply(&mut error);
+    fn add(&mut self, torque: &[f64], error: &[f64]) {
         self.samples += torque.len();
         self.error += error.iter().map(|e| e * e).sum::<f64>();
         self.torque += torque.iter().sum::<f64>();
@@ -130,8 +149,9 @@ mod tests {
             (0..5000).map(|k| 2.0 + wave(k, 1.0) + 0.5 * wave(k, 100.0)).collect();
         let predicted: Vec<f64> = (0..5000).flat_map(|k| [0.0, 1.9 + wave(k, 1.0)]).collect();
         let filter = LowPass::new(ORDER, 10.0, 500.0).unwrap();
+        let LeftOver { measured, left } = in_band(&run(&torque), &predicted, &filter);
         let mut sums = Sums::default();
-        sums.add(&run(&torque), 1, (&predicted, &filter));
+        sums.add(&measured[1], &left[1]);
         // A constant error of 0.1 N m, and a torque of variance 1/2.
         assert!((sums.mean(sums.error).sqrt() - 0.1).abs() < 1e-3, "{sums:?}");
         assert!((sums.nmse().unwrap() - 0.02).abs() < 1e-3, "{sums:?}");

@@ -58,6 +58,29 @@ impl TrackingScenario {
         Self { plant, ..self.clone() }
     }
 
+    /// The same with the softest gains of `robot.toml` that hold all these robots against gravity
+    /// along the motion ([`tracking::holds`]), the stiffest where none do.
+    pub(crate) fn held(&self, robots: &[&Robot]) -> Self {
+        let mut sets: Vec<(&String, &Vec<Gain>)> = self.loaded.control.gain_sets.iter().collect();
+        let stiffness = |gains: &[Gain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
+        sets.sort_by(|a, b| stiffness(a.1).total_cmp(&stiffness(b.1)));
+        let holds =
+            |gains: &[Gain]| robots.iter().all(|robot| tracking::holds(robot, gains, &self.motion));
+        let softest = sets.iter().find(|(_, gains)| holds(gains)).or(sets.last());
+        softest.map_or_else(|| self.clone(), |(name, gains)| self.with_gains(name, gains))
+    }
+
+    /// The same with the gains of a set of this name.
+    fn with_gains(&self, name: &str, gains: &[Gain]) -> Self {
+        let mut scenario = Self { gains: gains.to_vec(), ..self.clone() };
+        name.clone_into(&mut scenario.spec.control.gains);
+        if let Ok(mut resolved) = toml::from_str::<TrackingSpec>(&self.resolved) {
+            name.clone_into(&mut resolved.control.gains);
+            scenario.resolved = toml::to_string(&resolved).unwrap_or_default();
+        }
+        scenario
+    }
+
     /// What it says.
     pub(crate) fn spec(&self) -> &TrackingSpec {
         &self.spec

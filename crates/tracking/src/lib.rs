@@ -11,6 +11,7 @@
 mod controller;
 mod error;
 mod feedforward;
+mod holding;
 mod latest;
 mod metrics;
 mod model_feedforward;
@@ -34,6 +35,7 @@ mod watch;
 pub use controller::{Controller, ErrorRate};
 pub use error::TrackingError;
 pub use feedforward::{Feedforward, NoFeedforward, Prediction};
+pub use holding::holds;
 pub use metrics::{Distance, JointMetrics, LinkMetrics, Metrics};
 pub use model_feedforward::{GravityFeedforward, ModelFeedforward};
 pub use named_feedforward::NamedFeedforward;

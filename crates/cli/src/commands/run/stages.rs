@@ -55,6 +55,8 @@ struct Found {
 /// What the tracking leaves for the report.
 #[derive(Serialize, Deserialize)]
 struct Tracked {
+    /// Name of the gains.
+    gains: String,
     errors: Vec<TrackedError>,
     motion: String,
 }
@@ -80,7 +82,7 @@ impl Stages<'_> {
             test: owned(&mut experiment.test()),
             torque,
             forward,
-            gains: experiment.scenario().gains_name().to_owned(),
+            gains: tracked.gains,
             tracking: tracked.errors,
         };
         Ok((metrics, Shown { diagnosis: told, motion: tracked.motion }))
@@ -167,7 +169,7 @@ impl Stages<'_> {
         for kind in kinds.iter().filter_map(|kind| kind.model()) {
             inputs = inputs.and_file(&self.out.join(MODELS).join(format!("{kind}.parquet")))?;
         }
-        let words = format!("{} feedforwards, gains {}", kinds.len(), tracked.gains_name());
+        let words = format!("{} feedforwards", kinds.len());
         self.stage("tracking", &words, inputs, || {
             let folder = self.out.join(TRACKING);
             let (logs, recordings) = (folder.join("logs"), folder.join("recordings"));
@@ -175,9 +177,9 @@ impl Stages<'_> {
             create_folder(&recordings)?;
             let learned = Learned::load(tracked, &self.out.join(MODELS))?;
             let outputs = Outputs { logs, recordings, live: Live::Off };
-            let drawn = self.drawn()?;
-            let runs = track_all(drawn, &learned, Some(&outputs), self.watch)?;
-            self.tracked(drawn, &learned, &runs)
+            let scenario = self.experiment.held(self.drawn()?, &self.extended()?);
+            let runs = track_all(&scenario, &learned, Some(&outputs), self.watch)?;
+            self.tracked(&scenario, &learned, &runs)
         })
     }
 
@@ -200,7 +202,8 @@ impl Stages<'_> {
         });
         let runs_files = runs_files.map(|name| Path::new(TRACKING).join(name));
         let errors = runs.iter().map(TrackedError::of).collect();
-        let value = Tracked { errors, motion: compared(comparison).motion_in_page()? };
+        let gains = scenario.gains_name().to_owned();
+        let value = Tracked { gains, errors, motion: compared(comparison).motion_in_page()? };
         Ok(Product { value, files: pages.into_iter().chain(runs_files).collect() })
     }
 
