@@ -201,6 +201,21 @@ fn hidden_springs_swing() {
     }
 }
 
+/// Gaps that a link takes tenths of a second to cross, and narrow ones: the time goes with the third
+/// root of the gap, so that the effort of the one is of no use in finding the other.
+#[test]
+fn hidden_plays_are_as_wide_as_they_are() {
+    for seed in [1, 2, 3] {
+        let found = score_along(Hidden::One(E::Backlash), seed, LIVELY);
+        if found.put_in[0].of_smallest.is_some_and(|times| times < 2.0) {
+            continue;
+        }
+        assert!(found.exactly, "{}", found.words());
+        let gap = found.put_in[0].sizes[0].estimate.as_ref().unwrap();
+        assert!(gap.relative_error.unwrap() < 0.05, "{gap:?}");
+    }
+}
+
 /// Its frequency lies in the band of the motion.
 #[test]
 fn hidden_slow_disturbances_are_told_from_the_motion() {

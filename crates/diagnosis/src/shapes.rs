@@ -1,5 +1,6 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use catalogue::EffectKind;
 use effects::{Column, Frame, Germ, Hypothesis, Scale, germs};
 use logs::LogError;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
@@ -11,9 +12,9 @@ use crate::evaluate::Along;
 use crate::log::Log;
 
 /// The robot with the germ of every effect whose columns are not linear in one of its
-/// parameters, of the trial value that explains most of what all other effects leave.
+/// parameters, of the trial value that explains most of what all effects without germs leave.
 ///
-/// With `X` the columns of all other effects, `C` those of the germ and `r = y - X w`,
+/// With `X` the columns of those effects, `C` those of the germ and `r = y - X w`,
 ///
 /// ```text
 /// explained = r' C (C' C - C' X (X' X + 1 / prior^2)^-1 X' C)^-1 C' r
@@ -28,7 +29,9 @@ pub(crate) fn sown(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
     };
     let germs: Vec<Germ> =
         germs(robot, &Scale::of_logs(robot, prepared)).into_iter().filter(relevant).collect();
-    let design = Design::new(robot, log)?;
+    let kinds = germs.iter().map(|germ| germ.hypothesis.kind).chain(log.without.iter().copied());
+    let without: Vec<EffectKind> = kinds.collect::<BTreeSet<_>>().into_iter().collect();
+    let design = Design::new(robot, &Log { without: &without, ..*log })?;
     let frame = Frame::of_logs(prepared);
     let mut runs = log.along(robot, &frame)?;
     let left: Vec<Option<Left>> = (0..design.joints())

@@ -1,5 +1,5 @@
 use catalogue::EffectKind;
-use robot::Robot;
+use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::transmission::play;
@@ -8,11 +8,16 @@ use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 /// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
 /// of the gap (rad or m).
 ///
-/// How long the link takes from side to side depends on the gap itself. The column is that of a
-/// small gap in a robot without, and the difference of two gaps in a robot with one.
+/// How long the link takes from side to side goes with the third root of the gap, and what is late
+/// by a tenth of a second is none of what is not. The column of a robot without a gap is that of a
+/// trial gap, and the difference of two gaps in a robot with one.
 pub(crate) struct Backlash;
 
-/// Gap for which the column of a robot without one is made (rad or m).
+/// Trial gaps (rad or m), each one and a half times the one before: those below the first are
+/// crossed as fast as it.
+const TRIALS: [f64; 9] = [0.002, 0.003, 0.0045, 0.007, 0.01, 0.015, 0.022, 0.033, 0.05];
+
+/// Gap for which the column is made where none was tried (rad or m).
 const SMALL: f64 = 0.005;
 
 /// Relative difference of the gaps whose motions are compared.
@@ -29,6 +34,15 @@ impl Explain for Backlash {
 
     fn places(&self, robot: &Robot) -> Vec<Place> {
         every_joint(robot)
+    }
+
+    fn shapes(&self, joint: usize, robot: &Robot, _: &Scale) -> Vec<f64> {
+        let known = robot.links()[joint].actuator.backlash > 0.0;
+        if known { Vec::new() } else { TRIALS.to_vec() }
+    }
+
+    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+        drive.backlash_trial = shape;
     }
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
@@ -69,11 +83,12 @@ impl Explain for Backlash {
 fn play_per_gap(motion: &Motion, j: usize, load: &[f64]) -> Vec<f64> {
     let inertia = &motion.slopes(j).of[j][2];
     let at = |gap: f64| play(load, inertia, gap, motion.period_s);
-    let gap = motion.drives[j].backlash;
+    let Actuator { backlash: gap, backlash_trial: trial, .. } = motion.drives[j];
     if gap > 0.0 {
         let (wide, narrow) = (at((1.0 + STEP) * gap), at((1.0 - STEP) * gap));
         wide.iter().zip(narrow).map(|(w, n)| (w - n) / (2.0 * STEP * gap)).collect()
     } else {
-        at(SMALL).iter().map(|x| x / SMALL).collect()
+        let gap = if trial > 0.0 { trial } else { SMALL };
+        at(gap).iter().map(|x| x / gap).collect()
     }
 }

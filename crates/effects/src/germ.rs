@@ -3,7 +3,7 @@ use robot::Robot;
 use crate::{Column, Hypothesis, MODELLED, Motion, Place, Scale, model};
 
 /// An effect of no size at a joint, with a trial value of the parameter that its columns are not
-/// linear in: a Stribeck velocity, periods in a turn.
+/// linear in: a Stribeck velocity, periods in a turn, a play.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Germ {
     /// The effect and its joint.
@@ -32,6 +32,7 @@ pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
     for (j, link) in nominal.links().iter().enumerate() {
         let Some(changed) = robot.link_mut(j) else { continue };
         let (drive, before) = (&mut changed.actuator, &link.actuator);
+        drive.backlash_trial = before.backlash_trial;
         if drive.stribeck.is_some_and(|s| s.excess <= 0.0) {
             drive.stribeck = before.stribeck;
         }
