@@ -2,6 +2,7 @@ use effects::Frame;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
 
+use crate::at_limits::at_limits;
 use crate::between::between;
 use crate::design::Design;
 use crate::error::DiagnosisError;
@@ -71,6 +72,7 @@ pub fn diagnose(
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
     warnings.extend(without_idle_encoders(robot, &mut prepared));
+    warnings.extend(at_limits(robot, &prepared));
     progress.step();
     let inadequate = inadequate(robot, &prepared);
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();

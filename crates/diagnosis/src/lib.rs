@@ -7,6 +7,7 @@
 //! [`diagnose`] decides which hypotheses earn their place, how large they are, what they
 //! cannot be told apart from and what is left over.
 
+mod at_limits;
 mod between;
 mod blocks;
 #[cfg(test)]

@@ -306,7 +306,17 @@ impl Study<'_> {
         let problem = &answer.problem;
         let inverse = &answer.gain.inverse;
         let (torque_rms, _) = measured(record, &problem.of, j);
-        let residual = self.held_out_residual(answer, j);
+        let tones = self.log.tones.iter().filter(|t| t.joint == j).count();
+        let limits = self.log.limits.iter().filter(|l| l.joint == j).count();
+        // What a search without a part of the record takes for a cause is none where the search
+        // over all of it has dropped it again.
+        let is_named = tones + limits > 0 || answer.found.iter().any(|f| f.fall[j].abs() > 0.0);
+        let weights = |f: usize| match is_named {
+            true => answer.gain.weights[f].clone(),
+            false => vec![0.0; self.design.width],
+        };
+        let stretches = answer.by_run.held_out_residuals(weights);
+        let residual = stretches.into_iter().nth(j).unwrap_or_default();
         let time = integrated_time(&residual);
         let moved = self.design.moved[j];
         let structure = if moved {
@@ -315,18 +325,17 @@ impl Study<'_> {
         } else {
             Structure { share: 0.0, depends_on: Vec::new() }
         };
-        let remaining_rms = inverse.rms_after_nm[j];
+        let nominal_rms = inverse.rms_before_nm[j];
+        let remaining_rms = if is_named { inverse.rms_after_nm[j] } else { nominal_rms };
         let (floor, source) =
             floors.choose(j, remaining_rms * (1.0 - structure.share).sqrt(), time);
-        let tones = self.log.tones.iter().filter(|t| t.joint == j).count();
-        let limits = self.log.limits.iter().filter(|l| l.joint == j).count();
         let lowered = |f: &&Found| f.fall[j] > record.practical[j].powi(2);
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
             findings: answer.found.iter().filter(lowered).count() + tones + limits,
             between: answer.between.as_ref().map_or(0, |b| b.at(&self.robot.links()[j].joint.name)),
             torque_rms,
-            nominal_rms: inverse.rms_before_nm[j],
+            nominal_rms,
             remaining_rms,
             floor,
             structure: structure.share,
@@ -338,7 +347,7 @@ impl Study<'_> {
             verdict,
             because,
             torque_rms_nm: torque_rms,
-            residual_rms_nm: inverse.rms_before_nm[j],
+            residual_rms_nm: nominal_rms,
             remaining_rms_nm: remaining_rms,
             noise_floor_rms_nm: floor,
             noise_floor_from: source,
@@ -347,12 +356,6 @@ impl Study<'_> {
             range: range(self.log.prepared, j),
         };
         (report, Structure { share: situation.unexplained(), ..structure })
-    }
-
-    /// What the extended model leaves at joint `j` where it was held out, `[run][sample]`.
-    fn held_out_residual(&self, answer: &Answer, j: usize) -> Vec<Vec<f64>> {
-        let stretches = answer.by_run.held_out_residuals(|f| answer.gain.weights[f].clone());
-        stretches.into_iter().nth(j).unwrap_or_default()
     }
 
     fn data(&self, record: &Record, answer: &Answer) -> DataSummary {

@@ -55,7 +55,7 @@ impl RunReport<'_> {
             GainChart {
                 title: "Tracking",
                 words: format!(
-                    "RMS error of the arm along the motion of the scenario with the low gains {}, \
+                    "RMS error of the arm along the motion of the scenario with the gains {}, \
                      the torque of the model fed forward.",
                     self.metrics.gains
                 ),
