@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
-use crate::transmission::play;
+use crate::transmission::{Gap, play};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
@@ -82,8 +82,9 @@ impl Explain for Backlash {
 /// What a unit of gap adds to `theta - q` at joint `j`, whose links carry `load` (N·m or N).
 fn play_per_gap(motion: &Motion, j: usize, load: &[f64]) -> Vec<f64> {
     let inertia = &motion.slopes(j).of[j][2];
-    let at = |gap: f64| play(load, inertia, gap, motion.period_s);
-    let Actuator { backlash: gap, backlash_trial: trial, .. } = motion.drives[j];
+    let drive = &motion.drives[j];
+    let at = |gap: f64| play(load, inertia, Gap::of(drive, gap), motion.period_s);
+    let Actuator { backlash: gap, backlash_trial: trial, .. } = *drive;
     if gap > 0.0 {
         let (wide, narrow) = (at((1.0 + STEP) * gap), at((1.0 - STEP) * gap));
         wide.iter().zip(narrow).map(|(w, n)| (w - n) / (2.0 * STEP * gap)).collect()

@@ -10,7 +10,7 @@ use crate::dry_friction::dry_friction;
 use crate::give::Give;
 use crate::slopes::Slopes;
 use crate::timing::{Timing, curvature, rate};
-use crate::transmission::{Parted, corrected, play};
+use crate::transmission::{Gap, Parted, corrected, play};
 use crate::{Column, Part};
 
 /// The motion of one run and what the nominal robot makes of it.
@@ -306,7 +306,8 @@ impl Motion {
     pub fn twist(&self, j: usize) -> Vec<f64> {
         let drive = &self.drives[j];
         let compliance = drive.elasticity.map_or(0.0, f64::recip);
-        let play = play(&self.load[j], &self.slopes(j).of[j][2], drive.backlash, self.period_s);
+        let gap = Gap::of(drive, drive.backlash);
+        let play = play(&self.load[j], &self.slopes(j).of[j][2], gap, self.period_s);
         let signals = self.link[0][j].iter().zip(&self.load[j]).zip(play);
         let twist = |((q, load), x): ((&f64, &f64), f64)| {
             (q + compliance * load + x) / drive.transmission_ratio + drive.encoder_offset - q

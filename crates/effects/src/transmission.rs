@@ -1,5 +1,5 @@
 use dynamics::Dynamics;
-use robot::{Robot, SensingSide};
+use robot::{Actuator, Robot, SensingSide};
 
 use crate::cable_loop::Loop;
 use crate::give::Give;
@@ -66,7 +66,7 @@ impl Parted {
         for i in parting {
             let drive = &robot.links()[i].actuator;
             let twist = match drive.backlash > 0.0 {
-                true => play(&load[i], &inertia[i], drive.backlash, period_s),
+                true => play(&load[i], &inertia[i], Gap::of(drive, drive.backlash), period_s),
                 false => vec![0.0; load[i].len()],
             };
             if drive.sensing == SensingSide::Link {
@@ -163,22 +163,43 @@ fn loads(robot: &Robot, state: &State) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
 /// and does not bounce:
 ///
 /// ```text
-/// inertia xdd = load,  xd = 0 at the ends
+/// inertia xdd = load,  xd = 0 at the ends,  xd = compliance d(load)/dt as it leaves one
 /// ```
 ///
-/// The load goes straight from sample to sample. A link crosses a gap in a few samples, and in the
+/// for a spring that was twisted at the end lets go as fast as its load falls. The load goes straight from sample to sample. A link crosses a gap in a few samples, and in the
 /// third root of the gap: in whole samples it would be crossed too soon, or look too wide.
-pub(crate) fn play(load: &[f64], inertia: &[f64], gap: f64, period_s: f64) -> Vec<f64> {
-    let half = 0.5 * gap;
+pub(crate) fn play(
+    load: &[f64],
+    inertia: &[f64],
+    Gap { width, compliance }: Gap,
+    period_s: f64,
+) -> Vec<f64> {
+    let half = 0.5 * width;
     let start = half * load.first().copied().unwrap_or(0.0).signum();
     let mut slack = Slack { half, x: start, xd: 0.0 };
     let mut all: Vec<f64> = load.first().map(|_| start).into_iter().collect();
     for (ends, inertia) in load.windows(2).zip(inertia) {
         let accelerations = [ends[0], ends[1]].map(|load| load / inertia.max(f64::MIN_POSITIVE));
-        slack.pass(accelerations, period_s);
+        slack.pass(accelerations, compliance * inertia, period_s);
         all.push(slack.x);
     }
     all
+}
+
+/// Free play between a motor and its link.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gap {
+    /// From one end to the other (rad or m).
+    pub width: f64,
+    /// Of the spring in line with it (rad/(N m) or m/N).
+    pub compliance: f64,
+}
+
+impl Gap {
+    /// That of a drive, of this width (rad or m).
+    pub fn of(drive: &Actuator, width: f64) -> Self {
+        Self { width, compliance: drive.elasticity.map_or(0.0, f64::recip) }
+    }
 }
 
 /// A motor in its play.
@@ -195,8 +216,9 @@ impl Slack {
     /// Halvings of the time at which an end is met: to 1e-9 of it.
     const HALVINGS: usize = 30;
 
-    /// Passes a time in which the acceleration goes straight from one value to another.
-    fn pass(&mut self, [mut from, to]: [f64; 2], mut time_s: f64) {
+    /// Passes a time in which the acceleration goes straight from one value to another; an end is
+    /// left with `yielding` times its rate (s²).
+    fn pass(&mut self, [mut from, to]: [f64; 2], yielding: f64, mut time_s: f64) {
         for _ in 0..Self::DEPARTURES {
             let jerk = (to - from) / time_s;
             if self.x.abs() >= self.half && self.xd * self.x >= 0.0 {
@@ -207,7 +229,7 @@ impl Slack {
                     }
                     // The load lets go where it is none.
                     time_s -= -from / jerk;
-                    from = 0.0;
+                    (from, self.xd) = (0.0, yielding * jerk);
                 }
             }
             let after = |t: f64| self.x + t * (self.xd + t * (0.5 * from + t * jerk / 6.0));
@@ -243,25 +265,29 @@ mod tests {
         let (gap, inertia, c, period_s) = (0.01, 0.2, 3.0, 1e-4);
         let time = |t: usize| (t as f64 - 1000.0) * period_s;
         let load: Vec<f64> = (0..6000).map(|t| c * time(t)).collect();
-        let x = play(&load, &vec![inertia; 6000], gap, period_s);
+        let x = play(&load, &vec![inertia; 6000], Gap { width: gap, compliance: 0.0 }, period_s);
         let crossed = x.iter().position(|x| *x >= 0.5 * gap).unwrap();
         let expected = (6.0 * gap * inertia / c).cbrt();
         assert!((time(crossed) - expected).abs() < 3.0 * period_s, "{} s", time(crossed));
         assert!((x[0] + 0.5 * gap).abs() < 1e-15 && (x[5999] - 0.5 * gap).abs() < 1e-15);
     }
 
-    /// The load turns between two samples; from there the link is `c t³ / (6 inertia)` from its end
-    /// until it has crossed, in eight samples that tell nothing but their own load.
+    /// The load turns between two samples; from there the link is `compliance c t + c t³ / (6 inertia)`
+    /// from its end until it has crossed, in eight samples that tell nothing but their own load, or in
+    /// six where a spring lets go.
     #[test]
     fn oracle_a_play_that_is_crossed_in_a_few_samples_is_crossed_as_in_many() {
         let (gap, inertia, c, period_s) = (0.01, 0.2, 3.0, 0.02);
         let time = |t: usize| (t as f64 - 20.4) * period_s;
         let load: Vec<f64> = (0..60).map(|t| c * time(t)).collect();
-        let x = play(&load, &[inertia; 60], gap, period_s);
-        for (t, x) in x.iter().enumerate() {
-            let way = c * time(t).max(0.0).powi(3) / (6.0 * inertia);
-            let expected = (way - 0.5 * gap).min(0.5 * gap);
-            assert!((x - expected).abs() < 1e-12, "{x}, not {expected}, at {} s", time(t));
+        for compliance in [0.0, 0.01] {
+            let x = play(&load, &[inertia; 60], Gap { width: gap, compliance }, period_s);
+            for (t, x) in x.iter().enumerate() {
+                let after = time(t).max(0.0);
+                let way = c * (compliance * after + after.powi(3) / (6.0 * inertia));
+                let expected = (way - 0.5 * gap).min(0.5 * gap);
+                assert!((x - expected).abs() < 1e-12, "{x}, not {expected}, at {} s", time(t));
+            }
         }
     }
 }
