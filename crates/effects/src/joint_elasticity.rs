@@ -2,6 +2,7 @@ use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
+use crate::transmission::{Gap, play};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
@@ -13,6 +14,26 @@ const TWIST_SD: f64 = 0.01;
 
 fn compliance(drive: &Actuator) -> f64 {
     drive.elasticity.map_or(0.0, f64::recip)
+}
+
+/// Compliance by which the play of a spring is compared with that of a softer one (rad/(N m) or
+/// m/N): until a link has crossed, its play is linear in it.
+const STEP: f64 = 1e-7;
+
+/// What a unit of compliance adds to `theta - q` at joint `j`: the load, and that a link leaves an end
+/// of its play, under `play_load`, as fast as the spring lets go (N·m or N).
+fn per_compliance(motion: &Motion, j: usize, play_load: &[f64]) -> Vec<f64> {
+    let drive = &motion.drives[j];
+    let mut twist = motion.load[j].clone();
+    if drive.backlash > 0.0 {
+        let inertia = &motion.slopes(j).of[j][2];
+        let gap = Gap::of(drive, drive.backlash);
+        let softer = Gap { compliance: gap.compliance + STEP, ..gap };
+        let [now, then] = [gap, softer].map(|gap| play(play_load, inertia, gap, motion.period_s));
+        let changes = now.iter().zip(then).map(|(now, then)| (then - now) / STEP);
+        twist.iter_mut().zip(changes).for_each(|(twist, change)| *twist += change);
+    }
+    twist
 }
 
 impl Explain for JointElasticity {
@@ -32,13 +53,14 @@ impl Explain for JointElasticity {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![motion.twisted(j, &motion.load[j])]
+        vec![motion.twisted(j, &per_compliance(motion, j, motion.tight_load(j)))]
     }
 
     fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
         let ratio = motion.drives[j].transmission_ratio;
-        vec![at_joint(j, motion.load[j].iter().map(|load| load / ratio))]
+        let twist = per_compliance(motion, j, &motion.load[j]);
+        vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]
     }
 
     fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
