@@ -154,7 +154,8 @@ The output folder holds for each run
 const RUN_EXAMPLES: &str = "\
 Examples:
   plumbline run scenarios/hidden.toml --seed 7
-  plumbline run scenarios/effects/backlash.toml --out backlash
+  plumbline run scenarios/thorough.toml \\
+      --set \"effect=[{ backlash={ joint='j3_shoulder_yaw', gap_rad=0.01 } }]\"
   plumbline run scenarios/tracking.toml --set control.gains=low-tenth
   plumbline run scenarios/paper/fig2_learning.toml
 

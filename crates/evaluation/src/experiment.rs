@@ -40,7 +40,8 @@ const PLANT: &str = "logs/scenario.toml";
 impl Experiment {
     /// Reads a tracking scenario or, with usual values for all the rest, the scenario of an arm:
     /// its last run is the one that nothing is learned from, whose motion is tracked with the
-    /// softest gains of `robot.toml` that hold the arm. `seed` takes the place of that of the arm's scenario.
+    /// softest gains of `robot.toml` that hold the arm. `seed` takes the place of that of the arm's
+    /// scenario.
     ///
     /// # Errors
     ///
