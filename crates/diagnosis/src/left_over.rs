@@ -50,7 +50,8 @@ pub fn left_over(
 /// The limits that a description states of drives whose efforts are commands.
 fn described_limits(robot: &Robot) -> Vec<Limit> {
     let limit = |(joint, link): (usize, &robot::Link)| {
-        let limit = link.joint.limits.effort?;
+        // A URDF that knows no limit often states one of zero.
+        let limit = link.joint.limits.effort.filter(|limit| *limit > 0.0)?;
         let is_command = link.actuator.torque_source != TorqueSource::Measured;
         is_command.then_some(Limit { joint, limit, ci95: [limit; 2], share: 0.0 })
     };
