@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use logs::{PreparedJoint, PreparedRun};
 use robot::{Actuator, Robot, SensingSide, TorqueSource};
 
@@ -7,6 +9,33 @@ use crate::{Simulator, Transmission};
 pub(crate) struct State {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
+}
+
+/// A record in which every effort stands at the time at which it acted, where a log has it later:
+///
+/// ```text
+/// effort(t) = logged effort(t + skew)
+/// ```
+///
+/// straight between samples; beyond the record the first or last effort goes on.
+pub(crate) fn in_time<'a>(robot: &Robot, record: &'a PreparedRun) -> Cow<'a, PreparedRun> {
+    let skews = || robot.links().iter().map(|link| link.actuator.effort_skew_s);
+    if skews().all(|skew_s| skew_s.abs() <= 0.0) {
+        return Cow::Borrowed(record);
+    }
+    let mut record = record.clone();
+    for (joint, skew_s) in record.joints.iter_mut().zip(skews()) {
+        let late = skew_s * record.rate_hz;
+        let last = joint.effort.len().saturating_sub(1);
+        let at = |sample: usize| {
+            let place = (sample as f64 + late).clamp(0.0, last as f64);
+            let (before, part) = (place as usize, place.fract());
+            let [a, b] = [joint.effort[before], joint.effort[(before + 1).min(last)]];
+            a + part * (b - a)
+        };
+        joint.effort = (0..joint.effort.len()).map(at).collect();
+    }
+    Cow::Owned(record)
 }
 
 /// Time constants of a lag after which what was asked for before no longer counts: 0.1 % is left.
@@ -133,6 +162,38 @@ mod tests {
     use robot::{Ripple, Stribeck, Wave};
 
     use super::*;
+
+    /// An effort of 3 t + 1 logged every 2 ms, 5 ms late: two and a half samples.
+    #[test]
+    fn an_effort_that_was_logged_late_is_put_back_to_its_time() {
+        let robot = |skew_s: f64| {
+            let mut robot = Robot::from_urdf(
+                r#"<robot name="r"><link name="base"/><link name="rim"/>
+                <joint name="joint" type="continuous"><parent link="base"/><child link="rim"/>
+                <axis xyz="0 0 1"/></joint></robot>"#,
+            )
+            .unwrap();
+            robot.link_mut(0).unwrap().actuator.effort_skew_s = skew_s;
+            robot
+        };
+        let time: Vec<f64> = (0..100).map(|k| 0.002 * f64::from(k)).collect();
+        let effort = |t: f64| 3.0 * t.clamp(0.0, 0.198) + 1.0;
+        let joint = |skew_s: f64| {
+            let still = || vec![0.0; time.len()];
+            let late = time.iter().map(|t| 3.0 * (t - skew_s) + 1.0).collect();
+            PreparedJoint::exact([still(), still(), still()], late)
+        };
+        for skew_s in [0.0, 0.005, -0.005] {
+            let joints = vec![joint(skew_s)];
+            let name = "run".to_owned();
+            let record = PreparedRun { name, rate_hz: 500.0, time: time.clone(), joints };
+            let put_back = in_time(&robot(skew_s), &record);
+            let inside = time.iter().zip(&put_back.joints[0].effort).skip(3).take(94);
+            for (t, found) in inside {
+                assert!((found - effort(*t)).abs() < 1e-12, "{found} at {t} s, {skew_s} s late");
+            }
+        }
+    }
 
     /// The effort that carries a load is worked out forwards and given to what works backwards.
     #[test]

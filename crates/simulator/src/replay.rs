@@ -4,7 +4,7 @@ use logs::{Channels, PreparedRun, Run};
 use rayon::prelude::*;
 use robot::{Gain, Machine, MachineFault, Reading, Robot};
 
-use crate::recorded::{State, begin, between, held, late_s, seen};
+use crate::recorded::{State, begin, between, held, in_time, late_s, seen};
 use crate::{Sensors, Simulator, SimulatorError, Stepping};
 
 /// Longest step of the engine where no other is given (s).
@@ -53,9 +53,10 @@ pub struct ForwardReplay {
 /// ```
 ///
 /// A torque that was commanded is held from its sample to the next, one that was measured is the
-/// mean of both. Windows are simulated side by side. Transmissions start under the load that the
-/// drive's description and the torque of the first sample say; what is compared is what the
-/// robot's encoders would show. A spring that rings at the start of a window rings on from the
+/// mean of both; where the robot says that efforts are logged late they are put back to their
+/// time. Windows are simulated side by side. Transmissions start under the load that the drive's
+/// description and the torque of the first sample say; what is compared is what the robot's
+/// encoders would show. A spring that rings at the start of a window rings on from the
 /// state of rest under that load, which one encoder cannot tell.
 ///
 /// # Errors
@@ -68,6 +69,7 @@ pub fn replay_torque(
     windows: Windows,
 ) -> Result<ForwardReplay, SimulatorError> {
     let Windows { window_s, longest_step_s } = windows;
+    let record = &*in_time(robot, record);
     let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
     let count = record.time.len().saturating_sub(1) / samples;
     if count == 0 {
@@ -193,9 +195,10 @@ pub struct MotionReplay {
 /// tau_simulated = tau_measured + kp (q_measured - q) + kd (qd_measured - qd)
 /// ```
 ///
-/// What is fed back is what the measured torque lacks to move the simulation along the measured
-/// motion: the torque error. Feedback alone would add to it what the controller cannot follow.
-/// An error that changes faster than the controller answers does not show.
+/// with the measured torque at the time at which it acted. What is fed back is what the measured
+/// torque lacks to move the simulation along the measured motion: the torque error. Feedback alone
+/// would add to it what the controller cannot follow. An error that changes faster than the
+/// controller answers does not show.
 ///
 /// # Errors
 ///
@@ -209,6 +212,7 @@ pub fn replay_motion(
     if record.time.len() < 2 {
         return Err(too_short(record, 1.0 / record.rate_hz));
     }
+    let record = &*in_time(robot, record);
     // A controller at the rate of a slow log would not be stable.
     let turns = (CONTROL_HZ / record.rate_hz).ceil().max(1.0) as usize;
     let mut simulator = perfect(robot, record.rate_hz * turns as f64, STEP_S)?;
