@@ -110,6 +110,36 @@ impl Selection<'_> {
         evidence(other).zip(evidence(model)).is_some_and(|(o, m)| o > m - LEAST_EVIDENCE)
     }
 
+    /// The model without `g`, and with what says less of the same change at the same place, where
+    /// that earns its place: `g` has kept it out.
+    pub fn without(&self, model: &Model, g: usize) -> Model {
+        let mut smaller = model.clone();
+        smaller.remove(&g);
+        let Some(fit) = self.problem.fit(&smaller) else { return smaller };
+        let held_out = self.problem.held_out(&smaller);
+        let less = self.says_less_than(g);
+        let entrant = self.ranked(&smaller, &fit).into_iter().find(|h| {
+            let larger = self.joined(&smaller, *h);
+            less.contains(h) && self.is_possible(&larger, *h) && self.pays(&held_out, &larger, *h)
+        });
+        smaller.extend(entrant);
+        smaller
+    }
+
+    /// Hypotheses of which `g` is the larger: its plainer rivals, the friction whose level it makes
+    /// vary, and what it excludes with fewer weights.
+    fn says_less_than(&self, g: usize) -> Vec<usize> {
+        let groups = &self.problem.design.groups;
+        let own = &groups[g];
+        let part = |h: &usize| {
+            own.hypothesis.varies() == Some(groups[*h].hypothesis)
+                || own.hypothesis.excludes(groups[*h].hypothesis)
+                    && groups[*h].columns.len() < own.columns.len()
+        };
+        let parts = (0..groups.len()).filter(part);
+        self.plainer_than(g).into_iter().chain(parts).collect()
+    }
+
     /// Hypotheses that have the name where they do the work of `g`, alone or together.
     fn plainer_than(&self, g: usize) -> Vec<usize> {
         use EffectKind::{

@@ -37,13 +37,17 @@ impl Significance {
     }
 }
 
-/// Drops hypotheses one at a time until all that are left are significant and stable: the
-/// least significant first, then the least stable.
-pub(crate) fn significant(
-    problem: &Problem,
-    mut model: Model,
-    settings: &Settings,
-) -> (Model, Significance) {
+/// What tests of a model come to.
+pub(crate) enum Tested {
+    /// All of it is significant and stable.
+    Stands(Significance),
+    /// All of it is significant, and this hypothesis is the least stable one.
+    Falls(usize),
+}
+
+/// Drops hypotheses one at a time, the least significant first, until all that are left are
+/// significant; and says whether they are stable.
+pub(crate) fn tested(problem: &Problem, mut model: Model, settings: &Settings) -> (Model, Tested) {
     loop {
         let significance = Significance::new(problem, &model, settings);
         let q = |g: &usize| significance.q[*g].unwrap_or(1.0);
@@ -55,8 +59,8 @@ pub(crate) fn significant(
         let stable = stability(problem, &model, settings.seed);
         let least = stable.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
         match least.filter(|(_, share)| *share < LEAST_STABILITY) {
-            Some((g, _)) => model.remove(&g),
-            None => return (model, significance),
-        };
+            Some((g, _)) => return (model, Tested::Falls(g)),
+            None => return (model, Tested::Stands(significance)),
+        }
     }
 }

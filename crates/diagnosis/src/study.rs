@@ -21,8 +21,9 @@ use crate::result::{
     DataSummary, Diagnosis, Finding, Gain, JointReport, RuledOut, SCHEMA, Unexplained, Verdict,
 };
 use crate::search::Record;
+use crate::select::Selection;
 use crate::settings::{HeldOutRobots, Settings};
-use crate::significance::{Significance, significant};
+use crate::significance::{Significance, Tested, tested};
 use crate::structure::{Probe, Structure};
 use crate::tone_finding::tone_finding;
 use crate::traces::{RunTraces, traces};
@@ -195,29 +196,40 @@ impl Study<'_> {
         problem: &Problem,
         model: Model,
     ) -> Result<(Settled, Apart), DiagnosisError> {
-        let contest = Contest { study: self, selection: &record.selection(problem) };
-        let mut settled = self.settled(problem, model)?;
+        let selection = record.selection(problem);
+        let contest = Contest { study: self, selection: &selection };
+        let mut settled = self.settled(&selection, model)?;
         let mut left = EXCHANGES;
         loop {
             let Decided { apart, better } = contest.decide(&settled.model, &settled.solution)?;
             match better.filter(|_| left > 0) {
-                Some(better) => settled = self.settled(problem, better)?,
+                Some(better) => settled = self.settled(&selection, better)?,
                 None => return Ok((settled, apart)),
             }
             left -= 1;
         }
     }
 
-    /// What is significant and of a size that is decided of a model.
-    fn settled(&self, problem: &Problem, model: Model) -> Result<Settled, DiagnosisError> {
-        let (mut model, mut significance) = significant(problem, model, self.settings);
+    /// What is significant, stable and of a size that is decided of a model. What falls leaves its
+    /// place to what says less.
+    fn settled(&self, selection: &Selection, model: Model) -> Result<Settled, DiagnosisError> {
+        let problem = selection.problem;
+        let mut model = model;
         loop {
-            let solution = solved(self.robot, &self.log, problem, &model)?;
-            let first = self.fitted(problem, &model, &solution);
-            let open = solution.tell(&first, |fitted| untenable(problem, &model, fitted));
-            let Some(open) = open else { return Ok(Settled { model, significance, solution }) };
-            model.remove(&open);
-            (model, significance) = significant(problem, model, self.settings);
+            let (significant, tested) = tested(problem, model, self.settings);
+            let falls = match tested {
+                Tested::Falls(g) => g,
+                Tested::Stands(significance) => {
+                    let solution = solved(self.robot, &self.log, problem, &significant)?;
+                    let first = self.fitted(problem, &significant, &solution);
+                    let open = solution.tell(&first, |f| untenable(problem, &significant, f));
+                    let Some(open) = open else {
+                        return Ok(Settled { model: significant, significance, solution });
+                    };
+                    open
+                }
+            };
+            model = selection.without(&significant, falls);
         }
     }
 
