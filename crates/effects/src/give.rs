@@ -90,6 +90,25 @@ impl Give {
     }
 }
 
+/// The rate of a twist (1/s), by the differences that [`Give`] has; the twist is held beyond its ends.
+pub(crate) fn rate(x: &[f64], period_s: f64) -> Vec<f64> {
+    let last = x.len().saturating_sub(1);
+    let at = |t: usize| {
+        let (before, after) = (t.saturating_sub(1), (t + 1).min(last));
+        (x[after] - x[before]) / (2.0 * period_s)
+    };
+    (0..x.len()).map(at).collect()
+}
+
+/// The second derivative of a twist (1/s²), by the differences that [`Give`] has; 0 at its ends.
+pub(crate) fn curvature(x: &[f64], period_s: f64) -> Vec<f64> {
+    let at = |t: usize| match (t.checked_sub(1), x.get(t + 1)) {
+        (Some(before), Some(after)) => (x[before] - 2.0 * x[t] + after) / (period_s * period_s),
+        _ => 0.0,
+    };
+    (0..x.len()).map(at).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,9 +7,9 @@ use robot::{Actuator, Robot, SensingSide};
 
 use crate::cable_loop::Loop;
 use crate::dry_friction::dry_friction;
-use crate::give::Give;
+use crate::give::{Give, curvature, rate};
 use crate::slopes::Slopes;
-use crate::timing::{Timing, curvature, rate};
+use crate::timing::Timing;
 use crate::transmission::{Gap, Parted, corrected, play};
 use crate::{Column, Part};
 

@@ -1,3 +1,4 @@
+use logs::differentiate;
 use robot::{Actuator, Robot, TorqueSource};
 
 use crate::explain::at_joint;
@@ -33,7 +34,7 @@ impl Timing {
     /// The torque, sampled every `period_s`, as the log has it.
     pub fn reported(self, mut torque: Vec<f64>, period_s: f64) -> Vec<f64> {
         if self.lag_s > 0.0 {
-            let rate = rate(&torque, period_s);
+            let rate = differentiate(&torque, period_s.recip());
             torque.iter_mut().zip(rate).for_each(|(x, r)| *x += self.lag_s * r);
         }
         if self.lead_s.abs() > 0.0 { shifted(&torque, self.lead_s / period_s) } else { torque }
@@ -53,26 +54,8 @@ pub(crate) fn commanded(robot: &Robot) -> Vec<Place> {
 /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.
 pub(crate) fn torque_rate(motion: &Motion, j: usize) -> Column {
     let gain = motion.gain[j];
-    at_joint(j, rate(&motion.torque[j], motion.period_s).into_iter().map(|r| gain * r))
-}
-
-/// The rate of a signal (1/s), by central differences; the signal is held beyond its ends.
-pub(crate) fn rate(x: &[f64], period_s: f64) -> Vec<f64> {
-    let last = x.len().saturating_sub(1);
-    let at = |t: usize| {
-        let (before, after) = (t.saturating_sub(1), (t + 1).min(last));
-        (x[after] - x[before]) / (2.0 * period_s)
-    };
-    (0..x.len()).map(at).collect()
-}
-
-/// The second derivative of a signal (1/s²), by central differences; 0 at its ends.
-pub(crate) fn curvature(x: &[f64], period_s: f64) -> Vec<f64> {
-    let at = |t: usize| match (t.checked_sub(1), x.get(t + 1)) {
-        (Some(before), Some(after)) => (x[before] - 2.0 * x[t] + after) / (period_s * period_s),
-        _ => 0.0,
-    };
-    (0..x.len()).map(at).collect()
+    let rate = differentiate(&motion.torque[j], motion.period_s.recip());
+    at_joint(j, rate.into_iter().map(|r| gain * r))
 }
 
 /// `x` at `steps` samples later, by cubic interpolation (Catmull & Rom 1974); the first and the
@@ -127,7 +110,7 @@ mod tests {
             .zip(sine(std::f64::consts::FRAC_PI_2))
             .map(|(s, c)| s + 0.2 * c)
             .collect();
-        assert_close(&Timing::of(&drive).reported(sine(0.0), 0.1), &expected, 1e-3);
+        assert_close(&Timing::of(&drive).reported(sine(0.0), 0.1), &expected, 2e-6);
     }
 
     #[test]

@@ -2,10 +2,9 @@ use dynamics::Dynamics;
 use robot::{Actuator, Robot, SensingSide};
 
 use crate::cable_loop::Loop;
-use crate::give::Give;
+use crate::give::{Give, curvature, rate};
 use crate::motion::{Link, State};
 use crate::slopes::Slopes;
-use crate::timing::{curvature, rate};
 
 /// The motion of the motors behind what their encoders report:
 /// `q = transmission_ratio (reported - encoder_offset)`.
