@@ -34,7 +34,7 @@ pub struct Outcome {
     pub extended: Robot,
     /// The logs as they were diagnosed.
     pub prepared: Prepared,
-    /// What was held out in turn, by stretches of `prepared`; empty unless the settings ask.
+    /// What was held out in turn, by stretches of `prepared`.
     pub held_out: Vec<HeldOut>,
 }
 

@@ -130,11 +130,9 @@ impl<'a> Along<'a> {
     /// What the robot leaves of the efforts that became torque.
     pub fn left_over(&self) -> Result<LeftOver, LogError> {
         let measured = self.measured()?;
-        let less = |x: &mut f64, y: f64| *x -= y;
-        let mut left = measured.clone();
-        for ((left, effort), known) in left.iter_mut().zip(&self.motion.effort).zip(self.known()?) {
-            left.iter_mut().zip(self.finish(effort.clone())).for_each(|(x, y)| less(x, y));
-            left.iter_mut().zip(known).for_each(|(x, y)| less(x, y));
+        let mut left = self.left(&measured);
+        for (left, known) in left.iter_mut().zip(self.known()?) {
+            left.iter_mut().zip(known).for_each(|(left, known)| *left -= known);
         }
         Ok(LeftOver { measured, left })
     }
@@ -142,15 +140,20 @@ impl<'a> Along<'a> {
     /// What the robot leaves of the efforts, with the positions and speeds of the motors.
     pub fn rest(&self) -> Result<Rest, LogError> {
         let [first, second] = self.strides;
-        let nominal = self.motion.effort.iter().map(|e| self.finish(e.clone()));
-        let left = |(m, n): (Vec<f64>, Vec<f64>)| m.iter().zip(n).map(|(m, n)| m - n).collect();
         let thin = |x: &Vec<Vec<f64>>| x.iter().map(|x| decimate(x, second)).collect();
         Ok(Rest {
             time: decimate(&decimate(&self.run.time, first), second),
             q: thin(&self.motion.q),
             qd: thin(&self.motion.qd),
-            left: self.measured()?.into_iter().zip(nominal).map(left).collect(),
+            left: self.left(&self.measured()?),
         })
+    }
+
+    /// `measured` less the efforts of the robot.
+    fn left(&self, measured: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let expected = self.motion.effort.iter().map(|e| self.finish(e.clone()));
+        let less = |(m, e): (&Vec<f64>, Vec<f64>)| m.iter().zip(e).map(|(m, e)| m - e).collect();
+        measured.iter().zip(expected).map(less).collect()
     }
 
     /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects

@@ -21,7 +21,7 @@ const SHORTEST: f64 = 0.125;
 
 /// Whether the columns of an effect are those of a small change only, follow from what the other
 /// findings change, or are more about a robot that has it.
-fn is_tangent(kind: EffectKind) -> bool {
+pub(crate) fn is_tangent(kind: EffectKind) -> bool {
     use EffectKind::{CableSpring, GravityDirection, TorqueConstant};
     is_doubtful(kind) || matches!(kind, TorqueConstant | GravityDirection | CableSpring)
 }
@@ -106,6 +106,15 @@ pub(crate) struct Solved {
 }
 
 impl Solved {
+    /// What is left of the effort of joint `j` in a run (N·m or N); `first` is the design about the
+    /// robot without findings.
+    pub fn remaining(&self, first: &Design, run: usize, j: usize) -> Vec<f64> {
+        match &self.refit {
+            Some(Refit { design, weights, .. }) => design.remaining(run, j, weights),
+            None => first.remaining(run, j, &self.weights),
+        }
+    }
+
     /// What `tell` says of the last fit: `first` is the one about the robot without findings.
     pub fn tell<T>(&self, first: &Fitted, tell: impl FnOnce(&Fitted) -> T) -> T {
         let Some(Refit { about, design, grams, model, weights, .. }) = &self.refit else {

@@ -3,6 +3,7 @@ use effects::{Hypothesis, Place};
 use robot::Robot;
 
 use crate::contest::Apart;
+use crate::extend::is_tangent;
 use crate::log::Look;
 use crate::problem::{HeldOut, Model, Problem};
 use crate::result::{EffectAt, Finding};
@@ -42,6 +43,7 @@ impl Evidence<'_> {
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
         let with = problem.held_out(self.model);
+        let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
         let nominal = problem.held_out(&Model::new());
         let stable = stability(problem, self.model, self.seed);
         let mut found: Vec<Found> = stable
@@ -52,17 +54,26 @@ impl Evidence<'_> {
                 without.remove(&g);
                 without.retain(|&level| self.bearer(level) != Some(g));
                 let bare = problem.held_out(&without);
+                let with = last.as_ref().filter(|(only, _)| *only == g).map_or(&with, |(_, l)| l);
                 let fall: Vec<f64> =
                     bare.mean_square.iter().zip(&with.mean_square).map(|(b, w)| b - w).collect();
-                let mut finding = self.finding(g, (&uncertainty, fitted), [&nominal, &bare, &with]);
+                let mut finding = self.finding(g, (&uncertainty, fitted), [&nominal, &bare, with]);
                 finding.stability = stability;
                 let loss = problem.fit(&without).map_or(0.0, |f| fit.evidence - f.evidence);
-                finding.evidence = self.evidence(g, loss, &bare, &with);
+                finding.evidence = self.evidence(g, loss, &bare, with);
                 Found { finding, fall }
             })
             .collect();
         found.sort_by(|a, b| b.finding.share_explained.total_cmp(&a.finding.share_explained));
         found
+    }
+
+    /// The one finding whose columns are those of a small change only: what the last fit, about the
+    /// robot that has it, explains beyond them is its doing.
+    fn only_tangent(&self) -> Option<usize> {
+        let kind = |g: usize| self.selection.problem.design.groups[g].hypothesis.kind;
+        let mut tangents = self.model.iter().copied().filter(|g| is_tangent(kind(*g)));
+        tangents.next().filter(|_| tangents.next().is_none())
     }
 
     /// The finding that speaks for `g` as well: the first one of the model that says how the

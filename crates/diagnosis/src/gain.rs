@@ -1,89 +1,99 @@
 use logs::LogError;
 use rayon::prelude::*;
-use robot::Robot;
 
-use crate::blocks::Fold;
-use crate::held_out::{HeldOut, spans};
+use crate::blocks::{Block, Fold};
+use crate::extend::Solved;
 use crate::problem::{Model, Problem};
 use crate::progress::Progress;
 use crate::result::{FoldGain, InverseGain};
 use crate::search::Record;
-use crate::settle::settle;
 
 /// Torque prediction on parts of the record that took no part in selection or fit.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct HeldOutGain {
     /// For the user.
     pub inverse: InverseGain,
-    /// Weights selected and fitted without each fold of the whole record's problem.
-    pub weights: Vec<Vec<f64>>,
-    /// The folds, each with the robot that its weights make, where it was asked for.
-    pub parts: Vec<HeldOut>,
+    /// What a search without each fold of the whole record's problem came to.
+    pub folds: Vec<Solved>,
 }
 
-/// Makes the robot of what a search came to.
-pub(crate) type Make<'a> = &'a (dyn Fn(&Problem, &Model) -> Result<Robot, LogError> + Sync);
+/// Solves for the sizes of what a search came to.
+pub(crate) type Solve<'a> = &'a (dyn Fn(&Problem, &Model) -> Result<Solved, LogError> + Sync);
 
 impl HeldOutGain {
-    /// Searches anew without each fold of `whole`, predicts that fold, and makes the robot of
-    /// each search where it is told how.
+    /// Searches and solves anew without each fold of `whole`, and predicts that fold.
     pub fn new(
         record: &Record,
         whole: &Problem,
-        make: Option<Make>,
+        solve: Solve,
         progress: &dyn Progress,
     ) -> Result<Self, LogError> {
         progress.stage("testing on held-out data", whole.folds.len());
         let without = |fold: &Fold| {
             let (problem, model) = record.search(&fold.train);
-            let weights = settle(&problem, &model, &problem.info, record.robot);
-            let part = make.map(|make| {
-                let spans = |of: &[usize]| spans(record.design, record.blocks, of);
-                let extended = make(&problem, &model)?;
-                Ok(HeldOut { test: spans(&fold.test), train: spans(&fold.train), extended })
-            });
+            let solved = solve(&problem, &model);
             progress.step();
-            Ok((weights, part.transpose()?))
+            solved
         };
-        let found: Vec<(Vec<f64>, Option<HeldOut>)> =
+        let folds: Vec<Solved> =
             whole.folds.par_iter().map(without).collect::<Result<_, LogError>>()?;
-        let (weights, parts): (Vec<Vec<f64>>, Vec<Option<HeldOut>>) = found.into_iter().unzip();
-        let parts = parts.into_iter().flatten().collect();
-        Ok(Self { inverse: inverse(record, whole, &weights), weights, parts })
+        Ok(Self { inverse: inverse(record, whole, &folds), folds })
+    }
+
+    /// What is left of the efforts of every fold of `whole` by what was found without it,
+    /// `[joint][run][sample]` (N·m or N).
+    pub fn left(&self, whole: &Problem) -> Vec<Vec<Vec<f64>>> {
+        whole.held_out_residuals(|f, run, j| self.folds[f].remaining(whole.design, run, j))
     }
 }
 
-fn inverse(record: &Record, whole: &Problem, weights: &[Vec<f64>]) -> InverseGain {
+fn inverse(record: &Record, whole: &Problem, solved: &[Solved]) -> InverseGain {
     let joints = record.design.joints();
-    let rms = |blocks: &[usize], w: &[f64]| -> Vec<f64> {
-        let of = |j| {
-            let (sum, n) = record.grams.remaining(j, blocks, w);
-            (sum / n.max(1) as f64).sqrt()
-        };
-        (0..joints).map(of).collect()
-    };
     let before =
         |blocks: &[usize]| -> Vec<f64> { (0..joints).map(|j| gap(record, blocks, j)).collect() };
+    let rms = |(sum, n): (f64, usize)| (sum / n.max(1) as f64).sqrt();
+    let left = |(fold, solved): (&Fold, &Solved)| -> Vec<(f64, usize)> {
+        (0..joints).map(|j| squares(whole, fold, solved, j)).collect()
+    };
+    let left: Vec<Vec<(f64, usize)>> = whole.folds.iter().zip(solved).map(left).collect();
     let fold = |(f, fold): (usize, &Fold)| FoldGain {
         name: name(whole, f),
         torque_rms_nm: (0..joints).map(|j| measured(record, &fold.test, j).0).collect(),
         rms_before_nm: before(&fold.test),
-        rms_after_nm: rms(&fold.test, &weights[f]),
+        rms_after_nm: left[f].iter().copied().map(rms).collect(),
     };
     let folds: Vec<FoldGain> = whole.folds.iter().enumerate().map(fold).collect();
-    let after = whole.held_out_with(|f| weights[f].clone()).mean_square;
-    let before: Vec<f64> = before(&whole.of).iter().map(|rms| rms * rms).collect();
-    let nmse = |mean_square: &[f64]| {
-        (0..joints).map(|j| mean_square[j] / measured(record, &whole.of, j).1).collect()
+    let all = |j: usize| left.iter().fold((0.0, 0), |(s, n), of| (s + of[j].0, n + of[j].1));
+    let rms_after: Vec<f64> = (0..joints).map(|j| rms(all(j))).collect();
+    let rms_before = before(&whole.of);
+    let nmse = |rms: &[f64]| {
+        (0..joints).map(|j| rms[j].powi(2) / measured(record, &whole.of, j).1).collect()
     };
     InverseGain {
-        nmse_before: nmse(&before),
-        nmse_after: nmse(&after),
-        rms_before_nm: before.iter().map(|v| v.sqrt()).collect(),
-        rms_after_nm: after.iter().map(|v| v.sqrt()).collect(),
+        nmse_before: nmse(&rms_before),
+        nmse_after: nmse(&rms_after),
+        rms_before_nm: rms_before,
+        rms_after_nm: rms_after,
         held_out: held_out(whole),
         folds,
     }
+}
+
+/// Sum of squares, and number, of what is left of the effort of joint `j` in the test of a fold.
+fn squares(whole: &Problem, fold: &Fold, solved: &Solved, j: usize) -> (f64, usize) {
+    let in_run = |run: usize| {
+        let blocks = fold.test.iter().map(|&b| &whole.blocks[b]).filter(move |b| b.run == run);
+        let mut blocks = blocks.peekable();
+        blocks.peek()?;
+        let left = solved.remaining(whole.design, run, j);
+        let sum = |(sum, n): (f64, usize), block: &Block| {
+            let of = &left[block.samples.clone()];
+            (sum + of.iter().map(|x| x * x).sum::<f64>(), n + of.len())
+        };
+        Some(blocks.fold((0.0, 0), sum))
+    };
+    let runs = 0..whole.design.runs.len();
+    runs.filter_map(in_run).fold((0.0, 0), |(s, n), (sum, count)| (s + sum, n + count))
 }
 
 fn name(whole: &Problem, f: usize) -> String {

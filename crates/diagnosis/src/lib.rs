@@ -67,5 +67,5 @@ pub use result::{
     DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
     JointReport, NoiseFloorSource, RuledOut, RunSummary, SCHEMA, Unexplained, Verdict,
 };
-pub use settings::{HeldOutRobots, Settings};
+pub use settings::Settings;
 pub use traces::{JointTraces, RunTraces};

@@ -121,16 +121,11 @@ impl<'a> Problem<'a> {
 
     /// What a model leaves on the blocks that its weights have not seen.
     pub fn held_out(&self, model: &Model) -> HeldOut {
-        self.held_out_with(|fold| self.fold_weights(model, fold))
-    }
-
-    /// What the weights of each fold leave on that fold's test blocks.
-    pub fn held_out_with(&self, weights: impl Fn(usize) -> Vec<f64>) -> HeldOut {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
         let mut deviance = vec![0.0; self.blocks.len()];
         for (f, fold) in self.folds.iter().enumerate() {
-            let w = weights(f);
+            let w = self.fold_weights(model, f);
             for &b in &fold.test {
                 for j in 0..joints {
                     let (sum, n) = self.grams.remaining(j, &[b], &w);
@@ -144,10 +139,12 @@ impl<'a> Problem<'a> {
         HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
     }
 
-    /// Held-out residuals, `[joint][run][sample]`, with the weights of each fold; runs that
-    /// take no part are left out.
-    pub fn held_out_residuals(&self, weights: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<Vec<f64>>> {
-        let weights: Vec<Vec<f64>> = (0..self.folds.len()).map(weights).collect();
+    /// Held-out residuals, `[joint][run][sample]`, of what `left` says that each fold, by its
+    /// index, leaves of a run at a joint; runs that take no part are left out.
+    pub fn held_out_residuals(
+        &self,
+        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+    ) -> Vec<Vec<Vec<f64>>> {
         let fold_of = |b: usize| self.folds.iter().position(|f| f.test.contains(&b));
         let mut residuals = vec![Vec::new(); self.design.joints()];
         for run in 0..self.design.runs.len() {
@@ -158,11 +155,11 @@ impl<'a> Problem<'a> {
                 continue;
             }
             for (j, residual) in residuals.iter_mut().enumerate() {
-                let left = |(f, w): (usize, &Vec<f64>)| {
+                let of_fold = |f: usize| {
                     let used = own.iter().any(|(_, fold)| *fold == f);
-                    if used { self.design.remaining(run, j, w) } else { Vec::new() }
+                    if used { left(f, run, j) } else { Vec::new() }
                 };
-                let left: Vec<Vec<f64>> = weights.iter().enumerate().map(left).collect();
+                let left: Vec<Vec<f64>> = (0..self.folds.len()).map(of_fold).collect();
                 let part = |(block, f): &(&Block, usize)| left[*f][block.samples.clone()].to_vec();
                 residual.push(own.iter().flat_map(part).collect());
             }
@@ -172,13 +169,16 @@ impl<'a> Problem<'a> {
 
     /// The noise that a model leaves on held-out blocks.
     pub fn noise(&self, model: &Model) -> Noise {
-        Noise::of(&self.held_out_residuals(|fold| self.fold_weights(model, fold)))
+        let weights: Vec<Vec<f64>> =
+            (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
+        let left = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
+        Noise::of(&self.held_out_residuals(left))
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.
     pub fn fitted_noise(&self, model: &Model) -> Noise {
         let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
-        Noise::of(&self.held_out_residuals(|_| weights.clone()))
+        Noise::of(&self.held_out_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
     }
 
     /// The model of every hypothesis at once, but those that may pass for others in an effort.

@@ -2,16 +2,6 @@ use catalogue::EffectKind;
 
 use crate::DiagnosisError;
 
-/// Whether the robot with what is found without each held-out part is made: some time that
-/// only what is tested on those parts needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum HeldOutRobots {
-    /// It is not.
-    NotMade,
-    /// It is.
-    Made,
-}
-
 /// How a diagnosis is made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -27,8 +17,6 @@ pub struct Settings {
     pub sign_flips: usize,
     /// Least held-out fall of a joint's RMS error that counts, as a share of its effort RMS.
     pub practical_share: f64,
-    /// Whether [`crate::Outcome::held_out`] is filled.
-    pub held_out: HeldOutRobots,
     /// Effects that are not looked for, and named neither as a cause nor as its rival.
     pub without: Vec<EffectKind>,
 }
@@ -43,7 +31,6 @@ impl Default for Settings {
             // The least p-value, 1e-4, times a hundred and some hypotheses is still below 0.05.
             sign_flips: 9999,
             practical_share: 0.005,
-            held_out: HeldOutRobots::NotMade,
             without: Vec::new(),
         }
     }

@@ -2,7 +2,7 @@ use effects::weeded;
 use robot::Robot;
 
 use crate::between::{Between, between};
-use crate::blocks::{Block, FEWEST_BLOCKS, Folding, blocks};
+use crate::blocks::{Block, FEWEST_BLOCKS, Fold, Folding, blocks};
 use crate::contest::{Apart, Contest, Decided};
 use crate::design::Design;
 use crate::error::DiagnosisError;
@@ -10,9 +10,9 @@ use crate::extend::{Solved, solved};
 use crate::extent::range;
 use crate::findings::{Evidence, Found};
 use crate::floor::Floors;
-use crate::gain::{HeldOutGain, Make, measured};
+use crate::gain::{HeldOutGain, measured};
 use crate::gram::Grams;
-use crate::held_out::HeldOut;
+use crate::held_out::{HeldOut, spans};
 use crate::log::Log;
 use crate::noise::integrated_time;
 use crate::problem::{Model, Problem};
@@ -22,7 +22,7 @@ use crate::result::{
 };
 use crate::search::Record;
 use crate::select::Selection;
-use crate::settings::{HeldOutRobots, Settings};
+use crate::settings::Settings;
 use crate::significance::{Significance, Tested, tested};
 use crate::structure::{Probe, Structure};
 use crate::tone_finding::tone_finding;
@@ -58,6 +58,9 @@ struct Answer<'a> {
     /// Number of hypotheses tested.
     hypotheses: usize,
     gain: HeldOutGain,
+    /// What is left by what was found without each run, and by nothing, `[joint][run][sample]`.
+    left: Vec<Vec<Vec<f64>>>,
+    gap: Vec<Vec<Vec<f64>>>,
     /// What second encoders show.
     between: Option<Between>,
 }
@@ -89,8 +92,9 @@ impl Study<'_> {
             progress.step();
             let answer = self.answer(record, progress)?;
             let diagnosis = self.report(record, &answer);
-            let traces = traces(self.design, &answer.by_run, &answer.gain.weights);
-            Ok((diagnosis, traces, answer.extended, answer.gain.parts))
+            let traces = traces(self.design, &answer.left);
+            let held_out = self.held_out(record, &answer);
+            Ok((diagnosis, traces, answer.extended, held_out))
         })?
     }
 
@@ -159,18 +163,41 @@ impl Study<'_> {
         let conclusion = self.conclusion(record, progress)?;
         let Conclusion { problem, solution, significance, .. } = &conclusion;
         let by_run = problem.refolded(Folding::ByRun);
-        let make = |problem: &Problem, model: &Model| {
-            Ok(self.finished(solved(self.robot, &self.log, problem, model)?.robot))
-        };
-        let make = (self.settings.held_out == HeldOutRobots::Made).then_some(&make as Make);
-        let gain = HeldOutGain::new(record, &by_run, make, progress)?;
+        let solve =
+            |problem: &Problem, model: &Model| solved(self.robot, &self.log, problem, model);
+        let gain = HeldOutGain::new(record, &by_run, &solve, progress)?;
+        let left = gain.left(&by_run);
+        let gap = by_run
+            .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
         let (found, ruled_out) = self.told(record, &conclusion);
         let extended = self.finished(solution.robot.clone());
         let hypotheses = significance.count();
         let between = self.between(&extended)?;
         let extended = between.as_ref().map_or(extended, |b| b.robot.clone());
         let Conclusion { problem, .. } = conclusion;
-        Ok(Answer { problem, by_run, extended, found, ruled_out, hypotheses, gain, between })
+        Ok(Answer {
+            problem,
+            by_run,
+            extended,
+            found,
+            ruled_out,
+            hypotheses,
+            gain,
+            left,
+            gap,
+            between,
+        })
+    }
+
+    /// The folds, each with the robot of what was found without it.
+    fn held_out(&self, record: &Record, answer: &Answer) -> Vec<HeldOut> {
+        let spans = |of: &[usize]| spans(self.design, record.blocks, of);
+        let part = |(fold, solved): (&Fold, &Solved)| HeldOut {
+            test: spans(&fold.test),
+            train: spans(&fold.train),
+            extended: self.finished(solved.robot.clone()),
+        };
+        answer.by_run.folds.iter().zip(&answer.gain.folds).map(part).collect()
     }
 
     /// What a search over the whole record comes to: significant, stable and of a size that is
@@ -323,12 +350,7 @@ impl Study<'_> {
         // What a search without a part of the record takes for a cause is none where the search
         // over all of it has dropped it again.
         let is_named = tones + limits > 0 || answer.found.iter().any(|f| f.fall[j].abs() > 0.0);
-        let weights = |f: usize| match is_named {
-            true => answer.gain.weights[f].clone(),
-            false => vec![0.0; self.design.width],
-        };
-        let stretches = answer.by_run.held_out_residuals(weights);
-        let residual = stretches.into_iter().nth(j).unwrap_or_default();
+        let residual = if is_named { answer.left[j].clone() } else { answer.gap[j].clone() };
         let time = integrated_time(&residual);
         let moved = self.design.moved[j];
         let structure = if moved {

@@ -1,5 +1,4 @@
 use crate::design::{Design, JointDesign, RunDesign};
-use crate::problem::Problem;
 
 /// Signals behind a diagnosis, for figures: one run, on the regression's clock.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,13 +26,13 @@ pub struct JointTraces {
     pub extended: Vec<f64>,
 }
 
-/// The signals of every run; `weights` are those found without each fold of `problem`.
-pub(crate) fn traces(design: &Design, problem: &Problem, weights: &[Vec<f64>]) -> Vec<RunTraces> {
-    let residuals = problem.held_out_residuals(|f| weights[f].clone());
+/// The signals of every run; `residuals` are what is left by what was found without each,
+/// `[joint][run][sample]`.
+pub(crate) fn traces(design: &Design, residuals: &[Vec<Vec<f64>>]) -> Vec<RunTraces> {
     let run = |(r, run): (usize, &RunDesign)| RunTraces {
         name: run.name.clone(),
         time: run.time.clone(),
-        joints: run.joints.iter().zip(&residuals).map(|(j, left)| joint(j, left.get(r))).collect(),
+        joints: run.joints.iter().zip(residuals).map(|(j, left)| joint(j, left.get(r))).collect(),
     };
     design.runs.iter().enumerate().map(run).collect()
 }

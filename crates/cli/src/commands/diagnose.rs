@@ -3,7 +3,7 @@ mod residual;
 use std::path::{Path, PathBuf};
 
 use anstyle::AnsiColor;
-use diagnosis::{Diagnosis, HeldOutRobots, Progress, Settings, Silent, Verdict};
+use diagnosis::{Diagnosis, Progress, Silent, Verdict};
 use evaluation::{Diagnosed, ForwardGap};
 use logs::Run;
 use report::{Report, ReportError};
@@ -68,13 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     }
     let loaded = Robot::load(&arguments.robot)?;
     let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
-    let settings = Settings {
-        held_out: match arguments.residual {
-            None => HeldOutRobots::NotMade,
-            Some(ResidualKind::Gp) => HeldOutRobots::Made,
-        },
-        ..arguments.search.settings(&loaded)
-    };
+    let settings = arguments.search.settings(&loaded);
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
     let outcome = diagnosis::diagnose(&loaded.robot, &runs, &settings, progress);
