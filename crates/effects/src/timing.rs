@@ -58,20 +58,21 @@ pub(crate) fn torque_rate(motion: &Motion, j: usize) -> Column {
     at_joint(j, rate.into_iter().map(|r| gain * r))
 }
 
-/// `x` at `steps` samples later, by cubic interpolation (Catmull & Rom 1974); the first and the
-/// last sample are held.
+/// `x` at `steps` samples later, by cubics through the samples with the slopes of
+/// [`differentiate`] there; the first and the last sample are held.
 fn shifted(x: &[f64], steps: f64) -> Vec<f64> {
+    let rate = differentiate(x, 1.0);
     let sample = |i: i64| x[i.clamp(0, x.len() as i64 - 1) as usize];
+    let slope = |i: i64| usize::try_from(i).ok().and_then(|i| rate.get(i)).map_or(0.0, |r| *r);
     let whole = steps.floor();
     let u = steps - whole;
     let at = |t: i64| {
         let i = t.saturating_add(whole as i64);
-        let near = |k: i64| sample(i.saturating_add(k));
-        let [a, b, c, d] = [near(-1), near(0), near(1), near(2)];
-        let slopes = [0.5 * (c - a), 0.5 * (d - b)];
-        let bend =
-            [3.0 * (c - b) - 2.0 * slopes[0] - slopes[1], 2.0 * (b - c) + slopes[0] + slopes[1]];
-        b + u * (slopes[0] + u * (bend[0] + u * bend[1]))
+        let next = i.saturating_add(1);
+        let rise = sample(next) - sample(i);
+        let slopes = [slope(i), slope(next)];
+        let bend = [3.0 * rise - 2.0 * slopes[0] - slopes[1], slopes[0] + slopes[1] - 2.0 * rise];
+        sample(i) + u * (slopes[0] + u * (bend[0] + u * bend[1]))
     };
     (0..x.len() as i64).map(at).collect()
 }
