@@ -73,7 +73,8 @@ fn what_naming_an_effect_gains_is_measured_where_it_was_not_looked_for() {
         let trial = Trial { gains: true, ..cheap(Hidden::One(kind), seed) };
         let folder = trial.folder(root.path());
         let score = trial.run(&folder).unwrap();
-        assert!(score.exactly && score.explained() > 0.5, "{}", score.words());
+        // In motions as slow as these a delay may as well be a lag, and what either gains is the same.
+        assert!(score.as_one_of && score.findings[0].share_explained > 0.5, "{}", score.words());
         let gains = score.gains.unwrap();
         println!("{}: {gains:?}", kind.name());
         let all = [gains.torque, gains.drift, gains.tracking];
@@ -82,7 +83,7 @@ fn what_naming_an_effect_gains_is_measured_where_it_was_not_looked_for() {
         }
         let of_all = Trial { gains: false, ..trial }.run(&folder).unwrap();
         assert_eq!(of_all.gains, None);
-        assert_ne!(of_all.put_in[0].sizes, score.put_in[0].sizes, "both runs were diagnosed");
+        assert_ne!(of_all.findings, score.findings, "both runs were diagnosed");
     }
 }
 
