@@ -106,6 +106,13 @@ pub(crate) struct Solved {
 }
 
 impl Solved {
+    /// Weighted sum of squares that the robot leaves of the blocks of `first`, the problem about
+    /// the robot without findings.
+    pub fn left(&self, first: &Problem) -> f64 {
+        let columns = || first.info.deviance(&self.weights);
+        self.refit.as_ref().map_or_else(columns, |refit| refit.left)
+    }
+
     /// What is left of the effort of joint `j` in a run (N·m or N); `first` is the design about the
     /// robot without findings.
     pub fn remaining(&self, first: &Design, run: usize, j: usize) -> Vec<f64> {

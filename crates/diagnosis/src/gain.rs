@@ -3,7 +3,7 @@ use rayon::prelude::*;
 
 use crate::blocks::{Block, Fold};
 use crate::extend::Solved;
-use crate::problem::{Model, Problem};
+use crate::problem::Problem;
 use crate::progress::Progress;
 use crate::result::{FoldGain, InverseGain};
 use crate::search::Record;
@@ -17,21 +17,20 @@ pub(crate) struct HeldOutGain {
     pub folds: Vec<Solved>,
 }
 
-/// Solves for the sizes of what a search came to.
-pub(crate) type Solve<'a> = &'a (dyn Fn(&Problem, &Model) -> Result<Solved, LogError> + Sync);
+/// Searches on some blocks, and solves for the sizes of what it comes to.
+pub(crate) type Search<'a> = &'a (dyn Fn(&[usize]) -> Result<Solved, LogError> + Sync);
 
 impl HeldOutGain {
     /// Searches and solves anew without each fold of `whole`, and predicts that fold.
     pub fn new(
         record: &Record,
         whole: &Problem,
-        solve: Solve,
+        search: Search,
         progress: &dyn Progress,
     ) -> Result<Self, LogError> {
         progress.stage("testing on held-out data", whole.folds.len());
         let without = |fold: &Fold| {
-            let (problem, model) = record.search(&fold.train);
-            let solved = solve(&problem, &model);
+            let solved = search(&fold.train);
             progress.step();
             solved
         };

@@ -28,6 +28,7 @@ mod floor;
 mod gain;
 mod gram;
 mod held_out;
+mod idle;
 mod left_over;
 mod limits;
 mod log;

@@ -29,6 +29,8 @@ pub(crate) struct Problem<'a> {
     pub info: Information,
     /// Normal equations of each fold's training blocks.
     pub training: Vec<Information>,
+    /// Effects that are known to do less than their columns, and are not looked for.
+    pub idle: Model,
 }
 
 /// Squared held-out residuals of a model.
@@ -59,12 +61,14 @@ impl<'a> Problem<'a> {
         let folds = folds(blocks, of, &design.motion, Folding::ByMotion);
         let info = grams.information(of, &weight);
         let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
-        Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training }
+        let idle = Model::new();
+        Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training, idle }
     }
 
     /// The same problem with other weights.
     pub fn reweighted(&self, weight: Vec<f64>) -> Self {
-        Self::new(self.design, self.blocks, self.grams, &self.of, weight)
+        let problem = Self::new(self.design, self.blocks, self.grams, &self.of, weight);
+        Self { idle: self.idle.clone(), ..problem }
     }
 
     /// The same problem held out in another way.

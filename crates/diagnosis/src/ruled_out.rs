@@ -68,7 +68,9 @@ impl Evidence<'_> {
         larger.insert(g);
         let gain = fit.evidence_of(&problem.info, &columns, &problem.design.prior);
         let p = self.significance.p[g].map_or_else(String::new, |p| format!(", p = {p:.3}"));
-        let because = if !self.selection.is_possible(&larger, g) {
+        let because = if problem.idle.contains(&g) {
+            "a robot that has it is no nearer to the logs".to_owned()
+        } else if !self.selection.is_possible(&larger, g) {
             "its best size is not physically possible".to_owned()
         } else if gain < 3.0 {
             format!("it adds {gain:.1} to the log evidence, 3 are needed{p}")

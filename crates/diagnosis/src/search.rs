@@ -38,11 +38,15 @@ impl<'a> Record<'a> {
         rough.reweighted(noise.weights(&self.design.moved))
     }
 
-    /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by
-    /// the noise that they leave.
+    /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by the noise
+    /// that they leave.
     pub fn search(&self, of: &[usize]) -> (Problem<'a>, Model) {
-        let mut problem = self.problem(of);
-        let mut model = Model::new();
+        self.search_on(self.problem(of), Model::new())
+    }
+
+    /// The same from a model on.
+    pub fn search_on(&self, problem: Problem<'a>, start: Model) -> (Problem<'a>, Model) {
+        let (mut problem, mut model) = (problem, start);
         for _ in 0..ROUNDS {
             let next = self.selection(&problem).run(model.clone());
             let settled = next == model;

@@ -14,7 +14,7 @@ use crate::settle::settle;
 const LEAST_EVIDENCE: f64 = 3.0;
 
 /// The same for an effect that some error elsewhere, or one of many trial shapes, may pass for.
-const LEAST_EVIDENCE_OF_DOUBTFUL: f64 = 10.0;
+pub(crate) const LEAST_EVIDENCE_OF_DOUBTFUL: f64 = 10.0;
 
 /// Least share of what a link's inertia explains that a physical inertia must explain.
 const KEPT_BY_BODIES: f64 = 0.9;
@@ -76,7 +76,7 @@ impl Selection<'_> {
     fn two_for_one(&self, model: &Model, place: Place) -> Option<([usize; 2], usize)> {
         use EffectKind::{AsymmetricFriction, CoulombFriction, TorqueOffset};
         let design = self.problem.design;
-        let at = |kind| design.find(Hypothesis { kind, place });
+        let at = |kind| self.find(Hypothesis { kind, place });
         let two = [at(CoulombFriction)?, at(TorqueOffset)?];
         let level = Hypothesis { kind: CoulombFriction, place };
         let varies = |g: &usize| design.groups[*g].hypothesis.varies() == Some(level);
@@ -163,7 +163,12 @@ impl Selection<'_> {
             (LoadDependentFriction, _) => vec![Hypothesis { kind: CoulombFriction, place }],
             _ => Vec::new(),
         };
-        plain.into_iter().filter_map(|h| design.find(h)).collect()
+        plain.into_iter().filter_map(|h| self.find(h)).collect()
+    }
+
+    /// The group of a hypothesis that may be looked for.
+    fn find(&self, hypothesis: Hypothesis) -> Option<usize> {
+        self.problem.design.find(hypothesis).filter(|g| !self.problem.idle.contains(g))
     }
 
     fn forward(&self, model: &mut Model) {
@@ -183,7 +188,7 @@ impl Selection<'_> {
         let gain = |g: usize| {
             let columns = self.problem.new_columns(model, g);
             let prior = &self.problem.design.prior;
-            if columns.is_empty() || self.is_excluded(model, g) {
+            if columns.is_empty() || self.is_excluded(model, g) || self.problem.idle.contains(&g) {
                 f64::NEG_INFINITY
             } else if self.kind(g) == EffectKind::DifferentialCoupling {
                 self.beyond_the_plain(model, g)
@@ -316,7 +321,7 @@ impl Selection<'_> {
         let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
         (0..groups.len())
             .filter(|&h| h != g && (all || confused.contains(&groups[h].hypothesis.kind)))
-            .filter(shares)
+            .filter(|h| shares(h) && !self.problem.idle.contains(h))
             .collect()
     }
 

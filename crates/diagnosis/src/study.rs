@@ -1,4 +1,5 @@
 use effects::weeded;
+use logs::LogError;
 use robot::Robot;
 
 use crate::between::{Between, between};
@@ -13,6 +14,7 @@ use crate::floor::Floors;
 use crate::gain::{HeldOutGain, measured};
 use crate::gram::Grams;
 use crate::held_out::{HeldOut, spans};
+use crate::idle::idle;
 use crate::log::Log;
 use crate::noise::integrated_time;
 use crate::problem::{Model, Problem};
@@ -74,6 +76,13 @@ pub(crate) struct Conclusion<'a> {
     pub apart: Apart,
 }
 
+/// What a search came to whose effects all do what their columns say.
+struct Searched<'a> {
+    problem: Problem<'a>,
+    model: Model,
+    solution: Solved,
+}
+
 /// A model that is significant and of a size that is decided, and the robot with it.
 struct Settled {
     model: Model,
@@ -102,8 +111,7 @@ impl Study<'_> {
     pub fn extended(&self) -> Result<Robot, DiagnosisError> {
         self.with_record(|record| {
             let all: Vec<usize> = (0..record.blocks.len()).collect();
-            let (problem, model) = record.search(&all);
-            Ok(solved(self.robot, &self.log, &problem, &model)?.robot)
+            Ok(self.searched(record, &all)?.solution.robot)
         })?
     }
 
@@ -163,9 +171,8 @@ impl Study<'_> {
         let conclusion = self.conclusion(record, progress)?;
         let Conclusion { problem, solution, significance, .. } = &conclusion;
         let by_run = problem.refolded(Folding::ByRun);
-        let solve =
-            |problem: &Problem, model: &Model| solved(self.robot, &self.log, problem, model);
-        let gain = HeldOutGain::new(record, &by_run, &solve, progress)?;
+        let search = |of: &[usize]| Ok(self.searched(record, of)?.solution);
+        let gain = HeldOutGain::new(record, &by_run, &search, progress)?;
         let left = gain.left(&by_run);
         let gap = by_run
             .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
@@ -208,12 +215,27 @@ impl Study<'_> {
         progress: &dyn Progress,
     ) -> Result<Conclusion<'b>, DiagnosisError> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
-        let (problem, model) = record.search(&all);
+        let Searched { problem, model, .. } = self.searched(record, &all)?;
         progress.step();
         let (Settled { model, significance, solution }, apart) =
             self.contested(record, &problem, model)?;
         progress.step();
         Ok(Conclusion { problem, model, significance, solution, apart })
+    }
+
+    /// What a search on the blocks `of` comes to. It goes on without every effect that does less than
+    /// its columns: these explain what the effect does not.
+    fn searched<'b>(&self, record: &Record<'b>, of: &[usize]) -> Result<Searched<'b>, LogError> {
+        let (mut problem, mut model) = record.search(of);
+        loop {
+            let solution = solved(self.robot, &self.log, &problem, &model)?;
+            let Some(g) = idle(self.robot, &self.log, (&problem, &model), &solution)? else {
+                return Ok(Searched { problem, model, solution });
+            };
+            problem.idle.insert(g);
+            model.remove(&g);
+            (problem, model) = record.search_on(problem, model);
+        }
     }
 
     /// A model once no twin of a finding does better in its place, and the twins that do worse.
