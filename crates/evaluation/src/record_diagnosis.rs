@@ -40,7 +40,8 @@ pub struct Diagnosed<'a> {
 /// ```
 ///
 /// A model starts from the measured state again and again, after 1, 0.5, 0.2 or 0.1 s: the
-/// longest time in which the nominal one stays near what was measured. At most two minutes of
+/// longest time in which the nominal one stays near what was measured. The plots open at the joint of the
+/// finding that explains most. At most two minutes of
 /// all runs are simulated, of each run the same time from its beginning. What cannot be
 /// simulated is an event of the recording, no error.
 ///
@@ -66,6 +67,11 @@ pub fn record_diagnosis(
     let replayed = Replayed::of([&loaded.robot, &outcome.extended], &records, progress);
     recorder.document(&format!("{}\n{}", diagnosed.verdict, legend(outcome, &replayed)))?;
     found(&mut recorder, outcome)?;
+    let first = outcome.diagnosis.findings.iter().find_map(|f| f.at.joint.as_deref());
+    let at = |name: &str| loaded.robot.joint_names().position(|joint| joint == name);
+    if let Some(joint) = first.and_then(at) {
+        recorder.open(joint);
+    }
     progress.stage("writing the recording", records.len());
     let mut start_s = 0.0;
     for (r, (record, traces)) in records.iter().zip(&outcome.traces).enumerate() {

@@ -28,7 +28,12 @@ pub(crate) struct Layout {
     pub plots: Plots,
     /// The bar charts, which are not known before they come.
     pub bars: Vec<Bars>,
+    /// Index of the joint whose tab is open, which is not known at first either.
+    pub opened: Option<usize>,
 }
+
+/// Name of the tabs of the joints.
+const JOINTS: &str = "joints";
 
 /// A bar chart.
 #[derive(Debug, Clone)]
@@ -111,7 +116,10 @@ impl Layout {
                 plots.with_name(joint.0.as_str()).into()
             })
             .collect();
-        Tabs::new(tabs).with_name("joints").into()
+        if let Some((joint, _)) = self.opened.and_then(|j| self.plots.joints.get(j)) {
+            properties.open(JOINTS, joint);
+        }
+        Tabs::new(tabs).with_name(JOINTS).into()
     }
 
     fn right(&self, properties: &mut Properties) -> ContainerLike {

@@ -96,6 +96,7 @@ impl Recorder {
             reach_m: skeleton.reach_m,
             plots: Plots::new(joints.collect(), &scene.signals),
             bars: vec![],
+            opened: None,
         };
         let joint_paths = layout.plots.joint_paths().collect();
         layout.send(&stream)?;
@@ -228,6 +229,12 @@ impl Recorder {
         Ok(())
     }
 
+    /// Opens the tab of a joint, by its index, instead of that of the first; the layout shows it from
+    /// [`Recorder::finish`] on.
+    pub fn open(&mut self, joint: usize) {
+        self.layout.opened = Some(joint);
+    }
+
     /// Writes what waits and ends the file.
     ///
     /// # Errors
@@ -236,7 +243,8 @@ impl Recorder {
     /// [`RecordingError::Refused`].
     pub fn finish(mut self) -> Result<Written, RecordingError> {
         self.write().map_err(refused)?;
-        if !self.layout.bars.is_empty() || self.layout.plots.has_further() {
+        let Layout { bars, plots, opened, .. } = &self.layout;
+        if !bars.is_empty() || plots.has_further() || opened.is_some() {
             self.layout.send(&self.stream)?;
         }
         let cannot = |reason: String| unwritable(&self.path, reason);
