@@ -214,6 +214,39 @@ fn shards_that_do_not_count_are_named_and_made_again() {
 }
 
 #[test]
+fn trials_that_another_folder_has_are_taken_and_not_made_again() {
+    let folder = folder();
+    let path = folder.path();
+    done(path, &["plan", "campaign.toml", "--out", "a"]);
+    done(path, &["work", "a"]);
+    let whole = merged(path, "a");
+    // A half of them, in a table of its own, for a folder that has one of that half.
+    done(path, &["plan", "campaign.toml", "--out", "half"]);
+    done(path, &["work", "half", "--part", "1/2"]);
+    trials(path, &["merge", "half"]);
+    done(path, &["plan", "campaign.toml", "--out", "b"]);
+    done(path, &["work", "b", "--part", "1/6"]);
+    let said =
+        done(path, &["plan", "campaign.toml", "--out", "b", "--made", "half/trials.parquet"]);
+    assert!(said.contains("\n2 are made already. To make the others:\n"), "{said}");
+    assert_eq!(done(path, &["work", "b"]), "3 trials made; 0 left\n");
+    assert_eq!(merged(path, "b"), whole);
+
+    arm::write(path, "other.toml", &CAMPAIGN.replace("seed = 7", "seed = 8"));
+    arm::write(path, "none.parquet", "none");
+    for (table, expected) in [
+        ("a/trials.parquet", "a/trials.parquet: its trials are of another campaign ("),
+        ("none.parquet", "trials.parquet of a campaign was expected"),
+        ("nowhere.parquet", "nowhere.parquet: "),
+    ] {
+        let answer = trials(path, &["plan", "other.toml", "--out", "c", "--made", table]);
+        assert_eq!((answer.code, answer.out.as_str()), (3, ""));
+        assert!(answer.err.contains(expected), "{}", answer.err);
+        assert!(!path.join("c/shards").exists());
+    }
+}
+
+#[test]
 fn a_folder_with_trials_of_another_campaign_is_refused() {
     let folder = folder();
     let path = folder.path();

@@ -103,6 +103,27 @@ pub enum EvaluationError {
         /// The campaign that was to be planned.
         planned: String,
     },
+    /// A table of trials is none.
+    #[error("{}: {reason}, trials.parquet of a campaign was expected", path.display())]
+    UnreadableTrials {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A table holds trials of another campaign.
+    #[error(
+        "{}: its trials are of another campaign ({}), those of this one ({}) were expected",
+        path.display(), short(found), short(planned)
+    )]
+    OtherTrials {
+        /// The file.
+        path: PathBuf,
+        /// The campaign that they are of, by its hash.
+        found: String,
+        /// The campaign that was planned.
+        planned: String,
+    },
     /// A robot has no gains to be tracked with.
     #[error("{}: it has no set of gains, one [gains.NAME] at least was expected: the motion is tracked with the softest", path.display())]
     NoGains {

@@ -45,6 +45,9 @@ pub struct Plan {
     /// Folder for the campaign and its trials
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Trials of this campaign that are made already: trials.parquet of folders that were merged
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    made: Vec<PathBuf>,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -73,13 +76,21 @@ fn plan(arguments: &Plan) -> Result<Outcome, CliError> {
     let campaign = Campaign::from_document(&Document::read(&arguments.campaign)?)?;
     create_folder(&arguments.out)?;
     let folder = CampaignFolder::plan(&arguments.out, campaign)?;
+    let mut taken = 0;
+    for table in &arguments.made {
+        taken += folder.take(table)?;
+    }
     if !arguments.quiet {
         let campaign = folder.campaign();
         let (trials, kinds) = (campaign.trials(), campaign.kinds());
         let names: Vec<String> = kinds.iter().map(ToString::to_string).collect();
         let out = shown(&arguments.out);
+        let made = match taken {
+            0 => "To make them".to_owned(),
+            taken => format!("{taken} are made already. To make the others"),
+        };
         print(&format!(
-            "{trials} trials, {} of each kind:\n{}\nTo make them:\n  plumbline trials work {out}\n",
+            "{trials} trials, {} of each kind:\n{}\n{made}:\n  plumbline trials work {out}\n",
             trials / kinds.len(),
             report::packed(names.iter().map(String::as_str), ", ", WIDTH).join(",\n")
         ))?;
