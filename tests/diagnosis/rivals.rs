@@ -36,3 +36,16 @@ fn a_payload_and_the_inertia_of_the_last_link_are_named_together() {
     let rivals = rivals(&answer, named);
     assert!(rivals.iter().any(|r| r == other), "{named}: {rivals:?}");
 }
+
+/// Of a first link that turns about the vertical one number moves anything, and it is that of a
+/// rotor.
+#[test]
+fn a_rotor_and_the_inertia_of_the_first_link_are_named_together() {
+    let world = World::nominal().body(|mut robot| {
+        robot.link_mut(0).unwrap().actuator.rotor_inertia += 0.2;
+        robot
+    });
+    let answer = against_nominal(&world.log(2120)).diagnosis;
+    let rivals = rivals(&answer, "IN03 rotor inertia at j1_base_yaw");
+    assert!(rivals.iter().any(|r| r == "IN02 inertial parameters at shoulder_yaw"), "{rivals:?}");
+}

@@ -7,6 +7,9 @@ use crate::worse::Worse;
 /// Least share of a finding's held-out gain that a rival must reach to be one.
 const RECOVERS: f64 = 0.5;
 
+/// Least information on a weight, in those of its prior, that is more than rounding.
+const SHOWN: f64 = 1e-9;
+
 /// Hypotheses that explain the held-out data as well in place of `group`, block by block.
 pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
     let problem = selection.problem;
@@ -61,10 +64,19 @@ pub(crate) fn replaced(problem: &Problem, without: &Model, group: usize, rival: 
     model
 }
 
-/// Whether `group` is `other` with some weights zero, as Coulomb friction is symmetric
-/// asymmetric friction: then `other` can only do as well, and is no rival.
+/// Whether `group` is `other` with some weights zero that the logs show, as Coulomb friction is
+/// symmetric asymmetric friction: then `other` can only do as well, and is no rival. Of the inertia
+/// of a link that turns about the vertical they show one number, which a rotor has as well.
 fn is_special_case(problem: &Problem, group: usize, other: usize) -> bool {
-    let columns = |g: usize| &problem.design.groups[g].columns;
-    columns(other).len() > columns(group).len()
-        && columns(group).iter().all(|k| columns(other).contains(k))
+    let columns = |g: usize| -> Vec<usize> {
+        let all = problem.design.groups[g].columns.iter().copied();
+        all.filter(|&k| is_shown(problem, k)).collect()
+    };
+    let (own, others) = (columns(group), columns(other));
+    others.len() > own.len() && own.iter().all(|k| others.contains(k))
+}
+
+/// Whether the logs say anything of the weight of column `k` beside what is believed of it.
+fn is_shown(problem: &Problem, k: usize) -> bool {
+    problem.info.h[(k, k)] * problem.design.prior[k].powi(2) > SHOWN
 }
