@@ -40,14 +40,19 @@ impl Evidence<'_> {
         }
     }
 
-    /// The smallest weight of the first column of `g` that would have been found; none where the
-    /// log shows no such column.
+    /// The smallest weight of the first column of `g` that would have been found whatever its shape;
+    /// none where the log shows no such column.
     pub fn smallest(&self, g: usize, fit: &Fit) -> Option<f64> {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
         let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
         let errors = standard_errors(problem, fit, &complement);
-        errors.first().map(|error| DETECTED_AT * error)
+        errors.first().map(|error| DETECTED_AT * error * self.largest_unseen(g))
+    }
+
+    fn largest_unseen(&self, g: usize) -> f64 {
+        let design = self.selection.problem.design;
+        design.groups[g].hypothesis.largest_unseen(self.selection.robot, &design.frame)
     }
 
     /// The parameter that the logs show best with the smallest size of it that would have
@@ -89,7 +94,7 @@ impl Evidence<'_> {
         let share = |k: usize| errors[k] / design.prior[columns[k]];
         let best =
             (0..errors.len().min(parameters)).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
-        let size = DETECTED_AT * errors[best];
+        let size = DETECTED_AT * errors[best] * self.largest_unseen(g);
         // The weights behind a centre of mass are first moments: m c.
         let mass = hypothesis.link().map(|l| self.selection.robot.links()[l].inertia.mass);
         let unit = if best > 0 { mass.filter(|m| *m > 0.0).unwrap_or(1.0) } else { 1.0 };

@@ -7,7 +7,7 @@ use crate::stability::stability;
 
 /// Least share of half-samples in which a finding must have evidence (Meinshausen &
 /// Buhlmann 2010 advise 0.6 to 0.9).
-const LEAST_STABILITY: f64 = 0.8;
+const LEAST_STABILITY: f64 = 0.9;
 
 /// The false-discovery rate of every hypothesis, none for those that cannot be tested
 /// because the model already has their columns.

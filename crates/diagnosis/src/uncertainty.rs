@@ -175,9 +175,9 @@ impl Uncertainty {
 }
 
 /// A hypothesis that is not possible together with all others, one with one weight none of
-/// whose parameters differs from its nominal value by more than its 95 per cent interval, or a
-/// body whose ten numbers together may as well be those described: its size is not decided. None
-/// if all stand.
+/// whose parameters differs from its nominal value by more than its 95 per cent interval, a body
+/// whose ten numbers together may as well be those described, or an asymmetry that may be none: its
+/// size is not decided. None if all stand.
 pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Option<usize> {
     let uncertainty = Uncertainty::of(fitted)?;
     let robot = fitted.robot();
@@ -191,6 +191,7 @@ pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Op
         !group.hypothesis.is_sound(&robot)
             || group.columns.len() == 1 && estimates().iter().all(holds)
             || is_unchanged_body(&uncertainty, fitted, group.hypothesis)
+            || is_even_friction(&uncertainty, fitted, group.hypothesis)
     })
 }
 
@@ -203,6 +204,23 @@ fn is_unchanged_body(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hyp
     let of = |robot: &Robot| DVector::from_column_slice(&robot.links()[link].inertia.parameters());
     let change = of(&fitted.robot()) - of(fitted.nominal);
     uncertainty.may_be_none(&design.groups[group].columns, &change)
+}
+
+/// Whether asymmetric friction may as well have changed the levels of both directions alike.
+fn is_even_friction(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hypothesis) -> bool {
+    let design = fitted.problem.design;
+    let group = design.find(hypothesis).map(|g| design.groups[g].columns.as_slice());
+    let (EffectKind::AsymmetricFriction, Some(joint), Some(&[_, against])) =
+        (hypothesis.kind, hypothesis.joint(), group)
+    else {
+        return false;
+    };
+    let skew = |robot: &Robot| {
+        let drive = &robot.links()[joint].actuator;
+        0.5 * (drive.coulomb_forward - drive.coulomb_backward)
+    };
+    let change = DVector::from_element(1, skew(&fitted.robot()) - skew(fitted.nominal));
+    uncertainty.may_be_none(&[against], &change)
 }
 
 /// Change of every quantity per unit of weight `k`, by a central difference.

@@ -84,6 +84,13 @@ pub trait Explain: Sync {
         true
     }
 
+    /// How many times larger than as `robot` has it the effect has to be for logs of `frame` to
+    /// show it, in the shape in which they show it least.
+    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame) -> f64 {
+        let _ = (place, robot, frame);
+        1.0
+    }
+
     /// The robot changed by `weights`, whose columns were made in `frame`.
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame);
 

@@ -81,6 +81,11 @@ impl Hypothesis {
         self.model().is_some_and(|m| m.is_sound(self.place, extended))
     }
 
+    /// See [`Explain::largest_unseen`].
+    pub fn largest_unseen(self, robot: &Robot, frame: &Frame) -> f64 {
+        self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame))
+    }
+
     /// See [`Explain::extend`].
     pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame) {
         if let Some(model) = self.model() {

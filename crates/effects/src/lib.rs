@@ -17,6 +17,7 @@ mod cable_spring;
 mod compensation;
 mod coulomb_friction;
 mod differential_coupling;
+mod direction;
 mod dry_friction;
 mod encoder_offset;
 mod explain;

@@ -6,6 +6,7 @@ use nalgebra::{UnitVector3, Vector3};
 use robot::{Actuator, Robot, SensingSide};
 
 use crate::cable_loop::Loop;
+use crate::direction::direction;
 use crate::dry_friction::dry_friction;
 use crate::give::{Give, curvature, rate};
 use crate::slopes::Slopes;
@@ -24,8 +25,9 @@ pub struct Motion {
     pub qd: Vec<Vec<f64>>,
     /// Acceleration of the motor, seen at the joint (rad/s² or m/s²).
     pub qdd: Vec<Vec<f64>>,
-    /// Direction of motion, in [-1, 1]: the sign of the velocity, in proportion to it below
-    /// the rest speed; with presliding, the share of dry friction that the bristles hold.
+    /// Direction of motion, in [-1, 1]: the sign of the velocity, below the rest speed turning
+    /// evenly in brief stands and in proportion to the velocity in others; with presliding, the
+    /// share of dry friction that the bristles hold.
     pub direction: Vec<Vec<f64>>,
     /// Velocity as reported, whose sign is that of the motion (rad/s or m/s).
     qd_reported: Vec<Vec<f64>>,
@@ -136,13 +138,12 @@ impl Motion {
         let Parted { motor, link, tight_load, gives } =
             Parted::new(robot, corrected(robot, reported), links, period_s);
         let [q, qd, qdd] = motor;
-        let direction = (0..joints).map(|j| {
-            let settled = |v: &f64| (v / frame.rest_speed[j]).clamp(-1.0, 1.0);
-            let way = drives[j].presliding;
-            let by_speed = || qd_reported[j].iter().map(settled).collect();
-            way.map_or_else(by_speed, |way| bristles(&q[j], way))
+        let directions = (0..joints).map(|j| {
+            let by_speed =
+                || direction(qd_reported[j].iter().copied(), frame.rest_speed[j], period_s);
+            drives[j].presliding.map_or_else(by_speed, |way| bristles(&q[j], way))
         });
-        let direction = direction.collect();
+        let direction = directions.collect();
         let mut motion = Self {
             q,
             qd,
@@ -261,8 +262,9 @@ impl Motion {
     pub(crate) fn motor(&self, j: usize, other: usize, ratio: f64) -> Vec<(f64, f64)> {
         let rest = self.rest_speed[j] + ratio.abs() * self.rest_speed[other];
         let of = |signal: &[Vec<f64>], t: usize| signal[j][t] + ratio * signal[other][t];
-        let settled = |t: usize| (of(&self.qd_reported, t) / rest).clamp(-1.0, 1.0);
-        (0..self.samples()).map(|t| (of(&self.qd, t), settled(t))).collect()
+        let speeds = (0..self.samples()).map(|t| of(&self.qd_reported, t));
+        let directions = direction(speeds, rest, self.period_s);
+        directions.into_iter().enumerate().map(|(t, s)| (of(&self.qd, t), s)).collect()
     }
 
     /// Effort of joint `j` at the times at which the log has it.

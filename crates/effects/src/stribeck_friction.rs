@@ -13,9 +13,9 @@ use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 /// ```
 pub(crate) struct StribeckFriction;
 
-/// Trial velocities as shares of the largest speed: a factor of 2 apart, above the speeds at which
-/// a joint counts as at rest.
-const SHARES: [f64; 4] = [0.02, 0.04, 0.08, 0.16];
+/// Trial velocities as shares of the largest speed: a factor of 2 apart, from about the speed at
+/// which a joint counts as at rest.
+const SHARES: [f64; 6] = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
 
 /// Least excess, as a share of the Coulomb level.
 const LEAST: f64 = 0.1;
@@ -93,6 +93,15 @@ impl Explain for StribeckFriction {
         let drive = &extended.links()[j].actuator;
         let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
         of(drive).is_some_and(|s| s.excess > LEAST * level)
+    }
+
+    /// At the least velocity: the samples near rest, and with them what the logs say of the excess,
+    /// go with the velocity, and the smallest excess with the inverse of its root.
+    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame) -> f64 {
+        let Place::Joint(j) = place else { return 1.0 };
+        let least = LEAST_OF_REST * frame.rest_speed[j];
+        let velocity = of(&robot.links()[j].actuator).map_or(least, |s| s.velocity);
+        (velocity / least).sqrt().max(1.0)
     }
 
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {

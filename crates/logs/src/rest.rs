@@ -1,29 +1,86 @@
 use crate::Prepared;
+use crate::run::median;
 
 /// Least and largest speed that counts as rest, as shares of the largest speed in the logs.
 const REST_SHARES: [f64; 2] = [2e-4, 1e-2];
 
-/// Share of the samples that a joint which rests now and then is at rest.
-const RESTING: f64 = 0.05;
+/// Speed that counts as rest, in standard deviations of the velocity's noise.
+const REST_OF_NOISE: f64 = 4.0;
 
-/// Speed that counts as rest, in the speed below which those samples are. Of a joint that
-/// rests a quarter of the time they are a fifth of the resting ones, slower than a quarter
-/// of the noise's standard deviation: four standard deviations are sixteen times that.
-const REST_OF_NOISE: f64 = 16.0;
+/// Median of the size of a normal variable, in standard deviations.
+const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
-/// Speed below which each joint counts as at rest (rad/s or m/s): some times the noise of its
-/// velocity, between 0.02 and 1 per cent of its largest speed.
+/// Speed below which each joint counts as at rest (rad/s or m/s): four standard deviations of
+/// the noise of its velocity, between 0.02 and 1 per cent of its largest speed.
+///
+/// The noise is what the narrow filter takes from the velocity of the wide one. Where it takes
+/// nothing, the noise is not known and the larger bound holds.
 pub fn rest_speeds(prepared: &Prepared) -> Vec<f64> {
     let joints = prepared.runs.first().map_or(0, |r| r.joints.len());
     (0..joints).map(|j| rest_speed(prepared, j)).collect()
 }
 
 fn rest_speed(prepared: &Prepared, j: usize) -> f64 {
-    let all = prepared.runs.iter().flat_map(|r| &r.joints[j].wide.qd);
-    let mut speeds: Vec<f64> = all.map(|v| v.abs()).collect();
-    speeds.sort_by(f64::total_cmp);
-    let largest = speeds.last().copied().unwrap_or(0.0);
-    let noise = speeds.get((RESTING * speeds.len() as f64) as usize).copied().unwrap_or(0.0);
+    let joints = || prepared.runs.iter().map(|r| &r.joints[j]);
+    let largest = joints().flat_map(|s| &s.wide.qd).fold(0.0, |most: f64, v| most.max(v.abs()));
+    let taken = joints().flat_map(|s| s.wide.qd.iter().zip(&s.qd)).map(|(w, n)| (w - n).abs());
+    let taken: Vec<f64> = taken.collect();
+    let noise = median(&taken) / MEDIAN_OF_NORMAL;
     let [low, high] = REST_SHARES.map(|share| share * largest);
+    let noise = if noise > 0.0 { noise } else { high };
     (REST_OF_NOISE * noise).clamp(low, high).max(f64::MIN_POSITIVE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PreparedJoint, PreparedRun, Wide};
+
+    /// One joint that swings at 2 rad/s, with a velocity noise of `deviation` at a cut-off of four
+    /// times and none at the other.
+    fn swinging(deviation: f64) -> Prepared {
+        let times: Vec<f64> = (0..20_000).map(|t| 0.002 * f64::from(t)).collect();
+        let qd: Vec<f64> = times.iter().map(|t| 2.0 * t.sin()).collect();
+        // Normal by Box & Muller 1958, of two sequences that fill the unit square evenly.
+        let even = |t: usize, step: f64| (0.5 + step * t as f64).fract();
+        let noise = |t: usize| {
+            let (radius, turn) = (even(t, 0.754_877_666), even(t, 0.569_840_291));
+            deviation * (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * turn).cos()
+        };
+        let wide: Vec<f64> = qd.iter().enumerate().map(|(t, v)| v + noise(t)).collect();
+        let joint = PreparedJoint {
+            q: vec![0.0; times.len()],
+            qdd: vec![0.0; times.len()],
+            wide: Wide { qd: wide, ..Wide::default() },
+            effort: vec![0.0; times.len()],
+            link: None,
+            qd,
+        };
+        let run = PreparedRun {
+            name: "swing".to_owned(),
+            rate_hz: 500.0,
+            time: times,
+            joints: vec![joint],
+        };
+        Prepared {
+            runs: vec![run],
+            cutoff_hz: 10.0,
+            cutoff_reason: String::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_joint_rests_below_four_standard_deviations_of_its_velocity_noise() {
+        let [rest] = rest_speeds(&swinging(1e-3))[..] else { panic!("one joint") };
+        assert!((rest / 4e-3 - 1.0).abs() < 0.02, "{rest}");
+    }
+
+    #[test]
+    fn unknown_and_large_noise_count_as_one_per_cent_of_the_largest_speed() {
+        let [still] = rest_speeds(&swinging(0.0))[..] else { panic!("one joint") };
+        assert!((still / 0.02 - 1.0).abs() < 1e-3, "{still}");
+        let [loud] = rest_speeds(&swinging(0.1))[..] else { panic!("one joint") };
+        assert!((0.02..0.03).contains(&loud), "{loud}");
+    }
 }

@@ -148,7 +148,7 @@ pub(crate) fn range(x: &[f64]) -> (f64, f64) {
 
 /// Middle value of a signal; 0 for an empty one.
 pub(crate) fn median(x: &[f64]) -> f64 {
-    let mut sorted = x.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    let mut values = x.to_vec();
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }

@@ -1,0 +1,57 @@
+/// Longest stand between two movements that is taken for a turn (s).
+const BRIEF_S: f64 = 0.2;
+
+/// Direction of a motion with speeds `qd`, in [-1, 1]: the sign of the speed, and below `rest`
+/// what is known of it there.
+///
+/// A stand of at most 0.2 s turns evenly from the direction before it to the one after: the noise
+/// says when the motion is slow, but not when it turns, and friction is as large there as around
+/// it. A longer one, and one at either end of the run, is `qd / rest`: a joint at rest holds less
+/// than its friction.
+pub(crate) fn direction(qd: impl Iterator<Item = f64>, rest: f64, period_s: f64) -> Vec<f64> {
+    let mut direction: Vec<f64> = qd.map(|v| (v / rest).clamp(-1.0, 1.0)).collect();
+    let mut moved = None;
+    for t in 0..direction.len() {
+        if direction[t].abs() < 1.0 {
+            continue;
+        }
+        if let Some(last) = moved.replace(t) {
+            turn(&mut direction[last..=t], period_s);
+        }
+    }
+    direction
+}
+
+/// Turns evenly from the first to the last of a stretch that is brief.
+fn turn(stretch: &mut [f64], period_s: f64) {
+    let steps = stretch.len() - 1;
+    if steps as f64 * period_s > BRIEF_S {
+        return;
+    }
+    let (from, to) = (stretch[0], stretch[steps]);
+    for (k, s) in stretch.iter_mut().enumerate() {
+        *s = from + (to - from) * k as f64 / steps as f64;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::direction;
+
+    fn of(qd: &[f64]) -> Vec<f64> {
+        direction(qd.iter().copied(), 1.0, 0.05)
+    }
+
+    #[test]
+    fn a_brief_stand_turns_evenly_from_the_direction_before_to_the_one_after() {
+        assert_eq!(of(&[3.0, 0.9, 0.8, -0.1, -2.0]), [1.0, 0.5, 0.0, -0.5, -1.0]);
+        assert_eq!(of(&[-2.0, 0.1, -0.3, -2.0]), [-1.0; 4]);
+    }
+
+    #[test]
+    fn a_long_stand_and_one_at_either_end_are_in_proportion_to_the_speed() {
+        let long = [2.0, 0.5, 0.25, 0.0, -0.25, -0.5, -2.0];
+        assert_eq!(of(&long), [1.0, 0.5, 0.25, 0.0, -0.25, -0.5, -1.0]);
+        assert_eq!(of(&[0.5, 2.0, 0.25]), [0.5, 1.0, 0.25]);
+    }
+}
