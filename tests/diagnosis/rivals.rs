@@ -49,3 +49,19 @@ fn a_rotor_and_the_inertia_of_the_first_link_are_named_together() {
     let rivals = rivals(&answer, "IN03 rotor inertia at j1_base_yaw");
     assert!(rivals.iter().any(|r| r == "IN02 inertial parameters at shoulder_yaw"), "{rivals:?}");
 }
+
+/// The torque of a palm that gravity does not load is that of its inertia: all of it a quarter larger
+/// is a rotor a quarter larger. An elbow carries the forearm, which a rotor does not.
+#[test]
+fn a_torque_constant_and_a_rotor_are_named_together_where_nothing_hangs() {
+    let said = |joint: usize, name: &str| {
+        let world = World::nominal().reading(joint, |effort| 1.25 * effort);
+        let answer = against_nominal(&world.log(2130)).diagnosis;
+        let both = ["DR02 torque constant", "IN03 rotor inertia"].map(|e| format!("{e} at {name}"));
+        let named = both.iter().find(|words| finding(&answer, words).is_some()).unwrap();
+        let rivals = rivals(&answer, named);
+        both.clone().map(|words| words == *named || rivals.contains(&words))
+    };
+    assert_eq!(said(6, "j7_palm_yaw"), [true, true]);
+    assert_eq!(said(3, "j4_elbow_pitch"), [true, false]);
+}

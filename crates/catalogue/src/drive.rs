@@ -3,8 +3,8 @@
 use crate::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, CableSpring, ExternalDisturbance,
     FrictionTemperatureDrift, GravityDirection, InertialParameters, JointElasticity,
-    LoadDependentFriction, Payload, PositionDependentFriction, StribeckFriction, TimeSkew,
-    TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation, TransmissionRatio,
+    LoadDependentFriction, Payload, PositionDependentFriction, RotorInertia, StribeckFriction,
+    TimeSkew, TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation, TransmissionRatio,
     ViscousFriction,
 };
 use crate::entry::{TORQUE, always, parameter, phase};
@@ -64,6 +64,7 @@ pub(crate) const TORQUE_CONSTANT: Entry = Entry {
         FrictionTemperatureDrift,
         TorqueSaturation,
         TransmissionRatio,
+        RotorInertia,
     ],
     told_apart_by: "the same motion with and without a payload of known mass",
     source: "Gautier & Briot 2014",

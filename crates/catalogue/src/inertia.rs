@@ -2,7 +2,7 @@
 
 use crate::EffectKind::{
     CableSpring, EncoderOffset, ExternalDisturbance, GravityDirection, InertialParameters, Payload,
-    RotorInertia, TorqueConstant, TorqueOffset,
+    RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
 };
 use crate::entry::{always, parameter};
 use crate::{Entry, Family, Parameter};
@@ -80,7 +80,7 @@ pub(crate) const ROTOR_INERTIA: Entry = Entry {
     )],
     signature: "the residual follows the joint's own acceleration, whatever the pose",
     needs: "acceleration in poses with different mass matrix",
-    confused_with: &[InertialParameters],
+    confused_with: &[InertialParameters, TorqueConstant, TransmissionRatio],
     told_apart_by: "the same acceleration with the arm stretched and folded",
     source: "Featherstone 2008",
 };

@@ -2,8 +2,8 @@
 
 use crate::EffectKind::{
     ActuatorDelay, ActuatorLag, Backlash, CoulombFriction, DifferentialCoupling, EncoderOffset,
-    JointElasticity, PreslidingFriction, StribeckFriction, TorqueConstant, TorqueRipple,
-    TransmissionRatio,
+    JointElasticity, PreslidingFriction, RotorInertia, StribeckFriction, TorqueConstant,
+    TorqueRipple, TransmissionRatio,
 };
 use crate::entry::{POSITION, TORQUE, always, parameter};
 use crate::{Entry, Family};
@@ -114,7 +114,7 @@ pub(crate) const TRANSMISSION_RATIO: Entry = Entry {
     )],
     signature: "torque is off by a factor, gravity torque by more the farther from zero",
     needs: "the whole range of the joint",
-    confused_with: &[TorqueConstant, EncoderOffset],
+    confused_with: &[TorqueConstant, EncoderOffset, RotorInertia],
     told_apart_by: "both end stops of the joint, or poses measured from outside, far from zero; \
                     a second encoder at the link",
     source: "equal power on both sides of the gear",
