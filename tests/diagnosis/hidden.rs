@@ -5,6 +5,9 @@
 //! Two runs of 15 s, or of 30 s where bristles bend or a cable drags, are a quarter or half of what
 //! blind trials have (`scenarios/trials.toml`), which count how often this comes out right.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock};
+
 use catalogue::EffectKind;
 use checks::arms::workspace_root;
 use diagnosis::{EffectAt, Verdict};
@@ -84,6 +87,22 @@ fn score_along(hidden: Hidden, seed: u64, motion: &Parts) -> Score {
     score
 }
 
+/// The arm of `seed` without anything hidden, made once for all the tests that ask for it.
+fn twin(seed: u64, motion: &'static Parts) -> &'static Score {
+    type Twins = BTreeMap<(u64, &'static Parts), &'static OnceLock<Score>>;
+    static TWINS: Mutex<Twins> = Mutex::new(Twins::new());
+    let mut twins = TWINS.lock().unwrap();
+    let twin = *twins.entry((seed, motion)).or_insert_with(|| Box::leak(Box::default()));
+    drop(twins);
+    twin.get_or_init(|| score_along(Hidden::Nothing, seed, motion))
+}
+
+/// Nothing that is said of the twin of `found` is what was hidden in `found`.
+fn check_twin(found: &Score, seed: u64, motion: &'static Parts) {
+    let twin = twin(seed, motion);
+    assert!(!names(twin).any(|at| *at == found.put_in[0].at), "twin: {}", twin.words());
+}
+
 /// Everything that a diagnosis names, and what it may as well be.
 fn names(score: &Score) -> impl Iterator<Item = &EffectAt> {
     score.findings.iter().flat_map(|f| std::iter::once(&f.at).chain(&f.not_separable_from))
@@ -99,12 +118,11 @@ enum Name {
 }
 
 /// The effect is named, each determined size is right, and its twin is not accused of it.
-fn check(kind: EffectKind, seed: u64, name: Name, motion: &Parts) {
+fn check(kind: EffectKind, seed: u64, name: Name, motion: &'static Parts) {
     let found = score_along(Hidden::One(kind), seed, motion);
     assert!(found.as_one_of && (name == Name::OneOf || found.exactly), "{}", found.words());
     check_sizes(&found);
-    let twin = score_along(Hidden::Nothing, seed, motion);
-    assert!(!names(&twin).any(|at| *at == found.put_in[0].at), "twin: {}", twin.words());
+    check_twin(&found, seed, motion);
 }
 
 fn check_sizes(found: &Score) {
@@ -168,8 +186,7 @@ fn hidden_cable_springs_are_named_in_short_logs() {
     for estimate in found.put_in[0].sizes.iter().filter_map(|size| size.estimate.as_ref()) {
         assert!(!estimate.determined || estimate.covers, "{estimate:?}");
     }
-    let twin = score(Hidden::Nothing, 1);
-    assert!(!names(&twin).any(|at| *at == found.put_in[0].at), "twin: {}", twin.words());
+    check_twin(&found, 1, SLOW);
 }
 
 #[test]
@@ -240,7 +257,7 @@ fn hidden_slow_disturbances_are_told_from_the_motion() {
 #[test]
 fn hidden_nothing_is_called_consistent() {
     for seed in 1..=2 {
-        let clean = score(Hidden::Nothing, seed);
+        let clean = twin(seed, SLOW);
         assert!(clean.exactly && clean.verdict == Verdict::Consistent, "{}", clean.words());
     }
 }
