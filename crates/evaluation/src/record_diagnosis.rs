@@ -2,7 +2,7 @@ use std::path::Path;
 
 use diagnosis::{Outcome, Progress, RunTraces};
 use logs::{PrepareSettings, PreparedRun, Run, duplicate_of, prepare};
-use recording::{Arm, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
+use recording::{Arm, Bar, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
 use robot::Loaded;
 
 use crate::EvaluationError;
@@ -141,7 +141,11 @@ fn found(recorder: &mut Recorder, outcome: &Outcome) -> Result<(), EvaluationErr
         recorder.event(0.0, Level::Warning, warning)?;
     }
     let gain = &diagnosis.gain.inverse;
-    let bars = [("nominal", &gain.rms_before_nm[..]), ("extended", &gain.rms_after_nm)];
+    let bar = |name, role, values| Bar { name, role, values };
+    let bars = [
+        bar("nominal", Role::Error, &gain.rms_before_nm[..]),
+        bar("extended", Role::Predicted, &gain.rms_after_nm),
+    ];
     Ok(recorder.bars("RMS error (N m or N)", &bars)?)
 }
 

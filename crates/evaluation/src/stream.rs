@@ -4,7 +4,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
 use logs::{Channel, LogWriter, write_parquet};
-use recording::{Arm, Listener, Quantity, Recorder, RecordingError, Role, Rows, Scene, Signal};
+use recording::{
+    Arm, Bar, Listener, Quantity, Recorder, RecordingError, Role, Rows, Scene, Signal,
+};
 use tracking::{Event, Level, Tick, Watch};
 
 use crate::predictions::Predictions;
@@ -263,8 +265,9 @@ fn end(
     let (errors, feedback): (Vec<f64>, Vec<f64>) =
         joints.map(|j| (1e3 * j.rmse, 100.0 * j.feedback_share)).unzip();
     let name = run.kind.name();
-    recorder.bars("RMSE (mrad)", &[(name, &errors)])?;
-    recorder.bars("feedback (% of the torque)", &[(name, &feedback)])?;
+    let bar = |role, values| [Bar { name, role, values }];
+    recorder.bars("RMSE (mrad)", &bar(Role::Error, &errors))?;
+    recorder.bars("feedback (% of the torque)", &bar(Role::Actual, &feedback))?;
     Ok(recorder.finish()?.listener)
 }
 

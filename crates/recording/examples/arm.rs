@@ -7,7 +7,7 @@
 use std::error::Error;
 use std::path::PathBuf;
 
-use recording::{Arm, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
+use recording::{Arm, Bar, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
 use robot::{Loaded, Robot};
 
 const RATE_HZ: f64 = 500.0;
@@ -49,7 +49,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     recorder.event(DURATION_S, Level::Info, "end")?;
     recorder.document(&verdict(&loaded.robot, &rmse))?;
     let stiff: Vec<f64> = rmse.iter().map(|r| 0.4 * r).collect();
-    recorder.bars("RMSE (mrad)", &[("low gains", &rmse), ("stiff", &stiff)])?;
+    let bar = |place, name, values| Bar { name, role: Role::Model(place), values };
+    recorder.bars("RMSE (mrad)", &[bar(0, "low gains", &rmse), bar(1, "stiff", &stiff)])?;
     let written = recorder.finish()?;
     println!(
         "{}: {} rows, {:.2} MB, {:.2} s of CPU, viewer: {:?}",

@@ -33,5 +33,5 @@ mod skeleton;
 
 pub use contents::{Contents, Entity};
 pub use error::RecordingError;
-pub use recorder::{Recorder, Rows, Written};
+pub use recorder::{Bar, Recorder, Rows, Written};
 pub use scene::{Arm, Level, Listener, Live, Quantity, Role, Scene, Signal};

@@ -17,7 +17,7 @@ use crate::plots::Plots;
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
-use crate::{Level, Listener, Live, RecordingError, Scene, Signal, colour};
+use crate::{Level, Listener, Live, RecordingError, Role, Scene, Signal, colour};
 
 /// The one timeline, in seconds.
 pub(crate) const TIMELINE: &str = "t";
@@ -45,6 +45,17 @@ pub struct Rows<'a> {
     pub arms: &'a [&'a [f64]],
     /// Per signal, row-major numbers of all joints; a NaN leaves a gap in the line.
     pub signals: &'a [&'a [f64]],
+}
+
+/// A number a joint, as bars.
+#[derive(Debug, Clone, Copy)]
+pub struct Bar<'a> {
+    /// Name in the legend.
+    pub name: &'a str,
+    /// Decides the colour: that of its lines.
+    pub role: Role,
+    /// One number a joint.
+    pub values: &'a [f64],
 }
 
 /// A finished recording.
@@ -203,15 +214,15 @@ impl Recorder {
     ///
     /// [`RecordingError::WrongLength`] where a series does not have a number a joint, and
     /// [`RecordingError::Refused`].
-    pub fn bars(&mut self, title: &str, series: &[(&str, &[f64])]) -> Result<(), RecordingError> {
+    pub fn bars(&mut self, title: &str, series: &[Bar<'_>]) -> Result<(), RecordingError> {
         let joints = self.skeleton.joints.len();
-        let wrong = series.iter().find(|(_, values)| values.len() != joints);
-        if let Some((name, values)) = wrong {
+        let wrong = series.iter().find(|bar| bar.values.len() != joints);
+        if let Some(Bar { name, values, .. }) = wrong {
             return Err(length(format!("bars {title}, {name}"), "numbers", values.len(), joints));
         }
         let path = EntityPath::new(vec![part("metrics"), part(&plain(title))]);
         let width = BARS / series.len().max(1) as f64;
-        for (i, (name, values)) in series.iter().enumerate() {
+        for (i, Bar { name, role, values }) in series.iter().enumerate() {
             let shift = (i as f64 + 0.5) * width - 0.5 * BARS;
             let at: Vec<f64> = (1..=joints).map(|joint| joint as f64 + shift).collect();
             let values: Vec<f64> =
@@ -219,11 +230,11 @@ impl Recorder {
             let chart = BarChart::new(values)
                 .with_abscissa(at)
                 .with_widths(vec![width as f32; joints])
-                .with_color(colour::solid(colour::series(i)));
+                .with_color(colour::solid(colour::rgb(*role)));
             let path = path.join(&EntityPath::new(vec![part(&plain(name))]));
             self.stream.log_static(path, &chart).map_err(refused)?;
         }
-        let names = series.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let names = series.iter().map(|bar| bar.name.to_owned()).collect();
         self.layout.bars.retain(|bars| bars.path != path);
         self.layout.bars.push(Bars { title: title.to_owned(), path, names });
         Ok(())

@@ -10,8 +10,8 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use recording::{
-    Arm, Contents, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows, Scene,
-    Signal, Written,
+    Arm, Bar, Contents, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows,
+    Scene, Signal, Written,
 };
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
@@ -76,7 +76,9 @@ fn record_to(path: &Path, live: Live) -> Written {
     let predicted = Signal { quantity: Quantity::Torque, name: "gp", role: Role::Model(0) };
     recorder.further(&time_s, &[(predicted, &tau)]).unwrap();
     recorder.document("# Verdict").unwrap();
-    recorder.bars("RMSE (mrad)", &[("gp", &[1.0; 7]), ("none", &[2.0; 7])]).unwrap();
+    let bar = |place, name, values| Bar { name, role: Role::Model(place), values };
+    let bars = [bar(0, "gp", &[1.0; 7][..]), bar(1, "none", &[2.0; 7])];
+    recorder.bars("RMSE (mrad)", &bars).unwrap();
     recorder.finish().unwrap()
 }
 
@@ -212,7 +214,8 @@ fn rows_of_wrong_lengths_or_times_are_refused_and_leave_nothing() {
     assert_eq!(further, length("signal gp", "numbers", 6, 7));
     let again = RecordingError::TimeNotIncreasing { row: 1, time_s: 0.0, previous_s: 0.0 };
     assert_eq!(recorder.further(&[0.0, 0.0], &[(predicted, &[0.0; 14])]), Err(again));
-    let bars = recorder.bars("RMSE", &[("gp", &[1.0])]);
+    let short = Bar { name: "gp", role: Role::Model(0), values: &[1.0] };
+    let bars = recorder.bars("RMSE", &[short]);
     assert_eq!(bars, length("bars RMSE, gp", "numbers", 1, 7));
     assert!(recorder.event(f64::NAN, Level::Info, "never").is_err());
     assert_eq!(recorder.finish().unwrap().rows, 1);
