@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::{Inject, Truth};
 
+/// Largest offset that is drawn (rad or m): a joint that stands 17 degrees off is seen by eye.
+const LARGEST_DRAWN: f64 = 0.3;
+
 /// An encoder whose zero is not the joint's.
 ///
 /// ```text
@@ -39,7 +42,7 @@ impl Effect for EncoderOffset {
 
     /// The torque is off by about `offset d(tau)/dq`.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
-        let offset = (share * at.torque_rms / at.torque_per_position()).min(10.0);
+        let offset = (share * at.torque_rms / at.torque_per_position()).min(LARGEST_DRAWN);
         Self { joint: at.joint_name(), offset_rad: if random.random() { offset } else { -offset } }
     }
 }

@@ -8,6 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::{Inject, Plant, Truth};
 
+/// Largest factor that is drawn: constants of one motor differ by a tenth, and what is off by more
+/// than this nobody takes for a torque.
+const LARGEST_DRAWN: f64 = 1.5;
+
 /// Effort reported and commanded in a wrong unit of torque.
 ///
 /// ```text
@@ -40,7 +44,7 @@ impl Effect for TorqueConstant {
 
     /// A gain too high or too low by the share.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
-        let gain = (1.0 + share).min(10.0);
+        let gain = (1.0 + share).min(LARGEST_DRAWN);
         let gain = if random.random() { gain } else { gain.recip() };
         Self { joint: at.joint_name(), gain }
     }

@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::{Inject, Plant, Truth};
 
+/// Largest factor that is drawn: a pulley of 24 teeth taken for one of 20.
+const LARGEST_DRAWN: f64 = 1.2;
+
 /// A gear ratio that is not the one the drive was told.
 ///
 /// ```text
@@ -39,7 +42,7 @@ impl Effect for TransmissionRatio {
 
     /// A ratio too high or too low by the share.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
-        let ratio = (1.0 + share).min(10.0);
+        let ratio = (1.0 + share).min(LARGEST_DRAWN);
         let ratio = if random.random() { ratio } else { ratio.recip() };
         Self { joint: at.joint_name(), ratio }
     }
