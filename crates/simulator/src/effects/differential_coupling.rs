@@ -79,15 +79,15 @@ impl Effect for DifferentialCoupling {
         Ok(acting(joint_a, [rotor_a, rotor_b], coupling))
     }
 
-    /// A pair with the next joint, or the one before if it is the last, and two motors whose
-    /// levels differ by up to a fifth.
+    /// A pair with the next joint, or of the last two if it is the last, and two motors whose levels
+    /// differ by up to a fifth.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
-        let last = at.robot.joint_count().saturating_sub(1);
-        let other = if at.joint < last { at.joint + 1 } else { last.saturating_sub(1) };
+        let first = at.joint.min(at.robot.joint_count().saturating_sub(2));
+        let name = |joint| Surroundings { joint, ..*at }.joint_name();
         let level = 0.5 * share * at.torque_rms;
         Self {
-            joint_a: at.joint_name(),
-            joint_b: Surroundings { joint: other, ..*at }.joint_name(),
+            joint_a: name(first),
+            joint_b: name(first + 1),
             ratio: random.random_range(0.5..1.0),
             level_sum_nm: level,
             level_difference_nm: level * random.random_range(0.8..1.2),
