@@ -33,7 +33,7 @@ const SHAPES: [&str; 9] = [
 ];
 
 /// A motion in parts, each of sines.
-type Parts = [&'static str];
+pub type Parts = [&'static str];
 
 /// What most effects show in.
 const SLOW: &Parts = &["terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0"];
@@ -80,7 +80,7 @@ fn score(hidden: Hidden, seed: u64) -> Score {
     score_along(hidden, seed, SLOW)
 }
 
-fn score_along(hidden: Hidden, seed: u64, motion: &Parts) -> Score {
+pub fn score_along(hidden: Hidden, seed: u64, motion: &Parts) -> Score {
     let folder = tempfile::tempdir().unwrap();
     let score = trial(hidden, seed, motion).run(folder.path()).unwrap();
     println!("{}", score.words());

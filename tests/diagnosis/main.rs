@@ -12,6 +12,7 @@ mod grafts;
 mod held_out;
 mod hidden;
 mod intervals;
+mod poor;
 mod recorded;
 mod repeatable;
 mod rivals;

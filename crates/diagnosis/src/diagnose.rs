@@ -7,6 +7,7 @@ use crate::between::between;
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extent::inadequate;
+use crate::heard::Heard;
 use crate::held_out::HeldOut;
 use crate::limits::limits;
 use crate::log::Log;
@@ -16,7 +17,6 @@ use crate::second_encoders::without_idle_encoders;
 use crate::settings::Settings;
 use crate::shapes::sown;
 use crate::study::Study;
-use crate::tone::Tone;
 use crate::tones::{BAND, tones};
 use crate::traces::RunTraces;
 
@@ -91,7 +91,8 @@ pub fn diagnose(
         design: &design,
         inadequate: &inadequate,
     };
-    let tones = heard(&study, &runs)?;
+    let Heard { tones, ringing } = heard(&study, &runs)?;
+    warnings.extend(ringing.iter().map(|at| words_for_ringing(robot, *at)));
     let log = Log { tones: &tones, ..quiet };
     if !tones.is_empty() {
         (sown, design) = tangents(about, &log)?;
@@ -129,12 +130,12 @@ fn tangents(robot: &Robot, log: &Log) -> Result<(Robot, Design), DiagnosisError>
 }
 
 /// The oscillations in what a first search leaves, in a band much wider than the motion's.
-fn heard(study: &Study, runs: &[Run]) -> Result<Vec<Tone>, DiagnosisError> {
+fn heard(study: &Study, runs: &[Run]) -> Result<Heard, DiagnosisError> {
     let (prepared, settings) = (study.log.prepared, study.settings);
     let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
     let wide_hz = BAND * slowest;
     if wide_hz < WIDE * prepared.cutoff_hz {
-        return Ok(Vec::new());
+        return Ok(Heard::default());
     }
     let extended = study.extended()?;
     let mut wide = prepare(runs, &PrepareSettings { cutoff_hz: Some(wide_hz) })?;
@@ -149,6 +150,13 @@ fn heard(study: &Study, runs: &[Run]) -> Result<Vec<Tone>, DiagnosisError> {
     let all_differ = motions.len() >= 2 && motions.iter().enumerate().all(|(r, m)| *m == r);
     let slowest_hz = if all_differ { prepared.motion_hz() } else { prepared.cutoff_hz };
     Ok(tones(&extended, &wide, &Frame::of_logs(&wide), (&study.log, slowest_hz))?)
+}
+
+fn words_for_ringing(robot: &Robot, (joint, hz): (usize, f64)) -> String {
+    let name = robot.joint_names().nth(joint).unwrap_or_default();
+    format!(
+        "{name} oscillates in a band about {hz:.1} Hz: not one tone that something keeps up, but something that rings, such as a spring or a control loop with too much delay for its gains"
+    )
 }
 
 /// The runs without those that repeat another sample by sample.

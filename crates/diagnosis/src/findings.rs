@@ -85,7 +85,7 @@ impl Evidence<'_> {
     }
 
     /// Forms of dry friction that these logs could not show beside Coulomb friction `g`, were
-    /// they half as large as its level.
+    /// they half as large as its level: near rest, or over positions that they have not seen.
     fn hidden_beside(&self, g: usize, fitted: &Fitted) -> Vec<usize> {
         use EffectKind as K;
         let problem = self.selection.problem;
@@ -97,7 +97,7 @@ impl Evidence<'_> {
         let drive = &extended.links()[j].actuator;
         let least = 0.5 * drive.coulomb_forward.min(drive.coulomb_backward);
         let too_small = |h: &usize| self.smallest(*h, &fit).is_none_or(|smallest| smallest > least);
-        let forms = [K::StribeckFriction, K::PreslidingFriction];
+        let forms = [K::StribeckFriction, K::PreslidingFriction, K::PositionDependentFriction];
         let forms = forms.map(|kind| design.find(Hypothesis { kind, place }));
         forms.into_iter().flatten().filter(|h| !self.model.contains(h)).filter(too_small).collect()
     }

@@ -27,6 +27,7 @@ mod flip_test;
 mod floor;
 mod gain;
 mod gram;
+mod heard;
 mod held_out;
 mod idle;
 mod left_over;

@@ -174,23 +174,32 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// What it may as well be: other causes, and forms of the same dry friction that differ near
-    /// rest only, such as `FR04 Stribeck friction`.
+    /// What it may as well be: other causes, and forms of the same dry friction that differ only where
+    /// the logs do not look, such as `FR04 Stribeck friction near rest`.
     pub fn rivals(&self) -> (Vec<String>, Vec<String>) {
-        use EffectKind::{CoulombFriction, PreslidingFriction, StribeckFriction};
+        use EffectKind::{
+            CoulombFriction, PositionDependentFriction, PreslidingFriction, StribeckFriction,
+        };
         let own = self.at.effect == CoulombFriction;
+        let near_rest = |r: &EffectAt| matches!(r.effect, StribeckFriction | PreslidingFriction);
         let is_form = |r: &&EffectAt| {
-            let near_rest = matches!(r.effect, StribeckFriction | PreslidingFriction);
-            own && near_rest && r.joint == self.at.joint
+            let differs = near_rest(r) || r.effect == PositionDependentFriction;
+            own && differs && r.joint == self.at.joint
         };
         let (forms, others): (Vec<_>, Vec<_>) = self.not_separable_from.iter().partition(is_form);
+        let (at_rest, elsewhere): (Vec<_>, Vec<_>) = forms.into_iter().partition(|r| near_rest(r));
+        let words = |forms: Vec<&EffectAt>, place: &str| {
+            let labels: Vec<String> = forms.iter().map(|r| r.effect.label()).collect();
+            (!labels.is_empty()).then(|| format!("{} {place}", labels.join(" or ")))
+        };
+        let forms = [words(at_rest, "near rest"), words(elsewhere, "at other positions")];
         let (parts, others): (Vec<_>, Vec<_>) =
             others.into_iter().partition(|r| self.is_the_work_of(r));
         let parts: Vec<String> = parts.into_iter().map(EffectAt::words).collect();
         let together = (!parts.is_empty()).then(|| parts.join(" with "));
         (
             together.into_iter().chain(others.into_iter().map(EffectAt::words)).collect(),
-            forms.into_iter().map(|r| r.effect.label()).collect(),
+            forms.into_iter().flatten().collect(),
         )
     }
 

@@ -40,14 +40,18 @@ impl Evidence<'_> {
         }
     }
 
-    /// The smallest weight of the first column of `g` that would have been found whatever its shape;
-    /// none where the log shows no such column.
+    /// The smallest weight that would have been found of `g`, whatever its shape, in the first column
+    /// or, of a wave, whatever its phase; none where the log shows no such column.
     pub fn smallest(&self, g: usize, fit: &Fit) -> Option<f64> {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
         let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
         let errors = standard_errors(problem, fit, &complement);
-        errors.first().map(|error| DETECTED_AT * error * self.largest_unseen(g))
+        let wave =
+            problem.design.groups[g].hypothesis.kind == EffectKind::PositionDependentFriction;
+        let errors = errors.get(..if wave { 2 } else { 1 })?;
+        let error = errors.iter().copied().fold(0.0, f64::max);
+        Some(DETECTED_AT * error * self.largest_unseen(g))
     }
 
     fn largest_unseen(&self, g: usize) -> f64 {

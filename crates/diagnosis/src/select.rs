@@ -318,10 +318,17 @@ impl Selection<'_> {
         let groups = &self.problem.design.groups;
         let confused = groups[g].hypothesis.kind.entry().confused_with;
         let all = self.problem.design.look == Look::Twist;
+        let mut near = self.at_the_joints_of(g);
+        near.retain(|&h| all || confused.contains(&groups[h].hypothesis.kind));
+        near
+    }
+
+    /// Every other hypothesis that shares a joint with `g`.
+    pub fn at_the_joints_of(&self, g: usize) -> Vec<usize> {
+        let groups = &self.problem.design.groups;
         let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
         (0..groups.len())
-            .filter(|&h| h != g && (all || confused.contains(&groups[h].hypothesis.kind)))
-            .filter(|h| shares(h) && !self.problem.idle.contains(h))
+            .filter(|h| *h != g && shares(h) && !self.problem.idle.contains(h))
             .collect()
     }
 

@@ -9,6 +9,7 @@ use realfft::RealFftPlanner;
 use robot::Robot;
 
 use crate::evaluate::Along;
+use crate::heard::Heard;
 use crate::log::Log;
 use crate::tone::{Beat, Tone};
 
@@ -42,6 +43,10 @@ const SHARE: f64 = 0.02;
 
 /// Least share of what is left, in every window, that a tone as slow as the motion must be.
 const SHARE_OF_SLOW: f64 = 0.5;
+
+/// Least share of what is left in the band of the diagnosis that a tone in it must be: what the
+/// motion makes of an effect that is not found has lines there too.
+const SHARE_IN_BAND: f64 = 0.25;
 
 /// Share of the speed of a joint at the frequency of such a tone that may make it the motion's.
 const SHARE_OF_SPEED: f64 = 0.4;
@@ -87,17 +92,24 @@ pub(crate) fn tones(
     wide: &Prepared,
     frame: &Frame,
     (log, slowest_hz): (&Log, f64),
-) -> Result<Vec<Tone>, LogError> {
+) -> Result<Heard, LogError> {
     let rest = |(r, run)| -> Result<Rest, LogError> {
         let along = Along::new(robot, frame, (r, run), wide.cutoff_hz, (&[], log.limits))?;
         along.rest()
     };
     let runs: Vec<Rest> = wide.runs.iter().enumerate().map(rest).collect::<Result<_, _>>()?;
+    let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
     let at = |j: usize| {
-        if log.moved[j] { at_joint(&runs, j, (wide.cutoff_hz, slowest_hz)) } else { Vec::new() }
+        if log.moved[j] { at_joint(&runs, j, bands_hz) } else { Vec::new() }
     };
     let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
-    Ok((0..log.moved.len()).into_par_iter().flat_map_iter(at).filter(looked_for).collect())
+    let lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
+    let mut heard = Heard::default();
+    for lines in lines {
+        heard.take(lines);
+    }
+    heard.tones.retain(looked_for);
+    Ok(heard)
 }
 
 /// One joint: its residual in every run, and the phase per unit of beat.
@@ -110,7 +122,7 @@ struct Joint<'a> {
     highest: Vec<Vec<f64>>,
 }
 
-fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec<Tone> {
+fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3]) -> Vec<Tone> {
     let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
     let highest = TAU * HIGHEST * cutoff_hz;
     let by_speed = |run: &Rest| run.qd[j].iter().map(|v| highest / v.abs().max(1e-9)).collect();
@@ -133,7 +145,8 @@ fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec
         };
         let found = [
             position.found(j, Coherence::AllRuns, |position| position.waves()),
-            line([slowest_hz, HIGHEST * cutoff_hz]),
+            line([slowest_hz, HIGHEST * cutoff_hz])
+                .filter(|tone| is_much_of_its_band(tone, &clock, runs, band_hz)),
             line([LOWEST_HZ, slowest_hz])
                 .filter(|tone| is_no_motion(tone, &clock, runs, slowest_hz)),
         ];
@@ -146,6 +159,17 @@ fn at_joint(runs: &[Rest], j: usize, (cutoff_hz, slowest_hz): (f64, f64)) -> Vec
         tones.push(tone);
     }
     tones
+}
+
+/// Whether a tone is faster than the band of the diagnosis, or much of what is left in it.
+fn is_much_of_its_band(tone: &Tone, clock: &Joint, runs: &[Rest], band_hz: f64) -> bool {
+    let Beat::Clock(frequency_hz) = tone.beat else { return false };
+    let power = |left: &[Vec<f64>]| -> f64 {
+        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, band_hz);
+        left.iter().zip(runs).flat_map(of).map(|x| x * x).sum()
+    };
+    frequency_hz > band_hz
+        || power(&clock.without(tone)) < (1.0 - SHARE_IN_BAND) * power(clock.left)
 }
 
 /// Whether a tone is most of what is left wherever one looks, and no motion: some of the time no joint

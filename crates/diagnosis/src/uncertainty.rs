@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use effects::{Hypothesis, Quantity};
 use nalgebra::{DMatrix, DVector};
-use robot::Robot;
+use robot::{Actuator, Robot};
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 use crate::extend::extended;
@@ -176,8 +176,8 @@ impl Uncertainty {
 
 /// A hypothesis that is not possible together with all others, one with one weight none of
 /// whose parameters differs from its nominal value by more than its 95 per cent interval, a body
-/// whose ten numbers together may as well be those described, or an asymmetry that may be none: its
-/// size is not decided. None if all stand.
+/// whose ten numbers together may as well be those described, or an asymmetry or an excess near rest
+/// that may be none: its size is not decided. None if all stand.
 pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Option<usize> {
     let uncertainty = Uncertainty::of(fitted)?;
     let robot = fitted.robot();
@@ -191,7 +191,7 @@ pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Op
         !group.hypothesis.is_sound(&robot)
             || group.columns.len() == 1 && estimates().iter().all(holds)
             || is_unchanged_body(&uncertainty, fitted, group.hypothesis)
-            || is_even_friction(&uncertainty, fitted, group.hypothesis)
+            || is_plain_friction(&uncertainty, fitted, group.hypothesis)
     })
 }
 
@@ -206,21 +206,35 @@ fn is_unchanged_body(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hyp
     uncertainty.may_be_none(&design.groups[group].columns, &change)
 }
 
-/// Whether asymmetric friction may as well have changed the levels of both directions alike.
-fn is_even_friction(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hypothesis) -> bool {
+/// Whether asymmetric friction may as well have changed the levels of both directions alike, or
+/// Stribeck friction have no excess, or none beyond the velocities that count as rest.
+fn is_plain_friction(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hypothesis) -> bool {
     let design = fitted.problem.design;
     let group = design.find(hypothesis).map(|g| design.groups[g].columns.as_slice());
-    let (EffectKind::AsymmetricFriction, Some(joint), Some(&[_, against])) =
-        (hypothesis.kind, hypothesis.joint(), group)
-    else {
-        return false;
+    let (Some(joint), Some(columns)) = (hypothesis.joint(), group) else { return false };
+    let robot = fitted.robot();
+    let change = |of: fn(&Actuator) -> f64| {
+        let [after, before] = [&robot, fitted.nominal].map(|r| of(&r.links()[joint].actuator));
+        after - before
     };
-    let skew = |robot: &Robot| {
-        let drive = &robot.links()[joint].actuator;
-        0.5 * (drive.coulomb_forward - drive.coulomb_backward)
+    let may_be_none = |column: Option<&usize>, change: f64| {
+        column.is_some_and(|&k| uncertainty.may_be_none(&[k], &DVector::from_element(1, change)))
     };
-    let change = DVector::from_element(1, skew(&fitted.robot()) - skew(fitted.nominal));
-    uncertainty.may_be_none(&[against], &change)
+    match hypothesis.kind {
+        EffectKind::AsymmetricFriction => {
+            let skew = change(|drive| 0.5 * (drive.coulomb_forward - drive.coulomb_backward));
+            may_be_none(columns.get(1), skew)
+        }
+        EffectKind::StribeckFriction => {
+            let excess = change(|drive| drive.stribeck.map_or(0.0, |s| s.excess));
+            let velocity = robot.links()[joint].actuator.stribeck.map_or(0.0, |s| s.velocity);
+            // The least velocity has no larger size unseen.
+            let unseen = hypothesis.largest_unseen(&robot, &design.frame);
+            let beyond_least = velocity * (1.0 - unseen.powi(-2));
+            may_be_none(columns.first(), excess) || may_be_none(columns.get(1), beyond_least)
+        }
+        _ => false,
+    }
 }
 
 /// Change of every quantity per unit of weight `k`, by a central difference.

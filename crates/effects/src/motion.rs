@@ -87,17 +87,18 @@ pub struct Frame {
     pub rest_speed: Vec<f64>,
     /// Middle of the range of each joint over all runs (rad or m).
     pub centre: Vec<f64>,
+    /// Half that range (rad or m).
+    pub reach: Vec<f64>,
 }
 
 impl Frame {
     /// What the runs of some logs share.
     pub fn of_logs(logs: &Prepared) -> Self {
         let rest_speed = rest_speeds(logs);
-        let middle = |j| {
-            let (low, high) = logs.span(j);
-            0.5 * (low + high)
-        };
-        Self { centre: (0..rest_speed.len()).map(middle).collect(), rest_speed }
+        let spans = (0..rest_speed.len()).map(|j| logs.span(j));
+        let (centre, reach) =
+            spans.map(|(low, high)| (0.5 * (low + high), 0.5 * (high - low))).unzip();
+        Self { rest_speed, centre, reach }
     }
 }
 

@@ -81,6 +81,14 @@ impl Explain for PositionDependentFriction {
         columns
     }
 
+    /// Of the longest wave, whose crest stands in the middle of what the joint has covered:
+    /// `1 - cos(reach)` of it is to be seen there.
+    fn largest_unseen(&self, place: Place, _: &Robot, frame: &Frame) -> f64 {
+        let Place::Joint(j) = place else { return 1.0 };
+        let phase = FEWEST * frame.reach[j];
+        if phase < FRAC_PI_2 { (1.0 - phase.cos()).recip() } else { 1.0 }
+    }
+
     /// A wave as large as the effort itself, periods known to a phase of one over the range.
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let Place::Joint(j) = place else { return Vec::new() };

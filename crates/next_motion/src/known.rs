@@ -50,7 +50,11 @@ impl Known {
         let usable = usable(robot);
         let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
         Self {
-            frame: Frame { rest_speed: each(|u| REST_SHARE * u.speed), centre: each(|u| u.middle) },
+            frame: Frame {
+                rest_speed: each(|u| REST_SHARE * u.speed),
+                centre: each(|u| u.middle),
+                reach: each(|u| u.half),
+            },
             scale: supposed(robot),
             information: layout.nothing(),
             source: Source::Limits,

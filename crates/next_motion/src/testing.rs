@@ -57,7 +57,11 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
     };
     let joint = PreparedJoint::exact(state, vec![0.0; 3000]);
     run.joints = vec![joint; joints];
-    let frame = Frame { rest_speed: vec![1e-3; joints], centre: vec![0.0; joints] };
+    let frame = Frame {
+        rest_speed: vec![1e-3; joints],
+        centre: vec![0.0; joints],
+        reach: vec![1.0; joints],
+    };
     let motion = Record::of_run(&run, 1).evaluate(robot, &frame);
     for (joint, effort) in run.joints.iter_mut().zip(&motion.effort) {
         joint.effort.clone_from(effort);

@@ -199,7 +199,7 @@ fn finding(out: &mut String, finding: &Finding) {
         note(out, &format!("may as well be {}", rivals.join(" or ")));
     }
     if !forms.is_empty() {
-        note(out, &format!("may be {} near rest, unseen by this log", forms.join(" or ")));
+        note(out, &format!("may be {}, unseen by this log", forms.join(" or ")));
     }
     let open = finding.parameters.iter().filter(|p| !p.determined);
     let open: Vec<String> = open.map(|p| p.name.replace('_', " ")).collect();

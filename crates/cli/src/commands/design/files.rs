@@ -170,7 +170,11 @@ fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
         (0..joints).map(|j| states.iter().map(|s| pick(s)[j]).collect()).collect()
     };
     let [q, qd, qdd] = [signal(|s| &s.q), signal(|s| &s.qd), signal(|s| &s.qdd)];
-    let frame = Frame { rest_speed: vec![REST_SPEED; joints], centre: vec![0.0; joints] };
+    let frame = Frame {
+        rest_speed: vec![REST_SPEED; joints],
+        centre: vec![0.0; joints],
+        reach: vec![1.0; joints],
+    };
     let along = Along::new(robot, &frame, [q.clone(), qd.clone(), qdd.clone()], rate_hz.recip());
     let channels = |(j, name): (usize, &str)| Channels {
         name: name.to_owned(),
