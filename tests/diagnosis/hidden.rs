@@ -84,6 +84,11 @@ pub fn score_along(hidden: Hidden, seed: u64, motion: &Parts) -> Score {
     let folder = tempfile::tempdir().unwrap();
     let score = trial(hidden, seed, motion).run(folder.path()).unwrap();
     println!("{}", score.words());
+    for finding in &score.findings {
+        let rivals = &finding.not_separable_from;
+        let is_again = |(i, rival)| rivals[..i].contains(rival) || *rival == finding.at;
+        assert!(!rivals.iter().enumerate().any(is_again), "{}", score.words());
+    }
     score
 }
 

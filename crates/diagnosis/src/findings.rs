@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+
 use catalogue::EffectKind;
 use effects::{Hypothesis, Place};
 use robot::Robot;
@@ -125,6 +127,18 @@ impl Evidence<'_> {
         at(EffectKind::CoulombFriction).filter(|level| !rivals.contains(level))
     }
 
+    /// What finding `g` may as well be, each once.
+    fn not_separable_from(&self, g: usize, fitted: &Fitted) -> Vec<usize> {
+        let mut rivals = rivals(self.selection, self.model, g);
+        rivals.retain(|&h| !self.apart.contains(&(g, h)));
+        rivals.extend(self.skewed(g));
+        rivals.extend(self.level_beside(g, &rivals));
+        rivals.extend(self.hidden_beside(g, fitted));
+        let mut seen = BTreeSet::new();
+        rivals.retain(|&h| seen.insert(h));
+        rivals
+    }
+
     fn finding(
         &self,
         g: usize,
@@ -138,12 +152,7 @@ impl Evidence<'_> {
         let share = |whole: f64| {
             if whole > 0.0 { ((without - after) / whole).clamp(0.0, 1.0) } else { 0.0 }
         };
-        let mut rivals = rivals(self.selection, self.model, g);
-        rivals.retain(|&h| !self.apart.contains(&(g, h)));
-        rivals.extend(self.skewed(g));
-        let level = self.level_beside(g, &rivals);
-        rivals.extend(level);
-        rivals.extend(self.hidden_beside(g, fitted));
+        let rivals = self.not_separable_from(g, fitted);
         let hypothesis = |m: &usize| problem.design.groups[*m].hypothesis;
         let level: Vec<Hypothesis> =
             self.model.iter().filter(|m| self.bearer(**m) == Some(g)).map(hypothesis).collect();
