@@ -13,7 +13,7 @@ use crate::search::EVALUATION_RATE;
 /// large it is.
 const SUPPOSED: f64 = 0.1;
 
-/// Share of its largest speed below which a joint counts as at rest, where no log says it.
+/// Share of its largest speed below which a joint counts as at rest in a motion that is not run yet.
 const REST_SHARE: f64 = 1e-3;
 
 /// What is known before the motion.
@@ -40,9 +40,11 @@ impl Known {
         layout: &Layout,
         logs: &Prepared,
     ) -> Result<Self, NextMotionError> {
-        let frame = Frame::of_logs(logs);
+        let scale = Scale::of_logs(robot, logs);
+        let rest_speed = scale.speed.iter().map(|speed| REST_SHARE * speed).collect();
+        let frame = Frame { rest_speed, ..Frame::of_logs(logs) };
         let information = along_logs(robot, layout, &frame, logs)?;
-        Ok(Self { frame, scale: Scale::of_logs(robot, logs), information, source: Source::Logs })
+        Ok(Self { frame, scale, information, source: Source::Logs })
     }
 
     /// By what the joints can do, before there is any log.

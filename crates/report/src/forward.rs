@@ -79,7 +79,7 @@ pub(crate) fn remarks(windows: &[ForwardWindow]) -> Vec<String> {
         (nominal + extended > 0).then(|| {
             format!(
                 "In {nominal} of {} windows of {:.0} ms a joint of the nominal simulation ran \
-                 away, in {extended} one of the extended simulation; they are left out of the drift",
+                 away, of the extended one in {extended}; they are left out of the drift",
                 window.windows,
                 1e3 * window.window_s,
             )
@@ -129,7 +129,11 @@ mod tests {
             ("shoulder (rad)".into(), vec![["0.100".into(), "0.0100".into()]])
         );
         assert_eq!(table.rows[2], ("tip (mm)".into(), vec![["50.0".into(), "4.00".into()]]));
-        assert!(table.remarks[0].starts_with("In 2 of 5 windows of 200 ms"), "{:?}", table.remarks);
+        assert_eq!(
+            table.remarks[0],
+            "In 2 of 5 windows of 200 ms a joint of the nominal simulation ran away, of the extended \
+             one in 0; they are left out of the drift"
+        );
         assert_eq!(table.remarks[1], "The extended robot is not simulated: a reason");
         let page = crate::html(&report).unwrap();
         assert!(page.contains("How far the simulation drifts") && page.contains("50.0"));
