@@ -101,14 +101,14 @@ fn what_a_log_could_not_tell_apart_is_told_apart_by_the_motion_it_asked_for() {
             assert_eq!(named, own, "{logs:?}");
             // What is still open no motion of this length would have told.
             let kinds = rivals.iter().map(|name| name.parse::<EffectKind>().unwrap());
-            // Alone it covers less of the range, and no more of friction than that.
-            let is_elsewhere = |kind: &EffectKind| {
-                logs.len() == 1 && *kind == EffectKind::PositionDependentFriction
-            };
-            let kinds = kinds.filter(|kind| !is_elsewhere(kind));
             let still: Vec<String> = kinds.map(|kind| kind.label()).collect();
-            let closed =
-                |label: &String| !answer.out.contains(&format!("or {label} at elbow\n  no"));
+            let says = |label: &String, words: &str| {
+                answer.out.contains(&format!("or {label} at elbow\n  {words}"))
+            };
+            let closed = |label: &String| {
+                !says(label, "no motion of 20 s")
+                    && !says(label, "this motion tells them apart, run ")
+            };
             assert_eq!(still.into_iter().find(closed), None, "{logs:?}: {}", answer.out);
             assert!(!rivals.iter().any(|rival| rival == other), "{logs:?}: {rivals:?}");
         }
