@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
-use crate::transmission::{Gap, play};
+use crate::transmission::{Carried, Gap, play};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
@@ -47,13 +47,14 @@ impl Explain for Backlash {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![motion.twisted(j, &play_per_gap(motion, j, motion.tight_load(j)))]
+        let carried = Carried::beyond(motion.tight_load(j), &motion.slopes(j).of[j]);
+        vec![motion.twisted(j, &play_per_gap(motion, j, carried))]
     }
 
     fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
         let ratio = motion.drives[j].transmission_ratio;
-        let play = play_per_gap(motion, j, &motion.load[j]);
+        let play = play_per_gap(motion, j, Carried::here(&motion.load[j], &motion.slopes(j).of[j]));
         vec![at_joint(j, play.into_iter().map(|x| x / ratio))]
     }
 
@@ -79,11 +80,10 @@ impl Explain for Backlash {
     }
 }
 
-/// What a unit of gap adds to `theta - q` at joint `j`, whose links carry `load` (N·m or N).
-fn play_per_gap(motion: &Motion, j: usize, load: &[f64]) -> Vec<f64> {
-    let inertia = &motion.slopes(j).of[j][2];
+/// What a unit of gap adds to `theta - q` at joint `j`.
+fn play_per_gap(motion: &Motion, j: usize, carried: Carried<'_>) -> Vec<f64> {
     let drive = &motion.drives[j];
-    let at = |gap: f64| play(load, inertia, Gap::of(drive, gap), motion.period_s);
+    let at = |gap: f64| play(carried, Gap::of(drive, gap), motion.period_s);
     let Actuator { backlash: gap, backlash_trial: trial, .. } = *drive;
     if gap > 0.0 {
         let (wide, narrow) = (at((1.0 + STEP) * gap), at((1.0 - STEP) * gap));

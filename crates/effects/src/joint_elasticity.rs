@@ -2,7 +2,7 @@ use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
-use crate::transmission::{Gap, play};
+use crate::transmission::{Carried, Gap, play};
 use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
@@ -21,15 +21,21 @@ fn compliance(drive: &Actuator) -> f64 {
 const STEP: f64 = 1e-7;
 
 /// What a unit of compliance adds to `theta - q` at joint `j`: the load, and that a link leaves an end
-/// of its play, under `play_load`, as fast as the spring lets go (N·m or N).
-fn per_compliance(motion: &Motion, j: usize, play_load: &[f64]) -> Vec<f64> {
+/// of its play, under `play_load` that is `carried` there or beyond, as fast as the spring lets go (N·m
+/// or N).
+fn per_compliance(
+    motion: &Motion,
+    j: usize,
+    play_load: &[f64],
+    carried: for<'a> fn(&'a [f64], &'a [Vec<f64>; 3]) -> Carried<'a>,
+) -> Vec<f64> {
     let drive = &motion.drives[j];
     let mut twist = motion.load[j].clone();
     if drive.backlash > 0.0 {
-        let inertia = &motion.slopes(j).of[j][2];
         let gap = Gap::of(drive, drive.backlash);
+        let carried = carried(play_load, &motion.slopes(j).of[j]);
         let softer = Gap { compliance: gap.compliance + STEP, ..gap };
-        let [now, then] = [gap, softer].map(|gap| play(play_load, inertia, gap, motion.period_s));
+        let [now, then] = [gap, softer].map(|gap| play(carried, gap, motion.period_s));
         let changes = now.iter().zip(then).map(|(now, then)| (then - now) / STEP);
         twist.iter_mut().zip(changes).for_each(|(twist, change)| *twist += change);
     }
@@ -53,13 +59,14 @@ impl Explain for JointElasticity {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        vec![motion.twisted(j, &per_compliance(motion, j, motion.tight_load(j)))]
+        let twist = per_compliance(motion, j, motion.tight_load(j), Carried::beyond);
+        vec![motion.twisted(j, &twist)]
     }
 
     fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
         let ratio = motion.drives[j].transmission_ratio;
-        let twist = per_compliance(motion, j, &motion.load[j]);
+        let twist = per_compliance(motion, j, &motion.load[j], Carried::here);
         vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]
     }
 

@@ -11,7 +11,7 @@ use crate::dry_friction::dry_friction;
 use crate::give::{Give, curvature, rate};
 use crate::slopes::Slopes;
 use crate::timing::Timing;
-use crate::transmission::{Gap, Parted, corrected, play};
+use crate::transmission::{Carried, Gap, Parted, corrected, play};
 use crate::{Column, Part};
 
 /// The motion of one run and what the nominal robot makes of it.
@@ -310,7 +310,8 @@ impl Motion {
         let drive = &self.drives[j];
         let compliance = drive.elasticity.map_or(0.0, f64::recip);
         let gap = Gap::of(drive, drive.backlash);
-        let play = play(&self.load[j], &self.slopes(j).of[j][2], gap, self.period_s);
+        let carried = Carried::here(&self.load[j], &self.slopes(j).of[j]);
+        let play = play(carried, gap, self.period_s);
         let signals = self.link[0][j].iter().zip(&self.load[j]).zip(play);
         let twist = |((q, load), x): ((&f64, &f64), f64)| {
             (q + compliance * load + x) / drive.transmission_ratio + drive.encoder_offset - q

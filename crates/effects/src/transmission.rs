@@ -1,3 +1,5 @@
+use std::cell::LazyCell;
+
 use dynamics::Dynamics;
 use robot::{Actuator, Robot, SensingSide};
 
@@ -60,12 +62,16 @@ impl Parted {
         if parting.is_empty() {
             return Self { motor, link, tight_load: None, gives };
         }
-        let (load, inertia) = loads(robot, &link);
+        let load = loads(robot, &link);
         let mut of_motor = Vec::new();
         for i in parting {
             let drive = &robot.links()[i].actuator;
+            let slopes = LazyCell::new(|| Slopes::new(robot, &link, i));
             let twist = match drive.backlash > 0.0 {
-                true => play(&load[i], &inertia[i], Gap::of(drive, drive.backlash), period_s),
+                true => {
+                    let carried = Carried::beyond(&load[i], &slopes.of[i]);
+                    play(carried, Gap::of(drive, drive.backlash), period_s)
+                }
                 false => vec![0.0; load[i].len()],
             };
             if drive.sensing == SensingSide::Link {
@@ -75,10 +81,9 @@ impl Parted {
                 moved(&mut motor, i, &twist, period_s);
                 continue;
             }
-            gives[i] = drive.elasticity.map(|stiffness| {
-                let slopes = Slopes::new(robot, &link, i);
-                Give::new(stiffness.recip(), &slopes.of[i], period_s)
-            });
+            gives[i] = drive
+                .elasticity
+                .map(|stiffness| Give::new(stiffness.recip(), &slopes.of[i], period_s));
             of_motor.push((i, twist));
         }
         let link = behind_motors(robot, link, (of_motor, &gives), period_s);
@@ -109,7 +114,7 @@ fn behind_motors(
         return behind(&twists);
     }
     for _ in 0..ROUNDS {
-        let (load, _) = loads(robot, &behind(&twists));
+        let load = loads(robot, &behind(&twists));
         for ((i, twist), (_, play)) in twists.iter_mut().zip(&play) {
             let drive = &robot.links()[*i].actuator;
             let (Some(give), Some(stiffness)) = (&gives[*i], drive.elasticity) else { continue };
@@ -129,24 +134,22 @@ fn moved(state: &mut State, i: usize, change: &[f64], period_s: f64) {
     }
 }
 
-/// Torque and inertia of the links of every joint along a motion, all other joints held to it.
-fn loads(robot: &Robot, state: &State) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+/// Torque of the links of every joint along a motion.
+fn loads(robot: &Robot, state: &State) -> Vec<Vec<f64>> {
     let n = robot.joint_count();
     let samples = state[0].first().map_or(0, Vec::len);
     let dynamics = Dynamics::new(robot);
     let mut ws = dynamics.workspace();
-    let (mut load, mut inertia) = (vec![vec![0.0; samples]; n], vec![vec![0.0; samples]; n]);
+    let mut load = vec![vec![0.0; samples]; n];
     let mut at = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-    let (mut tau, mut mass) = (vec![0.0; n], vec![0.0; n * n]);
+    let mut tau = vec![0.0; n];
     for t in 0..samples {
         for (x, signal) in at.iter_mut().zip(state) {
             x.iter_mut().zip(signal).for_each(|(x, s)| *x = s[t]);
         }
         dynamics.inverse_dynamics_into(&mut ws, &at[0], &at[1], &at[2], &mut tau);
-        dynamics.mass_matrix_into(&mut ws, &at[0], &mut mass);
         for (i, link) in robot.links().iter().enumerate() {
             load[i][t] = tau[i] + crate::motion::spring_torque(&link.actuator, at[0][i]);
-            inertia[i][t] = mass[i * n + i];
         }
     }
     for (i, link) in robot.links().iter().enumerate() {
@@ -154,35 +157,69 @@ fn loads(robot: &Robot, state: &State) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
             load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
         }
     }
-    (load, inertia)
+    load
 }
+
+/// Periods for which a link stays where it has just met its motor: half the response of the low-pass
+/// behind which motions are evaluated, four cut-offs of a diagnosis at sixteen of them.
+const BLOW: f64 = 2.0;
 
 /// Where the motor stands in a gap: `x = theta - q` with `|x| <= gap / 2`, at the side that
 /// carries the load. When the load changes sign the link is free until the other side meets it,
 /// and does not bounce:
 ///
 /// ```text
-/// inertia xdd = load,  xd = 0 at the ends,  xd = compliance d(load)/dt as it leaves one
+/// inertia xdd = load - dload/dq x - dload/dqd xd
+/// xd = 0 at the ends,  xd = compliance d(load)/dt as it leaves one
 /// ```
 ///
 /// for a spring that was twisted at the end lets go as fast as its load falls. The load goes straight from sample to sample. A link crosses a gap in a few samples, and in the
-/// third root of the gap: in whole samples it would be crossed too soon, or look too wide.
+/// third root of the gap: in whole samples it would be crossed too soon, or look too wide. The blow with
+/// which it meets the other side moves its motor, and low-passed it lasts: a load that seems to turn
+/// within `BLOW` periods of it moves nothing.
 pub(crate) fn play(
-    load: &[f64],
-    inertia: &[f64],
+    carried: Carried<'_>,
     Gap { width, compliance }: Gap,
     period_s: f64,
 ) -> Vec<f64> {
+    let Carried { load, slopes: [by_position, by_velocity, inertia] } = carried;
     let half = 0.5 * width;
     let start = half * load.first().copied().unwrap_or(0.0).signum();
-    let mut slack = Slack { half, x: start, xd: 0.0 };
+    let mut slack = Slack { half, x: start, xd: 0.0, stays_s: 0.0, blow_s: BLOW * period_s };
     let mut all: Vec<f64> = load.first().map(|_| start).into_iter().collect();
-    for (ends, inertia) in load.windows(2).zip(inertia) {
-        let accelerations = [ends[0], ends[1]].map(|load| load / inertia.max(f64::MIN_POSITIVE));
-        slack.pass(accelerations, compliance * inertia, period_s);
+    for (t, (ends, inertia)) in load.windows(2).zip(inertia).enumerate() {
+        let per_inertia = |x: f64| x / inertia.max(f64::MIN_POSITIVE);
+        let [lean, drag] = [by_position, by_velocity].map(|x| x.get(t).copied().unwrap_or(0.0));
+        let held = Held {
+            lean: per_inertia(lean),
+            drag: per_inertia(drag),
+            yielding: compliance * inertia,
+        };
+        slack.pass([ends[0], ends[1]].map(per_inertia), held, period_s);
         all.push(slack.x);
     }
     all
+}
+
+/// The load of a link (N·m or N) and its derivatives by the link's position, velocity and
+/// acceleration, sample by sample; no samples of one that is none.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Carried<'a> {
+    load: &'a [f64],
+    slopes: [&'a [f64]; 3],
+}
+
+impl Carried<'_> {
+    /// The load that a link would need where its motor is: in a gap it lies beyond, and needs
+    /// another.
+    pub fn beyond<'a>(load: &'a [f64], [q, qd, qdd]: &'a [Vec<f64>; 3]) -> Carried<'a> {
+        Carried { load, slopes: [q, qd, qdd] }
+    }
+
+    /// The load of a link where it is.
+    pub fn here<'a>(load: &'a [f64], [_, _, qdd]: &'a [Vec<f64>; 3]) -> Carried<'a> {
+        Carried { load, slopes: [&[], &[], qdd] }
+    }
 }
 
 /// Free play between a motor and its link.
@@ -206,35 +243,57 @@ struct Slack {
     half: f64,
     x: f64,
     xd: f64,
+    /// Time that it still stays at its end, and that it stays after a blow (s).
+    stays_s: f64,
+    blow_s: f64,
+}
+
+/// What a link does to its own way through a gap.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    /// Fall of its acceleration per way (1/s²) and per speed (1/s).
+    lean: f64,
+    drag: f64,
+    /// Speed at which it leaves an end, over the rate of its acceleration there (s²).
+    yielding: f64,
 }
 
 impl Slack {
     /// Times within one period at which it may leave an end.
     const DEPARTURES: usize = 2;
 
-    /// Halvings of the time at which an end is met: to 1e-9 of it.
-    const HALVINGS: usize = 30;
+    /// Halvings of the time at which an end is met: to 1e-15 of it.
+    const HALVINGS: usize = 50;
 
-    /// Passes a time in which the acceleration goes straight from one value to another; an end is
-    /// left with `yielding` times its rate (s²).
-    fn pass(&mut self, [mut from, to]: [f64; 2], yielding: f64, mut time_s: f64) {
+    /// Passes a time in which the load goes straight from one value to another, each over the inertia.
+    fn pass(&mut self, [mut from, to]: [f64; 2], held: Held, mut time_s: f64) {
         for _ in 0..Self::DEPARTURES {
-            let jerk = (to - from) / time_s;
+            let rise = (to - from) / time_s;
+            let stays_s = self.stays_s.min(time_s);
+            self.stays_s -= stays_s;
+            time_s -= stays_s;
+            if time_s <= 0.0 {
+                return;
+            }
+            from += rise * stays_s;
             if self.x.abs() >= self.half && self.xd * self.x >= 0.0 {
                 let side = self.x.signum();
-                if from * side >= 0.0 {
-                    if to * side >= 0.0 {
+                let lean = held.lean * self.x;
+                if (from - lean) * side >= 0.0 {
+                    if (to - lean) * side >= 0.0 {
                         return;
                     }
                     // The load lets go where it is none.
-                    time_s -= -from / jerk;
-                    (from, self.xd) = (0.0, yielding * jerk);
+                    time_s -= (lean - from) / rise;
+                    (from, self.xd) = (lean, held.yielding * rise);
                 }
             }
-            let after = |t: f64| self.x + t * (self.xd + t * (0.5 * from + t * jerk / 6.0));
+            let [start, end] = self.accelerations([from, to], held, time_s);
+            let jerk = (end - start) / time_s;
+            let after = |t: f64| self.x + t * (self.xd + t * (0.5 * start + t * jerk / 6.0));
             let end = after(time_s);
             if end.abs() < self.half {
-                self.xd += time_s * (from + 0.5 * time_s * jerk);
+                self.xd += time_s * (start + 0.5 * time_s * jerk);
                 self.x = end;
                 return;
             }
@@ -244,13 +303,23 @@ impl Slack {
                 let inside = after(middle).abs() < self.half;
                 *(if inside { &mut before } else { &mut met }) = middle;
             }
-            (self.x, self.xd) = (self.half.copysign(end), 0.0);
-            from += jerk * met;
+            (self.x, self.xd, self.stays_s) = (self.half.copysign(end), 0.0, self.blow_s);
+            from += rise * met;
             time_s -= met;
             if time_s <= 0.0 {
                 return;
             }
         }
+    }
+
+    /// The accelerations at the begin and the end of a time, the latter where the former leads.
+    fn accelerations(&self, [from, to]: [f64; 2], held: Held, time_s: f64) -> [f64; 2] {
+        let at = |load: f64, x: f64, xd: f64| {
+            load - held.lean * x.clamp(-self.half, self.half) - held.drag * xd
+        };
+        let start = at(from, self.x, self.xd);
+        let way = time_s * (self.xd + 0.5 * time_s * start);
+        [start, at(to, self.x + way, self.xd + time_s * start)]
     }
 }
 
@@ -264,7 +333,11 @@ mod tests {
         let (gap, inertia, c, period_s) = (0.01, 0.2, 3.0, 1e-4);
         let time = |t: usize| (t as f64 - 1000.0) * period_s;
         let load: Vec<f64> = (0..6000).map(|t| c * time(t)).collect();
-        let x = play(&load, &vec![inertia; 6000], Gap { width: gap, compliance: 0.0 }, period_s);
+        let x = play(
+            Carried { load: &load, slopes: [&[0.0; 6000], &[0.0; 6000], &[inertia; 6000]] },
+            Gap { width: gap, compliance: 0.0 },
+            period_s,
+        );
         let crossed = x.iter().position(|x| *x >= 0.5 * gap).unwrap();
         let expected = (6.0 * gap * inertia / c).cbrt();
         assert!((time(crossed) - expected).abs() < 3.0 * period_s, "{} s", time(crossed));
@@ -280,7 +353,11 @@ mod tests {
         let time = |t: usize| (t as f64 - 20.4) * period_s;
         let load: Vec<f64> = (0..60).map(|t| c * time(t)).collect();
         for compliance in [0.0, 0.01] {
-            let x = play(&load, &[inertia; 60], Gap { width: gap, compliance }, period_s);
+            let x = play(
+                Carried { load: &load, slopes: [&[0.0; 60], &[0.0; 60], &[inertia; 60]] },
+                Gap { width: gap, compliance },
+                period_s,
+            );
             for (t, x) in x.iter().enumerate() {
                 let after = time(t).max(0.0);
                 let way = c * (compliance * after + after.powi(3) / (6.0 * inertia));
@@ -288,5 +365,46 @@ mod tests {
                 assert!((x - expected).abs() < 1e-12, "{x}, not {expected}, at {} s", time(t));
             }
         }
+    }
+
+    /// A link that falls over, its load `c t + k x` at its motor's own position: it leaves an end
+    /// late by `k gap / (2 c)`, and from there is
+    ///
+    /// ```text
+    /// c / k (sinh(w t) / w - t),   w² = k / inertia
+    /// ```
+    ///
+    /// from it.
+    #[test]
+    fn oracle_a_link_that_falls_over_leaves_its_end_late_and_is_soon_at_the_other() {
+        let (gap, inertia, c, k, period_s) = (0.03, 2.5, 30.0, 60.0, 0.01_f64);
+        let time = |t: usize| (t as f64 - 20.4) * period_s;
+        let load: Vec<f64> = (0..100).map(|t| c * time(t)).collect();
+        let carried = Carried { load: &load, slopes: [&[-k; 100], &[0.0; 100], &[inertia; 100]] };
+        let x = play(carried, Gap { width: gap, compliance: 0.0 }, period_s);
+        let w = (k / inertia).sqrt();
+        for (t, x) in x.iter().enumerate() {
+            let after = (time(t) - 0.5 * k * gap / c).max(0.0);
+            let way = c / k * ((w * after).sinh() / w - after);
+            let expected = (way - 0.5 * gap).min(0.5 * gap);
+            assert!((x - expected).abs() < 2e-3 * gap, "{x}, not {expected}, at {} s", time(t));
+        }
+    }
+
+    /// A link that meets its motor throws it forward, for which the load turns until a sample later: it
+    /// does not bounce.
+    #[test]
+    fn a_blow_that_a_low_pass_has_spread_is_no_load_that_turns() {
+        let (gap, inertia, period_s) = (0.01, 0.2, 0.01);
+        let mut load = [-1.0; 60];
+        load[20..].fill(1.0);
+        let at = |load: &[f64]| {
+            let carried = Carried { load, slopes: [&[0.0; 60], &[0.0; 60], &[inertia; 60]] };
+            play(carried, Gap { width: gap, compliance: 0.0 }, period_s)
+        };
+        let met = at(&load).iter().position(|x| *x >= 0.5 * gap).unwrap();
+        load[met] = -3.0;
+        let x = at(&load);
+        assert!(x[met + 1..].iter().all(|x| (x - 0.5 * gap).abs() < 1e-15), "{x:?}");
     }
 }
