@@ -32,6 +32,12 @@ impl Explain for RotorInertia {
         down_to_zero(robot.links()[j].actuator.rotor_inertia)
     }
 
+    /// Whether a rotor is left: one that weighs nothing is what takes the place of another cause.
+    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
+        let Place::Joint(j) = place else { return false };
+        extended.links()[j].actuator.rotor_inertia > 0.0
+    }
+
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
         let (Place::Joint(j), [change]) = (place, weights) else { return };
         if let Some(link) = robot.link_mut(j) {
