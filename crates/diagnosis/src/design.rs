@@ -65,7 +65,7 @@ pub(crate) struct JointDesign {
     /// Measured effort (N·m or N); or what the first encoder reports beyond the position of the
     /// link (rad or m), in a design of that.
     pub measured: Vec<f64>,
-    /// What tones have in it, what became no torque and what second encoders have shown of it
+    /// What tones may have in it, what became no torque and what second encoders have shown of it
     /// (N·m or N); empty where there is none of these.
     pub known: Vec<f64>,
     /// The same as the nominal robot has it.

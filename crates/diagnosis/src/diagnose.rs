@@ -23,6 +23,10 @@ use crate::traces::RunTraces;
 /// Least width of the band in which tones are looked for, in cut-offs of the motion.
 const WIDE: f64 = 1.5;
 
+/// Times that tones are listened for, where any are heard: what a search without them takes for their
+/// cause hides some of them from the first.
+const LISTENINGS: usize = 2;
+
 /// A diagnosis and what goes with it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
@@ -83,26 +87,27 @@ pub fn diagnose(
     let limits = limits(about, &quiet)?;
     let quiet = Log { limits: &limits, ..quiet };
     let (mut sown, mut design) = tangents(about, &quiet)?;
-    let study = Study {
-        nominal: robot,
-        robot: &sown,
-        settings,
-        log: quiet,
-        design: &design,
-        inadequate: &inadequate,
-    };
-    let Heard { tones, ringing } = heard(&study, &runs)?;
-    warnings.extend(ringing.iter().map(|at| words_for_ringing(robot, *at)));
-    let log = Log { tones: &tones, ..quiet };
-    if !tones.is_empty() {
-        (sown, design) = tangents(about, &log)?;
+    let mut heard = Heard::default();
+    for _ in 0..LISTENINGS {
+        let log = Log { tones: &heard.tones, ..quiet };
+        let (robot, nominal, design_of, inadequate) = (&sown, robot, &design, &inadequate);
+        let study = Study { nominal, robot, settings, log, design: design_of, inadequate };
+        let now = listened(&study, &runs)?;
+        let is_quiet = now.tones.is_empty() && heard.tones.is_empty();
+        heard = now;
+        if is_quiet {
+            break;
+        }
+        (sown, design) = tangents(about, &Log { tones: &heard.tones, ..quiet })?;
     }
+    let Heard { tones, ringing } = heard;
+    warnings.extend(ringing.iter().map(|at| words_for_ringing(robot, *at)));
     progress.step();
     let study = Study {
         nominal: robot,
         robot: &sown,
         settings,
-        log,
+        log: Log { tones: &tones, ..quiet },
         design: &design,
         inadequate: &inadequate,
     };
@@ -129,8 +134,8 @@ fn tangents(robot: &Robot, log: &Log) -> Result<(Robot, Design), DiagnosisError>
     Ok((sown, design))
 }
 
-/// The oscillations in what a first search leaves, in a band much wider than the motion's.
-fn heard(study: &Study, runs: &[Run]) -> Result<Heard, DiagnosisError> {
+/// The oscillations in what a search leaves, in a band much wider than the motion's.
+fn listened(study: &Study, runs: &[Run]) -> Result<Heard, DiagnosisError> {
     let (prepared, settings) = (study.log.prepared, study.settings);
     let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
     let wide_hz = BAND * slowest;

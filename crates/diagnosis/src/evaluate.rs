@@ -1,6 +1,6 @@
 use effects::{Column, Encoders, Frame, Hypothesis, Motion};
 use logs::{LogError, LowPass, PreparedJoint, PreparedRun, decimate};
-use nalgebra::DMatrix;
+use nalgebra::{Complex, DMatrix};
 use rayon::prelude::*;
 use robot::Robot;
 
@@ -8,7 +8,7 @@ use crate::design::{JointDesign, RunDesign};
 use crate::left_over::LeftOver;
 use crate::limits::Limit;
 use crate::log::Look;
-use crate::tone::Tone;
+use crate::tone::{Beat, Tone};
 use crate::tones::Rest;
 
 /// Rate at which effects are evaluated, in cut-off frequencies: the harmonics that a sign
@@ -21,15 +21,26 @@ const REGRESSION_RATE: f64 = 2.5;
 /// Order of the low-pass filter, before it runs forward and backward.
 const ORDER: usize = 4;
 
+/// Least RMS value of a sine of size one behind the low-pass that is one in its band.
+const IN_BAND: f64 = 1e-4;
+
+/// A sine of size one along a run, behind the low-pass, at the rate of the regression.
+#[derive(Debug, Clone)]
+pub(crate) struct Wave {
+    /// `L exp(i rate (beat - origin))`
+    pub values: Vec<Complex<f64>>,
+    /// `L (beat - origin) exp(i rate (beat - origin))`
+    pub slopes: Vec<Complex<f64>>,
+}
+
 /// One run at the rate at which effects are evaluated, and how its signals are brought to that
 /// of the regression.
 pub(crate) struct Along<'a> {
     /// The motion about a robot.
     pub motion: Motion,
     run: &'a PreparedRun,
-    /// Index of the run.
-    index: usize,
-    tones: &'a [Tone],
+    /// `[joint][_][sample]`: an orthonormal basis of the tones there may be in the effort.
+    heard: Vec<Vec<Vec<f64>>>,
     limits: &'a [Limit],
     cutoff_hz: f64,
     low_pass: LowPass,
@@ -40,13 +51,13 @@ pub(crate) struct Along<'a> {
 }
 
 impl<'a> Along<'a> {
-    /// Evaluates `robot` along run `index`, whose efforts have tones in them and go beyond limits.
+    /// Evaluates `robot` along a run, whose efforts have tones in them and go beyond limits.
     pub fn new(
         robot: &Robot,
         frame: &Frame,
-        (index, run): (usize, &'a PreparedRun),
+        run: &'a PreparedRun,
         cutoff_hz: f64,
-        (tones, limits): (&'a [Tone], &'a [Limit]),
+        (tones, limits): (&[Tone], &'a [Limit]),
     ) -> Result<Self, LogError> {
         let first = stride(run.rate_hz, EVALUATION_RATE * cutoff_hz);
         let rate = run.rate_hz / first as f64;
@@ -65,7 +76,42 @@ impl<'a> Along<'a> {
         let motion = Motion::seen(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
-        Ok(Self { motion, run, index, tones, limits, cutoff_hz, low_pass, strides, rate_hz })
+        let heard = vec![Vec::new(); run.joints.len()];
+        let mut along = Self { motion, run, heard, limits, cutoff_hz, low_pass, strides, rate_hz };
+        for tone in tones {
+            along.hear(tone)?;
+        }
+        Ok(along)
+    }
+
+    /// Takes a tone into the basis of what is heard at its joint, if the band has any of it.
+    fn hear(&mut self, tone: &Tone) -> Result<(), LogError> {
+        let beat = match tone.beat {
+            Beat::Position(_) => &self.run.joints[tone.joint].wide.q,
+            Beat::Clock(_) => &self.run.time,
+        };
+        let phase = || beat.iter().map(|b| tone.beat.rate() * b);
+        for sine in [phase().map(f64::cos).collect(), phase().map(f64::sin).collect()] {
+            // The second time what the first leaves by rounding.
+            let sine = self.without_heard(tone.joint, self.thinned(sine)?);
+            let mut sine = self.without_heard(tone.joint, sine);
+            let norm = sine.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if norm > IN_BAND * (sine.len() as f64).sqrt() {
+                sine.iter_mut().for_each(|x| *x /= norm);
+                self.heard[tone.joint].push(sine);
+            }
+        }
+        Ok(())
+    }
+
+    /// A signal of the efforts at joint `j`, at the rate of the regression, without what tones may have
+    /// in it.
+    fn without_heard(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
+        for sine in &self.heard[j] {
+            let size: f64 = x.iter().zip(sine).map(|(x, s)| x * s).sum();
+            x.iter_mut().zip(sine).for_each(|(x, s)| *x -= size * s);
+        }
+        x
     }
 
     /// A signal of the motion, low-passed, at the rate of the regression.
@@ -74,10 +120,14 @@ impl<'a> Along<'a> {
         decimate(&x, self.strides[1])
     }
 
-    /// The columns of one effect, low-passed, at the rate of the regression.
+    /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
+    /// have in them: sizes of tones are fitted with those of all effects.
     pub fn finished(&self, columns: Vec<Column>) -> Vec<Column> {
         let filtered = |mut column: Column| {
-            column.iter_mut().for_each(|p| p.values = self.finish(std::mem::take(&mut p.values)));
+            for part in &mut column {
+                let values = self.finish(std::mem::take(&mut part.values));
+                part.values = self.without_heard(part.joint, values);
+            }
             column
         };
         columns.into_iter().map(filtered).collect()
@@ -109,36 +159,59 @@ impl<'a> Along<'a> {
         self.thinned(beyond)
     }
 
-    /// The tones in them and what became no torque; nothing where there is neither.
-    fn known(&self) -> Result<Vec<Vec<f64>>, LogError> {
-        let mut sum: Vec<Vec<f64>> = self.run.joints.iter().map(|j| vec![0.0; j.q.len()]).collect();
-        if self.tones.is_empty() && self.limits.is_empty() {
-            return Ok(vec![Vec::new(); sum.len()]);
-        }
+    /// What of them became no torque; nothing where all did.
+    fn beyond_limits(&self) -> Result<Vec<Vec<f64>>, LogError> {
+        let mut all = vec![Vec::new(); self.run.joints.len()];
         for limit in self.limits {
-            let values = self.effort(limit.joint).map(|effort| limit.beyond(effort));
-            sum[limit.joint].iter_mut().zip(values).for_each(|(sum, x)| *sum += x);
+            all[limit.joint] = self.beyond(limit)?;
         }
-        for tone in self.tones {
-            let samples = self.run.time.iter().zip(&self.run.joints[tone.joint].q);
-            let values = samples.map(|(t, q)| tone.effort(self.index, *t, *q));
-            sum[tone.joint].iter_mut().zip(values).for_each(|(sum, x)| *sum += x);
+        Ok(all)
+    }
+
+    /// The same with the tones there may be in what a robot leaves of the efforts.
+    fn known(&self, left: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LogError> {
+        let mut known = self.beyond_limits()?;
+        for (j, known) in known.iter_mut().enumerate().filter(|(j, _)| !self.heard[*j].is_empty()) {
+            known.resize(left[j].len(), 0.0);
+            let became_torque: Vec<f64> = left[j].iter().zip(&*known).map(|(x, k)| x - k).collect();
+            let rest = self.without_heard(j, became_torque);
+            *known = left[j].iter().zip(rest).map(|(x, rest)| x - rest).collect();
         }
-        self.all_thinned(sum)
+        Ok(known)
+    }
+
+    /// The sine of a beat at joint `j`, its phase none at `origin`.
+    pub fn wave(&self, j: usize, beat: Beat, origin: f64) -> Wave {
+        let along: Vec<f64> = match beat {
+            Beat::Position(_) => self.motion.q[j].clone(),
+            Beat::Clock(_) => decimate(&self.run.time, self.strides[0]),
+        };
+        let (mut values, mut slopes) = (Vec::new(), Vec::new());
+        for b in along {
+            let value = Complex::cis(beat.rate() * (b - origin));
+            values.push(value);
+            slopes.push(value * (b - origin));
+        }
+        let finish = |z: Vec<Complex<f64>>| -> Vec<Complex<f64>> {
+            let part = |part: fn(&Complex<f64>) -> f64| self.finish(z.iter().map(part).collect());
+            let parts = part(|z| z.re).into_iter().zip(part(|z| z.im));
+            parts.map(|(re, im)| Complex::new(re, im)).collect()
+        };
+        Wave { values: finish(values), slopes: finish(slopes) }
     }
 
     /// What the robot leaves of the efforts that became torque.
     pub fn left_over(&self) -> Result<LeftOver, LogError> {
         let measured = self.measured()?;
         let mut left = self.left(&measured);
-        for (left, known) in left.iter_mut().zip(self.known()?) {
-            left.iter_mut().zip(known).for_each(|(left, known)| *left -= known);
+        for (left, beyond) in left.iter_mut().zip(self.beyond_limits()?) {
+            left.iter_mut().zip(beyond).for_each(|(left, beyond)| *left -= beyond);
         }
         Ok(LeftOver { measured, left })
     }
 
     /// What the robot leaves of the efforts, with the positions and speeds of the motors.
-    pub fn rest(&self) -> Result<Rest, LogError> {
+    pub fn rest(self) -> Result<Rest<'a>, LogError> {
         let [first, second] = self.strides;
         let thin = |x: &Vec<Vec<f64>>| x.iter().map(|x| decimate(x, second)).collect();
         Ok(Rest {
@@ -146,14 +219,14 @@ impl<'a> Along<'a> {
             q: thin(&self.motion.q),
             qd: thin(&self.motion.qd),
             left: self.left(&self.measured()?),
+            along: self,
         })
     }
 
     /// `measured` less the efforts of the robot.
     fn left(&self, measured: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let expected = self.motion.effort.iter().map(|e| self.finish(e.clone()));
-        let less = |(m, e): (&Vec<f64>, Vec<f64>)| m.iter().zip(e).map(|(m, e)| m - e).collect();
-        measured.iter().zip(expected).map(less).collect()
+        less(measured, &expected.collect::<Vec<_>>())
     }
 
     /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects
@@ -199,13 +272,18 @@ impl Evaluated {
             Look::Effort => along.finished(h.columns(motion)),
             Look::Twist => along.finished(h.twist(motion)),
         };
-        let (measured, known) = match look {
-            Look::Effort => (along.measured()?, along.known()?),
-            Look::Twist => (along.twists()?, vec![Vec::new(); joints]),
-        };
         let nominal = |j: usize| match look {
             Look::Effort => along.finish(motion.effort[j].clone()),
             Look::Twist => along.finish(motion.twist(j)),
+        };
+        let nominal: Vec<Vec<f64>> = (0..joints).map(nominal).collect();
+        let (measured, known) = match look {
+            Look::Effort => {
+                let measured = along.measured()?;
+                let known = along.known(&less(&measured, &nominal))?;
+                (measured, known)
+            }
+            Look::Twist => (along.twists()?, vec![Vec::new(); joints]),
         };
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
@@ -214,7 +292,7 @@ impl Evaluated {
             time: decimate(&decimate(&along.run.time, first), second),
             measured,
             known,
-            nominal: (0..joints).map(nominal).collect(),
+            nominal,
             state: [&motion.q, &motion.qd, &motion.qdd]
                 .map(|s| s.iter().map(|x| decimate(x, second)).collect()),
         })
@@ -253,6 +331,12 @@ impl Evaluated {
         let joints = (0..local.len()).map(joint).collect();
         RunDesign { name: self.name.clone(), time: self.time.clone(), joints }
     }
+}
+
+/// The signals of all joints less others.
+fn less(from: &[Vec<f64>], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let less = |(x, y): (&Vec<f64>, &Vec<f64>)| x.iter().zip(y).map(|(x, y)| x - y).collect();
+    from.iter().zip(others).map(less).collect()
 }
 
 fn stride(rate: f64, wanted: f64) -> usize {

@@ -51,7 +51,7 @@ mod tests {
     fn heard(lines: &[(Beat, f64)]) -> (Vec<Beat>, Vec<f64>) {
         let line = |&(beat, amplitude): &(Beat, f64)| {
             let z = vec![Complex::from_polar(amplitude, 0.3); 2];
-            Tone { joint: 4, beat, z, error: [0.0; 2], stands_out: 0.0, share: 0.0 }
+            Tone { joint: 4, beat, z, error: [0.0; 3], stands_out: 0.0, share: 0.0 }
         };
         let mut heard = Heard::default();
         heard.take(lines.iter().map(line).collect());

@@ -44,7 +44,7 @@ pub fn left_over(
         let along = Along::new(robot, &frame, run, logs.cutoff_hz, (&[], &limits))?;
         along.left_over()
     };
-    logs.runs.iter().enumerate().map(of).collect()
+    logs.runs.iter().map(of).collect()
 }
 
 /// The limits that a description states of drives whose efforts are commands.

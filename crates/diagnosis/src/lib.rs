@@ -52,6 +52,7 @@ mod structure;
 mod study;
 mod tone;
 mod tone_finding;
+mod tone_fit;
 mod tones;
 mod traces;
 mod uncertainty;

@@ -66,7 +66,7 @@ impl<'a> Log<'a> {
 
     /// Evaluates `robot` along every run.
     pub fn along(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
-        let runs = self.prepared.runs.iter().enumerate();
+        let runs = self.prepared.runs.iter();
         runs.map(|run| {
             Along::new(robot, frame, run, self.prepared.cutoff_hz, (self.tones, self.limits))
         })

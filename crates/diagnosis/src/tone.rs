@@ -27,12 +27,22 @@ pub(crate) struct Tone {
     pub beat: Beat,
     /// `z` of every run (N·m or N): the same in all for a tone that follows the position.
     pub z: Vec<Complex<f64>>,
-    /// Standard error of the amplitude (N·m or N) and of the beat.
-    pub error: [f64; 2],
+    /// Standard error of the mean amplitude (N·m or N), of the beat and of the phase at beat zero (rad).
+    pub error: [f64; 3],
     /// Least power over that of the spectrum around it, in any run.
     pub stands_out: f64,
     /// Share of what was left at the joint, over the whole band, that is this tone.
     pub share: f64,
+}
+
+impl Beat {
+    /// Phase per unit (1 or rad/m; rad/s).
+    pub fn rate(self) -> f64 {
+        match self {
+            Self::Position(periods) => periods,
+            Self::Clock(frequency_hz) => TAU * frequency_hz,
+        }
+    }
 }
 
 impl Tone {
@@ -43,19 +53,6 @@ impl Tone {
             Beat::Clock(_) => EffectKind::ExternalDisturbance,
         };
         Hypothesis { kind, place: Place::Joint(self.joint) }
-    }
-
-    /// Its effort in run `r` (N·m or N) at time `t` (s) and motor position `q` (rad or m).
-    pub fn effort(&self, r: usize, t: f64, q: f64) -> f64 {
-        (self.z[r] * Complex::cis(self.phase(t, q))).re
-    }
-
-    /// The phase of its beat (rad).
-    pub fn phase(&self, t: f64, q: f64) -> f64 {
-        match self.beat {
-            Beat::Position(periods) => periods * q,
-            Beat::Clock(frequency_hz) => TAU * frequency_hz * t,
-        }
     }
 
     /// Mean amplitude over the runs (N·m or N).
@@ -76,7 +73,8 @@ impl Tone {
         // Re(z e^(i x)) = |z| sin(x + arg(z) + pi / 2)
         let phase = (sign * unit * Complex::i()).arg();
         const ALIKE: f64 = 0.95;
-        (alike > ALIKE).then(|| (phase, self.error[0] / self.amplitude().max(f64::MIN_POSITIVE)))
+        let [_, _, error] = self.error;
+        (alike > ALIKE).then_some((phase, error))
     }
 
     /// Gives the drive of the joint the ripple; a disturbance is no part of a robot.
@@ -95,9 +93,14 @@ impl Tone {
 mod tests {
     use super::*;
 
+    /// `Re(z exp(i rate beat))`
+    fn effort(tone: &Tone, beat: f64) -> f64 {
+        (tone.z[0] * Complex::cis(tone.beat.rate() * beat)).re
+    }
+
     fn tone(beat: Beat, z: Complex<f64>) -> Tone {
         let z = vec![z; 2];
-        Tone { joint: 0, beat, z, error: [0.0; 2], stands_out: 0.0, share: 0.0 }
+        Tone { joint: 0, beat, z, error: [0.0; 3], stands_out: 0.0, share: 0.0 }
     }
 
     #[test]
@@ -107,12 +110,12 @@ mod tests {
         let phase = ripple.sine_phase().unwrap().0;
         for q in [-0.3, 0.0, 1.1] {
             let expected = amplitude * (30.0 * q + phase).sin();
-            assert!((ripple.effort(1, 9.0, q) - expected).abs() < 1e-12);
+            assert!((effort(&ripple, q) - expected).abs() < 1e-12);
         }
         let hum = tone(Beat::Clock(2.5), z);
         let phase = hum.sine_phase().unwrap().0;
         let expected = -amplitude * (TAU * 2.5 * 0.37 + phase).sin();
-        assert!((hum.effort(0, 0.37, 5.0) - expected).abs() < 1e-12);
+        assert!((effort(&hum, 0.37) - expected).abs() < 1e-12);
     }
 
     #[test]

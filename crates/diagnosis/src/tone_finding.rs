@@ -53,10 +53,7 @@ fn parameters(robot: &Robot, tone: &Tone) -> Vec<Estimate> {
     let kind = tone.hypothesis().kind;
     let rotation = robot.links()[tone.joint].joint.kind.is_rotation();
     let ripple = robot.links()[tone.joint].actuator.ripple;
-    let beat = match tone.beat {
-        Beat::Position(periods) => periods,
-        Beat::Clock(frequency_hz) => frequency_hz,
-    };
+    let (Beat::Position(beat) | Beat::Clock(beat)) = tone.beat;
     let of = |parameter: &Parameter, value: f64, error: f64, nominal: f64| Estimate {
         name: parameter.name,
         value,
@@ -66,7 +63,7 @@ fn parameters(robot: &Robot, tone: &Tone) -> Vec<Estimate> {
         determined: true,
     };
     let all = kind.entry().parameters;
-    let [of_amplitude, of_beat] = tone.error;
+    let [of_amplitude, of_beat, _] = tone.error;
     let mut estimates = vec![
         of(&all[0], tone.amplitude(), of_amplitude, ripple.map_or(0.0, |r| r.amplitude)),
         of(&all[1], beat, of_beat, f64::INFINITY),

@@ -12,6 +12,7 @@ use crate::evaluate::Along;
 use crate::heard::Heard;
 use crate::log::Log;
 use crate::tone::{Beat, Tone};
+use crate::tone_fit::{Coherence, Sampled, ToneFit};
 
 /// Cut-off of the band in which tones are looked for, as a share of the sampling rate.
 pub(crate) const BAND: f64 = 0.1;
@@ -69,11 +70,16 @@ const MOST: usize = 3;
 /// Zeros that are added to a run before its spectrum is taken, in lengths of the longest.
 const PADDED: usize = 4;
 
+/// Values on either side of a line that are just beside it: eight times its width.
+const BESIDE: usize = 32;
+
 /// Frequencies whose median is the power around them.
 const AROUND: usize = 200;
 
 /// What a robot leaves of one run, in the wide band.
-pub(crate) struct Rest {
+pub(crate) struct Rest<'a> {
+    /// The run about the robot.
+    pub along: Along<'a>,
     /// Time (s).
     pub time: Vec<f64>,
     /// `[joint][sample]`: position and velocity of the motors, effort that is left.
@@ -93,11 +99,8 @@ pub(crate) fn tones(
     frame: &Frame,
     (log, slowest_hz): (&Log, f64),
 ) -> Result<Heard, LogError> {
-    let rest = |(r, run)| -> Result<Rest, LogError> {
-        let along = Along::new(robot, frame, (r, run), wide.cutoff_hz, (&[], log.limits))?;
-        along.rest()
-    };
-    let runs: Vec<Rest> = wide.runs.iter().enumerate().map(rest).collect::<Result<_, _>>()?;
+    let rest = |run| Along::new(robot, frame, run, wide.cutoff_hz, (&[], log.limits))?.rest();
+    let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
     let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
     let at = |j: usize| {
         if log.moved[j] { at_joint(&runs, j, bands_hz) } else { Vec::new() }
@@ -112,14 +115,22 @@ pub(crate) fn tones(
     Ok(heard)
 }
 
-/// One joint: its residual in every run, and the phase per unit of beat.
+/// What the tones of a joint may keep time with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Follows {
+    Position,
+    Clock,
+}
+
+/// One joint: its residual in every run, and what keeps time with it.
 struct Joint<'a> {
-    /// `[run][sample]`: what keeps time (s; or rad or m).
-    beat: Vec<&'a [f64]>,
+    index: usize,
+    follows: Follows,
+    runs: &'a [Rest<'a>],
     /// `[run][sample]`.
     left: &'a [Vec<f64>],
     /// `[run][sample]`: the highest value of the beat (rad per unit) at which a sample counts.
-    highest: Vec<Vec<f64>>,
+    highest: &'a [Vec<f64>],
 }
 
 fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3]) -> Vec<Tone> {
@@ -127,46 +138,33 @@ fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3])
     let highest = TAU * HIGHEST * cutoff_hz;
     let by_speed = |run: &Rest| run.qd[j].iter().map(|v| highest / v.abs().max(1e-9)).collect();
     let by_speed: Vec<Vec<f64>> = runs.iter().map(by_speed).collect();
+    let anywhere: Vec<Vec<f64>> = runs.iter().map(|r| vec![highest; r.time.len()]).collect();
+    let slowest_hz = slowest_hz.max(LOWEST_HZ);
     let mut tones: Vec<Tone> = Vec::new();
     while tones.len() < MOST {
-        let clock = Joint {
-            beat: runs.iter().map(|r| r.time.as_slice()).collect(),
-            left: &left,
-            highest: runs.iter().map(|r| vec![highest; r.time.len()]).collect(),
-        };
-        let position = Joint {
-            beat: runs.iter().map(|r| r.q[j].as_slice()).collect(),
-            left: &left,
-            highest: by_speed.clone(),
-        };
-        let slowest_hz = slowest_hz.max(LOWEST_HZ);
-        let line = |band_hz: [f64; 2]| {
-            clock.found(j, Coherence::EachRun(cutoff_hz), |clock| clock.lines(band_hz))
-        };
+        let of = |follows, highest| Joint { index: j, follows, runs, left: &left, highest };
+        let (clock, position) = (of(Follows::Clock, &anywhere), of(Follows::Position, &by_speed));
+        let line = |band_hz: [f64; 2]| clock.found(|clock| clock.lines(band_hz));
         let found = [
-            position.found(j, Coherence::AllRuns, |position| position.waves()),
+            position.found(|position| position.waves()),
             line([slowest_hz, HIGHEST * cutoff_hz])
-                .filter(|tone| is_much_of_its_band(tone, &clock, runs, band_hz)),
-            line([LOWEST_HZ, slowest_hz])
-                .filter(|tone| is_no_motion(tone, &clock, runs, slowest_hz)),
+                .filter(|tone| is_much_of_its_band(tone, &clock, band_hz)),
+            line([LOWEST_HZ, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, slowest_hz)),
         ];
         let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
         let Some(tone) = strongest else { break };
-        left = match tone.beat {
-            Beat::Position(_) => position.without(&tone),
-            Beat::Clock(_) => clock.without(&tone),
-        };
+        left = clock.without(&tone);
         tones.push(tone);
     }
     tones
 }
 
 /// Whether a tone is faster than the band of the diagnosis, or much of what is left in it.
-fn is_much_of_its_band(tone: &Tone, clock: &Joint, runs: &[Rest], band_hz: f64) -> bool {
+fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
     let power = |left: &[Vec<f64>]| -> f64 {
         let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, band_hz);
-        left.iter().zip(runs).flat_map(of).map(|x| x * x).sum()
+        left.iter().zip(clock.runs).flat_map(of).map(|x| x * x).sum()
     };
     frequency_hz > band_hz
         || power(&clock.without(tone)) < (1.0 - SHARE_IN_BAND) * power(clock.left)
@@ -174,8 +172,9 @@ fn is_much_of_its_band(tone: &Tone, clock: &Joint, runs: &[Rest], band_hz: f64) 
 
 /// Whether a tone is most of what is left wherever one looks, and no motion: some of the time no joint
 /// has much of its speed at its frequency.
-fn is_no_motion(tone: &Tone, clock: &Joint, runs: &[Rest], slowest_hz: f64) -> bool {
+fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
+    let runs = clock.runs;
     let slow = |left: &[Vec<f64>]| -> Vec<Vec<f64>> {
         let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, SLOW_BAND * slowest_hz);
         left.iter().zip(runs).map(of).collect()
@@ -245,46 +244,42 @@ struct Line {
     power: Vec<f64>,
 }
 
-/// In what a tone has one phase.
-#[derive(Debug, Clone, Copy)]
-enum Coherence {
-    AllRuns,
-    /// With the cut-off (Hz) that has weakened it.
-    EachRun(f64),
-}
-
 impl Joint<'_> {
+    /// What keeps time in run `r` (s; or rad or m).
+    fn beat(&self, r: usize) -> &[f64] {
+        match self.follows {
+            Follows::Position => &self.runs[r].q[self.index],
+            Follows::Clock => &self.runs[r].time,
+        }
+    }
+
     /// The tone of the strongest line of a spectrum, where it stands out in every run from what
     /// is left without it: the line itself is wide, over position above all.
-    fn found(
-        &self,
-        joint: usize,
-        coherence: Coherence,
-        spectrum: impl Fn(&Joint) -> Option<Spectrum>,
-    ) -> Option<Tone> {
+    fn found(&self, spectrum: impl Fn(&Joint) -> Option<Spectrum>) -> Option<Tone> {
         let line = spectrum(self)?.line()?;
-        let mut tone = self.tone(joint, &line, coherence)?;
+        let mut tone = self.tone(&line)?;
         let left = self.without(&tone);
-        let without = Joint { beat: self.beat.clone(), left: &left, highest: self.highest.clone() };
-        let around: Vec<f64> = spectrum(&without)?.around(line.index)?;
+        let rest = spectrum(&Joint { left: &left, ..*self })?;
+        let around: Vec<f64> = rest.around(line.index)?;
         let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
         tone.stands_out = ratios.fold(f64::INFINITY, f64::min);
-        tone.error = self.errors(&tone, &around, line.at);
+        tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
         let least = if self.left.len() < 3 { STANDS_OUT_IN_FEW } else { STANDS_OUT };
         (tone.stands_out > least).then_some(tone)
     }
 
     /// What is left without a tone, `[run][sample]`.
     fn without(&self, tone: &Tone) -> Vec<Vec<f64>> {
-        let of = |(r, (left, beat)): (usize, (&Vec<f64>, &&[f64]))| {
-            left.iter().zip(*beat).map(|(x, b)| x - tone.effort(r, *b, *b)).collect()
+        let of = |(r, left): (usize, &Vec<f64>)| {
+            let wave = self.runs[r].along.wave(self.index, tone.beat, 0.0);
+            left.iter().zip(wave.values).map(|(x, sine)| x - (tone.z[r] * sine).re).collect()
         };
-        self.left.iter().zip(&self.beat).enumerate().map(of).collect()
+        self.left.iter().enumerate().map(of).collect()
     }
 
     /// The spectra over position.
     fn waves(&self) -> Option<Spectrum> {
-        let all = || self.beat.iter().flat_map(|q| q.iter().copied());
+        let all = || (0..self.runs.len()).flat_map(|r| self.beat(r).iter().copied());
         let (low, high) =
             all().fold((f64::INFINITY, -f64::INFINITY), |(l, h), q| (l.min(q), h.max(q)));
         let wave = TAU / (high - low);
@@ -306,7 +301,8 @@ impl Joint<'_> {
     fn scan(&self, r: usize, first: f64, step: f64, count: usize) -> Vec<f64> {
         let mut order: Vec<usize> = (0..self.left[r].len()).collect();
         order.sort_by(|&a, &b| self.highest[r][b].total_cmp(&self.highest[r][a]));
-        let signal = |at: f64| order.iter().map(move |&t| Complex::cis(-at * self.beat[r][t]));
+        let beat = self.beat(r);
+        let signal = |at: f64| order.iter().map(move |&t| Complex::cis(-at * beat[t]));
         let turns: Vec<Complex<f64>> = signal(step).collect();
         let mut now: Vec<Complex<f64>> =
             signal(first).zip(&order).map(|(z, &t)| z * self.left[r][t]).collect();
@@ -329,7 +325,7 @@ impl Joint<'_> {
     fn lines(&self, [lowest_hz, highest_hz]: [f64; 2]) -> Option<Spectrum> {
         let longest = self.left.iter().map(Vec::len).max()?;
         let size = (PADDED * longest).next_power_of_two();
-        let times = self.beat.iter().max_by_key(|t| t.len())?;
+        let times = self.runs.iter().map(|run| &run.time).max_by_key(|t| t.len())?;
         let period_s = (times.last()? - times.first()?) / (longest.saturating_sub(1)) as f64;
         let step = (size as f64 * period_s).recip();
         if !step.is_finite() {
@@ -349,76 +345,90 @@ impl Joint<'_> {
         Some(Spectrum { powers, first: TAU * first as f64 * step, step: TAU * step })
     }
 
-    /// The tone of a line, if it is one: with its beat refined, even over the runs, and large
-    /// enough.
-    fn tone(&self, joint: usize, line: &Line, coherence: Coherence) -> Option<Tone> {
-        let power = |at: f64| {
-            let sums = (0..self.left.len()).map(|r| self.sum(r, at));
-            match coherence {
-                Coherence::AllRuns => sums.map(|(z, _)| z).sum::<Complex<f64>>().norm_sqr(),
-                Coherence::EachRun(_) => sums.map(|(z, _)| z.norm_sqr()).sum(),
+    /// The tone of a line, if it is one: fitted, even over the runs, and large enough; its errors are
+    /// those of noise of variance one.
+    fn tone(&self, line: &Line) -> Option<Tone> {
+        let runs = 0..self.left.len();
+        let power = |at: f64| -> f64 {
+            let sums = runs.clone().map(|r| self.sum(r, at));
+            match self.follows {
+                Follows::Position => sums.map(|(z, _)| z).sum::<Complex<f64>>().norm_sqr(),
+                Follows::Clock => sums.map(|(z, _)| z.norm_sqr()).sum(),
             }
         };
         let (mut at, mut step) = (line.at, line.step);
-        for _ in 0..3 {
+        for _ in 0..2 {
             let near = (-10..=10).map(|k| at + 0.1 * f64::from(k) * step);
             at = near.max_by(|a, b| power(*a).total_cmp(&power(*b)))?;
             step *= 0.1;
         }
-        let sums: Vec<(Complex<f64>, usize)> =
-            (0..self.left.len()).map(|r| self.sum(r, at)).collect();
-        let each: Vec<Complex<f64>> =
-            sums.iter().map(|(z, n)| 2.0 * z / (*n).max(1) as f64).collect();
-        let count: usize = sums.iter().map(|(_, n)| n).sum();
-        let together = 2.0 * sums.iter().map(|(z, _)| z).sum::<Complex<f64>>() / count as f64;
-        let sizes = || each.iter().map(|z| z.norm());
-        let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
-        let (z, beat) = match coherence {
-            Coherence::AllRuns => (vec![together; each.len()], Beat::Position(at)),
-            Coherence::EachRun(cutoff_hz) => {
-                let hz = at / TAU;
-                let weakened = 1.0 + (hz / cutoff_hz).powi(8);
-                (each.iter().map(|z| z * weakened).collect(), Beat::Clock(hz))
-            }
-        };
-        let mut tone = Tone { joint, beat, z, error: [0.0; 2], stands_out: 0.0, share: 0.0 };
+        let sums = runs.map(|r| self.sum(r, at));
+        let sizes: Vec<(f64, usize)> =
+            sums.map(|(z, n)| (2.0 * z.norm() / n.max(1) as f64, n)).collect();
+        let (least, most) =
+            sizes.iter().fold((f64::INFINITY, 0.0), |(l, m), (z, _)| (z.min(l), z.max(m)));
+        let expected: f64 = sizes.iter().map(|(z, n)| 0.5 * z * z * *n as f64).sum();
+        if most > EVEN * least || expected < 0.5 * SHARE * power_of(self.left) {
+            return None;
+        }
+        let mut tone = self.fitted(at, step)?;
         // A tone of one phase that differs from run to run keeps time with something else.
-        let even = most < EVEN * least && tone.amplitude() > least / EVEN;
-        tone.share = self.share(&tone);
+        let even = tone.amplitude() > least / EVEN;
+        tone.share = 1.0 - power_of(&self.without(&tone)) / power_of(self.left);
         (even && tone.share > SHARE).then_some(tone)
+    }
+
+    /// The tone near a value of the beat (rad per unit), by least squares.
+    fn fitted(&self, at: f64, step: f64) -> Option<Tone> {
+        let highest = self.highest.iter();
+        let counts: Vec<Vec<bool>> =
+            highest.map(|run| run.iter().map(|highest| *highest >= at).collect()).collect();
+        let counted = |r: usize| {
+            let samples = self.beat(r).iter().zip(&counts[r]).filter(|(_, counts)| **counts);
+            samples.fold((0.0, 0), |(sum, n), (beat, _)| (sum + beat, n + 1))
+        };
+        let own = |(sum, n): (f64, usize)| sum / n.max(1) as f64;
+        let each: Vec<(f64, usize)> = (0..self.left.len()).map(counted).collect();
+        let all = own(each.iter().fold((0.0, 0), |a, b| (a.0 + b.0, a.1 + b.1)));
+        let sampled = |r: usize| Sampled {
+            left: &self.left[r],
+            counts: &counts[r],
+            origin: match self.follows {
+                Follows::Position => all,
+                Follows::Clock => own(each[r]),
+            },
+        };
+        let (coherence, per_unit) = match self.follows {
+            Follows::Position => (Coherence::AllRuns, 1.0),
+            Follows::Clock => (Coherence::EachRun, TAU),
+        };
+        let beat = |at: f64| match self.follows {
+            Follows::Position => Beat::Position(at),
+            Follows::Clock => Beat::Clock(at / TAU),
+        };
+        let sampled: Vec<Sampled> = (0..self.left.len()).map(sampled).collect();
+        let wave =
+            |r: usize, at: f64, origin: f64| self.runs[r].along.wave(self.index, beat(at), origin);
+        let fit = ToneFit::new(&sampled, coherence, [at, step], wave)?;
+        let [of_amplitude, of_beat, of_phase] = fit.variances.map(f64::sqrt);
+        let error = [of_amplitude, of_beat / per_unit, of_phase];
+        let beat = beat(fit.at);
+        Some(Tone { joint: self.index, beat, z: fit.z, error, stands_out: 0.0, share: 0.0 })
     }
 
     /// `sum r exp(-i at beat)` of one run over the samples that count, and their number.
     fn sum(&self, r: usize, at: f64) -> (Complex<f64>, usize) {
-        let samples = self.left[r].iter().zip(self.beat[r]).zip(&self.highest[r]);
+        let samples = self.left[r].iter().zip(self.beat(r)).zip(&self.highest[r]);
         let counted = samples.filter(|(_, highest)| **highest >= at);
         counted.fold((Complex::new(0.0, 0.0), 0), |(sum, n), ((x, beat), _)| {
             (sum + Complex::cis(-at * beat) * *x, n + 1)
         })
     }
+}
 
-    /// Standard errors of amplitude and beat, from the power around the line: with `n` samples
-    /// of variance `B`, `sqrt(2 B / n)` and `sqrt(2 B / sum (beat - mean)^2) / amplitude`.
-    fn errors(&self, tone: &Tone, around: &[f64], at: f64) -> [f64; 2] {
-        let around = around.iter().sum::<f64>() / around.len().max(1) as f64;
-        let (mut count, mut spread) = (0.0, 0.0);
-        for (beat, highest) in self.beat.iter().zip(&self.highest) {
-            let counted = || beat.iter().zip(highest).filter(|(_, h)| **h >= at).map(|(b, _)| *b);
-            let n = counted().count() as f64;
-            let mean = counted().sum::<f64>() / f64::max(n, 1.0);
-            count += n;
-            spread += counted().map(|b| (b - mean).powi(2)).sum::<f64>();
-        }
-        let of_beat = (2.0 * around / spread).sqrt() / tone.amplitude();
-        let per_unit = if matches!(tone.beat, Beat::Clock(_)) { TAU } else { 1.0 };
-        [(2.0 * around / f64::max(count, 1.0)).sqrt(), of_beat / per_unit]
-    }
-
-    /// Share of the power of what is left that goes with the tone.
-    fn share(&self, tone: &Tone) -> f64 {
-        let power = |left: &[Vec<f64>]| left.iter().flatten().map(|x| x * x).sum::<f64>();
-        1.0 - power(&self.without(tone)) / power(self.left).max(f64::MIN_POSITIVE)
-    }
+/// Sum of squares over all runs.
+fn power_of(left: &[Vec<f64>]) -> f64 {
+    left.iter().flatten().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 impl Spectrum {
@@ -437,6 +447,16 @@ impl Spectrum {
         let index = (0..length).max_by(|&a, &b| least(a).total_cmp(&least(b)))?;
         let (at, step) = (self.first + index as f64 * self.step, self.step);
         Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
+    }
+
+    /// Variance of the white noise that has the power just beside a value, or around it if that is more:
+    /// what of a strong tone is no sine lies there.
+    fn beside(&self, index: usize, around: &[f64]) -> f64 {
+        let of = |(power, around): (&Vec<f64>, &f64)| {
+            let near = &power[index.saturating_sub(BESIDE)..(index + BESIDE + 1).min(power.len())];
+            around.max(near.iter().sum::<f64>() / near.len() as f64)
+        };
+        self.powers.iter().zip(around).map(of).sum::<f64>() / around.len().max(1) as f64
     }
 
     /// The power around a value in every run.
