@@ -85,8 +85,10 @@ fn each_effect_is_hidden_once_with_and_once_without_being_looked_for() {
     assert_eq!(all.len(), 2 + 2 * effects);
     assert!(all.contains(&"without_backlash".to_owned()));
     assert!(!drawn.contains("from"), "{drawn}");
-    let (some, drawn) = kinds("hidden = ['each', 'without_each']\nexcept = ['backlash']");
-    assert_eq!(some.len(), 2 * (effects - 1));
+    let (some, drawn) =
+        kinds("hidden = ['each', 'without_each', 'strange_each']\nexcept = ['backlash']");
+    assert_eq!(some.len(), 3 * (effects - 1));
+    assert!(some.contains(&"strange_payload".to_owned()));
     assert!(!some.iter().any(|kind| kind.contains("backlash")));
     assert!(drawn.contains("payload") && !drawn.contains("backlash"), "{drawn}");
 }

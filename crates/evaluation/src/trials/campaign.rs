@@ -15,6 +15,8 @@ use crate::EvaluationError;
 const EACH: &str = "each";
 /// The same, each left out of the diagnosis.
 const WITHOUT_EACH: &str = "without_each";
+/// The same, with all that it is confused with.
+const STRANGE_EACH: &str = "strange_each";
 /// Most trials of a kind.
 const MOST_SEEDS: usize = 1_000_000;
 
@@ -27,10 +29,11 @@ pub struct CampaignSpec {
     pub scenario: PathBuf,
     /// What is hidden, kind by kind: `clean`; an effect, or `each` for every one of the catalogue;
     /// two with a plus between them, or `any+any`; `without_` and an effect, or `without_each`,
-    /// for one that the diagnosis does not look for.
+    /// for one that the diagnosis does not look for; `strange_` and an effect, or `strange_each`,
+    /// for one of which it looks for nothing that it is confused with either.
     #[schemars(schema_with = "names_of_kinds")]
     pub hidden: Vec<String>,
-    /// Effects that `each`, `without_each` and `any+any` leave out.
+    /// Effects that `each`, `without_each`, `strange_each` and `any+any` leave out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(schema_with = "names_of_effects")]
     pub except: Vec<EffectKind>,
@@ -52,7 +55,7 @@ fn names_of_kinds(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names = names();
     let name = schemars::json_schema!({ "type": "string", "enum": names });
     let two = schemars::json_schema!({ "type": "string", "pattern": "^[^+]+[+][^+]+$" });
-    let unknown = schemars::json_schema!({ "type": "string", "pattern": "^without_.+$" });
+    let unknown = schemars::json_schema!({ "type": "string", "pattern": "^(without|strange)_.+$" });
     schemars::json_schema!({ "type": "array", "items": { "anyOf": [name, two, unknown] } })
 }
 
@@ -62,7 +65,8 @@ fn names_of_effects(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
 }
 
 fn names() -> Vec<&'static str> {
-    ["clean", EACH, WITHOUT_EACH].into_iter().chain(EffectKind::ALL.map(EffectKind::name)).collect()
+    let several = ["clean", EACH, WITHOUT_EACH, STRANGE_EACH];
+    several.into_iter().chain(EffectKind::ALL.map(EffectKind::name)).collect()
 }
 
 /// A campaign whose every value can be meant.
@@ -174,6 +178,7 @@ fn kinds(document: &Document, spec: &CampaignSpec) -> Result<Vec<Hidden>, Docume
         let named: Vec<Hidden> = match name.as_str() {
             EACH => each(Hidden::One),
             WITHOUT_EACH => each(Hidden::Unknown),
+            STRANGE_EACH => each(Hidden::Strange),
             name => {
                 let unknown = |_| document.unknown_name(&path, "kind of trial", name, &names());
                 vec![name.parse::<Hidden>().map_err(unknown)?.sorted()]

@@ -12,6 +12,9 @@ pub enum Hidden {
     One(EffectKind),
     /// One effect of a kind that the diagnosis does not look for: to it, something unknown.
     Unknown(EffectKind),
+    /// The same, and what the catalogue says it is confused with is not looked for either: nothing that is
+    /// looked for is like it.
+    Strange(EffectKind),
     /// Two effects, each drawn from the two kinds: it may be one kind at two places.
     Two(EffectKind, EffectKind),
     /// Two effects of any kinds that the scenario draws from.
@@ -20,6 +23,7 @@ pub enum Hidden {
 
 const CLEAN: &str = "clean";
 const UNKNOWN: &str = "without_";
+const STRANGE: &str = "strange_";
 const ANY_TWO: &str = "any+any";
 
 impl Hidden {
@@ -28,7 +32,7 @@ impl Hidden {
         let drawn = match self {
             Self::Nothing => return vec!["hidden.count=[0, 0]".to_owned()],
             Self::AnyTwo => return vec!["hidden.count=[2, 2]".to_owned()],
-            Self::One(kind) | Self::Unknown(kind) => vec![kind],
+            Self::One(kind) | Self::Unknown(kind) | Self::Strange(kind) => vec![kind],
             Self::Two(a, b) => vec![a, b],
         };
         let (count, names) = (drawn.len(), drawn.iter().map(|kind| format!("'{kind}'")));
@@ -43,6 +47,9 @@ impl Hidden {
     pub(super) fn without(self) -> Vec<EffectKind> {
         match self {
             Self::Unknown(kind) => vec![kind],
+            Self::Strange(kind) => {
+                std::iter::once(kind).chain(kind.entry().confused_with.iter().copied()).collect()
+            }
             _ => Vec::new(),
         }
     }
@@ -56,14 +63,15 @@ impl Hidden {
     }
 }
 
-/// Such as `clean`, `backlash`, `without_backlash`, `backlash+payload` and `any+any`: the folder of
-/// its trials.
+/// Such as `clean`, `backlash`, `without_backlash`, `strange_backlash`, `backlash+payload` and
+/// `any+any`: the folder of its trials.
 impl fmt::Display for Hidden {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Nothing => f.write_str(CLEAN),
             Self::AnyTwo => f.write_str(ANY_TWO),
             Self::Unknown(kind) => write!(f, "{UNKNOWN}{kind}"),
+            Self::Strange(kind) => write!(f, "{STRANGE}{kind}"),
             Self::One(kind) => write!(f, "{kind}"),
             Self::Two(a, b) => write!(f, "{a}+{b}"),
         }
@@ -77,9 +85,10 @@ impl FromStr for Hidden {
     fn from_str(text: &str) -> Result<Self, UnknownEffect> {
         match text.split_once('+') {
             None if text == CLEAN => Ok(Self::Nothing),
-            None => match text.strip_prefix(UNKNOWN) {
-                Some(kind) => Ok(Self::Unknown(kind.parse()?)),
-                None => Ok(Self::One(text.parse()?)),
+            None => match (text.strip_prefix(UNKNOWN), text.strip_prefix(STRANGE)) {
+                (Some(kind), _) => Ok(Self::Unknown(kind.parse()?)),
+                (_, Some(kind)) => Ok(Self::Strange(kind.parse()?)),
+                (None, None) => Ok(Self::One(text.parse()?)),
             },
             Some(_) if text == ANY_TWO => Ok(Self::AnyTwo),
             Some((a, b)) => Ok(Self::Two(a.parse()?, b.parse()?)),
@@ -95,11 +104,22 @@ mod tests {
     fn what_is_hidden_is_read_back_from_its_name() {
         use EffectKind::{Backlash, Payload};
         let two = [Hidden::Two(Backlash, Payload), Hidden::AnyTwo];
-        let one = [Hidden::Nothing, Hidden::One(Backlash), Hidden::Unknown(Backlash)];
-        for hidden in one.into_iter().chain(two) {
+        let one = [Hidden::Nothing, Hidden::One(Backlash)];
+        let unknown = [Hidden::Unknown(Backlash), Hidden::Strange(Backlash)];
+        for hidden in one.into_iter().chain(unknown).chain(two) {
             assert_eq!(hidden.to_string().parse(), Ok(hidden));
         }
         assert_eq!("TR01".parse(), Ok(Hidden::One(Backlash)));
+        assert_eq!("strange_TR01".parse(), Ok(Hidden::Strange(Backlash)));
         assert_eq!("backlash+no".parse::<Hidden>(), Err(UnknownEffect("no".to_owned())));
+    }
+
+    #[test]
+    fn of_what_is_strange_nothing_like_it_is_looked_for() {
+        use EffectKind::{ActuatorDelay, ActuatorLag, Payload};
+        let without = Hidden::Strange(ActuatorDelay).without();
+        assert!(without.contains(&ActuatorDelay) && without.contains(&ActuatorLag));
+        assert!(!without.contains(&Payload));
+        assert_eq!(Hidden::Unknown(ActuatorDelay).without(), [ActuatorDelay]);
     }
 }
