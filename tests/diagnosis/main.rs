@@ -5,6 +5,7 @@ mod before_and_after;
 mod blind;
 mod clean;
 mod compare;
+mod constant;
 mod extended;
 mod false_alarms;
 mod found;

@@ -11,6 +11,7 @@ use crate::problem::{HeldOut, Model, Problem};
 use crate::result::{EffectAt, Finding};
 use crate::rivals::rivals;
 use crate::select::Selection;
+use crate::settled::Withheld;
 use crate::significance::Significance;
 use crate::stability::stability;
 use crate::uncertainty::{Fitted, Uncertainty};
@@ -34,6 +35,7 @@ pub(crate) struct Evidence<'a> {
     pub significance: &'a Significance,
     /// Findings and those that do worse in their place once the robot has either.
     pub apart: &'a Apart,
+    pub withheld: &'a Withheld,
     pub seed: u64,
 }
 

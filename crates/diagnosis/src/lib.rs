@@ -13,6 +13,7 @@ mod blocks;
 #[cfg(test)]
 mod calibration;
 mod compare;
+mod constancy;
 mod contest;
 mod design;
 mod diagnose;
@@ -45,6 +46,7 @@ mod second_encoders;
 mod select;
 mod settings;
 mod settle;
+mod settled;
 mod shapes;
 mod significance;
 mod stability;

@@ -1,6 +1,7 @@
 use catalogue::EffectKind;
 use nalgebra::DMatrix;
 
+use crate::constancy::Variation;
 use crate::findings::{Evidence, effect_at};
 use crate::fit::{Complement, Fit};
 use crate::problem::Problem;
@@ -77,7 +78,9 @@ impl Evidence<'_> {
         larger.insert(g);
         let gain = fit.evidence_of(&problem.info, &columns, &problem.design.prior);
         let p = self.significance.p[g].map_or_else(String::new, |p| format!(", p = {p:.3}"));
-        let because = if problem.idle.contains(&g) {
+        let because = if let Some(variation) = self.withheld.get(&g) {
+            self.words(variation)
+        } else if problem.idle.contains(&g) {
             "a robot that has it is no nearer to the logs".to_owned()
         } else if !self.selection.is_possible(&larger, g) {
             "its best size is not physically possible".to_owned()
@@ -87,6 +90,17 @@ impl Evidence<'_> {
             format!("it adds nothing on held-out data that counts{p}")
         };
         (Some(sharpest), because)
+    }
+
+    /// Why an effect whose size would have to vary is no finding.
+    fn words(&self, Variation { rms, with, joint }: &Variation) -> String {
+        let name = &self.selection.robot.links()[*joint].joint.name;
+        let with = with
+            .map_or_else(|| format!("at {name}"), |signal| format!("with the {signal} of {name}"));
+        format!(
+            "its size would have to vary by {:.0} % {with}, and that of a cause is one",
+            100.0 * rms
+        )
     }
 
     /// Index and smallest detectable size of the parameter whose standard error is the

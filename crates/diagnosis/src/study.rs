@@ -4,7 +4,7 @@ use robot::Robot;
 
 use crate::between::{Between, between};
 use crate::blocks::{Block, FEWEST_BLOCKS, Fold, Folding, blocks};
-use crate::contest::{Apart, Contest, Decided};
+use crate::contest::Apart;
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extend::{Solved, solved};
@@ -23,17 +23,14 @@ use crate::result::{
     DataSummary, Diagnosis, Finding, Gain, JointReport, RuledOut, SCHEMA, Unexplained, Verdict,
 };
 use crate::search::Record;
-use crate::select::Selection;
 use crate::settings::Settings;
-use crate::significance::{Significance, Tested, tested};
+use crate::settled::{Settled, Withheld};
+use crate::significance::Significance;
 use crate::structure::{Probe, Structure};
 use crate::tone_finding::tone_finding;
 use crate::traces::{RunTraces, traces};
-use crate::uncertainty::{Fitted, untenable};
+use crate::uncertainty::Fitted;
 use crate::verdict::{Situation, overall};
-
-/// Most contests in which a finding is exchanged for what does better in its place.
-const EXCHANGES: usize = 4;
 
 /// Everything a diagnosis looks at, once the logs are prepared.
 #[derive(Debug, Clone, Copy)]
@@ -74,19 +71,13 @@ pub(crate) struct Conclusion<'a> {
     pub significance: Significance,
     pub solution: Solved,
     pub apart: Apart,
+    pub withheld: Withheld,
 }
 
 /// What a search came to whose effects all do what their columns say.
 struct Searched<'a> {
     problem: Problem<'a>,
     model: Model,
-    solution: Solved,
-}
-
-/// A model that is significant and of a size that is decided, and the robot with it.
-struct Settled {
-    model: Model,
-    significance: Significance,
     solution: Solved,
 }
 
@@ -169,9 +160,9 @@ impl Study<'_> {
         progress: &dyn Progress,
     ) -> Result<Answer<'b>, DiagnosisError> {
         let conclusion = self.conclusion(record, progress)?;
-        let Conclusion { problem, solution, significance, .. } = &conclusion;
+        let Conclusion { problem, solution, significance, withheld, .. } = &conclusion;
         let by_run = problem.refolded(Folding::ByRun);
-        let search = |of: &[usize]| Ok(self.searched(record, of)?.solution);
+        let search = |of: &[usize]| self.named(self.searched(record, of)?, withheld);
         let gain = HeldOutGain::new(record, &by_run, &search, progress)?;
         let left = gain.left(&by_run);
         let gap = by_run
@@ -217,10 +208,10 @@ impl Study<'_> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let Searched { problem, model, .. } = self.searched(record, &all)?;
         progress.step();
-        let (Settled { model, significance, solution }, apart) =
+        let (Settled { model, significance, solution, withheld }, apart) =
             self.contested(record, &problem, model)?;
         progress.step();
-        Ok(Conclusion { problem, model, significance, solution, apart })
+        Ok(Conclusion { problem, model, significance, solution, apart, withheld })
     }
 
     /// What a search on the blocks `of` comes to. It goes on without every effect that does less than
@@ -238,58 +229,25 @@ impl Study<'_> {
         }
     }
 
-    /// A model once no twin of a finding does better in its place, and the twins that do worse.
-    fn contested(
-        &self,
-        record: &Record,
-        problem: &Problem,
-        model: Model,
-    ) -> Result<(Settled, Apart), DiagnosisError> {
-        let selection = record.selection(problem);
-        let contest = Contest { study: self, selection: &selection };
-        let mut settled = self.settled(&selection, model)?;
-        let mut left = EXCHANGES;
-        loop {
-            let Decided { apart, better } = contest.decide(&settled.model, &settled.solution)?;
-            match better.filter(|_| left > 0) {
-                Some(better) => settled = self.settled(&selection, better)?,
-                None => return Ok((settled, apart)),
-            }
-            left -= 1;
+    /// What a search came to, without what has no name over the whole record.
+    fn named(&self, searched: Searched, withheld: &Withheld) -> Result<Solved, LogError> {
+        let Searched { problem, model, solution } = searched;
+        let named: Model = model.iter().copied().filter(|g| !withheld.contains_key(g)).collect();
+        if named == model {
+            return Ok(solution);
         }
-    }
-
-    /// What is significant, stable and of a size that is decided of a model. What falls leaves its
-    /// place to what says less.
-    fn settled(&self, selection: &Selection, model: Model) -> Result<Settled, DiagnosisError> {
-        let problem = selection.problem;
-        let mut model = model;
-        loop {
-            let (significant, tested) = tested(problem, model, self.settings);
-            let falls = match tested {
-                Tested::Falls(g) => g,
-                Tested::Stands(significance) => {
-                    let solution = solved(self.robot, &self.log, problem, &significant)?;
-                    let first = self.fitted(problem, &significant, &solution);
-                    let open = solution.tell(&first, |f| untenable(problem, &significant, f));
-                    let Some(open) = open else {
-                        return Ok(Settled { model: significant, significance, solution });
-                    };
-                    open
-                }
-            };
-            model = selection.without(&significant, falls);
-        }
+        solved(self.robot, &self.log, &problem, &named)
     }
 
     /// The findings of a conclusion, and what they leave out.
     pub fn told(&self, record: &Record, conclusion: &Conclusion) -> (Vec<Found>, Vec<RuledOut>) {
-        let Conclusion { problem, model, significance, solution, apart } = conclusion;
+        let Conclusion { problem, model, significance, solution, apart, withheld } = conclusion;
         let evidence = Evidence {
             selection: &record.selection(problem),
             model,
             significance,
             apart,
+            withheld,
             seed: self.settings.seed,
         };
         let first = self.fitted(problem, model, solution);
