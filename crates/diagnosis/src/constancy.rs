@@ -65,9 +65,9 @@ struct Equations {
 /// ```
 ///
 /// with `z` of zero mean and variance one, the fall of `D` on held-out blocks, and what `c` explains
-/// that the others cannot below it. It varies where the root of the share is above [`MOST`] for some
-/// signal. What stands in for a cause that is not looked for explains some of its torque, and leaves
-/// the rest where it is not like it.
+/// that the others cannot below it. It varies where the root of the share is above [`MOST`], or
+/// [`MOST_OF_ROUGH`], for some signal. What stands in for a cause that is not looked for explains some
+/// of its torque, and leaves the rest where it is not like it.
 pub(crate) fn variation(fitted: &Fitted, group: usize, size: &[f64]) -> Option<Variation> {
     let Fitted { problem, model, .. } = *fitted;
     let columns = problem.columns(model);
@@ -192,6 +192,8 @@ fn held_out(problem: &Problem, columns: &[usize], contrast: Option<&Contrast>) -
     Some(left)
 }
 
+/// Normal equations of the columns of a model over the blocks `of`, whose own are `info`, bordered by
+/// those of a contrast.
 fn equations(
     problem: &Problem,
     (info, of): (&Information, &[usize]),

@@ -35,6 +35,7 @@ pub(crate) struct Evidence<'a> {
     pub significance: &'a Significance,
     /// Findings and those that do worse in their place once the robot has either.
     pub apart: &'a Apart,
+    /// What has no name because its size would have to vary, and how.
     pub withheld: &'a Withheld,
     pub seed: u64,
 }
