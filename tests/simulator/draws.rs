@@ -1,6 +1,8 @@
 use catalogue::EffectKind;
 use checks::arms::{generator, wam};
-use simulator::effects::{EffectSpec, Surroundings};
+use simulator::effects::{EffectSpec, JointLevel, Surroundings};
+
+const LEVELS: [JointLevel; 7] = [JointLevel { torque_rms: 5.0, speed_rms: 0.6 }; 7];
 
 /// At every joint of the WAM, from a hundredth of the torque to more than all of it, and where a
 /// joint did not move at all.
@@ -17,6 +19,7 @@ fn whatever_is_drawn_can_be_put_in_and_is_drawn_again_from_the_same_seed() {
             range: (-0.8, 1.1),
             torque_rate_rms: 20.0,
             inertia: [2.0, 2.0, 0.3, 0.2, 0.01, 0.01, 0.001][joint],
+            joints: &LEVELS,
         };
         let still = Surroundings {
             speed_rms: 0.0,

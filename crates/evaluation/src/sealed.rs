@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use serde::Deserialize;
-use simulator::Truth;
+use simulator::{StrangerTruth, Truth};
 
 use crate::EvaluationError;
 
@@ -12,6 +12,9 @@ pub struct Sealed {
     pub seed: u64,
     /// What was put in.
     pub effects: Vec<Truth>,
+    /// Effects of no catalogue that were put in.
+    #[serde(default)]
+    pub strangers: Vec<StrangerTruth>,
 }
 
 impl Sealed {

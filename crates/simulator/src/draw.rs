@@ -3,9 +3,10 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::effects::{EffectSpec, Surroundings};
-use crate::run::{Following, Row, follow, mixed, simulator};
+use crate::effects::{EffectSpec, JointLevel, Surroundings};
+use crate::run::{Following, PutIn, Row, follow, mixed, simulator};
 use crate::scenario::{HiddenSpec, Scenario, ScenarioRun};
+use crate::strangers::{StrangerKind, StrangerSpec};
 use crate::{JointSensor, Sensors, Simulator, SimulatorError};
 
 /// Longest part of the first run that sizes are measured on (s).
@@ -56,33 +57,74 @@ pub(crate) fn draw_hidden(scenario: &Scenario) -> Result<Vec<EffectSpec>, Simula
     Ok(drawn)
 }
 
-/// A short run in which sizes are measured, without noise.
-struct Bench<'a> {
+/// The first run of a scenario, at most 10 s of it, in which sizes are measured: without noise, and
+/// without the effects that are to be drawn.
+pub struct Bench<'a> {
     scenario: &'a Scenario,
     run: ScenarioRun,
     nominal: Vec<Row>,
-    /// Root mean square of each joint's torque, the noise of its sensor included.
-    torque_rms: Vec<f64>,
+    /// Of each joint; the noise of its sensor is part of its torque.
+    levels: Vec<JointLevel>,
     /// What each joint turns where the run begins.
     inertia: Vec<f64>,
 }
 
 impl<'a> Bench<'a> {
-    fn new(scenario: &'a Scenario) -> Result<Self, SimulatorError> {
+    /// Simulates the run with the effects and strangers that the scenario states.
+    ///
+    /// # Errors
+    ///
+    /// What keeps the arm from being simulated.
+    pub fn new(scenario: &'a Scenario) -> Result<Self, SimulatorError> {
         let run = scenario.runs()[0].clone();
-        let (nominal, torque_rms, inertia) = (Vec::new(), Vec::new(), Vec::new());
-        let mut bench = Self { scenario, run, nominal, torque_rms, inertia };
+        let (nominal, levels, inertia) = (Vec::new(), Vec::new(), Vec::new());
+        let mut bench = Self { scenario, run, nominal, levels, inertia };
         bench.nominal = bench.rows(&[])?;
         let mut simulator = bench.simulator(&[])?;
         simulator.start(&bench.run.motion.at(0.0).q);
         bench.inertia = simulator.inertia();
         let noise = &scenario.spec().sensors.effort_noise_nm;
-        let torque = |(j, name): (usize, &str)| {
+        let level = |(j, name): (usize, &str)| {
             let torque = rms(bench.nominal.iter().map(|r| r.reading.effort[j]));
-            torque.hypot(noise.get(name).copied().unwrap_or(0.0))
+            let torque_rms = torque.hypot(noise.get(name).copied().unwrap_or(0.0));
+            let speed_rms = rms(bench.nominal.iter().map(|r| r.reference.qd[j]));
+            JointLevel { torque_rms, speed_rms }
         };
-        bench.torque_rms = scenario.robot().joint_names().enumerate().map(torque).collect();
+        bench.levels = scenario.robot().joint_names().enumerate().map(level).collect();
         Ok(bench)
+    }
+
+    /// An effect of a kind at a joint, by its number, whose torque has about a share of the
+    /// joint's: what [`Effect::draw`](crate::effects::Effect::draw) takes for that share, which
+    /// no simulation has checked.
+    ///
+    /// # Panics
+    ///
+    /// When the arm has no joint of that number.
+    pub fn effect(&self, kind: EffectKind, joint: usize, share: f64, seed: u64) -> EffectSpec {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        EffectSpec::draw(kind, &self.surroundings(joint), share, &mut random)
+    }
+
+    /// A stranger of a kind at a joint, as [`effect`](Self::effect) an effect.
+    ///
+    /// # Panics
+    ///
+    /// When the arm has no joint of that number.
+    pub fn stranger(
+        &self,
+        kind: StrangerKind,
+        joint: usize,
+        share: f64,
+        seed: u64,
+    ) -> StrangerSpec {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        StrangerSpec::draw(kind, &self.surroundings(joint), share, &mut random)
+    }
+
+    /// How large torque and motion of every joint are.
+    pub fn levels(&self) -> &[JointLevel] {
+        &self.levels
     }
 
     /// The arm with the scenario's effects and more, seen without noise.
@@ -94,7 +136,8 @@ impl<'a> Bench<'a> {
         let seen = &scenario.spec().sensors;
         let silent = vec![silent; joints];
         let sensors = Sensors::new(seen.position, seen.effort, seen.velocity, silent, 0);
-        simulator(scenario.robot(), &effects, sensors, scenario.stepping())
+        let put_in = PutIn { effects: &effects, strangers: scenario.strangers() };
+        simulator(scenario.robot(), put_in, sensors, scenario.stepping())
     }
 
     /// The run with the scenario's effects and more.
@@ -119,7 +162,7 @@ impl<'a> Bench<'a> {
         let joints = own.map_or(0..robot.joint_count(), |j| j..j + 1);
         let square = |sum: f64, value: f64| sum + value * value;
         let added = joints.clone().map(added).fold(0.0, square);
-        let torque = joints.map(|j| self.torque_rms[j]).fold(0.0, square);
+        let torque = joints.map(|j| self.levels[j].torque_rms).fold(0.0, square);
         Some((added / torque).sqrt()).filter(|share| share.is_finite())
     }
 
@@ -134,7 +177,7 @@ impl<'a> Bench<'a> {
         let mut last = "and none could be put into this arm".to_owned();
         for _ in 0..TRIES {
             let kind = kinds[random.random_range(0..kinds.len())];
-            let joint = random.random_range(0..self.torque_rms.len());
+            let joint = random.random_range(0..self.levels.len());
             let goal = least * (largest / least).powf(random.random::<f64>());
             let seed = random.random::<u64>();
             let Some((effect, share)) = self.sized(kind, joint, goal, seed) else { continue };
@@ -186,7 +229,7 @@ impl<'a> Bench<'a> {
         best
     }
 
-    fn surroundings(&self, joint: usize) -> Surroundings<'a> {
+    fn surroundings(&self, joint: usize) -> Surroundings<'_> {
         let rows = &self.nominal;
         let of = |value: &dyn Fn(&Row) -> f64| rms(rows.iter().map(value));
         let positions = rows.iter().map(|r| r.reference.q[joint]);
@@ -198,8 +241,8 @@ impl<'a> Bench<'a> {
         Surroundings {
             robot: self.scenario.robot(),
             joint,
-            torque_rms: self.torque_rms[joint],
-            speed_rms: of(&|r| r.reference.qd[joint]),
+            torque_rms: self.levels[joint].torque_rms,
+            speed_rms: self.levels[joint].speed_rms,
             acceleration_rms: of(&|r| r.reference.qdd[joint]),
             range: (
                 positions.clone().fold(f64::INFINITY, f64::min),
@@ -207,6 +250,7 @@ impl<'a> Bench<'a> {
             ),
             torque_rate_rms: rms(rate),
             inertia: self.inertia[joint],
+            joints: &self.levels,
         }
     }
 }

@@ -3,6 +3,8 @@ use document::DocumentError;
 use logs::LogError;
 use robot::MachineFault;
 
+use crate::strangers::StrangerKind;
+
 /// What keeps an arm from being simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -70,6 +72,16 @@ pub enum SimulatorError {
     Effect {
         /// The effect.
         effect: EffectKind,
+        /// Key of the value at fault.
+        key: String,
+        /// What was found and what was expected.
+        found: String,
+    },
+    /// A stranger cannot act on the robot.
+    #[error("stranger {stranger}, {key}: {found}")]
+    Stranger {
+        /// The stranger.
+        stranger: StrangerKind,
         /// Key of the value at fault.
         key: String,
         /// What was found and what was expected.

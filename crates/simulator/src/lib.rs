@@ -22,13 +22,19 @@ mod run;
 pub mod scenario;
 mod sensors;
 mod simulator;
+pub mod strangers;
 mod truth;
 
+pub use draw::Bench;
 pub use error::SimulatorError;
 pub use inject::{Efforts, Inject, Moment};
 pub use plant::{Plant, Transmission};
 pub use replay::{ForwardReplay, MotionReplay, Windows, replay_motion, replay_torque};
-pub use run::{LogFormat, Simulation, arm, drawn, simulate, simulate_only, write};
+pub use run::{
+    LogFormat, Simulation, arm, drawn, simulate, simulate_only, simulate_silent,
+    simulate_silent_start, write,
+};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};
+pub use strangers::{StrangerKind, StrangerSpec, StrangerTruth};
 pub use truth::Truth;

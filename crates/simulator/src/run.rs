@@ -7,15 +7,19 @@ use motion::State;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use rand_distr::{Distribution, Normal};
+use rand_distr::{Distribution, Exp, Normal};
 use rayon::prelude::*;
 use robot::{Gain, Machine, MachineFault, Reading, Robot};
 use serde::Serialize;
 
 use crate::draw::draw_hidden;
 use crate::effects::EffectSpec;
-use crate::scenario::{Scenario, ScenarioRun, injected};
+use crate::scenario::{DropoutSpec, Logged, Scenario, ScenarioRun, injected};
+use crate::strangers::{self, StrangerSpec, StrangerTruth};
 use crate::{EffortSource, Inject, Sensors, Simulator, SimulatorError, Stepping, Truth};
+
+/// The part of a run's seed that its dropouts are drawn from.
+const DROPOUTS: u64 = 3;
 
 /// What a scenario gives: logs that hold no trace of what was put in, and apart from them what
 /// was.
@@ -23,8 +27,17 @@ use crate::{EffortSource, Inject, Sensors, Simulator, SimulatorError, Stepping, 
 pub struct Simulation {
     /// One log a run.
     pub runs: Vec<Run>,
-    /// What was put in.
+    /// Effects that were put in.
     pub truth: Vec<Truth>,
+    /// Strangers that were put in.
+    pub strangers: Vec<StrangerTruth>,
+}
+
+/// What is put into an arm.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PutIn<'a> {
+    pub effects: &'a [EffectSpec],
+    pub strangers: &'a [StrangerSpec],
 }
 
 /// How logs are written.
@@ -75,13 +88,64 @@ pub fn simulate_only(
     on_second: &(dyn Fn() + Sync),
 ) -> Result<Simulation, SimulatorError> {
     let effects = all_effects(scenario)?;
-    let truth = effects.iter().map(EffectSpec::truth).collect();
+    let put_in = PutIn { effects: &effects, strangers: scenario.strangers() };
     let runs: Vec<_> =
         scenario.runs().iter().enumerate().filter(|(_, run)| wanted(&run.name)).collect();
     let runs = runs
         .into_par_iter()
-        .map(|(index, run)| simulate_run(scenario, &effects, index, run, on_second));
-    Ok(Simulation { runs: runs.collect::<Result<_, _>>()?, truth })
+        .map(|(index, run)| simulate_run(scenario, put_in, index, run, on_second));
+    Ok(Simulation {
+        runs: runs.collect::<Result<_, _>>()?,
+        truth: effects.iter().map(EffectSpec::truth).collect(),
+        strangers: scenario.strangers().iter().map(StrangerSpec::truth).collect(),
+    })
+}
+
+/// Simulates the runs of a scenario whose names are `wanted` with exactly these effects and
+/// strangers in place of its own, seen without error: arms with and without one cause can be
+/// compared.
+///
+/// Effort source, side of the position, second encoders and rate of the log are the scenario's.
+/// Noise, steps, lag, jitter and lost rows are left out, and velocity is logged as it is.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when the arm cannot be simulated, or a joint ran away.
+pub fn simulate_silent(
+    scenario: &Scenario,
+    wanted: &dyn Fn(&str) -> bool,
+    effects: &[EffectSpec],
+    strangers: &[StrangerSpec],
+) -> Result<Vec<Run>, SimulatorError> {
+    let put_in = PutIn { effects, strangers };
+    let runs: Vec<_> = scenario.runs().iter().filter(|run| wanted(&run.name)).collect();
+    let runs = runs.into_par_iter().map(|run| silent(scenario, put_in, run, f64::INFINITY));
+    runs.collect()
+}
+
+/// The beginning of the first run of a scenario, so long (s) at most, as [`simulate_silent`] makes it.
+///
+/// # Errors
+///
+/// As [`simulate_silent`].
+pub fn simulate_silent_start(
+    scenario: &Scenario,
+    effects: &[EffectSpec],
+    longest_s: f64,
+) -> Result<Run, SimulatorError> {
+    silent(scenario, PutIn { effects, strangers: &[] }, &scenario.runs()[0], longest_s)
+}
+
+fn silent(
+    scenario: &Scenario,
+    put_in: PutIn<'_>,
+    run: &ScenarioRun,
+    longest_s: f64,
+) -> Result<Run, SimulatorError> {
+    let sensors = scenario.silent_sensors();
+    let rows = followed(scenario, put_in, sensors, (run, longest_s), &|| {})?;
+    let rows: Vec<Row> = rows.into_iter().step_by(scenario.rows_per_log()).collect();
+    Ok(log(scenario, run, &rows))
 }
 
 /// The arm of a scenario with all its effects, for a controller of one's own; `part` sets the
@@ -93,7 +157,8 @@ pub fn simulate_only(
 pub fn arm(scenario: &Scenario, part: u64) -> Result<Simulator, SimulatorError> {
     let effects = all_effects(scenario)?;
     let sensors = scenario.sensors(mixed(mixed(scenario.seed(), u64::MAX), part));
-    simulator(scenario.robot(), &effects, sensors, scenario.stepping())
+    let put_in = PutIn { effects: &effects, strangers: scenario.strangers() };
+    simulator(scenario.robot(), put_in, sensors, scenario.stepping())
 }
 
 /// A scenario whose hidden effects are drawn once for all that it is used for: it gives the same
@@ -128,7 +193,11 @@ pub fn write(
     format: LogFormat,
 ) -> Result<(), SimulatorError> {
     let coded = simulation.truth.iter().map(|truth| Coded { code: truth.effect.code(), truth });
-    let sealed = Sealed { seed: scenario.seed(), effects: coded.collect() };
+    let sealed = Sealed {
+        seed: scenario.seed(),
+        effects: coded.collect(),
+        strangers: &simulation.strangers,
+    };
     let truth = serde_json::to_string_pretty(&sealed).unwrap_or_default() + "\n";
     let truth_file = folder.join("truth.json");
     match std::fs::remove_file(&truth_file) {
@@ -156,6 +225,8 @@ pub fn write(
 struct Sealed<'a> {
     seed: u64,
     effects: Vec<Coded<'a>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    strangers: &'a [StrangerTruth],
 }
 
 /// What was put in, and the code of its effect beside the name.
@@ -168,46 +239,72 @@ struct Coded<'a> {
 
 fn simulate_run(
     scenario: &Scenario,
-    effects: &[EffectSpec],
+    put_in: PutIn<'_>,
     index: usize,
     run: &ScenarioRun,
     on_second: &(dyn Fn() + Sync),
 ) -> Result<Run, SimulatorError> {
     let seed = mixed(scenario.seed(), index as u64);
-    let sensors = scenario.sensors(seed);
-    let robot = scenario.robot();
-    let mut simulator = simulator(robot, effects, sensors, scenario.stepping())?;
-    let following = Following { gains: scenario.gains(), robot, run, longest_s: f64::INFINITY };
-    let rows = follow(&mut simulator, &following, on_second)
-        .map_err(|fault| SimulatorError::Fault { run: run.name.clone(), fault })?;
+    let rows = followed(scenario, put_in, scenario.sensors(seed), (run, f64::INFINITY), on_second)?;
     let spec = &scenario.spec().sensors;
+    let stepping = scenario.stepping();
+    let period_s = stepping.steps_per_period.max(1) as f64 * stepping.step_s;
+    let last_s = rows.last().map_or(0.0, |row| row.reading.time_s);
     let mut clock = LogClock {
         random: ChaCha8Rng::seed_from_u64(mixed(seed, 1)),
         jitter_s: 1e-3 * spec.time_jitter_ms,
         dropped_share: spec.dropped_share,
-        shortest_s: 0.2 * simulator.period_s() * scenario.rows_per_log() as f64,
+        shortest_s: 0.2 * period_s * scenario.rows_per_log() as f64,
+        lost: spec.dropouts.map_or_else(Vec::new, |dropouts| {
+            lost(&dropouts, last_s, &mut ChaCha8Rng::seed_from_u64(mixed(seed, DROPOUTS)))
+        }),
     };
-    let mut log = log(&run.name, robot, &clock.thin(rows, scenario.rows_per_log()));
-    if spec.effort == EffortSource::Commanded {
-        log.joints.iter_mut().for_each(|joint| joint.commanded_effort = None);
+    let mut log = log(scenario, run, &clock.thin(rows, scenario.rows_per_log()));
+    if spec.velocity_logged == Logged::No {
+        log.joints.iter_mut().for_each(|joint| joint.velocity = None);
     }
     Ok(log)
 }
 
-/// A simulator with effects that were checked for the robot.
+/// The rows of a run at the controller's rate, their times exact.
+fn followed(
+    scenario: &Scenario,
+    put_in: PutIn<'_>,
+    sensors: Sensors,
+    (run, longest_s): (&ScenarioRun, f64),
+    on_second: &dyn Fn(),
+) -> Result<Vec<Row>, SimulatorError> {
+    let robot = scenario.robot();
+    let mut simulator = simulator(robot, put_in, sensors, scenario.stepping())?;
+    let following = Following { gains: scenario.gains(), robot, run, longest_s };
+    follow(&mut simulator, &following, on_second)
+        .map_err(|fault| SimulatorError::Fault { run: run.name.clone(), fault })
+}
+
+/// A simulator with effects and strangers that were checked for the robot: what the drive makes of
+/// commands, then the effects, then all other strangers.
 pub(crate) fn simulator(
     robot: &Robot,
-    effects: &[EffectSpec],
+    put_in: PutIn<'_>,
     sensors: Sensors,
     stepping: Stepping,
 ) -> Result<Simulator, SimulatorError> {
+    let PutIn { effects, strangers } = put_in;
     let injected: Vec<Box<dyn Inject>> =
         injected(effects, robot).map_err(|(index, mistake)| SimulatorError::Effect {
             effect: effects[index].kind(),
             key: mistake.key.to_owned(),
             found: mistake.found,
         })?;
-    Simulator::new(robot, injected, sensors, stepping)
+    let around = strangers::injected(strangers, robot).map_err(|(index, mistake)| {
+        SimulatorError::Stranger {
+            stranger: strangers[index].kind(),
+            key: mistake.key.to_owned(),
+            found: mistake.found,
+        }
+    })?;
+    let all = around.ahead.into_iter().chain(injected).chain(around.behind);
+    Simulator::new(robot, all.collect(), sensors, stepping)
 }
 
 /// One row of a log, with the reference that was followed.
@@ -295,6 +392,20 @@ struct LogClock {
     dropped_share: f64,
     /// Least time between two stamps (s).
     shortest_s: f64,
+    /// Stretches whose rows are lost, as start and end (s).
+    lost: Vec<(f64, f64)>,
+}
+
+/// Starts and ends (s) of the dropouts of a log, its starts a Poisson process.
+fn lost(dropouts: &DropoutSpec, last_s: f64, random: &mut ChaCha8Rng) -> Vec<(f64, f64)> {
+    let mut lost = Vec::new();
+    let Ok(between) = Exp::new(dropouts.per_minute / 60.0) else { return lost };
+    let mut start_s = between.sample(random);
+    while start_s <= last_s {
+        lost.push((start_s, start_s + 1e-3 * dropouts.length_ms));
+        start_s += between.sample(random);
+    }
+    lost
 }
 
 impl LogClock {
@@ -306,7 +417,11 @@ impl LogClock {
             if self.dropped_share > 0.0 && self.random.random::<f64>() < self.dropped_share {
                 continue;
             }
+            let time_s = row.reading.time_s;
             row.reading.time_s += jitter.map_or(0.0, |j| j.sample(&mut self.random));
+            if self.lost.iter().any(|(start, end)| (*start..*end).contains(&time_s)) {
+                continue;
+            }
             if let Some(last) = kept.last() {
                 row.reading.time_s = row.reading.time_s.max(last.reading.time_s + self.shortest_s);
             }
@@ -317,7 +432,8 @@ impl LogClock {
 }
 
 /// The log: what sensors and controller say, nothing else.
-fn log(name: &str, robot: &Robot, rows: &[Row]) -> Run {
+fn log(scenario: &Scenario, run: &ScenarioRun, rows: &[Row]) -> Run {
+    let asked_is_effort = scenario.spec().sensors.effort == EffortSource::Commanded;
     let column = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
     let joint = |(i, name): (usize, &str)| Channels {
         name: name.to_owned(),
@@ -328,16 +444,16 @@ fn log(name: &str, robot: &Robot, rows: &[Row]) -> Run {
         desired_position: Some(column(&|r| r.reference.q[i])),
         desired_velocity: Some(column(&|r| r.reference.qd[i])),
         desired_acceleration: Some(column(&|r| r.reference.qdd[i])),
-        commanded_effort: Some(column(&|r| r.command[i])),
+        commanded_effort: (!asked_is_effort).then(|| column(&|r| r.command[i])),
         link_position: rows.iter().map(|r| r.links[i]).collect(),
     };
     Run {
-        name: name.to_owned(),
+        name: run.name.clone(),
         source: Default::default(),
         sha256: String::new(),
         is_torn: false,
         time: column(&|r| r.reading.time_s),
-        joints: robot.joint_names().enumerate().map(joint).collect(),
+        joints: scenario.robot().joint_names().enumerate().map(joint).collect(),
         extra: BTreeMap::new(),
     }
 }

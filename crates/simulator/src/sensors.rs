@@ -5,6 +5,7 @@ use robot::Reading;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::delay_line::DelayLine;
 use crate::run::mixed;
 
 /// The part of a seed that the encoders at the links draw from.
@@ -76,6 +77,9 @@ pub struct Sensors {
     joints: Vec<JointSensor>,
     /// The joints that have one, and `None` for each other.
     links: Vec<Option<LinkEncoder>>,
+    /// Step of the effort reading of each joint (N m or N), zero for none.
+    effort_steps: Vec<f64>,
+    link_lag: LinkLag,
     seed: u64,
     random: ChaCha8Rng,
     /// Of its own, so that a second encoder leaves the noise of all others as it was.
@@ -97,13 +101,35 @@ impl Sensors {
         let filtered = vec![0.0; joints.len()];
         let links = vec![None; joints.len()];
         let [random, link_random] = streams(seed);
-        let last = None;
-        Self { side, effort, velocity, joints, links, seed, random, link_random, last, filtered }
+        Self {
+            side,
+            effort,
+            velocity,
+            effort_steps: filtered.clone(),
+            joints,
+            links,
+            link_lag: LinkLag::new(0.0, 0),
+            seed,
+            random,
+            link_random,
+            last: None,
+            filtered,
+        }
     }
 
     /// The same with encoders at some of the links, in the order of the robot.
     pub fn with_links(self, links: Vec<Option<LinkEncoder>>) -> Self {
         Self { links, ..self }
+    }
+
+    /// The same with encoders at the links that say where the links were a time before (s).
+    pub fn with_link_lag(self, lag_s: f64) -> Self {
+        Self { link_lag: LinkLag::new(lag_s, self.joints.len()), ..self }
+    }
+
+    /// The same with steps of the effort readings (N m or N), in the order of the robot.
+    pub fn with_effort_steps(self, effort_steps: Vec<f64>) -> Self {
+        Self { effort_steps, ..self }
     }
 
     /// Sensors without error.
@@ -131,6 +157,12 @@ impl Sensors {
         [self.random, self.link_random] = streams(self.seed);
         self.last = None;
         self.filtered.fill(0.0);
+        self.link_lag.clear();
+    }
+
+    /// Takes note of where the links are at a time (s), later than all before.
+    pub(crate) fn watch_links(&mut self, time_s: f64, q: &[f64]) {
+        self.link_lag.watch(time_s, q);
     }
 
     /// Turns true positions and velocities into what the sensors say, one period after the
@@ -158,19 +190,62 @@ impl Sensors {
         self.last = Some(reading.q.clone());
     }
 
-    /// What the encoders at the links say of the true positions of the links.
-    pub(crate) fn look_at_links(&mut self, q: &[f64]) -> Vec<Option<f64>> {
+    /// What the encoders at the links say at a time (s) of the true positions of the links.
+    pub(crate) fn look_at_links(&mut self, time_s: f64, q: &[f64]) -> Vec<Option<f64>> {
+        let q = self.link_lag.seen(time_s, q);
         let mut reading = |encoder: LinkEncoder, q: f64| {
             counted(q + draw(&mut self.link_random, encoder.noise), encoder.resolution)
         };
         self.links.iter().zip(q).map(|(link, &q)| link.map(|link| reading(link, q))).collect()
     }
 
-    /// Adds the noise of the effort readings.
+    /// Adds the noise of the effort readings, and rounds them to their steps.
     pub(crate) fn add_effort_noise(&mut self, effort: &mut [f64]) {
         for (tau, sensor) in effort.iter_mut().zip(&self.joints) {
             *tau += draw(&mut self.random, sensor.effort_noise);
         }
+        for (tau, step) in effort.iter_mut().zip(&self.effort_steps) {
+            *tau = counted(*tau, *step);
+        }
+    }
+}
+
+/// What holds back the readings of the encoders at the links: the positions of the engine's steps,
+/// linear between them.
+#[derive(Debug, Clone)]
+struct LinkLag {
+    lag_s: f64,
+    lines: Vec<DelayLine>,
+    /// Positions as they were a lag before the last step (rad or m); none before the first.
+    earlier: Vec<f64>,
+}
+
+impl LinkLag {
+    fn new(lag_s: f64, joint_count: usize) -> Self {
+        Self { lag_s, lines: vec![DelayLine::new(lag_s); joint_count], earlier: Vec::new() }
+    }
+
+    fn clear(&mut self) {
+        self.lines.iter_mut().for_each(DelayLine::clear);
+        self.earlier.clear();
+    }
+
+    fn watch(&mut self, time_s: f64, q: &[f64]) {
+        if self.lag_s > 0.0 {
+            let lines = self.lines.iter_mut().zip(q);
+            self.earlier = lines.map(|(line, q)| line.pass(time_s, *q)).collect();
+        }
+    }
+
+    /// What is seen of the positions `q` of now.
+    fn seen<'a>(&'a mut self, time_s: f64, q: &'a [f64]) -> &'a [f64] {
+        if self.lag_s <= 0.0 {
+            return q;
+        }
+        if self.earlier.is_empty() {
+            self.watch(time_s, q);
+        }
+        &self.earlier
     }
 }
 

@@ -235,6 +235,7 @@ impl Simulator {
         }
         self.arm.step(&self.efforts);
         self.steps += 1;
+        self.sensors.watch_links(self.steps as f64 * self.arm.step_s(), self.arm.q());
         if self.needs_load {
             self.arm.measure_load(&self.efforts);
         }
@@ -299,7 +300,7 @@ impl Machine for Simulator {
         }
         let period_s = self.period_s();
         self.sensors.look(reading, period_s);
-        self.links_at_read = self.sensors.look_at_links(self.arm.q());
+        self.links_at_read = self.sensors.look_at_links(reading.time_s, self.arm.q());
         Ok(())
     }
 

@@ -64,7 +64,7 @@ impl Inject for Injected {
 }
 
 /// The two horizontal axes, unit vectors; zero without gravity, which has no direction.
-fn horizontal(gravity: Vector3<f64>) -> [Vector3<f64>; 2] {
+pub(crate) fn horizontal(gravity: Vector3<f64>) -> [Vector3<f64>; 2] {
     let Some(up) = (-gravity).try_normalize(0.0) else { return [Vector3::zeros(); 2] };
     let start = if up.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
     let first = (start - up * up.dot(&start)).normalize();

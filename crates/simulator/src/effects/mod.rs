@@ -47,6 +47,7 @@ pub use encoder_offset::EncoderOffset;
 pub use external_disturbance::ExternalDisturbance;
 pub use friction_temperature_drift::FrictionTemperatureDrift;
 pub use gravity_direction::GravityDirection;
+pub(crate) use gravity_direction::horizontal;
 pub use inertial_parameters::InertialParameters;
 pub use joint_elasticity::JointElasticity;
 pub use load_dependent_friction::LoadDependentFriction;
@@ -94,6 +95,17 @@ pub struct Surroundings<'a> {
     pub torque_rate_rms: f64,
     /// What it turns, all other joints free (kg m² or kg).
     pub inertia: f64,
+    /// How large torque and motion of every joint of the arm are, in its order.
+    pub joints: &'a [JointLevel],
+}
+
+/// How large torque and motion of a joint are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointLevel {
+    /// Root mean square of its torque (N m or N).
+    pub torque_rms: f64,
+    /// Root mean square of its velocity (rad/s or m/s).
+    pub speed_rms: f64,
 }
 
 impl Surroundings<'_> {
@@ -124,7 +136,7 @@ impl Surroundings<'_> {
     }
 
     /// How steeply the torque follows the position (N m/rad or N/m): `d torque / dq`.
-    fn torque_per_position(&self) -> f64 {
+    pub(crate) fn torque_per_position(&self) -> f64 {
         self.torque_rate_rms / self.speed_rms.max(1e-9)
     }
 }
@@ -168,7 +180,7 @@ pub(crate) fn chain_rank(kind: EffectKind) -> usize {
 }
 
 /// The index of a joint that a scenario names.
-fn joint_of(robot: &Robot, name: &str) -> Result<usize, Mistake> {
+pub(crate) fn joint_of(robot: &Robot, name: &str) -> Result<usize, Mistake> {
     robot.joint_index(name).ok_or_else(|| {
         let names: Vec<&str> = robot.joint_names().collect();
         let hint = hint("joints", name, &names);
@@ -203,7 +215,7 @@ fn hint(things: &str, name: &str, names: &[&str]) -> String {
 }
 
 /// Refuses a number outside of `low..=high`.
-fn within(key: &'static str, value: f64, low: f64, high: f64) -> Result<(), Mistake> {
+pub(crate) fn within(key: &'static str, value: f64, low: f64, high: f64) -> Result<(), Mistake> {
     if value.is_finite() && (low..=high).contains(&value) {
         return Ok(());
     }

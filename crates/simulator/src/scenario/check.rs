@@ -7,8 +7,9 @@ use robot::{Gain, Loaded, Robot};
 
 use super::files::resolved;
 use super::{HiddenSpec, ScenarioSpec};
-use crate::effects::{EffectSpec, chain_rank};
-use crate::{Inject, JointSensor, LinkEncoder, Sensors, SimulatorError, Stepping};
+use crate::effects::{EffectSpec, Mistake, chain_rank};
+use crate::strangers::{self, StrangerSpec};
+use crate::{Inject, JointSensor, LinkEncoder, Sensors, SimulatorError, Stepping, VelocitySource};
 
 /// A scenario whose every value can be meant: ready to run.
 #[derive(Debug, Clone)]
@@ -53,6 +54,7 @@ impl Scenario {
         let gains = check.gains()?;
         check.sensors()?;
         check.effects()?;
+        check.strangers()?;
         check.hidden()?;
         let rows_per_log = check.rows_per_log()?;
         let runs = check.runs()?;
@@ -99,6 +101,11 @@ impl Scenario {
         &self.spec.effect
     }
 
+    /// Strangers that it states.
+    pub fn strangers(&self) -> &[StrangerSpec] {
+        &self.spec.stranger
+    }
+
     /// Effects that are to be drawn.
     pub fn hidden(&self) -> Option<&HiddenSpec> {
         self.spec.hidden.as_ref()
@@ -110,7 +117,8 @@ impl Scenario {
         Self { spec, ..self.clone() }
     }
 
-    pub(crate) fn spec(&self) -> &ScenarioSpec {
+    /// What it says.
+    pub fn spec(&self) -> &ScenarioSpec {
         &self.spec
     }
 
@@ -143,7 +151,24 @@ impl Scenario {
         };
         let joints = self.robot.joint_names().map(joint).collect();
         let links = self.robot.joint_names().map(link).collect();
-        Sensors::new(s.position, s.effort, s.velocity, joints, seed).with_links(links)
+        let steps = self.robot.joint_names().map(|name| of(&s.effort_resolution_nm, name));
+        Sensors::new(s.position, s.effort, s.velocity, joints, seed)
+            .with_links(links)
+            .with_link_lag(1e-3 * s.link_position_lag_ms)
+            .with_effort_steps(steps.collect())
+    }
+
+    /// The same sensors without any error: no noise, no steps, no lag, and velocity as it is.
+    pub(crate) fn silent_sensors(&self) -> Sensors {
+        let s = &self.spec.sensors;
+        let joint = JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
+        let ideal = LinkEncoder { resolution: 0.0, noise: 0.0 };
+        let (steps, noises) = (&s.link_position_resolution_rad, &s.link_position_noise_rad);
+        let link =
+            |name: &str| (steps.contains_key(name) || noises.contains_key(name)).then_some(ideal);
+        let links = self.robot.joint_names().map(link).collect();
+        let joints = vec![joint; self.robot.joint_count()];
+        Sensors::new(s.position, s.effort, VelocitySource::Ideal, joints, 0).with_links(links)
     }
 }
 
@@ -155,7 +180,7 @@ impl Scenario {
 pub(crate) fn injected(
     effects: &[EffectSpec],
     robot: &Robot,
-) -> Result<Vec<Box<dyn Inject>>, (usize, crate::effects::Mistake)> {
+) -> Result<Vec<Box<dyn Inject>>, (usize, Mistake)> {
     let mut ranked = Vec::with_capacity(effects.len());
     for (index, effect) in effects.iter().enumerate() {
         let inject = effect.inject(robot).map_err(|mistake| (index, mistake))?;
@@ -276,13 +301,35 @@ impl Checker<'_> {
         let noises = &s.link_position_noise_rad;
         self.by_joint(&path.key("link_position_noise_rad"), noises, 0.1)?;
         self.by_joint(&path.key("effort_noise_nm"), &s.effort_noise_nm, 1000.0)?;
+        self.by_joint(&path.key("effort_resolution_nm"), &s.effort_resolution_nm, 1000.0)?;
+        self.link_lag(&path.key("link_position_lag_ms"))?;
+        if let Some(dropouts) = s.dropouts {
+            let path = path.key("dropouts");
+            self.within(&path.key("per_minute"), dropouts.per_minute, 0.0, 60.0)?;
+            self.within(&path.key("length_ms"), dropouts.length_ms, 1.0, 2000.0)?;
+        }
         self.within(&path.key("dropped_share"), s.dropped_share, 0.0, 0.5)?;
-        if let crate::VelocitySource::FilteredDifference { cutoff_hz } = s.velocity {
+        if let VelocitySource::FilteredDifference { cutoff_hz } = s.velocity {
             let path = path.key("velocity").key("filtered_difference").key("cutoff_hz");
             self.within(&path, cutoff_hz, 0.1, 0.5 * self.control_rate_hz())?;
         }
         let fifth_ms = 200.0 / s.log_rate_hz.unwrap_or(self.control_rate_hz());
         self.within(&path.key("time_jitter_ms"), s.time_jitter_ms, 0.0, fifth_ms)
+    }
+
+    fn link_lag(&self, path: &KeyPath) -> Result<(), DocumentError> {
+        let s = &self.spec.sensors;
+        self.within(path, s.link_position_lag_ms, 0.0, 1000.0)?;
+        let none =
+            s.link_position_resolution_rad.is_empty() && s.link_position_noise_rad.is_empty();
+        if s.link_position_lag_ms > 0.0 && none {
+            let message = format!(
+                "{} ms for no encoder at a link, 0 was expected, or a joint in link_position_resolution_rad",
+                s.link_position_lag_ms
+            );
+            return Err(self.mistake(path, message));
+        }
+        Ok(())
     }
 
     fn rows_per_log(&self) -> Result<usize, DocumentError> {
@@ -306,11 +353,22 @@ impl Checker<'_> {
             return Ok(());
         };
         let name = self.spec.effect[index].kind().name();
-        let mut path = KeyPath::root().key("effect").index(index).key(name);
-        for key in mistake.key.split('.') {
-            path = path.key(key);
-        }
-        Err(self.mistake(&path, mistake.found))
+        let path = KeyPath::root().key("effect").index(index).key(name);
+        Err(self.mistake_in(path, mistake))
+    }
+
+    fn strangers(&self) -> Result<(), DocumentError> {
+        let injected = strangers::injected(&self.spec.stranger, &self.loaded.robot);
+        let Err((index, mistake)) = injected else { return Ok(()) };
+        let name = self.spec.stranger[index].kind().name();
+        let path = KeyPath::root().key("stranger").index(index).key(name);
+        Err(self.mistake_in(path, mistake))
+    }
+
+    /// A mistake of an effect or a stranger that stands at `path`.
+    fn mistake_in(&self, path: KeyPath, mistake: Mistake) -> DocumentError {
+        let path = mistake.key.split('.').fold(path, |path, key| path.key(key));
+        self.mistake(&path, mistake.found)
     }
 
     fn hidden(&self) -> Result<(), DocumentError> {

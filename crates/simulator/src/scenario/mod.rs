@@ -6,4 +6,6 @@ mod spec;
 
 pub(crate) use check::injected;
 pub use check::{Scenario, ScenarioRun};
-pub use spec::{ControlSpec, EngineSpec, HiddenSpec, RunSpec, ScenarioSpec, SensorSpec};
+pub use spec::{
+    ControlSpec, DropoutSpec, EngineSpec, HiddenSpec, Logged, RunSpec, ScenarioSpec, SensorSpec,
+};

@@ -7,6 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use crate::effects::EffectSpec;
+use crate::strangers::StrangerSpec;
 use crate::{EffortSource, PositionSide, VelocitySource};
 
 /// A scenario: a robot, what is put into it, its sensors and the motions that are logged.
@@ -33,6 +34,9 @@ pub struct ScenarioSpec {
     /// Effects put into the arm, each with its parameters.
     #[serde(default)]
     pub effect: Vec<EffectSpec>,
+    /// Effects of no catalogue put into the arm, each with its parameters.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stranger: Vec<StrangerSpec>,
     /// Effects to be drawn, which `truth.json` alone tells.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hidden: Option<HiddenSpec>,
@@ -101,6 +105,16 @@ pub struct SensorSpec {
     /// Standard deviation of the effort reading of each joint (N m).
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub effort_noise_nm: BTreeMap<String, f64>,
+    /// Step of the effort reading of each joint (N m), none where it is left out.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub effort_resolution_nm: BTreeMap<String, f64>,
+    /// Time by which the readings of the encoders at the links are older than their rows (ms).
+    pub link_position_lag_ms: f64,
+    /// Whether the log has a velocity.
+    pub velocity_logged: Logged,
+    /// Stretches of rows that are lost one after the other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dropouts: Option<DropoutSpec>,
     /// Rate of the log (Hz), a whole part of the controller's; the controller's where it is left
     /// out.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -122,11 +136,36 @@ impl Default for SensorSpec {
             link_position_resolution_rad: BTreeMap::new(),
             link_position_noise_rad: BTreeMap::new(),
             effort_noise_nm: BTreeMap::new(),
+            effort_resolution_nm: BTreeMap::new(),
+            link_position_lag_ms: 0.0,
+            velocity_logged: Logged::default(),
+            dropouts: None,
             log_rate_hz: None,
             time_jitter_ms: 0.0,
             dropped_share: 0.0,
         }
     }
+}
+
+/// Whether a signal is in the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Logged {
+    /// It is.
+    #[default]
+    Yes,
+    /// It is not.
+    No,
+}
+
+/// Stretches of rows that are lost one after the other, at random times.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DropoutSpec {
+    /// How many a minute, on average, 0 to 60.
+    pub per_minute: f64,
+    /// Length of one (ms), 1 to 2000.
+    pub length_ms: f64,
 }
 
 /// Effects to be drawn: which, where and how large.

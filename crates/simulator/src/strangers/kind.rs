@@ -1,0 +1,80 @@
+use std::fmt;
+
+use robot::Robot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes [`StrangerKind`] of the list of strangers.
+macro_rules! kinds {
+    ($($(#[$meaning:meta])* $kind:ident = $name:literal,)*) => {
+        /// An effect of no catalogue, by name.
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+            JsonSchema,
+        )]
+        #[serde(rename_all = "snake_case")]
+        pub enum StrangerKind {
+            $($(#[$meaning])* $kind,)*
+        }
+
+        impl StrangerKind {
+            /// Every stranger, in the order in which random draws count them.
+            pub const ALL: &'static [Self] = &[$(Self::$kind,)*];
+
+            /// The name used in files.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $name,)*
+                }
+            }
+        }
+    };
+}
+
+kinds! {
+    /// Contact with something that gives.
+    SoftWall = "soft_wall",
+    /// A place that attracts.
+    MagnetWell = "magnet_well",
+    /// Torque from the speed of another joint.
+    SpeedCrosstalk = "speed_crosstalk",
+    /// A drive to which small commands are none.
+    DriveDeadZone = "drive_dead_zone",
+    /// Torque that changes no faster than it can.
+    TorqueRateLimit = "torque_rate_limit",
+    /// Dry friction that grows with the load of the neighbouring joints.
+    TiltingBearing = "tilting_bearing",
+    /// A base that tilts under the weight of its arm.
+    SoftMount = "soft_mount",
+    /// An encoder whose disc is off its centre.
+    EccentricEncoder = "eccentric_encoder",
+    /// Torque that is gone for moments.
+    TorqueDropout = "torque_dropout",
+    /// An integrator in the drive, up to its limit.
+    IntegratorWindup = "integrator_windup",
+    /// Drag with the square of the speed.
+    SquareDrag = "square_drag",
+    /// A place where the joint rubs.
+    Snag = "snag",
+}
+
+impl StrangerKind {
+    /// Whether an arm can have it at a joint: what comes from a neighbour needs one, what comes
+    /// from weight needs gravity, and only a joint that turns has an eccentric encoder.
+    pub fn fits(self, robot: &Robot, joint: usize) -> bool {
+        match self {
+            Self::SpeedCrosstalk | Self::TiltingBearing => robot.joint_count() > 1,
+            Self::SoftMount => robot.gravity_in_base().norm() > 0.0,
+            Self::EccentricEncoder => {
+                robot.links().get(joint).is_some_and(|link| link.joint.kind.is_rotation())
+            }
+            _ => true,
+        }
+    }
+}
+
+impl fmt::Display for StrangerKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}

@@ -1,0 +1,80 @@
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, span, stiffest, within,
+};
+use crate::{Efforts, Inject, Moment};
+
+/// A place that attracts the link, as two magnets that pass each other do.
+///
+/// ```text
+/// U = -peak width sqrt(e) exp(-x² / (2 width²)),  x = q - centre
+/// torque = -dU/dq = -peak sqrt(e) (x / width) exp(-x² / (2 width²))
+/// ```
+///
+/// The torque is largest, `peak`, at `width` from the centre. No energy is lost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MagnetWell {
+    /// The joint.
+    pub joint: String,
+    /// Position that attracts (rad; m for a prismatic joint), -100 to 100.
+    pub centre_rad: f64,
+    /// Distance from it at which the torque is largest (rad; m), 0.0001 to 100.
+    pub width_rad: f64,
+    /// Largest torque (N m; N), 0 to 1000.
+    pub peak_nm: f64,
+}
+
+impl Stranger for MagnetWell {
+    const KIND: StrangerKind = StrangerKind::MagnetWell;
+
+    fn truth(&self) -> StrangerTruth {
+        let parameters =
+            [("centre", self.centre_rad), ("width", self.width_rad), ("peak", self.peak_nm)];
+        StrangerTruth::at_joint(Self::KIND, &self.joint, &parameters)
+    }
+
+    fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
+        let joint = joint_of(robot, &self.joint)?;
+        within("centre_rad", self.centre_rad, -100.0, 100.0)?;
+        within("width_rad", self.width_rad, 1e-4, 100.0)?;
+        within("peak_nm", self.peak_nm, 0.0, 1000.0)?;
+        Ok(Box::new(Injected { joint, well: self.clone() }))
+    }
+
+    /// A well of a tenth to a quarter of the range: over positions that are evenly spread,
+    /// `rms(torque) = peak sqrt(e sqrt(pi)/2 width/range)`.
+    fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
+        let part = random.random_range(0.1..0.25);
+        let width = (part * span(at)).clamp(1e-4, 100.0);
+        let peak = share * at.torque_rms / (2.41 * part).sqrt();
+        Self {
+            joint: at.joint_name(),
+            centre_rad: at.range.0 + random.random_range(0.35..0.65) * span(at),
+            width_rad: width,
+            peak_nm: peak.min(0.6 * width * stiffest(at)).min(1000.0),
+        }
+    }
+}
+
+struct Injected {
+    joint: usize,
+    well: MagnetWell,
+}
+
+impl Inject for Injected {
+    fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
+        let x = (moment.q[self.joint] - self.well.centre_rad) / self.well.width_rad;
+        efforts.link[self.joint] -= self.well.peak_nm * x * (0.5 * (1.0 - x * x)).exp();
+    }
+
+    /// The slope at the centre.
+    fn springs(&self) -> Vec<(usize, f64)> {
+        vec![(self.joint, self.well.peak_nm * 0.5_f64.exp() / self.well.width_rad)]
+    }
+}

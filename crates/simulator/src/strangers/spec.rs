@@ -1,0 +1,87 @@
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::*;
+use crate::Inject;
+use crate::effects::{Mistake, Surroundings};
+
+/// Makes [`StrangerSpec`] of the list of strangers, and calls the [`Stranger`] that it is.
+macro_rules! strangers {
+    ($($(#[$meaning:meta])* $name:ident,)*) => {
+        /// Any stranger, as `[[stranger]]` of a scenario states it: one key, the stranger's name.
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "snake_case")]
+        pub enum StrangerSpec {
+            $($(#[$meaning])* $name($name),)*
+        }
+
+        impl StrangerSpec {
+            /// Its name.
+            pub fn kind(&self) -> StrangerKind {
+                match self {
+                    $(Self::$name(_) => <$name as Stranger>::KIND,)*
+                }
+            }
+
+            /// Where it acts, and its parameters (SI).
+            pub fn truth(&self) -> StrangerTruth {
+                match self {
+                    $(Self::$name(stranger) => stranger.truth(),)*
+                }
+            }
+
+            /// The stranger ready to act on a robot; see [`Stranger::inject`].
+            ///
+            /// # Errors
+            ///
+            /// [`Mistake`], the first found: a joint that the robot does not have, or a value
+            /// that no arm has.
+            pub fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
+                match self {
+                    $(Self::$name(stranger) => stranger.inject(robot),)*
+                }
+            }
+
+            /// A stranger of a kind, drawn; see [`Stranger::draw`].
+            pub fn draw(
+                kind: StrangerKind,
+                at: &Surroundings<'_>,
+                share: f64,
+                random: &mut ChaCha8Rng,
+            ) -> Self {
+                match kind {
+                    $(StrangerKind::$name => Self::$name(Stranger::draw(at, share, random)),)*
+                }
+            }
+        }
+    };
+}
+
+strangers! {
+    /// Contact with something that gives.
+    SoftWall,
+    /// A place that attracts.
+    MagnetWell,
+    /// Torque from the speed of another joint.
+    SpeedCrosstalk,
+    /// A drive to which small commands are none.
+    DriveDeadZone,
+    /// Torque that changes no faster than it can.
+    TorqueRateLimit,
+    /// Dry friction that grows with the load of the neighbouring joints.
+    TiltingBearing,
+    /// A base that tilts under the weight of its arm.
+    SoftMount,
+    /// An encoder whose disc is off its centre.
+    EccentricEncoder,
+    /// Torque that is gone for moments.
+    TorqueDropout,
+    /// An integrator in the drive, up to its limit.
+    IntegratorWindup,
+    /// Drag with the square of the speed.
+    SquareDrag,
+    /// A place where the joint rubs.
+    Snag,
+}
