@@ -8,7 +8,7 @@ const PLACES: [(&str, &[&str]); 4] = [
     ("rapier", &["simulator"]),
     ("rerun", &["recording"]),
     ("clap", &["cli"]),
-    ("faer", &["dynamics", "effects", "gaussian_process", "learner"]),
+    ("faer", &["dynamics", "effects", "evaluation", "gaussian_process", "learner", "population"]),
 ];
 
 fn broken(crates: &[Package]) -> Vec<String> {
@@ -43,7 +43,7 @@ fn a_large_dependency_out_of_place_is_reported() {
     let expected = [
         "cli depends on rapier3d-f64, which has its place in simulator",
         "report depends on clap, which has its place in cli",
-        "report depends on faer, which has its place in dynamics, effects, gaussian_process, learner",
+        "report depends on faer, which has its place in dynamics, effects, evaluation, gaussian_process, learner, population",
         "report depends on rerun, which has its place in recording",
     ];
     assert_eq!(broken(&made_up), expected);

@@ -6,7 +6,7 @@ use crate::workspace::{Package, packages, reach};
 
 /// Crates of the one side and what they must not reach.
 const WALLS: [(&[&str], &[&str]); 2] = [
-    (&["simulator"], &["dynamics", "effects", "learner"]),
+    (&["simulator", "population"], &["dynamics", "effects", "learner", "diagnosis"]),
     (&["dynamics", "effects", "learner", "next_motion", "tracking", "diagnosis"], &["simulator"]),
 ];
 

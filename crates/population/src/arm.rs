@@ -1,0 +1,116 @@
+use nalgebra::{Rotation3, Vector3};
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+
+use crate::dice::{between, direction, rounded, weighted};
+use crate::electronics::Electronics;
+use crate::{ArmClass, make::Make};
+use crate::{EffortClass, PopulationError, RobotFiles, arm_generated, arm_wam};
+
+/// An arm: what it is, what its user has of it, and what its motions must keep to.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Arm {
+    /// The arm as it is.
+    pub truth: RobotFiles,
+    /// What the user has.
+    pub nominal: RobotFiles,
+    /// The arm as it is: bodies, rotors, springs, gravity, limits.
+    pub robot: Robot,
+    /// Its loop and signals.
+    pub electronics: Electronics,
+    /// Stiffness of each joint's loop (N m/rad or N/m).
+    pub kp: Vec<f64>,
+    /// Largest torque of each joint (N m or N).
+    pub limits: Vec<f64>,
+    /// Accelerations of everyday motions (rad/s^2 or m/s^2).
+    pub accelerations: Vec<f64>,
+}
+
+impl Arm {
+    /// An arm of a class; a generated one has so many joints.
+    pub(crate) fn draw(
+        class: ArmClass,
+        count: usize,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Self, PopulationError> {
+        match class {
+            ArmClass::Wam => arm_wam::draw(random),
+            ArmClass::Hobby | ArmClass::Cobot | ArmClass::Industrial => {
+                arm_generated::draw(class, count, random)
+            }
+        }
+    }
+
+    /// Typical Coulomb friction of each drive (N m or N).
+    pub(crate) fn friction(&self, class: ArmClass, random: &mut ChaCha8Rng) -> Vec<f64> {
+        let make = Make::of(class);
+        let of = |limit: &f64| rounded(limit * between(random, make.friction), 3);
+        self.limits.iter().map(of).collect()
+    }
+}
+
+/// How a base stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Base {
+    Upright,
+    Tilted,
+    Hanging,
+}
+
+impl Base {
+    pub(crate) fn draw(random: &mut ChaCha8Rng) -> Self {
+        match weighted(random, &[0.7, 0.15, 0.15]) {
+            0 => Self::Upright,
+            1 => Self::Tilted,
+            _ => Self::Hanging,
+        }
+    }
+
+    /// Gravity in the base frame (m/s^2); tilts are of 5 to 90 degrees about a level axis.
+    pub(crate) fn gravity(self, random: &mut ChaCha8Rng) -> [f64; 3] {
+        match self {
+            Self::Upright => [0.0, 0.0, -9.81],
+            Self::Hanging => [0.0, 0.0, 9.81],
+            Self::Tilted => {
+                let level = direction(random).cross(&Vector3::z());
+                let axis = nalgebra::Unit::new_normalize(level + 1e-9 * Vector3::x());
+                let tilt = Rotation3::from_axis_angle(&axis, between(random, [0.09, 1.57]));
+                let g = tilt * Vector3::new(0.0, 0.0, -9.81);
+                [g.x, g.y, g.z].map(|g| rounded(g, 6))
+            }
+        }
+    }
+}
+
+/// What a user knows of the rotors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum RotorsKnown {
+    All,
+    None,
+}
+
+impl RotorsKnown {
+    /// A joint torque sensor sits behind the rotor: the model of its reading has none.
+    pub(crate) fn draw(electronics: &Electronics, random: &mut ChaCha8Rng) -> Self {
+        let known = weighted(random, &[0.6, 0.4]) == 0;
+        if known && electronics.effort != EffortClass::JointTorque { Self::All } else { Self::None }
+    }
+}
+
+/// How far a nominal model is off, over what models are off by: exact in one arm of five.
+pub(crate) fn error_level(random: &mut ChaCha8Rng) -> f64 {
+    match weighted(random, &[0.2, 0.8]) {
+        0 => 0.0,
+        _ => between(random, [0.1, 1.0]),
+    }
+}
+
+/// What a URDF states for `<dynamics>`: mostly nothing, or a dummy that nobody has measured.
+pub(crate) fn dummy_dynamics(class: ArmClass, random: &mut ChaCha8Rng) -> Option<[f64; 2]> {
+    let sizes = match class {
+        ArmClass::Hobby => [[0.0, 0.0], [0.01, 0.01], [0.1, 0.0]],
+        ArmClass::Cobot | ArmClass::Wam => [[0.0, 0.0], [0.1, 0.1], [1.0, 0.0]],
+        ArmClass::Industrial => [[0.0, 0.0], [1.0, 1.0], [10.0, 0.0]],
+    };
+    sizes.get(weighted(random, &[0.3, 0.08, 0.07, 0.55])).copied()
+}

@@ -1,0 +1,182 @@
+use motion::MotionSpec;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use simulator::scenario::{ControlSpec, RunSpec, SensorSpec};
+
+use crate::arm::Arm;
+use crate::dice::{between, happens, spread, weighted};
+use crate::ground::Ground;
+use crate::make::Make;
+use crate::motions::{self, Place};
+use crate::{ArmClass, EffortClass, MotionClass, PopulationError, RobotFiles, sensors};
+
+/// Arms that are drawn before a bench is given up.
+const TRIES: usize = 40;
+/// Time that an arm is held before a log begins (s).
+const LEAD_IN_S: f64 = 1.0;
+
+/// An arm on its bench: what a truth is made of before anything is hidden in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bench {
+    /// Kind of arm.
+    pub class: ArmClass,
+    /// The arm as it is: bodies, rotors, gravity, gains, limits, sensing; no friction.
+    pub truth: RobotFiles,
+    /// What its user has: bodies off by up to 5 % and some mm, rotors or none, a URDF without friction or with
+    /// that of nobody's arm.
+    pub nominal: RobotFiles,
+    /// The controller.
+    pub control: ControlSpec,
+    /// What the logs see.
+    pub sensors: SensorSpec,
+    /// The logs given to the diagnosis.
+    pub runs: Vec<RunSpec>,
+    /// Another draw of the same kind of motion.
+    pub held_out: RunSpec,
+    /// Kind of motion; the first of a mixture.
+    pub motion: MotionClass,
+    /// What the effort is.
+    pub effort: EffortClass,
+    /// Whether all logs are of one motion.
+    pub repeats: bool,
+    /// Typical Coulomb friction of each joint's drive (N m or N).
+    pub friction: Vec<f64>,
+}
+
+/// What benches are drawn from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BenchWishes {
+    /// Kinds of arm, each as likely.
+    pub classes: Vec<ArmClass>,
+    /// Kinds of motion, each as likely.
+    pub motions: Vec<MotionClass>,
+    /// Least and largest number of logs.
+    pub logs: [usize; 2],
+    /// Least and largest length of a log (s).
+    pub log_s: [f64; 2],
+}
+
+/// Draws a bench.
+///
+/// # Errors
+///
+/// [`PopulationError::NothingToDraw`], or [`PopulationError::NoBench`] where no arm carries a motion of the
+/// kind that was drawn.
+pub fn draw_bench(wishes: &BenchWishes, random: &mut ChaCha8Rng) -> Result<Bench, PopulationError> {
+    let class = pick("classes", &wishes.classes, random)?;
+    let motion = pick("motions", &wishes.motions, random)?;
+    // Settled once, so that arms which are hard to move are not rare.
+    let count = 1 + weighted(random, &Make::of(class).joints);
+    for _ in 0..TRIES {
+        let arm = Arm::draw(class, count, random)?;
+        let sensors = sensors::draw(class, &arm, random);
+        let friction = arm.friction(class, random);
+        if let Some(moved) = moved(&arm, motion, wishes, random)? {
+            return Ok(Bench {
+                class,
+                control: ControlSpec::default(),
+                sensors,
+                runs: moved.runs,
+                held_out: moved.held_out,
+                motion,
+                effort: arm.electronics.effort,
+                repeats: moved.repeats,
+                friction,
+                truth: arm.truth,
+                nominal: arm.nominal,
+            });
+        }
+    }
+    Err(PopulationError::NoBench { arm: class, motion, tries: TRIES })
+}
+
+/// The runs of a bench.
+struct Moved {
+    runs: Vec<RunSpec>,
+    held_out: RunSpec,
+    repeats: bool,
+}
+
+/// Runs of an arm; `None` where it carries no such motion.
+fn moved(
+    arm: &Arm,
+    motion: MotionClass,
+    wishes: &BenchWishes,
+    random: &mut ChaCha8Rng,
+) -> Result<Option<Moved>, PopulationError> {
+    let ground = Ground::new(arm, between(random, [0.2, 1.0]));
+    let logs = log_count(ground.count(), motion, wishes, random);
+    let repeats = motion == MotionClass::Repeated && logs > 1;
+    let typical_s = spread(random, wishes.log_s);
+    let mixed = happens(random, 0.2)
+        && !matches!(motion, MotionClass::Repeated | MotionClass::JointByJoint);
+    let mut runs: Vec<RunSpec> = Vec::with_capacity(logs);
+    for log in 0..logs {
+        if let (true, Some(first)) = (repeats, runs.first()) {
+            let again = RunSpec { name: name(log), ..first.clone() };
+            runs.push(again);
+            continue;
+        }
+        let class = match mixed && log > 0 {
+            true => other(wishes, motion, random),
+            false => motion,
+        };
+        let place = Place { log, logs, length_s: length(typical_s, wishes, random) };
+        let Some(spec) = motions::draw(class, &ground, place, random)? else { return Ok(None) };
+        runs.push(run(name(log), spec));
+    }
+    // What all joints do in one log says most of a model.
+    let place = Place { log: 0, logs: 1, length_s: length(typical_s, wishes, random) };
+    let held_out = motions::draw(motion, &ground, place, random)?;
+    Ok(held_out.map(|spec| Moved { runs, held_out: run("held_out".to_owned(), spec), repeats }))
+}
+
+fn log_count(
+    joints: usize,
+    motion: MotionClass,
+    wishes: &BenchWishes,
+    random: &mut ChaCha8Rng,
+) -> usize {
+    let [least, most] = [wishes.logs[0].max(1), wishes.logs[1].max(1)];
+    let one_each = motion == MotionClass::JointByJoint && (least..=most).contains(&joints);
+    if one_each && happens(random, 0.6) {
+        return joints;
+    }
+    // What repeats does so at least once, where that is allowed.
+    let least = if motion == MotionClass::Repeated { least.max(2).min(most) } else { least };
+    random.random_range(least.min(most)..=most)
+}
+
+/// Another kind of motion for one log of a mixture.
+fn other(wishes: &BenchWishes, motion: MotionClass, random: &mut ChaCha8Rng) -> MotionClass {
+    let single = |m: &&MotionClass| !matches!(m, MotionClass::Repeated | MotionClass::JointByJoint);
+    let kinds: Vec<MotionClass> = wishes.motions.iter().filter(single).copied().collect();
+    pick("motions", &kinds, random).unwrap_or(motion)
+}
+
+fn length(typical_s: f64, wishes: &BenchWishes, random: &mut ChaCha8Rng) -> f64 {
+    let [least, most] = wishes.log_s;
+    let length = (typical_s * between(random, [0.8, 1.2])).clamp(least, most);
+    (10.0 * length).round() / 10.0
+}
+
+fn name(log: usize) -> String {
+    format!("log_{}", log + 1)
+}
+
+fn run(name: String, motion: MotionSpec) -> RunSpec {
+    RunSpec { name, motion, lead_in_s: LEAD_IN_S }
+}
+
+fn pick<T: Copy>(
+    key: &'static str,
+    from: &[T],
+    random: &mut ChaCha8Rng,
+) -> Result<T, PopulationError> {
+    if from.is_empty() {
+        return Err(PopulationError::NothingToDraw { key });
+    }
+    from.get(random.random_range(0..from.len()))
+        .copied()
+        .ok_or(PopulationError::NothingToDraw { key })
+}

@@ -1,0 +1,117 @@
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes an enum whose variants are told by name in files and tables.
+macro_rules! named {
+    ($(#[$meta:meta])* $type:ident { $($(#[$meaning:meta])* $variant:ident = $name:literal,)* }) => {
+        $(#[$meta])*
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+        )]
+        #[serde(rename_all = "snake_case")]
+        pub enum $type { $($(#[$meaning])* $variant,)* }
+
+        impl $type {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$variant,)*];
+
+            /// Its name in files and tables.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+        }
+
+        impl fmt::Display for $type {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.pad(self.name())
+            }
+        }
+    };
+}
+
+named! {
+    /// Kind of arm.
+    ArmClass {
+        /// Barrett's seven joints with cable drives, `robots/wam7`.
+        Wam = "wam",
+        /// Light links on geared position servos with coarse encoders.
+        Hobby = "hobby",
+        /// A collaborative arm: fine encoders, fast logs, motor current or joint torque sensors.
+        Cobot = "cobot",
+        /// Heavy links, slow logs, sometimes a counterbalance.
+        Industrial = "industrial",
+    }
+}
+
+named! {
+    /// How an arm is moved.
+    MotionClass {
+        /// One joint after the other, the others at rest.
+        JointByJoint = "joint_by_joint",
+        /// Sums of sinusoids at all joints.
+        Sinusoids = "sinusoids",
+        /// From posture to posture with rests between.
+        PointToPoint = "point_to_point",
+        /// The same few postures in turn, with slow approaches.
+        PickAndPlace = "pick_and_place",
+        /// Sines of rising frequency, up to 10 Hz.
+        Sweep = "sweep",
+        /// A path that a hand has taught, slow and uneven, played back.
+        LedByHand = "led_by_hand",
+        /// Swings of growing amplitude.
+        SwingUp = "swing_up",
+        /// One task again and again.
+        Repeated = "repeated",
+    }
+}
+
+named! {
+    /// What the effort of a log is.
+    EffortClass {
+        /// What the controller asked for.
+        Command = "command",
+        /// Torque of the motor, from its current.
+        Current = "current",
+        /// Torque behind the transmission, from a sensor.
+        JointTorque = "joint_torque",
+    }
+}
+
+named! {
+    /// Where the logs of a trial come from.
+    Origin {
+        /// Simulated.
+        Simulated = "simulated",
+        /// Recorded, a cause added to them.
+        Transplant = "transplant",
+        /// Recorded.
+        Recorded = "recorded",
+    }
+}
+
+/// The corner of the population that a trial lies in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Corner {
+    /// Where its logs come from.
+    pub origin: Origin,
+    /// Name of the arm: its class, or the recorded robot.
+    pub arm: String,
+    /// How it is moved; the first of a mixture.
+    pub motion: MotionClass,
+    /// What its effort is.
+    pub effort: EffortClass,
+    /// Number of joints.
+    pub joints: usize,
+    /// Largest step of a position reading (rad or m).
+    pub encoder_step: f64,
+    /// Rate of the log (Hz).
+    pub rate_hz: f64,
+    /// Logs given to the diagnosis.
+    pub logs: usize,
+    /// Their length in all (s).
+    pub length_s: f64,
+    /// Whether all logs are of one motion.
+    pub repeats: bool,
+}

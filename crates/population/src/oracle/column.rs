@@ -1,0 +1,32 @@
+use nalgebra::DMatrix;
+
+/// The torque that something adds along the motion: for every run a row a sample, a column a joint.
+pub(crate) type Torque = Vec<DMatrix<f64>>;
+
+/// A column of the oracle's regression.
+#[derive(Debug, Clone)]
+pub(crate) struct Column {
+    /// What it stands for: causes that are of the same stand-in leave one another out.
+    pub stands_for: StandIn,
+    /// Its torque (N m or N) at a size of one.
+    pub torque: Torque,
+    /// What is known of its size beforehand, as `1 / deviation^2`; none of a cause.
+    pub prior: f64,
+}
+
+/// What a column stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StandIn {
+    /// Friction that has the sign of the velocity, at a joint.
+    Dry(usize),
+    /// Friction in proportion to the velocity, at a joint.
+    Viscous(usize),
+    /// A constant at a joint.
+    Offset(usize),
+    /// Inertia of a joint's rotor.
+    Rotor(usize),
+    /// The body of a link.
+    Body(usize),
+    /// Nothing but itself.
+    Itself,
+}

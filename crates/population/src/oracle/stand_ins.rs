@@ -1,0 +1,86 @@
+use nalgebra::DMatrix;
+use robot::{Inertia, Robot};
+
+use super::{Column, SeenRun, StandIn};
+use crate::moving::Moving;
+
+/// Speed at which dry friction has three quarters of its level (rad/s or m/s).
+const CREEP: f64 = 2e-3;
+
+/// How well bodies are known beforehand: share of mass, distance of the centre of mass as a share of the
+/// body's radius of gyration, and share of inertia.
+const KNOWN: f64 = 0.05;
+
+/// Sign of a velocity, smooth about zero.
+pub(crate) fn dry(qd: f64) -> f64 {
+    (qd / CREEP).tanh()
+}
+
+/// All that may stand in for a cause: dry and viscous friction, an offset and a rotor at every joint, of any
+/// size, and the ten parameters of every body, known to a twentieth.
+pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<Column> {
+    let joints = robot.joint_count();
+    let mut columns = Vec::with_capacity(14 * joints);
+    for j in 0..joints {
+        let alone = |of: &dyn Fn(&SeenRun, usize) -> f64| {
+            let only = |run: &SeenRun| {
+                let value = |i, k| if k == j { of(run, i) } else { 0.0 };
+                DMatrix::from_fn(run.rows(), joints, value)
+            };
+            runs.iter().map(only).collect()
+        };
+        let free = |stands_for, torque| Column { stands_for, torque, prior: 0.0 };
+        columns.push(free(StandIn::Dry(j), alone(&|run, i| dry(run.qd[(i, j)]))));
+        columns.push(free(StandIn::Viscous(j), alone(&|run, i| run.qd[(i, j)])));
+        columns.push(free(StandIn::Offset(j), alone(&|_, _| 1.0)));
+        columns.push(free(StandIn::Rotor(j), alone(&|run, i| run.qdd[(i, j)])));
+    }
+    let known: Vec<[f64; 10]> = robot.links().iter().map(|l| deviations(&l.inertia)).collect();
+    let bodies = body_columns(robot, runs);
+    for ((link, parameter), torque) in bodies {
+        let prior = known[link][parameter].powi(-2);
+        columns.push(Column { stands_for: StandIn::Body(link), torque, prior });
+    }
+    columns
+}
+
+/// Deviations of a body's ten parameters as they are known beforehand.
+fn deviations(body: &Inertia) -> [f64; 10] {
+    let mass = body.mass.max(1e-6);
+    let radius = (body.about_com.trace() / (2.0 * mass)).sqrt().max(1e-4);
+    let reach = body.com_in_link.norm() + radius;
+    let (m, h, i) = (KNOWN * mass, KNOWN * mass * reach, KNOWN * mass * reach * reach);
+    [m, h, h, h, i, i, i, i, i, i]
+}
+
+type BodyColumn = ((usize, usize), Vec<DMatrix<f64>>);
+
+/// Torque per unit of each of the ten parameters of each body.
+fn body_columns(robot: &Robot, runs: &[SeenRun]) -> Vec<BodyColumn> {
+    let joints = robot.joint_count();
+    let zero = || runs.iter().map(|run| DMatrix::zeros(run.rows(), joints)).collect();
+    let places = (0..joints).flat_map(|link| (0..10).map(move |parameter| (link, parameter)));
+    let mut columns: Vec<BodyColumn> = places.map(|place| (place, zero())).collect();
+    let mut tau = vec![0.0; joints];
+    for (r, run) in runs.iter().enumerate() {
+        for i in 0..run.rows() {
+            let moving = run.moving(robot, i);
+            for ((link, parameter), torque) in &mut columns {
+                let mut unit = [0.0; 10];
+                unit[*parameter] = 1.0;
+                tau.fill(0.0);
+                moving.add_body(*link, &unit, &mut tau);
+                tau.iter().enumerate().for_each(|(j, tau)| torque[r][(i, j)] = *tau);
+            }
+        }
+    }
+    columns
+}
+
+impl SeenRun {
+    /// How the links move at a sample.
+    pub fn moving(&self, robot: &Robot, i: usize) -> Moving {
+        let of = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<f64>>();
+        Moving::new(robot, [&of(&self.q), &of(&self.qd), &of(&self.qdd)])
+    }
+}

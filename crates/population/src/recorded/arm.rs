@@ -1,0 +1,223 @@
+use std::path::{Path, PathBuf};
+
+use logs::{ReadOptions, Run, read_run};
+use robot::Robot;
+
+use super::cut::{Part, part, thinned, until};
+use crate::{EffortClass, MotionClass, PopulationError};
+
+/// Longest part of a log that is used (s).
+const LONGEST_S: f64 = 60.0;
+
+/// Robots that are not in the folder of their logs, in folders of their names.
+const ROBOTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots");
+
+/// A recorded log.
+struct Log {
+    name: &'static str,
+    motion: MotionClass,
+    /// Logs of one arm with the same number are of one motion.
+    path: u8,
+}
+
+/// Which part of an arm's logs is held out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum HeldOut {
+    /// One log of several.
+    Log,
+    /// The last quarter of the only log.
+    LastQuarter,
+    /// The same quarter of every log.
+    Quarter,
+}
+
+/// What is known of an arm's logs.
+struct Entry {
+    name: &'static str,
+    folder: &'static str,
+    /// Folder in [`ROBOTS`]; without it the robot is beside the logs.
+    robot: Option<&'static str>,
+    effort: EffortClass,
+    held_out: HeldOut,
+    logs: &'static [Log],
+}
+
+const fn log(name: &'static str, motion: MotionClass, path: u8) -> Log {
+    Log { name, motion, path }
+}
+
+/// The first two logs of the LWR4 are of one motion, and so are the first two of the Gen3.
+static ARMS: [Entry; 7] = [
+    Entry {
+        name: "lwr4",
+        folder: "kuka_lwr4",
+        robot: None,
+        effort: EffortClass::JointTorque,
+        held_out: HeldOut::Log,
+        logs: &[
+            log("measurements_1", MotionClass::Sinusoids, 0),
+            log("measurements_2", MotionClass::Sinusoids, 0),
+            log("measurements_3", MotionClass::Sinusoids, 1),
+        ],
+    },
+    Entry {
+        name: "gen3",
+        folder: "kinova_gen3",
+        robot: None,
+        effort: EffortClass::Current,
+        held_out: HeldOut::Log,
+        logs: &[
+            log("Trajectory1", MotionClass::PointToPoint, 0),
+            log("RunTrajectory1", MotionClass::PointToPoint, 0),
+            log("RecordTrajectory_quadratic", MotionClass::PointToPoint, 1),
+            log("opti_traj_testing1", MotionClass::Sinusoids, 2),
+            log("opti_traj_testing2", MotionClass::Sinusoids, 3),
+        ],
+    },
+    Entry {
+        name: "tx40",
+        folder: "staubli_tx40",
+        robot: None,
+        effort: EffortClass::Current,
+        held_out: HeldOut::LastQuarter,
+        logs: &[log("excitation", MotionClass::Sinusoids, 0)],
+    },
+    Entry {
+        name: "barrett_wam",
+        folder: "barrett_wam",
+        robot: Some("wam7"),
+        effort: EffortClass::Command,
+        held_out: HeldOut::LastQuarter,
+        logs: &[log("shoulder_elbow_sweep", MotionClass::Sweep, 0)],
+    },
+    Entry {
+        name: "ur10e",
+        folder: "ur10e_joint_by_joint",
+        robot: None,
+        effort: EffortClass::Current,
+        held_out: HeldOut::Quarter,
+        logs: &[
+            log("joint_1", MotionClass::JointByJoint, 0),
+            log("joint_2", MotionClass::JointByJoint, 1),
+            log("joint_3", MotionClass::JointByJoint, 2),
+            log("joint_4", MotionClass::JointByJoint, 3),
+            log("joint_5", MotionClass::JointByJoint, 4),
+            log("joint_6", MotionClass::JointByJoint, 5),
+        ],
+    },
+    Entry {
+        name: "dfki_pendulum",
+        folder: "dfki_pendulum",
+        robot: None,
+        effort: EffortClass::Current,
+        held_out: HeldOut::Log,
+        logs: &[
+            log("ddp", MotionClass::SwingUp, 0),
+            log("direct_collocation", MotionClass::SwingUp, 1),
+            log("pd", MotionClass::SwingUp, 2),
+            log("gravity_compensation", MotionClass::LedByHand, 3),
+        ],
+    },
+    Entry {
+        name: "panda",
+        folder: "panda",
+        robot: None,
+        effort: EffortClass::JointTorque,
+        held_out: HeldOut::LastQuarter,
+        logs: &[log("whole", MotionClass::Sinusoids, 0)],
+    },
+];
+
+/// A real arm whose recorded logs are there.
+///
+/// Its logs are used up to 60 s, thinned to the rate nearest to 250 Hz; their dropouts, lags and outliers
+/// stay as they are.
+#[derive(Clone)]
+pub struct RecordedArm {
+    entry: &'static Entry,
+    folder: PathBuf,
+    robot: PathBuf,
+}
+
+/// A log of an arm as trials use it.
+pub(super) struct Used {
+    pub(super) motion: MotionClass,
+    pub(super) path: u8,
+    pub(super) run: Run,
+}
+
+/// The arms whose logs and robot are there below the folder `data`.
+pub fn available(data: &Path) -> Vec<RecordedArm> {
+    ARMS.iter().filter_map(|entry| RecordedArm::find(data, entry)).collect()
+}
+
+impl RecordedArm {
+    fn find(data: &Path, entry: &'static Entry) -> Option<Self> {
+        let folder = data.join(entry.folder);
+        let beside = entry.robot.map_or(folder.clone(), |name| Path::new(ROBOTS).join(name));
+        let robot = ["robot.toml", "robot.urdf"].map(|file| beside.join(file));
+        let robot = robot.into_iter().find(|file| file.is_file())?;
+        let arm = Self { entry, folder, robot };
+        arm.logs().iter().all(|log| log.is_file()).then_some(arm)
+    }
+
+    /// Its name in tables.
+    pub fn name(&self) -> &'static str {
+        self.entry.name
+    }
+
+    /// File of its nominal model.
+    pub fn robot(&self) -> &Path {
+        &self.robot
+    }
+
+    /// Files of its logs.
+    pub fn logs(&self) -> Vec<PathBuf> {
+        let path = |log: &Log| self.folder.join(format!("{}.parquet", log.name));
+        self.entry.logs.iter().map(path).collect()
+    }
+
+    /// What its logs report as effort.
+    pub fn effort(&self) -> EffortClass {
+        self.entry.effort
+    }
+
+    pub(super) fn held_out(&self) -> HeldOut {
+        self.entry.held_out
+    }
+
+    /// Number of choices of what is held out.
+    pub(super) fn splits(&self) -> usize {
+        match self.entry.held_out {
+            HeldOut::Log => self.entry.logs.len(),
+            HeldOut::LastQuarter => 1,
+            HeldOut::Quarter => Part::QUARTERS,
+        }
+    }
+
+    /// Its logs, thinned and cut to the longest that is used, and the smallest step of each joint's
+    /// position in all rows of them.
+    pub(super) fn read(&self, robot: &Robot) -> Result<(Vec<Used>, Vec<f64>), PopulationError> {
+        let mut steps = vec![f64::INFINITY; robot.joint_count()];
+        let mut used = Vec::new();
+        for (log, path) in self.entry.logs.iter().zip(self.logs()) {
+            let whole = read_run(&path, robot, &ReadOptions::default())?;
+            for (step, joint) in steps.iter_mut().zip(&whole.joints) {
+                *step = step.min(smallest_step(&joint.position));
+            }
+            let rows = until(&whole, LONGEST_S);
+            let run = thinned(&part(&whole, log.name, rows));
+            used.push(Used { motion: log.motion, path: log.path, run });
+        }
+        Ok((used, steps))
+    }
+}
+
+/// Differences of positions below this are rounding (rad or m).
+const ROUNDING: f64 = 1e-9;
+
+/// Smallest difference of neighbouring positions that is none of rounding; infinite where nothing moves.
+fn smallest_step(position: &[f64]) -> f64 {
+    let steps = position.windows(2).map(|q| (q[1] - q[0]).abs());
+    steps.filter(|step| *step > ROUNDING).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,101 @@
+use std::f64::consts::PI;
+
+use logs::Run;
+use rand::{Rng, RngExt};
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+
+use super::cut::rate_hz;
+use super::law::{Law, most_periods};
+use super::point_mass::PointMass;
+use super::size::Measured;
+use super::transplant::Transplant;
+
+/// Least and largest RMS of what is added to a joint, over the RMS of its effort.
+const SHARES: [f64; 2] = [0.03, 0.5];
+
+/// Number of laws that are drawn from, each as likely.
+const LAWS: usize = 12;
+
+/// Periods in a turn of the ripples that are drawn, where the log resolves them.
+const PERIODS: [f64; 2] = [20.0, 200.0];
+
+/// Largest mass of a payload (kg).
+const HEAVIEST: f64 = 50.0;
+
+/// Largest time by which efforts come later or earlier (s).
+const LATEST_S: f64 = 0.05;
+
+/// Skew by which the size of a skew is measured (s).
+const SOME_SKEW_S: f64 = 0.002;
+
+/// Draws a transplant into logs: a joint that moves, a law, and a size, log-uniform from .03 to .5 of
+/// the RMS of the effort of the joint, of a payload and a skew at the joint where that is largest.
+/// `None` where no joint moves.
+pub(super) fn draw(robot: &Robot, runs: &[Run], random: &mut ChaCha8Rng) -> Option<Transplant> {
+    let measured = Measured::new(robot, runs);
+    if measured.moving.is_empty() {
+        return None;
+    }
+    let joint = measured.moving[random.random_range(0..measured.moving.len())];
+    let law = some_law(&measured, joint, random);
+    let share = log_uniform(SHARES, random);
+    let unit = Transplant { law, joint };
+    let of_unit = measured.share(&unit.added(robot, runs));
+    let factor = if of_unit > 0.0 { share / of_unit } else { 1.0 };
+    Some(Transplant { law: bounded(law.times(factor)), joint })
+}
+
+/// A law of some size.
+fn some_law(measured: &Measured, joint: usize, random: &mut ChaCha8Rng) -> Law {
+    let (low, high) = measured.range(joint);
+    let side = |random: &mut ChaCha8Rng| if random.random_bool(0.5) { 1.0 } else { -1.0 };
+    let inside = |random: &mut ChaCha8Rng| low + (high - low) * random.random_range(0.25..0.75);
+    match random.random_range(0..LAWS) {
+        0 => Law::Coulomb { level: 1.0 },
+        1 => Law::Viscous { viscous: 1.0 },
+        2 => {
+            let shift = side(random) * random.random_range(0.3..1.0);
+            Law::Asymmetric { forward: 1.0 + shift, backward: 1.0 - shift }
+        }
+        3 => Law::Offset { offset: side(random) },
+        4 => Law::Gain { gain: 1.0 + side(random) },
+        5 => Law::Spring { stiffness: 1.0, rest: inside(random) },
+        6 => Law::Load { coefficient: 1.0 },
+        7 => {
+            let rate_hz = measured.runs.first().map_or(0.0, rate_hz);
+            let most = most_periods(rate_hz, measured.speed_rms(joint)).min(PERIODS[1]);
+            let periods = log_uniform([PERIODS[0].min(0.5 * most), most], random).round().max(1.0);
+            Law::Ripple { amplitude: 1.0, periods, phase: random.random_range(-PI..PI) }
+        }
+        8 => Law::Drag { coefficient: 1.0 },
+        9 => {
+            let width = (high - low) * random.random_range(0.03..0.1);
+            Law::Well { peak: 1.0, centre: inside(random), width }
+        }
+        10 => Law::PointMass(PointMass { mass: 1.0, com: somewhere(random) }),
+        _ => Law::Late { skew: side(random) * SOME_SKEW_S },
+    }
+}
+
+/// A place .05 to .15 m from the origin of a link, in any direction (m).
+fn somewhere(random: &mut ChaCha8Rng) -> [f64; 3] {
+    let height: f64 = random.random_range(-1.0..1.0);
+    let turn: f64 = random.random_range(-PI..PI);
+    let [radius, level] = [random.random_range(0.05..0.15), (1.0 - height * height).sqrt()];
+    [radius * level * turn.cos(), radius * level * turn.sin(), radius * height]
+}
+
+/// A law no larger than is found on arms.
+fn bounded(law: Law) -> Law {
+    match law {
+        Law::PointMass(body) => Law::PointMass(PointMass { mass: body.mass.min(HEAVIEST), ..body }),
+        Law::Late { skew } => Law::Late { skew: skew.clamp(-LATEST_S, LATEST_S) },
+        _ => law,
+    }
+}
+
+/// A number whose logarithm is uniform.
+fn log_uniform([low, high]: [f64; 2], random: &mut impl Rng) -> f64 {
+    (low.ln() + (high / low).ln() * random.random::<f64>()).exp()
+}

@@ -1,0 +1,114 @@
+use catalogue::EffectKind;
+use logs::Run;
+use robot::Robot;
+use simulator::Truth;
+
+use super::law::Law;
+use super::signals::averaged;
+use super::size::{Added, Measured, Own};
+use crate::{Cause, Role, Strength, Unnamed};
+
+/// A cause put into recorded logs by adding a closed form to their efforts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transplant {
+    /// What is added.
+    pub law: Law,
+    /// Index of the joint where it acts; a law of all joints pays no heed to it.
+    pub joint: usize,
+}
+
+/// A transplant as a sheet states it.
+pub(super) enum Told {
+    /// An effect of the catalogue.
+    Named(Cause),
+    /// An effect of no catalogue.
+    Stranger(Unnamed),
+}
+
+impl Transplant {
+    /// Adds it to the efforts of a run.
+    pub fn add(&self, robot: &Robot, run: &mut Run) {
+        let torque = self.law.torque(robot, run, self.joint);
+        for (channels, torque) in run.joints.iter_mut().zip(&torque) {
+            channels.effort.iter_mut().zip(torque).for_each(|(effort, more)| *effort += more);
+        }
+    }
+
+    /// What is to be seen of it in logs as they are without it: see the fields of [`Strength`]. Simpler
+    /// than an oracle that knows the true arm: only the constant, the velocity, its direction and the
+    /// acceleration of the same joint can stand in for it, and noise is what efforts change by within
+    /// 60 ms. Joints that range over less than .1 rad or 1 cm do not count.
+    pub fn strength(&self, robot: &Robot, runs: &[Run]) -> Strength {
+        Measured::new(robot, runs).strength(&self.added(robot, runs), self.own())
+    }
+
+    /// What it adds to runs. A skew is that of efforts averaged over 20 ms either side: what it does to
+    /// their noise is no part of it.
+    pub(super) fn added(&self, robot: &Robot, runs: &[Run]) -> Added {
+        let added = |run: &Run| match self.law {
+            Law::Late { .. } => self.law.torque(robot, &smoothed(run), self.joint),
+            _ => self.law.torque(robot, run, self.joint),
+        };
+        runs.iter().map(added).collect()
+    }
+
+    /// The everyday column that it is itself. Asymmetric friction is dry friction with two levels.
+    fn own(&self) -> Own {
+        match self.law {
+            Law::Coulomb { .. } | Law::Asymmetric { .. } => Own::Direction,
+            Law::Viscous { .. } => Own::Velocity,
+            Law::Offset { .. } => Own::Constant,
+            _ => Own::Nothing,
+        }
+    }
+
+    /// It as a sheet states it, with its parameters under the catalogue's names.
+    pub(super) fn told(&self, robot: &Robot, strength: Strength) -> Told {
+        let here = robot.links()[self.joint].joint.name.as_str();
+        let tip = robot.links().last().map_or("", |link| link.name.as_str());
+        let at = |effect, parameters: &[(&str, f64)]| Truth::at_joint(effect, here, parameters);
+        let stranger = |name: &str| {
+            let joint = Some(here.to_owned());
+            Told::Stranger(Unnamed { name: name.to_owned(), joint, strength })
+        };
+        let truth = match self.law {
+            Law::Coulomb { level } => at(EffectKind::CoulombFriction, &[("level", level)]),
+            Law::Viscous { viscous } => at(EffectKind::ViscousFriction, &[("viscous", viscous)]),
+            Law::Asymmetric { forward, backward } => {
+                at(EffectKind::AsymmetricFriction, &[("forward", forward), ("backward", backward)])
+            }
+            Law::Offset { offset } => at(EffectKind::TorqueOffset, &[("offset", offset)]),
+            Law::Gain { gain } => at(EffectKind::TorqueConstant, &[("gain", gain)]),
+            Law::Spring { stiffness, rest } => {
+                let loop_of_none = [("cubic", 0.0), ("hysteresis", 0.0)];
+                let spring = [("stiffness", stiffness), ("rest", rest)];
+                at(EffectKind::CableSpring, &[spring, loop_of_none].concat())
+            }
+            Law::Load { coefficient } => {
+                at(EffectKind::LoadDependentFriction, &[("coefficient", coefficient)])
+            }
+            Law::Ripple { amplitude, periods, phase } => at(
+                EffectKind::TorqueRipple,
+                &[("amplitude", amplitude), ("periods_per_turn", periods), ("phase", phase)],
+            ),
+            Law::PointMass(body) => {
+                let [x, y, z] = body.com;
+                let parameters = [("mass", body.mass), ("com_x", x), ("com_y", y), ("com_z", z)];
+                Truth::at_link(EffectKind::Payload, tip, &parameters)
+            }
+            Law::Late { skew } => Truth::everywhere(EffectKind::TimeSkew, &[("skew", skew)]),
+            Law::Drag { .. } => return stranger("square_drag"),
+            Law::Well { .. } => return stranger("magnet_well"),
+        };
+        Told::Named(Cause { role: Role::Hidden, truth, strength })
+    }
+}
+
+/// A run with its efforts averaged over 20 ms either side.
+fn smoothed(run: &Run) -> Run {
+    let mut run = run.clone();
+    for channels in &mut run.joints {
+        channels.effort = averaged(&run.time, &channels.effort);
+    }
+    run
+}

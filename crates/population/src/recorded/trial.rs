@@ -1,0 +1,161 @@
+use std::path::{Path, PathBuf};
+
+use logs::Run;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+
+use super::arm::{HeldOut, RecordedArm, Used, available};
+use super::cut::{Part, length_s, part};
+use super::draw::draw;
+use super::signals::rms;
+use super::size::Measured;
+use super::transplant::Told;
+use crate::{Corner, Knowledge, Origin, PopulationError, Sheet};
+
+/// A trial of recorded logs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedTrial {
+    /// File of the nominal model.
+    pub robot: PathBuf,
+    /// Logs given to the diagnosis.
+    pub runs: Vec<Run>,
+    /// Logs that are held out.
+    pub held_out: Vec<Run>,
+    /// What is known to be true.
+    pub sheet: Sheet,
+}
+
+/// Draws a trial of recorded logs from those below the folder `data`: [`Origin::Recorded`] as they are,
+/// of which nothing is known to be true, or [`Origin::Transplant`] with one cause added to given and
+/// held-out logs alike.
+///
+/// Arm, what is held out and cause follow from `random` and from which arms are there; `seed` is the one
+/// that the sheet names.
+///
+/// # Errors
+///
+/// [`PopulationError::OriginSimulated`], [`PopulationError::NoRecordedLogs`], what keeps a robot or a log
+/// from being read, and [`PopulationError::NothingMoves`].
+pub fn draw_recorded(
+    data: &Path,
+    origin: Origin,
+    seed: u64,
+    random: &mut ChaCha8Rng,
+) -> Result<RecordedTrial, PopulationError> {
+    if origin == Origin::Simulated {
+        return Err(PopulationError::OriginSimulated);
+    }
+    let arms = available(data);
+    if arms.is_empty() {
+        return Err(PopulationError::NoRecordedLogs { data: data.to_owned() });
+    }
+    let arm = &arms[random.random_range(0..arms.len())];
+    let robot = Robot::load(arm.robot())?.robot;
+    let (used, steps) = arm.read(&robot)?;
+    let split = split(arm.held_out(), &used, random.random_range(0..arm.splits()));
+    let mut trial = plain(arm, (&robot, &steps), split);
+    trial.sheet.seed = seed;
+    if origin == Origin::Transplant {
+        transplanted(&mut trial, &robot, random)?;
+    }
+    Ok(trial)
+}
+
+/// Given and held-out logs.
+struct Split<'a> {
+    /// Which log each given one is of, and it.
+    given: Vec<(&'a Used, Run)>,
+    held_out: Vec<Run>,
+}
+
+/// Takes the log or the quarter of number `choice` away from the logs.
+fn split(held_out: HeldOut, used: &[Used], choice: usize) -> Split<'_> {
+    let mut split = Split { given: Vec::new(), held_out: Vec::new() };
+    let of = |log: &Used, name: &str, quarters: std::ops::Range<usize>| {
+        let name = format!("{}_{name}", log.run.name);
+        part(&log.run, &name, Part::rows(&log.run, quarters))
+    };
+    for (number, log) in used.iter().enumerate() {
+        match held_out {
+            HeldOut::Log if number == choice => split.held_out.push(log.run.clone()),
+            HeldOut::Log => split.given.push((log, log.run.clone())),
+            HeldOut::LastQuarter => {
+                split.given.push((log, of(log, "begin", 0..Part::QUARTERS - 1)));
+                split.held_out.push(of(log, "end", Part::QUARTERS - 1..Part::QUARTERS));
+            }
+            HeldOut::Quarter => {
+                for quarter in 0..Part::QUARTERS {
+                    let run = of(log, &(quarter + 1).to_string(), quarter..quarter + 1);
+                    if quarter == choice {
+                        split.held_out.push(run);
+                    } else {
+                        split.given.push((log, run));
+                    }
+                }
+            }
+        }
+    }
+    split
+}
+
+/// A trial of logs as they are.
+fn plain(arm: &RecordedArm, (robot, steps): (&Robot, &[f64]), split: Split) -> RecordedTrial {
+    let motion = split.given.first().map_or(crate::MotionClass::Sinusoids, |(log, _)| log.motion);
+    let paths: Vec<u8> = split.given.iter().map(|(log, _)| log.path).collect();
+    let runs: Vec<Run> = split.given.into_iter().map(|(_, run)| run).collect();
+    let length: f64 = runs.iter().map(length_s).sum();
+    let steps_of_time: usize = runs.iter().map(|run| run.time.len().saturating_sub(1)).sum();
+    let measured = Measured::new(robot, &runs);
+    let step = measured.moving.iter().map(|&joint| steps[joint]).filter(|step| step.is_finite());
+    let corner = Corner {
+        origin: Origin::Recorded,
+        arm: arm.name().to_owned(),
+        motion,
+        effort: arm.effort(),
+        joints: robot.joint_count(),
+        encoder_step: step.fold(0.0, f64::max),
+        rate_hz: if length > 0.0 { steps_of_time as f64 / length } else { 0.0 },
+        logs: runs.len(),
+        length_s: length,
+        repeats: paths.len() > 1 && paths.windows(2).all(|pair| pair[0] == pair[1]),
+    };
+    let sheet = Sheet {
+        seed: 0,
+        corner,
+        knowledge: Knowledge::None,
+        joints: robot.joint_names().map(str::to_owned).collect(),
+        torque_rms: torque_rms(&runs, robot.joint_count()),
+        causes: Vec::new(),
+        strangers: Vec::new(),
+    };
+    RecordedTrial { robot: arm.robot().to_owned(), runs, held_out: split.held_out, sheet }
+}
+
+/// Adds a cause to a plain trial.
+fn transplanted(
+    trial: &mut RecordedTrial,
+    robot: &Robot,
+    random: &mut ChaCha8Rng,
+) -> Result<(), PopulationError> {
+    let arm = &trial.sheet.corner.arm;
+    let nothing = || PopulationError::NothingMoves { arm: arm.clone() };
+    let transplant = draw(robot, &trial.runs, random).ok_or_else(nothing)?;
+    let strength = transplant.strength(robot, &trial.runs);
+    for run in trial.runs.iter_mut().chain(&mut trial.held_out) {
+        transplant.add(robot, run);
+    }
+    trial.sheet.corner.origin = Origin::Transplant;
+    trial.sheet.knowledge = Knowledge::Added;
+    trial.sheet.torque_rms = torque_rms(&trial.runs, robot.joint_count());
+    match transplant.told(robot, strength) {
+        Told::Named(cause) => trial.sheet.causes.push(cause),
+        Told::Stranger(stranger) => trial.sheet.strangers.push(stranger),
+    }
+    Ok(())
+}
+
+/// RMS of the effort of each joint.
+fn torque_rms(runs: &[Run], joints: usize) -> Vec<f64> {
+    (0..joints).map(|joint| rms(runs.iter().flat_map(|run| &run.joints[joint].effort))).collect()
+}

@@ -1,0 +1,210 @@
+use std::path::PathBuf;
+
+use document::{Document, DocumentError, KeyPath};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{ArmClass, MotionClass, Origin};
+
+/// Most trials of a population.
+const MOST_TRIALS: usize = 1_000_000;
+/// Most causes hidden at a time.
+const MOST_CAUSES: usize = 6;
+/// Most logs of a trial.
+const MOST_LOGS: usize = 8;
+
+/// A population of trials: what a workshop varies, and how many are drawn.
+///
+/// Tasks `0 .. trials` are simulated, the `recorded.trials` after them come from recorded logs, a plain one
+/// and two transplants in turn.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PopulationSpec {
+    /// Simulated trials, 1 to 1000000.
+    pub trials: usize,
+    /// Seed from which, with its number, that of every trial follows.
+    #[serde(default)]
+    pub seed: u64,
+    /// Kinds of arm, each as likely; all of them where it is left out.
+    #[serde(default = "all_arms")]
+    pub arms: Vec<ArmClass>,
+    /// Kinds of motion, each as likely; all of them where it is left out.
+    #[serde(default = "all_motions")]
+    pub motions: Vec<MotionClass>,
+    /// Least and largest number of logs, 1 to 8.
+    #[serde(default = "one_to_eight")]
+    pub logs: [usize; 2],
+    /// Least and largest length of a log (s), 5 to 60.
+    #[serde(default = "five_to_sixty")]
+    pub log_s: [f64; 2],
+    /// Largest length of all logs of a trial together (s), 5 to 480: what a diagnosis costs grows with it.
+    #[serde(default = "two_minutes")]
+    pub longest_s: f64,
+    /// Least and largest number of causes beyond everyday friction, 0 to 6.
+    #[serde(default = "none_to_six")]
+    pub causes: [usize; 2],
+    /// Share of trials in which an effect of no catalogue is hidden too, 0 to 1.
+    #[serde(default = "one_in_five")]
+    pub strangers: f64,
+    /// Share of trials in which nothing above the floor is wrong, 0 to 1.
+    #[serde(default = "one_in_ten")]
+    pub clean: f64,
+    /// Recorded logs, where they are present.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recorded: Option<RecordedSpec>,
+}
+
+/// Recorded logs as trials.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedSpec {
+    /// Folder of the recorded logs, relative to this file; without it these trials are left out.
+    pub data: PathBuf,
+    /// How many.
+    pub trials: usize,
+}
+
+impl PopulationSpec {
+    /// The population at a key of a document, its paths absolute; recorded trials whose folder is absent are
+    /// left out.
+    ///
+    /// # Errors
+    ///
+    /// [`DocumentError`] at the value that no population can have.
+    pub fn from_document(
+        document: &Document,
+        key: &KeyPath,
+        mut spec: Self,
+    ) -> Result<Self, DocumentError> {
+        let check = Check { document, key };
+        check.number("trials", spec.trials as f64, [1.0, MOST_TRIALS as f64])?;
+        check.filled("arms", spec.arms.len())?;
+        check.filled("motions", spec.motions.len())?;
+        check.range("logs", spec.logs.map(|n| n as f64), [1.0, MOST_LOGS as f64])?;
+        check.range("log_s", spec.log_s, [5.0, 60.0])?;
+        check.number("longest_s", spec.longest_s, [5.0, 480.0])?;
+        if spec.longest_s < spec.log_s[0] * spec.logs[0] as f64 {
+            let found = format!(
+                "{}, at least {} s for {} logs of {} s was expected",
+                spec.longest_s,
+                spec.log_s[0] * spec.logs[0] as f64,
+                spec.logs[0],
+                spec.log_s[0]
+            );
+            return Err(check.mistake("longest_s", found));
+        }
+        check.range("causes", spec.causes.map(|n| n as f64), [0.0, MOST_CAUSES as f64])?;
+        check.number("strangers", spec.strangers, [0.0, 1.0])?;
+        check.number("clean", spec.clean, [0.0, 1.0])?;
+        if let Some(recorded) = &mut spec.recorded {
+            let path = key.clone().key("recorded").key("data");
+            let folder = document.directory_of(&path).join(&recorded.data);
+            recorded.data = folder.canonicalize().unwrap_or(folder);
+        }
+        spec.recorded = spec.recorded.filter(|recorded| recorded.data.is_dir());
+        Ok(spec)
+    }
+
+    /// Number of its trials.
+    pub fn tasks(&self) -> usize {
+        self.trials + self.recorded.as_ref().map_or(0, |recorded| recorded.trials)
+    }
+
+    /// Where the logs of a task come from.
+    pub fn origin(&self, task: usize) -> Origin {
+        match task.checked_sub(self.trials) {
+            None => Origin::Simulated,
+            Some(number) if number % 3 == 0 => Origin::Recorded,
+            Some(_) => Origin::Transplant,
+        }
+    }
+
+    /// What the draws of a simulated trial follow from besides its seed, as one text: the same for populations
+    /// of other sizes, so that a larger one holds the trials of a smaller.
+    pub(crate) fn draws(&self) -> String {
+        let spec = Self { trials: 0, seed: 0, recorded: None, ..self.clone() };
+        serde_json::to_string(&spec).unwrap_or_default()
+    }
+
+    /// All that its trials follow from, as one text without paths.
+    pub fn identity(&self) -> String {
+        let recorded = self.recorded.clone();
+        let recorded = recorded.map(|r| RecordedSpec { data: PathBuf::new(), ..r });
+        let spec = Self { recorded, ..self.clone() };
+        format!("{}\n{}", crate::FORMAT, serde_json::to_string(&spec).unwrap_or_default())
+    }
+}
+
+/// Looks at the values of a population.
+struct Check<'a> {
+    document: &'a Document,
+    key: &'a KeyPath,
+}
+
+impl Check<'_> {
+    fn mistake(&self, name: &str, found: String) -> DocumentError {
+        self.document.mistake(&self.key.clone().key(name), found, None)
+    }
+
+    fn number(&self, name: &str, value: f64, [low, high]: [f64; 2]) -> Result<(), DocumentError> {
+        if value.is_finite() && (low..=high).contains(&value) {
+            return Ok(());
+        }
+        Err(self.mistake(name, format!("{value}, a number from {low} to {high} was expected")))
+    }
+
+    fn range(
+        &self,
+        name: &str,
+        value: [f64; 2],
+        [low, high]: [f64; 2],
+    ) -> Result<(), DocumentError> {
+        let [least, largest] = value;
+        if least >= low && least <= largest && largest <= high {
+            return Ok(());
+        }
+        let found = format!(
+            "[{least}, {largest}], the least and the largest from {low} to {high} were expected"
+        );
+        Err(self.mistake(name, found))
+    }
+
+    fn filled(&self, name: &str, count: usize) -> Result<(), DocumentError> {
+        if count > 0 {
+            return Ok(());
+        }
+        Err(self.mistake(name, "nothing, at least one kind was expected".to_owned()))
+    }
+}
+
+fn all_arms() -> Vec<ArmClass> {
+    ArmClass::ALL.to_vec()
+}
+
+fn all_motions() -> Vec<MotionClass> {
+    MotionClass::ALL.to_vec()
+}
+
+fn one_to_eight() -> [usize; 2] {
+    [1, MOST_LOGS]
+}
+
+fn five_to_sixty() -> [f64; 2] {
+    [5.0, 60.0]
+}
+
+fn two_minutes() -> f64 {
+    120.0
+}
+
+fn none_to_six() -> [usize; 2] {
+    [0, MOST_CAUSES]
+}
+
+fn one_in_five() -> f64 {
+    0.2
+}
+
+fn one_in_ten() -> f64 {
+    0.1
+}

@@ -1,0 +1,176 @@
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use crate::{FORMAT, PopulationError, PopulationSpec, make};
+
+/// Name of the file that lists those of an entry; it is the last to appear.
+const ENTRY: &str = "entry.json";
+
+/// Logs that were made once and are kept: a folder with an entry for every trial.
+///
+/// ```text
+/// key   = SHA-256(what the draws of a population follow from, seed of the trial)
+/// entry = DIR/ab/abcd.../{nominal, logs, held_out, truth, sheet.json, entry.json}
+/// ```
+///
+/// An entry is made beside its place and renamed when it is whole, under a lock that falls with the process. One
+/// of another version of the program, or whose files are other than it lists, is made again.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Store {
+    root: PathBuf,
+}
+
+/// An entry of a store that could not be used and was made again.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remade {
+    /// Its folder.
+    pub path: PathBuf,
+    /// What was wrong with it.
+    pub reason: String,
+}
+
+/// A trial in a store.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Kept {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Whether it was there already, was made, or was made again.
+    pub came: Came,
+}
+
+/// How a trial came to be in a store.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Came {
+    /// It was there.
+    WasThere,
+    /// It was made.
+    Made,
+    /// It was there, could not be used, and was made again.
+    Again(Remade),
+}
+
+/// `entry.json`
+#[derive(Debug, Serialize, Deserialize)]
+struct Entry {
+    format: u32,
+    /// SHA-256 of every file, by its path in the entry.
+    files: BTreeMap<String, String>,
+}
+
+impl Store {
+    /// The store in a folder, which is made when it is not there.
+    ///
+    /// # Errors
+    ///
+    /// [`PopulationError::Folder`].
+    pub fn open(root: &Path) -> Result<Self, PopulationError> {
+        fs::create_dir_all(root.join("locks")).map_err(PopulationError::of_folder(root))?;
+        Ok(Self { root: root.to_owned() })
+    }
+
+    /// The simulated trial of a population with a seed, made when it is not there.
+    ///
+    /// # Errors
+    ///
+    /// [`PopulationError`] when it cannot be made, read or written; nothing half made stays in its place.
+    pub fn trial(&self, spec: &PopulationSpec, seed: u64) -> Result<Kept, PopulationError> {
+        let key = key(spec, seed);
+        let folder = self.root.join(&key[..2]).join(&key);
+        let at = PopulationError::of_folder(&self.root);
+        let lock = File::create(self.root.join("locks").join(&key)).map_err(&at)?;
+        lock.lock().map_err(&at)?;
+        let came = match whole(&folder) {
+            Ok(()) => return Ok(Kept { folder, came: Came::WasThere }),
+            Err(None) => Came::Made,
+            Err(Some(reason)) => Came::Again(Remade { path: folder.clone(), reason }),
+        };
+        let making = self.root.join(format!("making-{key}"));
+        let made = self.fill(spec, seed, &making, &folder);
+        if made.is_err() {
+            // What is half made takes room and is of no use.
+            let _ = fs::remove_dir_all(&making);
+        }
+        made.map(|()| Kept { folder, came })
+    }
+
+    fn fill(
+        &self,
+        spec: &PopulationSpec,
+        seed: u64,
+        making: &Path,
+        folder: &Path,
+    ) -> Result<(), PopulationError> {
+        let at = PopulationError::of_folder(making);
+        for left in [making, folder] {
+            if left.exists() {
+                fs::remove_dir_all(left).map_err(&at)?;
+            }
+        }
+        fs::create_dir_all(making).map_err(&at)?;
+        make(spec, seed, making)?;
+        let entry = Entry { format: FORMAT, files: hashes(making).map_err(&at)? };
+        let text = serde_json::to_string_pretty(&entry).unwrap_or_default();
+        logs::replace_file(&making.join(ENTRY), |file| {
+            Ok(std::io::Write::write_all(file, text.as_bytes())?)
+        })?;
+        fs::create_dir_all(folder.parent().unwrap_or(&self.root)).map_err(&at)?;
+        fs::rename(making, folder).map_err(&at)
+    }
+}
+
+/// What a trial is found by.
+fn key(spec: &PopulationSpec, seed: u64) -> String {
+    hexadecimal(format!("{}\n{seed}", spec.draws()).as_bytes())
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut all, byte| {
+        // A String takes everything.
+        let _ = write!(all, "{byte:02x}");
+        all
+    })
+}
+
+/// Whether an entry is whole and of this version; otherwise why not, where something is there.
+fn whole(folder: &Path) -> Result<(), Option<String>> {
+    if !folder.exists() {
+        return Err(None);
+    }
+    let text = fs::read_to_string(folder.join(ENTRY))
+        .map_err(|e| Some(format!("{ENTRY} cannot be read: {e}")))?;
+    let entry: Entry =
+        serde_json::from_str(&text).map_err(|e| Some(format!("{ENTRY} is none: {e}")))?;
+    if entry.format != FORMAT {
+        return Err(Some(format!("it is of format {}, {FORMAT} was expected", entry.format)));
+    }
+    let found = hashes(folder).map_err(|e| Some(format!("it cannot be read: {e}")))?;
+    match entry.files.iter().find(|(name, hash)| found.get(*name) != Some(hash)) {
+        Some((name, _)) => Err(Some(format!("{name} is missing or damaged"))),
+        None => Ok(()),
+    }
+}
+
+/// SHA-256 of every file below a folder but the list itself.
+fn hashes(folder: &Path) -> std::io::Result<BTreeMap<String, String>> {
+    let mut all = BTreeMap::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(&next)? {
+            let path = entry?.path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
+            if name != ENTRY {
+                all.insert(name, hexadecimal(&fs::read(&path)?));
+            }
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,49 @@
+use std::path::Path;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::make::{make, write_runs};
+use crate::{Origin, PopulationError, PopulationSpec, RecordedSpec, draw_recorded};
+
+/// Makes the files of a trial of any origin in a folder, which is made when it is not there: those of
+/// [`make`], without `truth` where the logs are recorded.
+///
+/// # Errors
+///
+/// As [`make`] and [`draw_recorded`].
+pub fn make_any(
+    spec: &PopulationSpec,
+    origin: Origin,
+    seed: u64,
+    folder: &Path,
+) -> Result<(), PopulationError> {
+    std::fs::create_dir_all(folder).map_err(PopulationError::of_folder(folder))?;
+    match (origin, &spec.recorded) {
+        (Origin::Simulated, _) | (_, None) => make(spec, seed, folder).map(|_| ()),
+        (_, Some(recorded)) => take_recorded(recorded, origin, seed, folder),
+    }
+}
+
+fn take_recorded(
+    recorded: &RecordedSpec,
+    origin: Origin,
+    seed: u64,
+    folder: &Path,
+) -> Result<(), PopulationError> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let trial = draw_recorded(&recorded.data, origin, seed, &mut random)?;
+    let nominal = folder.join("nominal");
+    std::fs::create_dir_all(&nominal).map_err(PopulationError::of_folder(&nominal))?;
+    for extension in ["urdf", "toml"] {
+        let file = trial.robot.with_extension(extension);
+        let is_of_it = extension == "urdf" || trial.robot.extension().is_some_and(|e| e == "toml");
+        if is_of_it {
+            std::fs::copy(&file, nominal.join(format!("robot.{extension}")))
+                .map_err(PopulationError::of_folder(&file))?;
+        }
+    }
+    write_runs(&folder.join("logs"), &trial.runs)?;
+    write_runs(&folder.join("held_out"), &trial.held_out)?;
+    trial.sheet.write(folder)
+}

@@ -1,0 +1,43 @@
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+use simulator::effects::{CoulombFriction, EffectSpec, ViscousFriction};
+
+/// Everyday friction of one joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Friction {
+    /// Level of the dry part (N m or N).
+    pub coulomb: f64,
+    /// Torque per unit of velocity (N m s/rad or N s/m).
+    pub viscous: f64,
+}
+
+/// Everyday friction at every joint: half to twice the drive's usual dry level, and as much viscous friction
+/// at the joint's largest speed as a tenth to all of that.
+pub(crate) fn everyday(robot: &Robot, usual: &[f64], random: &mut ChaCha8Rng) -> Vec<Friction> {
+    let joint = |(link, usual): (&robot::Link, &f64)| {
+        let coulomb = usual * 2.0_f64.powf(random.random_range(-1.0..1.0));
+        let speed = link.joint.limits.velocity.unwrap_or(2.0).max(0.1);
+        let share = 10.0_f64.powf(random.random_range(-1.0..0.0));
+        Friction { coulomb, viscous: share * coulomb / speed }
+    };
+    robot.links().iter().zip(usual).map(joint).collect()
+}
+
+/// The friction as effects of a scenario: two a joint, the dry one first.
+pub(crate) fn effects(robot: &Robot, friction: &[Friction]) -> Vec<EffectSpec> {
+    let both = |(name, friction): (&str, &Friction)| {
+        let joint = name.to_owned();
+        [
+            EffectSpec::CoulombFriction(CoulombFriction {
+                joint: joint.clone(),
+                level_nm: friction.coulomb,
+            }),
+            EffectSpec::ViscousFriction(ViscousFriction {
+                joint,
+                viscous_nm_s_per_rad: friction.viscous,
+            }),
+        ]
+    };
+    robot.joint_names().zip(friction).flat_map(both).collect()
+}

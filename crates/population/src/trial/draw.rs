@@ -1,0 +1,104 @@
+use catalogue::EffectKind;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use simulator::effects::EffectSpec;
+use simulator::strangers::{StrangerKind, StrangerSpec};
+
+use super::pilot::{Pilot, Sized};
+use crate::ArmClass;
+
+/// Draws of one effect before it is left out.
+const TRIES: usize = 6;
+
+/// Least and largest strength over what an oracle just sees: a fifth of them is below.
+const STRENGTHS: [f64; 2] = [0.4, 25.0];
+
+/// A kind of what is hidden.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Hidden {
+    /// An effect of the catalogue.
+    Cause(EffectKind),
+    /// An effect of no catalogue.
+    Stranger(StrangerKind),
+}
+
+/// What is hidden in an arm beyond everyday friction.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct HiddenThings {
+    /// Effects of the catalogue.
+    pub causes: Vec<EffectSpec>,
+    /// Effects of no catalogue.
+    pub strangers: Vec<StrangerSpec>,
+}
+
+/// Kinds that are hidden in an arm: all of the catalogue but everyday friction, which is everywhere, rotors,
+/// which a nominal model may not know anyway, drives that reach their limit, with which a controller loses
+/// the arm, and the friction of a differential in an arm that has none.
+fn kinds(class: ArmClass) -> Vec<EffectKind> {
+    use EffectKind as K;
+    let left_out = |kind: &EffectKind| {
+        matches!(
+            kind,
+            K::ViscousFriction | K::CoulombFriction | K::RotorInertia | K::TorqueSaturation
+        ) || (*kind == K::DifferentialCoupling && class != ArmClass::Wam)
+    };
+    EffectKind::ALL.into_iter().filter(|kind| !left_out(kind)).collect()
+}
+
+impl HiddenThings {
+    /// So many causes and strangers, each of a strength drawn log-uniformly about what an oracle just sees.
+    pub fn draw(
+        pilot: &Pilot<'_>,
+        class: ArmClass,
+        [causes, strangers]: [usize; 2],
+        random: &mut ChaCha8Rng,
+    ) -> Self {
+        let kinds = kinds(class);
+        let mut all = Self::default();
+        for _ in 0..causes {
+            all.add(pilot, random, |random| {
+                Hidden::Cause(kinds[random.random_range(0..kinds.len())])
+            });
+        }
+        for _ in 0..strangers {
+            all.add(pilot, random, |random| {
+                let number = random.random_range(0..StrangerKind::ALL.len());
+                Hidden::Stranger(StrangerKind::ALL[number])
+            });
+        }
+        all
+    }
+
+    fn add(
+        &mut self,
+        pilot: &Pilot<'_>,
+        random: &mut ChaCha8Rng,
+        kind: impl Fn(&mut ChaCha8Rng) -> Hidden,
+    ) {
+        let [least, largest] = STRENGTHS;
+        for _ in 0..TRIES {
+            let hidden = kind(random);
+            let wanted = least * (largest / least).powf(random.random::<f64>());
+            match pilot.sized(hidden, wanted, random) {
+                Some(Sized::Cause(effect)) if !self.holds(&effect) => {
+                    self.causes.push(effect);
+                    return;
+                }
+                Some(Sized::Stranger(stranger)) => {
+                    self.strangers.push(stranger);
+                    return;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether the same effect is hidden at the same place.
+    fn holds(&self, effect: &EffectSpec) -> bool {
+        let place = |effect: &EffectSpec| {
+            let truth = effect.truth();
+            (truth.effect, truth.joint, truth.link)
+        };
+        self.causes.iter().any(|other| place(other) == place(effect))
+    }
+}

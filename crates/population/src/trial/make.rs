@@ -1,0 +1,337 @@
+use std::path::{Path, PathBuf};
+
+use document::Document;
+use logs::Run;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use robot::{Loaded, Robot};
+use simulator::effects::EffectSpec;
+use simulator::scenario::{EngineSpec, RunSpec, Scenario, ScenarioSpec};
+use simulator::{EffortSource, SimulatorError, simulate_only, simulate_silent};
+
+use super::background::{Friction, effects, everyday};
+use super::differences::{Drives, differences};
+use super::draw::HiddenThings;
+use super::known::{Known, described};
+use super::pilot::Pilot;
+use super::seen::{Seen, inertias};
+use super::step::{step_ms, whole_step_ms};
+use crate::oracle::JointNoise;
+use crate::{
+    Bench as LabBench, BenchWishes, Corner, Knowledge, Origin, PopulationError, PopulationSpec,
+    RobotFiles, Sheet, draw_bench,
+};
+
+/// Longest step of the simulation in which sizes are settled (ms).
+const PILOT_MS: f64 = 0.5;
+
+/// Draws of a trial before it is given up.
+const TRIES: u64 = 8;
+
+/// Share of a joint's range by which it may leave it.
+const OUT_OF_RANGE: f64 = 0.1;
+
+/// Share of trials whose nominal model knows friction roughly.
+const ROUGHLY_KNOWN: f64 = 0.25;
+
+/// Draws a simulated trial from its seed and makes its files in a folder:
+///
+/// ```text
+/// nominal/robot.{urdf,toml}  logs/*.parquet             what a diagnosis is given
+/// held_out/held_out.parquet                             noise-free: what predictions are measured on
+/// truth/{robot.urdf,robot.toml,scenario.toml}           the arm as it is, to be simulated again
+/// sheet.json                                            what is true; the last to appear
+/// ```
+///
+/// # Errors
+///
+/// [`PopulationError`] when no arm of the draws can be simulated, or a file cannot be written.
+pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<Sheet, PopulationError> {
+    let mut failed = None;
+    for attempt in 0..TRIES {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(attempt);
+        match attempted(spec, seed, folder, &mut random) {
+            Err(error) if is_of_the_draw(&error) => failed = Some(error),
+            made_or_broken => return made_or_broken,
+        }
+    }
+    Err(failed.unwrap_or(PopulationError::NoRun))
+}
+
+/// Whether another draw may do where this one failed: an arm that ran away, or left its range.
+fn is_of_the_draw(error: &PopulationError) -> bool {
+    match error {
+        PopulationError::LeftItsRange { .. } => true,
+        PopulationError::Simulator(error) => {
+            matches!(**error, SimulatorError::Fault { .. } | SimulatorError::NoInertia { .. })
+        }
+        _ => false,
+    }
+}
+
+/// One draw of a trial.
+fn attempted(
+    spec: &PopulationSpec,
+    seed: u64,
+    folder: &Path,
+    random: &mut ChaCha8Rng,
+) -> Result<Sheet, PopulationError> {
+    let clean = random.random_bool(spec.clean);
+    let bench = draw_bench(&wishes(spec, random), random)?;
+    let model = if clean { Model::Right } else { Model::AsModelsAre };
+    let draft = Draft::new(bench, model, folder, seed, random)?;
+    let [least, most] = spec.causes;
+    let causes = if clean { 0 } else { random.random_range(least..=most) };
+    let strangers = usize::from(!clean && random.random_bool(spec.strangers));
+    let step = draft.step_ms()?;
+    let hidden = draft.hide([causes, strangers], random)?;
+    draft.log(step, &hidden, folder)
+}
+
+/// Refuses runs in which an arm has left its range: it has run away, or fallen, and nobody keeps such a log.
+fn in_range(robot: &Robot, runs: &[Run]) -> Result<(), PopulationError> {
+    for (j, link) in robot.links().iter().enumerate() {
+        let Some((low, high)) = link.joint.limits.position else { continue };
+        let margin = OUT_OF_RANGE * (high - low);
+        let beyond = |q: &f64| !(low - margin..=high + margin).contains(q);
+        let all = runs.iter().flat_map(|run| &run.joints[j].position);
+        if let Some(&found) = all.into_iter().find(|q| beyond(q)) {
+            let joint = link.joint.name.clone();
+            return Err(PopulationError::LeftItsRange { joint, found, range: [low, high] });
+        }
+    }
+    Ok(())
+}
+
+/// What is asked of a bench: as many logs, and of such a length, that all together are not too long.
+fn wishes(spec: &PopulationSpec, random: &mut ChaCha8Rng) -> BenchWishes {
+    let ([fewest, most], [shortest, longest]) = (spec.logs, spec.log_s);
+    let room = (spec.longest_s / shortest) as usize;
+    let logs = random.random_range(fewest..=most.min(room).max(fewest));
+    let longest = longest.min(spec.longest_s / logs as f64).max(shortest);
+    BenchWishes {
+        classes: spec.arms.clone(),
+        motions: spec.motions.clone(),
+        logs: [logs, logs],
+        log_s: [shortest, longest],
+    }
+}
+
+/// How well the nominal model of a trial describes its arm.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Model {
+    /// Bodies, rotors and friction are the arm's.
+    Right,
+    /// Bodies err by a few per cent, friction is absent, roughly known or a dummy value.
+    AsModelsAre,
+}
+
+/// A trial before it is simulated.
+struct Draft {
+    bench: LabBench,
+    seed: u64,
+    truth: Loaded,
+    truth_file: PathBuf,
+    nominal: Loaded,
+    friction: Vec<Friction>,
+    noise: Vec<JointNoise>,
+}
+
+impl Draft {
+    fn new(
+        bench: LabBench,
+        model: Model,
+        folder: &Path,
+        seed: u64,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Self, PopulationError> {
+        let in_folder = |name: &str, files: &RobotFiles| {
+            let folder = folder.join(name);
+            std::fs::create_dir_all(&folder).map_err(PopulationError::of_folder(&folder))?;
+            let file = files.write(&folder)?;
+            Ok::<_, PopulationError>((Robot::load(&file)?, file))
+        };
+        let (truth, truth_file) = in_folder("truth", &bench.truth)?;
+        let friction = everyday(&truth.robot, &bench.friction, random);
+        let known = match model {
+            _ if bench.sensors.effort == EffortSource::Link => Known::BodiesAlone,
+            Model::Right => Known::Exactly,
+            Model::AsModelsAre if random.random_bool(ROUGHLY_KNOWN) => Known::Roughly,
+            Model::AsModelsAre => Known::AsDescribed,
+        };
+        let files = match model {
+            Model::Right => &bench.truth,
+            Model::AsModelsAre => &bench.nominal,
+        };
+        let (loaded, _) = in_folder("nominal", files)?;
+        let files = described(files, &loaded, &friction, known, random)?;
+        let (nominal, _) = in_folder("nominal", &files)?;
+        let noise = noise(&bench, &truth.robot);
+        Ok(Self { bench, seed, truth, truth_file, nominal, friction, noise })
+    }
+
+    fn friction(&self) -> Vec<EffectSpec> {
+        effects(&self.truth.robot, &self.friction)
+    }
+
+    fn period_ms(&self) -> f64 {
+        1e3 / self.bench.control.rate_hz.or(self.truth.control.rate_hz).unwrap_or(500.0)
+    }
+
+    /// Step of the encoder of each joint, or what stands for it: its noise.
+    fn encoder_steps(&self) -> Vec<f64> {
+        let sensors = &self.bench.sensors;
+        let of = |name: &str| {
+            let step = sensors.position_resolution_rad.get(name).copied().unwrap_or(0.0);
+            step.max(sensors.position_noise_rad.get(name).copied().unwrap_or(0.0)).max(1e-7)
+        };
+        self.truth.robot.joint_names().map(of).collect()
+    }
+
+    fn scenario(&self, step_ms: f64, hidden: &HiddenThings) -> Result<Scenario, PopulationError> {
+        let held_out = RunSpec { name: HELD_OUT.to_owned(), ..self.bench.held_out.clone() };
+        let spec = ScenarioSpec {
+            robot: self.truth_file.clone(),
+            seed: self.seed >> 1,
+            engine: EngineSpec { step_ms, joint_stops: false },
+            control: self.bench.control.clone(),
+            sensors: self.bench.sensors.clone(),
+            effect: [self.friction(), hidden.causes.clone()].concat(),
+            stranger: hidden.strangers.clone(),
+            hidden: None,
+            run: self.bench.runs.iter().cloned().chain([held_out]).collect(),
+        };
+        let text = toml::to_string(&spec)
+            .map_err(|e| PopulationError::Unwritable { what: "scenario", reason: e.to_string() })?;
+        Ok(Scenario::from_document(&Document::from_text("scenario.toml", &text)?)?)
+    }
+
+    /// Step of the simulation of the logs (ms), as long as the encoders allow.
+    fn step_ms(&self) -> Result<f64, PopulationError> {
+        let nothing = HiddenThings::default();
+        let with_step = |step| self.scenario(step, &nothing);
+        step_ms(&with_step, &self.friction(), self.period_ms(), &self.encoder_steps())
+    }
+
+    /// Step in which sizes are settled and torques compared (ms): what two motions in the same steps have in
+    /// common falls out.
+    fn coarse_ms(&self) -> f64 {
+        whole_step_ms(self.period_ms(), PILOT_MS)
+    }
+
+    /// What is hidden, of sizes that an oracle just sees or more.
+    fn hide(
+        &self,
+        counts: [usize; 2],
+        random: &mut ChaCha8Rng,
+    ) -> Result<HiddenThings, PopulationError> {
+        if counts == [0, 0] {
+            return Ok(HiddenThings::default());
+        }
+        let scenario = self.scenario(self.coarse_ms(), &HiddenThings::default())?;
+        let pilot = Pilot::new(&scenario, &self.noise, &self.friction())?;
+        Ok(HiddenThings::draw(&pilot, self.bench.class, counts, random))
+    }
+
+    /// Simulates the runs and writes all files.
+    fn log(
+        &self,
+        step: f64,
+        hidden: &HiddenThings,
+        folder: &Path,
+    ) -> Result<Sheet, PopulationError> {
+        let scenario = self.scenario(step, hidden)?;
+        let noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
+        in_range(&self.truth.robot, &noisy.runs)?;
+        let coarse = self.scenario(self.coarse_ms(), hidden)?;
+        // A spring may ask for shorter steps than sizes do.
+        let seen = Seen::new(&coarse, &self.friction(), hidden)
+            .or_else(|_| Seen::new(&scenario, &self.friction(), hidden))?;
+        let held_out = simulate_silent(
+            &scenario,
+            &|name| name == HELD_OUT,
+            &[self.friction(), hidden.causes.clone()].concat(),
+            &hidden.strangers,
+        )?;
+        let drives = match self.bench.sensors.effort {
+            EffortSource::Link => Drives::Unseen,
+            EffortSource::Commanded | EffortSource::Motor => Drives::Seen,
+        };
+        let models = [&self.truth.robot, &self.nominal.robot];
+        let differ = differences(models[0], &self.friction, models[1], (&seen.runs, drives));
+        let (causes, strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
+        let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
+        let sheet = Sheet {
+            seed: self.seed,
+            corner: self.corner(&noisy.runs),
+            knowledge: Knowledge::Whole,
+            joints,
+            torque_rms: seen.scales(&self.truth.robot, &self.noise),
+            causes,
+            strangers,
+        };
+        write_runs(&folder.join("logs"), &noisy.runs)?;
+        write_runs(&folder.join("held_out"), &held_out)?;
+        write(&folder.join("truth").join("scenario.toml"), &self.portable(&scenario))?;
+        sheet.write(folder)?;
+        Ok(sheet)
+    }
+
+    /// The scenario beside its robot, wherever the folder lies.
+    fn portable(&self, scenario: &Scenario) -> String {
+        let file = self.truth_file.canonicalize().unwrap_or(self.truth_file.clone());
+        scenario.resolved().replace(&file.display().to_string(), "robot.toml")
+    }
+
+    fn corner(&self, runs: &[Run]) -> Corner {
+        let length = |run: &Run| run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
+        let sensors = &self.bench.sensors;
+        let steps = sensors.position_resolution_rad.values();
+        Corner {
+            origin: Origin::Simulated,
+            arm: self.bench.class.name().to_owned(),
+            motion: self.bench.motion,
+            effort: self.bench.effort,
+            joints: self.truth.robot.joint_count(),
+            encoder_step: steps.copied().fold(0.0, f64::max),
+            rate_hz: sensors.log_rate_hz.unwrap_or(1e3 / self.period_ms()),
+            logs: runs.len(),
+            length_s: runs.iter().map(length).sum(),
+            repeats: self.bench.repeats,
+        }
+    }
+}
+
+/// Name of the run that takes no part in the diagnosis.
+const HELD_OUT: &str = "held_out";
+
+/// What the sensors of each joint add.
+fn noise(bench: &LabBench, robot: &Robot) -> Vec<JointNoise> {
+    let s = &bench.sensors;
+    let inertias = inertias(robot);
+    let joint = |(name, inertia): (&str, f64)| {
+        let of =
+            |map: &std::collections::BTreeMap<String, f64>| map.get(name).copied().unwrap_or(0.0);
+        JointNoise::new(
+            [of(&s.effort_noise_nm), of(&s.effort_resolution_nm)],
+            [of(&s.position_noise_rad), of(&s.position_resolution_rad)],
+            inertia,
+        )
+    };
+    robot.joint_names().zip(inertias).map(joint).collect()
+}
+
+pub(crate) fn write_runs(folder: &Path, runs: &[Run]) -> Result<(), PopulationError> {
+    std::fs::create_dir_all(folder).map_err(PopulationError::of_folder(folder))?;
+    for run in runs {
+        logs::write_parquet(&folder.join(format!("{}.parquet", run.name)), run)?;
+    }
+    Ok(())
+}
+
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), PopulationError> {
+    logs::replace_file(path, |file| Ok(std::io::Write::write_all(file, text.as_bytes())?))?;
+    Ok(())
+}

@@ -1,0 +1,122 @@
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+use simulator::effects::EffectSpec;
+use simulator::scenario::Scenario;
+use simulator::strangers::StrangerSpec;
+use simulator::{Bench, simulate_silent};
+
+use super::draw::Hidden;
+use super::seen::scales;
+use crate::oracle::{Column, JointNoise, SeenRun, StandIn, stand_ins, strengths};
+use crate::{PopulationError, Strength};
+
+/// Torque share that is asked for first.
+const FIRST_SHARE: f64 = 0.1;
+
+/// Least and largest torque share that is asked for.
+const SHARES: [f64; 2] = [2e-3, 3.0];
+
+/// The first run of a trial, in which the size of what is hidden is settled.
+///
+/// The torque of most effects grows with the share asked for, so one run with a tenth of the torque tells
+/// which share an oracle would see as large as wanted:
+///
+/// ```text
+/// share = 0.1 wanted / strength(0.1),   strength = min(sigmas / 5, share / floor)
+/// ```
+pub(crate) struct Pilot<'a> {
+    scenario: &'a Scenario,
+    robot: &'a Robot,
+    noise: &'a [JointNoise],
+    base: Vec<EffectSpec>,
+    bench: Bench<'a>,
+    seen: SeenRun,
+    scales: Vec<f64>,
+    stand_ins: Vec<Column>,
+}
+
+impl<'a> Pilot<'a> {
+    /// The first run of a scenario with nothing but its everyday friction.
+    pub fn new(
+        scenario: &'a Scenario,
+        noise: &'a [JointNoise],
+        base: &[EffectSpec],
+    ) -> Result<Self, PopulationError> {
+        let robot = scenario.robot();
+        let seen = first(scenario, base, &[])?;
+        let stand_ins = stand_ins(robot, std::slice::from_ref(&seen));
+        let bench = Bench::new(scenario)?;
+        let scales = scales(std::slice::from_ref(&seen), robot, noise);
+        Ok(Self { scenario, robot, noise, base: base.to_vec(), bench, seen, scales, stand_ins })
+    }
+
+    /// What is to be hidden, of about the strength wanted (1 for what an oracle just sees); none where the
+    /// arm runs away with it or it does nothing.
+    pub fn sized(&self, hidden: Hidden, wanted: f64, random: &mut ChaCha8Rng) -> Option<Sized> {
+        let joint = random.random_range(0..self.robot.joint_count());
+        let seed = random.random::<u64>();
+        if matches!(hidden, Hidden::Stranger(kind) if !kind.fits(self.robot, joint)) {
+            return None;
+        }
+        let first = self.of_share(hidden, joint, FIRST_SHARE, seed);
+        let strength = over_threshold(&self.strength(&first)?);
+        if strength <= 1e-6 {
+            return None;
+        }
+        let share = (FIRST_SHARE * wanted / strength).clamp(SHARES[0], SHARES[1]);
+        let sized = self.of_share(hidden, joint, share, seed);
+        self.strength(&sized).map(|_| sized)
+    }
+
+    fn of_share(&self, hidden: Hidden, joint: usize, share: f64, seed: u64) -> Sized {
+        match hidden {
+            Hidden::Cause(kind) => Sized::Cause(self.bench.effect(kind, joint, share, seed)),
+            Hidden::Stranger(kind) => {
+                Sized::Stranger(self.bench.stranger(kind, joint, share, seed))
+            }
+        }
+    }
+
+    /// What an oracle sees of it in the first run; none where the arm cannot be simulated with it.
+    fn strength(&self, sized: &Sized) -> Option<Strength> {
+        let mut effects = self.base.clone();
+        let mut strangers = Vec::new();
+        match sized {
+            Sized::Cause(effect) => effects.push(effect.clone()),
+            Sized::Stranger(stranger) => strangers.push(stranger.clone()),
+        }
+        let with = first(self.scenario, &effects, &strangers).ok()?;
+        let rows = with.rows().min(self.seen.rows());
+        let torque = with.beyond.rows(0, rows) - self.seen.beyond.rows(0, rows);
+        let column = Column { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 };
+        let columns: Vec<Column> =
+            std::iter::once(column).chain(self.stand_ins.iter().cloned()).collect();
+        strengths(std::slice::from_ref(&self.seen), &columns, 1, self.noise, &self.scales).pop()
+    }
+}
+
+/// An effect or a stranger with a size.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Sized {
+    /// Of the catalogue.
+    Cause(EffectSpec),
+    /// Of no catalogue.
+    Stranger(StrangerSpec),
+}
+
+/// How many times what an oracle just sees.
+fn over_threshold(strength: &Strength) -> f64 {
+    (strength.sigmas / Strength::SIGMAS).min(strength.share / Strength::FLOOR)
+}
+
+fn first(
+    scenario: &Scenario,
+    effects: &[EffectSpec],
+    strangers: &[StrangerSpec],
+) -> Result<SeenRun, PopulationError> {
+    let name = scenario.runs().first().map_or("", |run| run.name.as_str());
+    let runs = simulate_silent(scenario, &|wanted| wanted == name, effects, strangers)?;
+    let run = runs.first().ok_or(PopulationError::NoRun)?;
+    Ok(SeenRun::new(scenario.robot(), run))
+}

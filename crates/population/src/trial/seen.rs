@@ -1,0 +1,145 @@
+use nalgebra::DMatrix;
+use robot::Robot;
+use simulator::effects::EffectSpec;
+use simulator::scenario::Scenario;
+use simulator::strangers::StrangerSpec;
+use simulator::{StrangerTruth, Truth, simulate_silent};
+
+use super::differences::Difference;
+use super::draw::HiddenThings;
+use crate::oracle::{Column, JointNoise, SeenRun, StandIn, effort_rms, stand_ins, strengths};
+use crate::rigid::mass_matrix;
+use crate::{Cause, PopulationError, Role, Unnamed};
+
+/// The runs of a trial without noise, and the torque of each hidden thing in them:
+///
+/// ```text
+/// torque of k = (effort - bodies along the motion) of the arm  -  the same of the arm without k
+/// ```
+///
+/// The motion is another where `k` is left out; what that asks of the bodies is taken off on both sides.
+pub(crate) struct Seen {
+    pub runs: Vec<SeenRun>,
+    causes: Vec<(Truth, Vec<DMatrix<f64>>)>,
+    strangers: Vec<(StrangerTruth, Vec<DMatrix<f64>>)>,
+}
+
+impl Seen {
+    /// Simulates the runs once with everything and once without each hidden thing.
+    pub fn new(
+        scenario: &Scenario,
+        friction: &[EffectSpec],
+        hidden: &HiddenThings,
+    ) -> Result<Self, PopulationError> {
+        let runs = silent(scenario, friction, &hidden.causes, &hidden.strangers)?;
+        let without_cause = |k: usize| {
+            let others = without(&hidden.causes, k);
+            let runs_without = silent(scenario, friction, &others, &hidden.strangers)?;
+            Ok((hidden.causes[k].truth(), beyond(&runs, &runs_without)))
+        };
+        let without_stranger = |k: usize| {
+            let others = without(&hidden.strangers, k);
+            let runs_without = silent(scenario, friction, &hidden.causes, &others)?;
+            Ok((hidden.strangers[k].truth(), beyond(&runs, &runs_without)))
+        };
+        let causes: Result<_, PopulationError> =
+            (0..hidden.causes.len()).map(without_cause).collect();
+        let strangers: Result<_, PopulationError> =
+            (0..hidden.strangers.len()).map(without_stranger).collect();
+        let (causes, strangers) = (causes?, strangers?);
+        Ok(Self { runs, causes, strangers })
+    }
+
+    /// What torques of each joint count by; see [`crate::Sheet::torque_rms`].
+    pub fn scales(&self, robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
+        scales(&self.runs, robot, noise)
+    }
+
+    /// What an oracle sees of every difference from the nominal model and every hidden thing.
+    pub fn strengths(
+        &self,
+        robot: &Robot,
+        differ: Vec<Difference>,
+        noise: &[JointNoise],
+    ) -> (Vec<Cause>, Vec<Unnamed>) {
+        let itself = |torque: &Vec<DMatrix<f64>>| Column {
+            stands_for: StandIn::Itself,
+            torque: torque.clone(),
+            prior: 0.0,
+        };
+        let count = differ.len() + self.causes.len() + self.strangers.len();
+        let (places, differ): (Vec<_>, Vec<_>) =
+            differ.into_iter().map(|d| ((d.role, d.truth), d.column)).unzip();
+        let hidden = self.causes.iter().map(|(_, torque)| itself(torque));
+        let strange = self.strangers.iter().map(|(_, torque)| itself(torque));
+        let columns: Vec<Column> = differ
+            .into_iter()
+            .chain(hidden)
+            .chain(strange)
+            .chain(stand_ins(robot, &self.runs))
+            .collect();
+        let scales = self.scales(robot, noise);
+        let mut strengths = strengths(&self.runs, &columns, count, noise, &scales).into_iter();
+        let roles = places
+            .into_iter()
+            .chain(self.causes.iter().map(|(truth, _)| (Role::Hidden, truth.clone())));
+        let mut causes: Vec<Cause> = roles
+            .zip(strengths.by_ref())
+            .map(|((role, truth), strength)| Cause { role, truth, strength })
+            .collect();
+        // A link that is hidden on purpose is told once: its parameters are stated in whole.
+        let link = |truth: &Truth| (truth.effect, truth.link.clone());
+        let hidden: Vec<_> = self.causes.iter().map(|(truth, _)| link(truth)).collect();
+        causes.retain(|c| c.role != Role::Nominal || !hidden.contains(&link(&c.truth)));
+        let unnamed = |((truth, _), strength): (&(StrangerTruth, _), _)| Unnamed {
+            name: truth.stranger.name().to_owned(),
+            joint: truth.joint.clone(),
+            strength,
+        };
+        let strangers = self.strangers.iter().zip(strengths).map(unnamed).collect();
+        (causes, strangers)
+    }
+}
+
+/// What torques of each joint count by: RMS of its effort, at least the deviation of its noise and a thousandth of
+/// the drive's limit (N m or N).
+pub(crate) fn scales(runs: &[SeenRun], robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
+    let joint = |(j, (link, noise)): (usize, (&robot::Link, &JointNoise))| {
+        let limit = link.joint.limits.effort.filter(|limit| limit.is_finite()).unwrap_or(0.0);
+        effort_rms(runs, j).max(noise.effort.sqrt()).max(1e-3 * limit).max(1e-6)
+    };
+    robot.links().iter().zip(noise).enumerate().map(joint).collect()
+}
+
+fn without<T: Clone>(all: &[T], k: usize) -> Vec<T> {
+    let kept = all.iter().enumerate().filter(|(i, _)| *i != k);
+    kept.map(|(_, one)| one.clone()).collect()
+}
+
+fn silent(
+    scenario: &Scenario,
+    friction: &[EffectSpec],
+    causes: &[EffectSpec],
+    strangers: &[StrangerSpec],
+) -> Result<Vec<SeenRun>, PopulationError> {
+    let effects = [friction, causes].concat();
+    let wanted = |name: &str| name != "held_out";
+    let runs = simulate_silent(scenario, &wanted, &effects, strangers)?;
+    Ok(runs.iter().map(|run| SeenRun::new(scenario.robot(), run)).collect())
+}
+
+/// What one arm's efforts leave beyond its bodies, less the same of another.
+fn beyond(with: &[SeenRun], without: &[SeenRun]) -> Vec<DMatrix<f64>> {
+    let run = |(with, without): (&SeenRun, &SeenRun)| &with.beyond - &without.beyond;
+    with.iter().zip(without).map(run).collect()
+}
+
+/// What each joint turns or moves with all others held, drives included, in the middle of its range (kg m2 or
+/// kg).
+pub(crate) fn inertias(robot: &Robot) -> Vec<f64> {
+    let middle = |link: &robot::Link| {
+        link.joint.limits.position.map_or(0.0, |(low, high)| 0.5 * (low + high))
+    };
+    let q: Vec<f64> = robot.links().iter().map(middle).collect();
+    mass_matrix(robot, &q).diagonal().iter().copied().collect()
+}

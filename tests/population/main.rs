@@ -1,0 +1,7 @@
+//! The population: trials as workshops vary, drawn from seeds, and what is true of them.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
+
+mod bench;
+mod made;
+mod recorded;
+mod store;
