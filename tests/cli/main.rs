@@ -22,4 +22,5 @@ mod slurm;
 mod submit;
 mod track;
 mod trials;
+mod trials_compare;
 mod view;

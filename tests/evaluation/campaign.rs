@@ -18,12 +18,13 @@ fn a_record_is_read_back_as_it_was_written() {
     assert!(score.put_in[0].sizes[0].estimate.is_some() && !score.findings.is_empty());
     let record = |task, score| Record {
         task,
-        hidden: Hidden::One(CoulombFriction),
+        hidden: Some(Hidden::One(CoulombFriction)),
         seed: u64::MAX >> 1,
         campaign: "c".to_owned(),
         score,
     };
-    let records = [record(0, Ok(score.clone())), record(7, Err("it \"ran\" away".to_owned()))];
+    let records =
+        [record(0, Ok(score.clone().into())), record(7, Err("it \"ran\" away".to_owned()))];
     let path = folder.path().join("records.parquet");
     Record::write(&path, &records).unwrap();
     assert_eq!(Record::read(&path).unwrap(), records);
@@ -32,8 +33,9 @@ fn a_record_is_read_back_as_it_was_written() {
     let mut endless = score;
     let estimate = endless.put_in[0].sizes[0].estimate.as_mut().unwrap();
     estimate.ci95 = [f64::NEG_INFINITY, 1.0];
-    Record::write(&path, &[record(0, Ok(endless))]).unwrap();
-    let read = Record::read(&path).unwrap().remove(0).score.unwrap();
+    Record::write(&path, &[record(0, Ok(endless.into()))]).unwrap();
+    let read = Record::read(&path).unwrap().remove(0);
+    let read = read.scored().unwrap();
     let [low, high] = read.put_in[0].sizes[0].estimate.as_ref().unwrap().ci95;
     assert!(low.is_nan() && (high - 1.0).abs() < 1e-12);
 }
@@ -61,6 +63,8 @@ impl WorkProgress for OnlyOne {
         assert!(took > Duration::ZERO);
         self.0.lock().unwrap().push(record.task);
     }
+
+    fn remade(&self, _: &Path, _: &str) {}
 
     fn is_stopped(&self) -> bool {
         !self.0.lock().unwrap().is_empty()
@@ -108,14 +112,14 @@ fn planned(root: &Path) -> CampaignFolder {
 fn work_that_is_stopped_ends_after_the_trial_and_keeps_logs_where_they_are_wanted() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
-    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Kept };
+    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Kept, store: None };
     let progress = OnlyOne::default();
     work(&folder, &crew, &progress).unwrap();
     assert_eq!(*progress.0.lock().unwrap(), [0]);
     assert_eq!(folder.left(Part::WHOLE).unwrap(), [1]);
     let record = folder.made().unwrap().records.remove(&0).unwrap();
     assert_eq!((record.hidden, record.seed), folder.campaign().task(0));
-    let score = record.score.unwrap();
+    let score = record.scored().unwrap();
     assert!(score.exactly && score.seed == record.seed, "{}", score.words());
     let logs = root.path().join(format!("logs/clean/{}", record.seed));
     assert!(logs.join("a.parquet").is_file() && logs.join("b.parquet").is_file());
@@ -129,7 +133,8 @@ fn a_trial_that_another_process_makes_is_left_to_it() {
     fs::create_dir(root.path().join("work")).unwrap();
     let held = fs::File::create(root.path().join("work/00000.lock")).unwrap();
     held.lock().unwrap();
-    let crew = Crew { jobs: 1, part: "1/2".parse().unwrap(), logs: TrialLogs::Removed };
+    let crew =
+        Crew { jobs: 1, part: "1/2".parse().unwrap(), logs: TrialLogs::Removed, store: None };
     work(&folder, &crew, &OnlyOne::default()).unwrap();
     assert_eq!(folder.left(Part::WHOLE).unwrap(), [0, 1]);
     drop(held);
@@ -149,6 +154,8 @@ impl WorkProgress for Unlocking<'_> {
         fs::remove_file(lock).unwrap();
     }
 
+    fn remade(&self, _: &Path, _: &str) {}
+
     fn is_stopped(&self) -> bool {
         false
     }
@@ -158,7 +165,71 @@ impl WorkProgress for Unlocking<'_> {
 fn a_lock_whose_file_is_gone_is_no_reason_to_end_the_work() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
-    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed };
+    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store: None };
     work(&folder, &crew, &Unlocking(root.path())).unwrap();
     assert_eq!(folder.left(Part::WHOLE).unwrap(), [0; 0]);
+}
+
+/// Scenarios have their logs kept by other means, and an option that does nothing is none.
+#[test]
+fn a_store_is_for_populations_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = planned(root.path());
+    let store = Some(root.path().join("store"));
+    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store };
+    let refused = work(&folder, &crew, &OnlyOne::default()).unwrap_err().to_string();
+    assert!(refused.contains("a store holds logs of populations"), "{refused}");
+    assert_eq!(folder.left(Part::WHOLE).unwrap(), [0, 1]);
+    assert!(!root.path().join("store").exists());
+}
+
+fn population(more: &str) -> Campaign {
+    let text = format!("[population]\ntrials = 3\n{more}");
+    Campaign::from_document(&Document::from_text("p.toml", &text).unwrap()).unwrap()
+}
+
+#[test]
+fn a_population_is_planned_and_its_folder_refuses_trials_of_another_kind() {
+    let root = tempfile::tempdir().unwrap();
+    let folder = CampaignFolder::plan(root.path(), population("seed = 5")).unwrap();
+    let campaign = folder.campaign();
+    assert_eq!((campaign.trials(), campaign.kinds().len()), (3, 0));
+    // The digest is that of `printf '%s' 5/population/2 | sha256sum`.
+    assert_eq!(campaign.task(2), (None, 0x309cd0360d2e7ea1 >> 1));
+    assert!(!root.path().join("scenario.toml").exists());
+    let again = CampaignFolder::open(root.path()).unwrap();
+    assert_eq!(again.hash(), folder.hash());
+    assert_eq!(again.left(Part::WHOLE).unwrap(), [0, 1, 2]);
+    for other in ["seed = 6", "seed = 5\nstrangers = 0.5", "seed = 5\ncauses = [0, 1]"] {
+        assert_ne!(population(other).hash(), folder.hash());
+    }
+
+    let shard = Record {
+        task: 0,
+        hidden: Some(Hidden::Nothing),
+        seed: 1,
+        campaign: "of a scenario".to_owned(),
+        score: Err("it ran away".to_owned()),
+    };
+    let table = root.path().join("scenario.parquet");
+    Record::write(&table, std::slice::from_ref(&shard)).unwrap();
+    let refused = folder.take(&table).unwrap_err().to_string();
+    assert!(refused.contains("its trials are of another campaign"), "{refused}");
+    fs::create_dir_all(root.path().join("shards")).unwrap();
+    Record::write(&folder.shard(0), &[shard]).unwrap();
+    assert_eq!(folder.made().unwrap().broken[0].reason, "it is of another campaign");
+    let refused = CampaignFolder::plan(root.path(), population("seed = 5")).unwrap_err();
+    assert!(refused.to_string().contains("an empty folder was expected"), "{refused}");
+}
+
+#[test]
+fn a_campaign_is_of_one_form() {
+    let refused = |text: &str| {
+        let document = Document::from_text("p.toml", text).unwrap();
+        Campaign::from_document(&document).unwrap_err().to_string()
+    };
+    let both = refused("hidden = ['clean']\n[population]\ntrials = 3\n");
+    assert!(both.contains("hidden"), "{both}");
+    let none = refused("[population]\ntrials = 0\n");
+    assert!(none.contains("a number from 1 to 1000000 was expected"), "{none}");
 }

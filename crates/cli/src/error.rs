@@ -179,7 +179,9 @@ impl CliError {
                 | EvaluationError::Recording(_)
                 | EvaluationError::OtherCampaign { .. }
                 | EvaluationError::NoThreads { .. }
+                | EvaluationError::NoStore { .. }
                 | EvaluationError::TrialFolder { .. }
+                | EvaluationError::Population(_)
                 | EvaluationError::Log(LogError::Unwritable { .. })
                 | EvaluationError::Simulator(SimulatorError::Log(LogError::Unwritable {
                     ..

@@ -4,6 +4,7 @@ use diagnosis::DiagnosisError;
 use document::DocumentError;
 use learner::{LearnerError, ModelKind};
 use logs::LogError;
+use population::PopulationError;
 use recording::RecordingError;
 use robot::RobotError;
 use simulator::SimulatorError;
@@ -31,6 +32,9 @@ pub enum EvaluationError {
     /// The named effects cannot be found.
     #[error(transparent)]
     Diagnosis(#[from] DiagnosisError),
+    /// A trial of a population cannot be made.
+    #[error(transparent)]
+    Population(Box<PopulationError>),
     /// The arm cannot be tracked.
     #[error(transparent)]
     Tracking(#[from] TrackingError),
@@ -124,6 +128,20 @@ pub enum EvaluationError {
         /// The campaign that was planned.
         planned: String,
     },
+    /// Two results have no trial in common.
+    #[error("{} and {}: they have no trial in common, two results of the same trials were expected", first.display(), second.display())]
+    NoCommonTrials {
+        /// The first.
+        first: PathBuf,
+        /// The second.
+        second: PathBuf,
+    },
+    /// A campaign keeps no logs in a store.
+    #[error("{}: a store holds logs of populations, this campaign starts from a scenario, whose logs --keep keeps", path.display())]
+    NoStore {
+        /// The store.
+        path: PathBuf,
+    },
     /// A robot has no gains to be tracked with.
     #[error("{}: it has no set of gains, one [gains.NAME] at least was expected: the motion is tracked with the softest", path.display())]
     NoGains {
@@ -149,4 +167,10 @@ pub enum EvaluationError {
 /// The start of a hash, enough to tell it from others by eye.
 fn short(hash: &str) -> &str {
     hash.get(..8).unwrap_or(hash)
+}
+
+impl From<PopulationError> for EvaluationError {
+    fn from(error: PopulationError) -> Self {
+        Self::Population(Box::new(error))
+    }
 }

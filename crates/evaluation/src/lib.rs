@@ -8,11 +8,13 @@
 //! LearningFigure --simulate, diagnose, learn--> LearningErrors --judge--> Claims
 //! Trial --simulate, diagnose blind--> Score --many--> Tally
 //! Campaign --plan--> CampaignFolder --work--> shards of Records --> Merged: tally, power
+//! Sheet, Answers --> Judgement --many--> PanelTally; two results of the same trials --> Comparison
 //! ```
 //!
 //! The one place where the simulated arm and the models of it meet; what is learned is learned
 //! from the arm's logs alone.
 
+mod baselines;
 mod error;
 mod experiment;
 mod feedforward_kind;
@@ -21,6 +23,7 @@ mod gain;
 mod learned;
 mod median_time;
 mod metrics;
+mod panel;
 mod paper;
 mod predictions;
 mod progress;
@@ -40,6 +43,7 @@ mod tracking_spec;
 mod trials;
 mod words;
 
+pub use baselines::{Baseline, least_squares, robot_error, two_questions};
 pub use error::EvaluationError;
 pub use experiment::Experiment;
 pub use feedforward_kind::FeedforwardKind;
@@ -48,6 +52,12 @@ pub use gain::{Gain, Gains};
 pub use learned::Learned;
 pub use median_time::median_time_s;
 pub use metrics::Metrics;
+pub use panel::{
+    Answers, BaselineClaim, Comparison, Costs, Fraction, HeldOut, JudgedCause, JudgedFinding,
+    Judgement, KindRow, Measure, MergedPanel, Naming, PANEL_SCHEMA, PairedMean, PairedShare,
+    PanelRow, PanelTally, Prediction, Quantity, Rate, Ratios, RelativeError, Side, SlowDiagnosis,
+    StrangerRow, Turned,
+};
 pub use paper::{
     Claim, ClaimCase, DataSpec, FigureScenario, FigureSpec, LearningErrors, LearningFigure,
     LearningFigureSpec, ModelErrors, ModelTime, PAPER_MODELS, PaperData, PaperPlant,
@@ -73,6 +83,6 @@ pub use tracking_spec::{
 pub use trials::{
     BrokenShard, Campaign, CampaignFolder, CampaignSpec, Confusion, Crew, Estimated, Failure,
     Gained, Group, Hidden, KindCount, Lessened, MERGED_SCHEMA, Made, Merged, Named, NoPart, Part,
-    Power, PutIn, Record, Row, Score, Share, Size, SizeClass, SizeTally, Tally, TextTable, Trial,
-    TrialLogs, WorkProgress, judge, work,
+    PopulationCampaign, Power, PutIn, Record, Row, ScenarioCampaign, Score, Scored, Share, Size,
+    SizeClass, SizeTally, Tally, TextTable, Trial, TrialLogs, WorkProgress, judge, work,
 };

@@ -2,7 +2,9 @@ use diagnosis::{LeftOver, left_over};
 use learner::{Mean, Model, Samples, TorqueModel};
 use logs::{
     LogError, LowPass, PrepareSettings, Prepared, PreparedRun, Run, centre_commands, prepare,
+    rest_speeds,
 };
+use robot::Robot;
 use serde::{Deserialize, Serialize};
 
 use crate::{EvaluationError, Learned, TrackingScenario};
@@ -49,6 +51,31 @@ pub fn torque_errors(
         }
     }
     Ok(errors)
+}
+
+/// RMS by joint of what a described robot leaves of runs (N m or N), in the band of their motion
+/// ([`left_over`]): the nominal one, one that a diagnosis has extended, any.
+///
+/// # Errors
+///
+/// [`EvaluationError::Log`] for runs that cannot be prepared.
+///
+/// # Panics
+///
+/// When robot and runs are not of one number of joints.
+pub fn robot_error(
+    robot: &Robot,
+    control_rate_hz: Option<f64>,
+    runs: &[Run],
+) -> Result<Vec<f64>, EvaluationError> {
+    let mut test = prepare(runs, &PrepareSettings::default())?;
+    centre_commands(robot, &mut test.runs, control_rate_hz);
+    let mut sums = vec![Sums::default(); robot.joint_count()];
+    for run in left_over(robot, &rest_speeds(&test), &test)? {
+        let joints = run.measured.iter().zip(&run.left);
+        sums.iter_mut().zip(joints).for_each(|(sums, (torque, left))| sums.add(torque, left));
+    }
+    Ok(sums.iter().map(|sums| sums.mean(sums.error).sqrt()).collect())
 }
 
 impl TorqueError {

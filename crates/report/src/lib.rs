@@ -8,6 +8,7 @@
 //! RunReport { metrics, told, .. } of a run             -> json(), page(), text()
 //! LearningFigureReport, PredictionTimeFigureReport     -> json(), page(), figures, text()
 //! evaluation::Merged { counts, tally, power } of trials -> trials_page()
+//! evaluation::MergedPanel { counts, tally } of trials   -> panel_page()
 //! ```
 //!
 //! None of them holds a date or a random number: the same input gives the same
@@ -72,7 +73,7 @@ pub use tracking::{
     FirstSeconds, Gains, Sweep, SweptModel, TRACKING_SCHEMA, TrackedModel, TrackingComparison,
     WallTiming,
 };
-pub use trials::trials_page;
+pub use trials::{panel_page, trials_page};
 pub use wrap::packed;
 
 /// Everything that a report shows.

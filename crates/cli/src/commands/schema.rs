@@ -1,6 +1,7 @@
 use clap::ValueEnum;
-use evaluation::{CampaignSpec, FigureScenario, TrackingSpec};
-use schemars::{json_schema, schema_for};
+use evaluation::{CampaignSpec, FigureScenario, PopulationCampaign, TrackingSpec};
+use schemars::{Schema, json_schema, schema_for};
+use serde_json::{Value, json};
 use simulator::scenario::ScenarioSpec;
 
 use crate::Outcome;
@@ -35,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let mut schema = match arguments.command {
         Kind::Simulate => schema_for!(ScenarioSpec),
         Kind::Track => schema_for!(TrackingSpec),
-        Kind::Trials => schema_for!(CampaignSpec),
+        Kind::Trials => campaigns(),
         Kind::Figure => schema_for!(FigureScenario),
     };
     schema.remove("required");
@@ -51,4 +52,26 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     }
     print_json(&schema)?;
     Ok(Outcome::Good)
+}
+
+/// A campaign of either form: its keys are those of both, and a population leaves out the others.
+fn campaigns() -> Schema {
+    let mut schema = schema_for!(CampaignSpec);
+    let mut population = schema_for!(PopulationCampaign);
+    for name in ["properties", "$defs"] {
+        let Some(more) = population.get_mut(name).and_then(|more| more.as_object_mut()) else {
+            continue;
+        };
+        let more = std::mem::take(more);
+        let own = schema.ensure_object().entry(name).or_insert_with(|| json!({}));
+        if let Some(own) = own.as_object_mut() {
+            own.extend(more);
+        }
+    }
+    let others: Vec<Value> = ["scenario", "hidden", "except", "seeds", "seed", "settings", "gains"]
+        .iter()
+        .map(|name| json!({ "required": [name] }))
+        .collect();
+    schema.insert("not".to_owned(), json!({ "required": ["population"], "anyOf": others }));
+    schema
 }

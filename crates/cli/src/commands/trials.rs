@@ -1,3 +1,4 @@
+mod compare;
 mod crew;
 mod pace;
 mod shift;
@@ -7,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use document::Document;
-use evaluation::{Campaign, CampaignFolder, KindCount, Made, Merged, Record, work};
+use evaluation::{Campaign, CampaignFolder, KindCount, Made, Merged, MergedPanel, Record, work};
 use report::{FileHash, Provenance, sha256_of};
 
 use crate::Outcome;
@@ -35,6 +36,8 @@ pub enum Action {
     Status(Folder),
     /// Puts the trials that are made together: tables, trials.parquet, tally.json, report.html
     Merge(Folder),
+    /// Compares two results of the same trials, trial by trial: wins, losses and which trials turned
+    Compare(compare::Arguments),
 }
 
 /// Arguments of `trials plan`.
@@ -69,6 +72,7 @@ pub fn run(action: &Action) -> Result<Outcome, CliError> {
         Action::Submit(arguments) => submit::run(arguments),
         Action::Status(arguments) => status(&arguments.folder),
         Action::Merge(arguments) => merge(&arguments.folder),
+        Action::Compare(arguments) => compare::run(arguments),
     }
 }
 
@@ -81,21 +85,28 @@ fn plan(arguments: &Plan) -> Result<Outcome, CliError> {
         taken += folder.take(table)?;
     }
     if !arguments.quiet {
-        let campaign = folder.campaign();
-        let (trials, kinds) = (campaign.trials(), campaign.kinds());
-        let names: Vec<String> = kinds.iter().map(ToString::to_string).collect();
         let out = shown(&arguments.out);
         let made = match taken {
             0 => "To make them".to_owned(),
             taken => format!("{taken} are made already. To make the others"),
         };
         print(&format!(
-            "{trials} trials, {} of each kind:\n{}\n{made}:\n  plumbline trials work {out}\n",
-            trials / kinds.len(),
-            report::packed(names.iter().map(String::as_str), ", ", WIDTH).join(",\n")
+            "{}\n{made}:\n  plumbline trials work {out}\n",
+            contents(folder.campaign())
         ))?;
     }
     Ok(Outcome::Good)
+}
+
+/// How many trials, and of what.
+fn contents(campaign: &Campaign) -> String {
+    let (trials, kinds) = (campaign.trials(), campaign.kinds());
+    let Some(each) = trials.checked_div(kinds.len()) else {
+        return format!("{trials} trials of a population");
+    };
+    let names: Vec<String> = kinds.iter().map(ToString::to_string).collect();
+    let names = report::packed(names.iter().map(String::as_str), ", ", WIDTH).join(",\n");
+    format!("{trials} trials, {each} of each kind:\n{names}")
 }
 
 fn make(arguments: &crew::Arguments) -> Result<Outcome, CliError> {
@@ -125,16 +136,27 @@ fn status(folder: &Path) -> Result<Outcome, CliError> {
 fn merge(root: &Path) -> Result<Outcome, CliError> {
     let folder = CampaignFolder::open(root)?;
     let made = folder.made()?;
-    let merged = Merged::new(&folder, &made);
-    let doubts = doubts(&made, &merged.counts);
+    let doubts = doubts(&made, &KindCount::all(&folder, &made));
+    let provenance = provenance(&folder)?;
+    let (text, json, page) = match folder.campaign() {
+        Campaign::Scenario(_) => {
+            let merged = Merged::new(&folder, &made);
+            let page = report::trials_page(&merged, &doubts, &provenance)?;
+            (merged.text(), serde_json::to_string_pretty(&merged), page)
+        }
+        Campaign::Population(_) => {
+            let merged = MergedPanel::new(&folder, &made);
+            let page = report::panel_page(&merged, &doubts, &provenance)?;
+            (merged.text(), serde_json::to_string_pretty(&merged), page)
+        }
+    };
+    let json = json.map_err(std::io::Error::from)?;
     let records: Vec<Record> = made.records.into_values().collect();
     Record::write(&root.join("trials.parquet"), &records)
         .map_err(evaluation::EvaluationError::Log)?;
-    let page = report::trials_page(&merged, &doubts, &provenance(&folder)?)?;
-    let json = serde_json::to_string_pretty(&merged).map_err(std::io::Error::from)?;
     let files = [("tally.json", json.as_bytes()), ("report.html", page.as_bytes())];
     report::write_folder(root, &files)?;
-    print(&format!("{}{}", merged.text(), sentences(&doubts)))?;
+    print(&format!("{text}{}", sentences(&doubts)))?;
     print(&format!("\nreport  {}\n", shown(&root.join("report.html"))))?;
     Ok(if doubts.is_empty() { Outcome::Good } else { Outcome::Gap })
 }

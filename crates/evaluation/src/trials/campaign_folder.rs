@@ -15,7 +15,8 @@ const SHARD: &str = "parquet";
 /// A folder in which a campaign is made.
 ///
 /// ```text
-/// campaign.toml, scenario.toml   what is to be made, with all that they extend
+/// campaign.toml                  what is to be made, with all that it extends
+/// scenario.toml                  the scenario that it starts from, if it starts from one
 /// shards/00012.parquet           a finished trial, by its task
 /// work/                          trials that are being made
 /// logs/KIND/SEED/                their logs, where they are kept
@@ -67,7 +68,9 @@ impl CampaignFolder {
         }
         std::fs::create_dir_all(root).map_err(unusable(root))?;
         let campaign = &folder.campaign;
-        write(&root.join(SCENARIO), campaign.scenario())?;
+        if let Some(scenario) = campaign.scenario() {
+            write(&root.join(SCENARIO), scenario)?;
+        }
         write(&root.join(CAMPAIGN), &campaign.resolved(SCENARIO))?;
         Ok(folder)
     }
@@ -125,8 +128,9 @@ impl CampaignFolder {
     }
 
     /// The files that say what is to be made.
-    pub fn plans(&self) -> [PathBuf; 2] {
-        [CAMPAIGN, SCENARIO].map(|name| self.root.join(name))
+    pub fn plans(&self) -> Vec<PathBuf> {
+        let scenario = self.campaign.scenario().map(|_| SCENARIO);
+        [Some(CAMPAIGN), scenario].into_iter().flatten().map(|name| self.root.join(name)).collect()
     }
 
     /// Reads every shard.
@@ -181,7 +185,7 @@ impl CampaignFolder {
         Ok(Record::write(&self.shard(record.task), std::slice::from_ref(record))?)
     }
 
-    /// The scenario that every trial starts from.
+    /// Where the scenario that every trial starts from lies, if there is one.
     pub(super) fn scenario(&self) -> PathBuf {
         self.root.join(SCENARIO)
     }

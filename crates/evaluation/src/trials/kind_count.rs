@@ -18,13 +18,14 @@ pub struct KindCount {
 }
 
 impl KindCount {
-    /// One for every kind of a campaign, in its order, and one for all of them.
+    /// One for every kind of a campaign, in its order, and one for all of them; of a population that alone.
     pub fn all(folder: &CampaignFolder, made: &Made) -> Vec<Self> {
         let campaign = folder.campaign();
         let of = |hidden: Option<Hidden>| {
             let name = hidden.map_or("all".to_owned(), |hidden| hidden.to_string());
             let mut count = Self { hidden: name, made: 0, failed: 0, broken: 0, left: 0 };
-            let own = |task: &usize| hidden.is_none_or(|hidden| campaign.task(*task).0 == hidden);
+            let own =
+                |task: &usize| hidden.is_none_or(|hidden| campaign.task(*task).0 == Some(hidden));
             for task in (0..campaign.trials()).filter(own) {
                 let shard = folder.shard(task);
                 match made.records.get(&task) {

@@ -1,8 +1,8 @@
-use std::collections::BTreeMap;
-
 use serde::Serialize;
 
-use super::{CampaignFolder, Gained, KindCount, Made, Power, Score, SizeClass, Tally, TextTable};
+use super::{
+    CampaignFolder, Failure, Gained, KindCount, Made, Power, Score, SizeClass, Tally, TextTable,
+};
 
 /// The schema that `tally.json` follows.
 pub const MERGED_SCHEMA: &str = "plumbline.trials/1";
@@ -28,35 +28,16 @@ pub struct Merged {
     pub gained: Vec<Gained>,
 }
 
-/// Trials that failed alike.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Failure {
-    /// What was hidden.
-    pub hidden: String,
-    /// Why they failed, in words.
-    pub error: String,
-    /// Their seeds.
-    pub seeds: Vec<u64>,
-}
-
 impl Merged {
     /// What has been made of a campaign, whoever made it and in whatever order.
     pub fn new(folder: &CampaignFolder, made: &Made) -> Self {
         let scores: Vec<Score> =
             made.records.values().filter_map(|record| record.scored().cloned()).collect();
-        let mut failures: BTreeMap<(String, String), Vec<u64>> = BTreeMap::new();
-        for record in made.records.values() {
-            if let Err(error) = &record.score {
-                let alike = failures.entry((record.hidden.to_string(), error.clone()));
-                alike.or_default().push(record.seed);
-            }
-        }
-        let failure = |((hidden, error), seeds)| Failure { hidden, error, seeds };
         Self {
             schema: MERGED_SCHEMA,
             campaign: folder.hash().to_owned(),
             counts: KindCount::all(folder, made),
-            failures: failures.into_iter().map(failure).collect(),
+            failures: Failure::all(made),
             tally: Tally::of(&scores),
             power: Power::all(&scores),
             gained: Gained::all(&scores),
@@ -71,11 +52,7 @@ impl Merged {
         if let Some(gained) = self.gained() {
             text.push_str(&format!("\n{}", gained.text(1)));
         }
-        for failure in &self.failures {
-            let Failure { hidden, error, seeds } = failure;
-            let first = seeds.first().map_or(String::new(), |seed| format!(", seed {seed} first"));
-            text.push_str(&format!("\n{} failed of {hidden}{first}: {error}\n", seeds.len()));
-        }
+        self.failures.iter().for_each(|failure| text.push_str(&failure.words()));
         text
     }
 

@@ -1,35 +1,40 @@
 use std::fs::File;
 use std::panic::catch_unwind;
 use std::path::Path;
-use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::UInt64Type;
-use arrow_array::{Array, ArrayRef, BooleanArray, RecordBatch, StringArray, UInt64Array};
+use arrow_array::{Array, RecordBatch};
 use logs::LogError;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
-use super::{Hidden, Score};
+use super::{Hidden, Score, Scored, record_columns};
+use crate::Judgement;
 
 /// What came of one trial of a campaign: a row of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     /// Its number in the campaign, from 0.
     pub task: usize,
-    /// What was hidden.
-    pub hidden: Hidden,
+    /// What was hidden in the arm of a scenario; none for a trial of a population.
+    pub hidden: Option<Hidden>,
     /// The seed that everything was drawn from.
     pub seed: u64,
     /// The campaign, by its hash.
     pub campaign: String,
     /// The score, or in words why it has none.
-    pub score: Result<Score, String>,
+    pub score: Result<Scored, String>,
 }
 
 impl Record {
-    /// Writes records as Parquet, one row each: `task`, `hidden`, `seed`, `campaign`, `error`
-    /// where there is no score, and otherwise `verdict`, `exactly`, `as_one_of`, the number of
-    /// `stray` findings, and the whole `score` as JSON.
+    /// Writes the records of a campaign as Parquet, one row each: `task`, `seed`, `campaign`, `error` where
+    /// there is no score, the whole `score` as JSON, and what tables are sorted by.
+    ///
+    /// | of a scenario | of a population |
+    /// |---|---|
+    /// | `hidden`, `verdict`, `exactly`, `as_one_of` | `arm`, `motion`, `verdict`, `right` |
+    /// | number of `stray` findings | numbers of `findings`, `true_findings`, `visible` and `named` causes |
+    /// | | `false_assurance`, `false_alarm`, `worse`, `diagnosis_s` |
     ///
     /// # Errors
     ///
@@ -39,32 +44,13 @@ impl Record {
             path: path.to_owned(),
             reason: e.to_string(),
         };
-        let json = |record: &Self| record.scored().map(serde_json::to_string).transpose();
-        let json = records.iter().map(json).collect::<Result<Vec<_>, _>>().map_err(unwritable)?;
-        let numbers = |of: fn(&Self) -> u64| -> ArrayRef {
-            Arc::new(records.iter().map(of).map(Some).collect::<UInt64Array>())
-        };
-        let texts = |of: fn(&Self) -> Option<String>| -> ArrayRef {
-            Arc::new(records.iter().map(of).collect::<StringArray>())
-        };
-        let answers = |of: fn(&Score) -> bool| -> ArrayRef {
-            Arc::new(records.iter().map(|r| r.scored().map(of)).collect::<BooleanArray>())
-        };
-        let stray = records.iter().map(|r| r.scored().map(|score| score.stray.len() as u64));
-        let columns = [
-            ("task", numbers(|r| r.task as u64)),
-            ("hidden", texts(|r| Some(r.hidden.to_string()))),
-            ("seed", numbers(|r| r.seed)),
-            ("campaign", texts(|r| Some(r.campaign.clone()))),
-            ("verdict", texts(|r| r.scored().map(|score| score.verdict.words().to_owned()))),
-            ("exactly", answers(|score| score.exactly)),
-            ("as_one_of", answers(|score| score.as_one_of)),
-            ("stray", Arc::new(stray.collect::<UInt64Array>())),
-            ("error", texts(|r| r.score.clone().err())),
-            ("score", Arc::new(json.into_iter().collect::<StringArray>())),
-        ];
-        let columns = columns.map(|(name, column)| (name.to_owned(), column));
-        logs::write_table(path, columns.to_vec(), Vec::new())
+        let of_scenarios = records.first().is_none_or(|record| record.hidden.is_some());
+        let own =
+            if of_scenarios { record_columns::of_scenarios } else { record_columns::of_panel };
+        let mut columns = record_columns::of_all(records).map_err(unwritable)?;
+        columns.extend(own(records));
+        let named = columns.into_iter().map(|(name, column)| (name.to_owned(), column));
+        logs::write_table(path, named.collect(), Vec::new())
     }
 
     /// Reads what [`write`](Self::write) has written; in words what is wrong with the file.
@@ -77,9 +63,20 @@ impl Record {
         catch_unwind(|| read(path)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
     }
 
-    /// The score, if there is one.
+    /// The score of a trial of a scenario, if there is one.
     pub fn scored(&self) -> Option<&Score> {
-        self.score.as_ref().ok()
+        match self.score.as_ref().ok()? {
+            Scored::Scenario(score) => Some(score),
+            Scored::Panel(_) => None,
+        }
+    }
+
+    /// The judgement of a trial of a population, if there is one.
+    pub fn judged(&self) -> Option<&Judgement> {
+        match self.score.as_ref().ok()? {
+            Scored::Scenario(_) => None,
+            Scored::Panel(judgement) => Some(judgement),
+        }
     }
 }
 
@@ -107,20 +104,16 @@ fn record(batch: &RecordBatch, row: usize) -> Result<Record, String> {
         let texts = column(name).and_then(|column| column.as_string_opt::<i32>());
         texts.map(|texts| texts.value(row)).ok_or_else(|| lacks(name))
     };
+    let hidden = match text("hidden") {
+        Ok(name) => Some(name.parse().map_err(|e: catalogue::UnknownEffect| e.to_string())?),
+        Err(_) => None,
+    };
     let score = match (text("score"), text("error")) {
-        (Ok(json), _) => {
-            Ok(serde_json::from_str(json).map_err(|e| format!("its score is none: {e}"))?)
-        }
+        (Ok(json), _) => Ok(Scored::from_json(json, hidden)?),
         (Err(_), Ok(error)) => Err(error.to_owned()),
         (Err(lack), Err(_)) => return Err(format!("{lack} and no error")),
     };
     let task = usize::try_from(number("task")?).map_err(|e| e.to_string())?;
-    let hidden = text("hidden")?.parse().map_err(|e: catalogue::UnknownEffect| e.to_string())?;
-    Ok(Record {
-        task,
-        hidden,
-        seed: number("seed")?,
-        campaign: text("campaign")?.to_owned(),
-        score,
-    })
+    let (seed, campaign) = (number("seed")?, text("campaign")?.to_owned());
+    Ok(Record { task, hidden, seed, campaign, score })
 }

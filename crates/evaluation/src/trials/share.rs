@@ -25,7 +25,7 @@ impl Share {
     }
 
     /// The share of those for which `is` holds.
-    pub(super) fn of<T>(all: &[T], is: impl Fn(&T) -> bool) -> Self {
+    pub(crate) fn of<T>(all: &[T], is: impl Fn(&T) -> bool) -> Self {
         Self::new(all.iter().filter(|one| is(one)).count(), all.len())
     }
 
@@ -37,7 +37,8 @@ impl Share {
     }
 }
 
-fn wilson(count: f64, n: f64) -> [f64; 2] {
+/// The score interval of a share, for numbers that need not be whole.
+pub(crate) fn wilson(count: f64, n: f64) -> [f64; 2] {
     let (p, zz) = (count / n, Z * Z / n);
     let centre = p + 0.5 * zz;
     let half = Z * (p * (1.0 - p) / n + 0.25 * zz / n).sqrt();

@@ -39,7 +39,7 @@ pub struct Estimated {
 
 impl Size {
     /// The parameters of `truth` beside the estimates of a finding that names it.
-    pub(super) fn all(truth: &Truth, estimates: &[Estimate]) -> Vec<Self> {
+    pub(crate) fn all(truth: &Truth, estimates: &[Estimate]) -> Vec<Self> {
         let size = |(name, &value): (&String, &f64)| {
             let of = estimates.iter().find(|estimate| estimate.name == name);
             let estimate = of.map(|estimate| estimated(truth, value, estimate));

@@ -31,22 +31,22 @@ enum Named {
     DataInadequate,
 }
 
-pub(super) fn place<'de, D: Deserializer<'de>>(from: D) -> Result<EffectAt, D::Error> {
+pub(crate) fn place<'de, D: Deserializer<'de>>(from: D) -> Result<EffectAt, D::Error> {
     Place::deserialize(from).map(EffectAt::from)
 }
 
-pub(super) fn places<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<EffectAt>, D::Error> {
+pub(crate) fn places<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<EffectAt>, D::Error> {
     Ok(Vec::<Place>::deserialize(from)?.into_iter().map(EffectAt::from).collect())
 }
 
-pub(super) fn verdict<'de, D: Deserializer<'de>>(from: D) -> Result<Verdict, D::Error> {
+pub(crate) fn verdict<'de, D: Deserializer<'de>>(from: D) -> Result<Verdict, D::Error> {
     Named::deserialize(from)
 }
 
-pub(super) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+pub(crate) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
-pub(super) fn interval<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
+pub(crate) fn interval<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
     Ok(<[Option<f64>; 2]>::deserialize(from)?.map(|end| end.unwrap_or(f64::NAN)))
 }

@@ -176,7 +176,7 @@ fn sizes(group: Group, scores: &[&Score]) -> Vec<SizeTally> {
 }
 
 impl SizeTally {
-    fn new(name: &str, estimates: &[&Estimated]) -> Self {
+    pub(crate) fn new(name: &str, estimates: &[&Estimated]) -> Self {
         let determined: Vec<_> = estimates.iter().filter(|e| e.determined).collect();
         Self {
             name: name.to_owned(),
@@ -189,7 +189,7 @@ impl SizeTally {
 }
 
 /// The middle number, or the mean of the two in the middle.
-pub(super) fn median(mut numbers: Vec<f64>) -> Option<f64> {
+pub(crate) fn median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.sort_by(f64::total_cmp);
     let (last, half) = (numbers.len().checked_sub(1)?, numbers.len() / 2);
     Some(0.5 * (numbers[last - half] + numbers[half]))

@@ -147,7 +147,7 @@ fn runs_of(folder: &Path, robot: &Robot) -> Result<Vec<Run>, EvaluationError> {
 }
 
 /// The logs of a folder, by name.
-fn logs_of(folder: &Path) -> Result<Vec<PathBuf>, EvaluationError> {
+pub(crate) fn logs_of(folder: &Path) -> Result<Vec<PathBuf>, EvaluationError> {
     let entries = std::fs::read_dir(folder).map_err(unusable(folder))?.map(|e| e.map(|e| e.path()));
     let mut paths = entries.collect::<Result<Vec<_>, _>>().map_err(unusable(folder))?;
     paths.retain(|path| path.extension().is_some_and(|e| e == LogFormat::Parquet.extension()));

@@ -2,22 +2,23 @@ use std::any::Any;
 use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 use logs::LogError;
+use population::{PopulationError, Store};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use simulator::SimulatorError;
 
 use super::trial::unusable;
-use super::{CampaignFolder, Part, Record, Score};
+use super::{Campaign, CampaignFolder, Part, Record};
 use crate::EvaluationError;
 
 /// Who makes which trials of a campaign, and what they leave.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Crew {
     /// Trials made at a time; none counts as one.
     pub jobs: usize,
@@ -25,6 +26,8 @@ pub struct Crew {
     pub part: Part,
     /// What becomes of the logs.
     pub logs: TrialLogs,
+    /// A folder in which the logs of a population are kept once they are made, and taken from.
+    pub store: Option<PathBuf>,
 }
 
 /// What becomes of the logs of a finished trial.
@@ -44,6 +47,9 @@ pub trait WorkProgress: Sync {
     /// A trial has its shard; it took so long.
     fn made(&self, record: &Record, took: Duration);
 
+    /// An entry of the store could not be used, for this reason, and was made again.
+    fn remade(&self, entry: &Path, reason: &str);
+
     /// Whether no further trial is to be begun.
     fn is_stopped(&self) -> bool;
 }
@@ -60,6 +66,7 @@ pub trait WorkProgress: Sync {
 ///
 /// # Errors
 ///
+/// [`EvaluationError::NoStore`] when a store is given to a campaign that has none, and
 /// [`EvaluationError`] when something cannot be written. No further trial is then begun, those
 /// that are being made are finished as far as possible, and every shard stays.
 pub fn work(
@@ -67,12 +74,17 @@ pub fn work(
     crew: &Crew,
     progress: &dyn WorkProgress,
 ) -> Result<(), EvaluationError> {
+    if let (Some(store), Campaign::Scenario(_)) = (&crew.store, folder.campaign()) {
+        return Err(EvaluationError::NoStore { path: store.clone() });
+    }
+    let store = crew.store.as_deref().map(Store::open).transpose()?;
     let left = folder.left(crew.part)?;
     progress.begin(left.len());
     let jobs = crew.jobs.clamp(1, left.len().max(1));
     let shift = Shift {
         folder,
         logs: crew.logs,
+        store: store.as_ref(),
         progress,
         left: &left,
         next: AtomicUsize::new(0),
@@ -98,6 +110,7 @@ fn pool(jobs: usize) -> Result<ThreadPool, EvaluationError> {
 struct Shift<'a> {
     folder: &'a CampaignFolder,
     logs: TrialLogs,
+    store: Option<&'a Store>,
     progress: &'a dyn WorkProgress,
     left: &'a [usize],
     /// The place in `left` of the trial that is to be begun next.
@@ -130,18 +143,24 @@ impl Shift<'_> {
         }
         // Whoever held the lock before may have made it.
         if !self.folder.holds(task) {
-            let trial = self.folder.campaign().trial(task, &self.folder.scenario());
+            let (campaign, scenario) = (self.folder.campaign(), self.folder.scenario());
             let logs = match self.logs {
                 TrialLogs::Removed => work.join(format!("{task:05}")),
-                TrialLogs::Kept => trial.folder(&self.folder.folder("logs")?),
+                TrialLogs::Kept => self.folder.folder("logs")?.join(campaign.logs(task)),
             };
-            if self.logs == TrialLogs::Removed || !trial.is_logged(&logs) {
+            if self.logs == TrialLogs::Removed || !campaign.is_logged(task, &scenario, &logs) {
                 clear(&logs)?;
             }
             let start = Instant::now();
-            let score = told(catch_unwind(AssertUnwindSafe(|| pool.install(|| trial.run(&logs)))))?;
+            let make = || campaign.make(task, &scenario, &logs, self.store);
+            let made = told(catch_unwind(AssertUnwindSafe(|| pool.install(make))))?;
+            if let Ok((_, Some(remade))) = &made {
+                self.progress.remade(&remade.path, &remade.reason);
+            }
+            let score = made.map(|(score, _)| score);
+            let (hidden, seed) = campaign.task(task);
             let campaign = self.folder.hash().to_owned();
-            let record = Record { task, hidden: trial.hidden, seed: trial.seed, campaign, score };
+            let record = Record { task, hidden, seed, campaign, score };
             self.folder.keep(&record)?;
             if self.logs == TrialLogs::Removed {
                 clear(&logs)?;
@@ -167,9 +186,9 @@ fn unless_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), Evalu
 }
 
 /// What came of a trial: its score or in words why it has none; an error where the disk failed.
-fn told(
-    outcome: Result<Result<Score, EvaluationError>, Box<dyn Any + Send>>,
-) -> Result<Result<Score, String>, EvaluationError> {
+fn told<T>(
+    outcome: Result<Result<T, EvaluationError>, Box<dyn Any + Send>>,
+) -> Result<Result<T, String>, EvaluationError> {
     match outcome {
         Ok(Ok(score)) => Ok(Ok(score)),
         Ok(Err(error)) if is_of_the_disk(&error) => Err(error),
@@ -183,9 +202,21 @@ fn told(
 }
 
 fn is_of_the_disk(error: &EvaluationError) -> bool {
-    let (EvaluationError::Log(log) | EvaluationError::Simulator(SimulatorError::Log(log))) = error
-    else {
-        return matches!(error, EvaluationError::TrialFolder { .. });
+    use EvaluationError as E;
+    use PopulationError as P;
+    let log = match error {
+        E::TrialFolder { .. } => return true,
+        E::Log(log) | E::Simulator(SimulatorError::Log(log)) => log,
+        E::Population(error) => match &**error {
+            P::Folder { .. } => return true,
+            P::Log(log) => log,
+            P::Simulator(error) => match &**error {
+                SimulatorError::Log(log) => log,
+                _ => return false,
+            },
+            _ => return false,
+        },
+        _ => return false,
     };
     matches!(log, LogError::Unwritable { .. })
 }

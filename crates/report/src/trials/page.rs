@@ -1,10 +1,10 @@
 use askama::Template;
-use evaluation::{Failure, Group, KindCount, Merged, TextTable};
+use evaluation::{Failure, Group, KindCount, Merged};
 
 use super::confusion_figure::confusion_figure;
-use crate::grid::Cell;
+use super::table::table;
 use crate::html::inert;
-use crate::html_grid::{Grid, rendered};
+use crate::html_grid::rendered;
 use crate::{Provenance, ReportError};
 
 #[derive(Template)]
@@ -77,19 +77,6 @@ fn sentence(merged: &Merged) -> String {
         Some(first) => first.to_uppercase().chain(letters).collect(),
         None => "No trial has a score".to_owned(),
     }
-}
-
-fn table(table: TextTable) -> Result<String, ReportError> {
-    let mut header = table.header.into_iter();
-    let row = |row: Vec<String>| {
-        let mut cells = row.into_iter();
-        (cells.next().unwrap_or_default(), cells.map(Cell::plain).collect())
-    };
-    rendered(&Grid {
-        corner: header.next().unwrap_or_default(),
-        header: header.collect(),
-        rows: table.rows.into_iter().map(row).collect(),
-    })
 }
 
 #[cfg(test)]

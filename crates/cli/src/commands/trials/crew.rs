@@ -19,6 +19,10 @@ pub struct Arguments {
     /// Keep the logs of every trial under logs/KIND/SEED
     #[arg(long)]
     keep: bool,
+    /// Keep the logs of a population in this folder and take those that are there, so that a changed
+    /// diagnosis is judged without a simulation
+    #[arg(long, value_name = "DIR")]
+    store: Option<PathBuf>,
     /// Print nothing but errors
     #[arg(long)]
     pub quiet: bool,
@@ -29,6 +33,6 @@ impl Arguments {
     pub fn crew(&self) -> Crew {
         let jobs = self.jobs.or(available_parallelism().ok()).map_or(1, NonZeroUsize::get);
         let logs = if self.keep { TrialLogs::Kept } else { TrialLogs::Removed };
-        Crew { jobs, part: self.part, logs }
+        Crew { jobs, part: self.part, logs, store: self.store.clone() }
     }
 }

@@ -1,9 +1,11 @@
+use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use evaluation::{Record, WorkProgress};
 
 use crate::error::CliError;
+use crate::output::shown;
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -22,6 +24,8 @@ struct Count {
     all: usize,
     made: usize,
     failed: usize,
+    /// Entries of the store that were made again, in sentences.
+    remade: Vec<String>,
     pace: Pace,
 }
 
@@ -41,14 +45,17 @@ impl Shift {
         self.watch.finish();
     }
 
-    /// What was done, in a sentence.
+    /// What was done, in a sentence, after those about the store.
     pub fn summary(&self, left: usize) -> String {
         let count = self.count();
         let failed = match count.failed {
             0 => String::new(),
             failed => format!(", {failed} of them failed"),
         };
-        format!("{} trials made{failed}; {left} left", count.made)
+        let mut lines = count.remade.clone();
+        lines.sort();
+        lines.push(format!("{} trials made{failed}; {left} left", count.made));
+        lines.join("\n")
     }
 
     fn count(&self) -> MutexGuard<'_, Count> {
@@ -79,6 +86,10 @@ impl WorkProgress for Shift {
         count.failed += usize::from(record.score.is_err());
         count.pace.made(took);
         self.say(&count);
+    }
+
+    fn remade(&self, entry: &Path, reason: &str) {
+        self.count().remade.push(format!("{}: it was made again, {reason}", shown(entry)));
     }
 
     fn is_stopped(&self) -> bool {

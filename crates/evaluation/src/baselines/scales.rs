@@ -1,0 +1,49 @@
+use logs::{Prepared, rest_speeds};
+use robot::Robot;
+
+/// Least way over which a joint moves (rad or m), and the same as a share of the longest way of
+/// any joint of its kind.
+const LEAST_WAY: f64 = 2e-3;
+const LEAST_SHARE: f64 = 0.02;
+
+/// Width of the change of a direction, in speeds that count as rest: four standard deviations of
+/// the velocity's noise are one of those.
+const SIGN_WIDTH: f64 = 0.5;
+
+/// What columns take from logs as a whole.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Scales {
+    /// Speed at which the direction of a joint is `tanh(1)` (rad/s or m/s).
+    pub sign_speed: Vec<f64>,
+    /// Phase per position: 1 at a rotation; at a translation the way in the logs counts as a
+    /// turn (rad/m).
+    pub phase_per_way: Vec<f64>,
+    /// Whether the joint moves.
+    pub moves: Vec<bool>,
+}
+
+impl Scales {
+    /// The scales of some logs.
+    pub fn of(robot: &Robot, logs: &Prepared) -> Self {
+        let kinds: Vec<bool> = robot.links().iter().map(|l| l.joint.kind.is_rotation()).collect();
+        let ways: Vec<f64> = (0..kinds.len())
+            .map(|j| logs.span(j))
+            .map(|(low, high)| (high - low).max(0.0))
+            .collect();
+        let longest = |kind: bool| {
+            let alike = kinds.iter().zip(&ways).filter(|(other, _)| **other == kind);
+            alike.fold(0.0, |most: f64, (_, way)| most.max(*way))
+        };
+        let least = |j: usize| LEAST_WAY.max(LEAST_SHARE * longest(kinds[j]));
+        let moves: Vec<bool> = (0..ways.len()).map(|j| ways[j] >= least(j)).collect();
+        let phase = |j: usize| match kinds[j] || !moves[j] {
+            true => 1.0,
+            false => std::f64::consts::TAU / ways[j],
+        };
+        Self {
+            sign_speed: rest_speeds(logs).into_iter().map(|speed| SIGN_WIDTH * speed).collect(),
+            phase_per_way: (0..ways.len()).map(phase).collect(),
+            moves,
+        }
+    }
+}

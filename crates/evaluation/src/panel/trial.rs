@@ -1,0 +1,122 @@
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use diagnosis::{Settings, Silent};
+use logs::{ReadOptions, Run};
+use population::{Came, Origin, PopulationSpec, Remade, Sheet, Store};
+use robot::{Loaded, Robot};
+
+use super::peak_memory::{peak_mb, restart_peak};
+use super::{Answers, Costs, HeldOut, Judgement};
+use crate::EvaluationError;
+use crate::baselines::{Baseline, least_squares, robot_error, two_questions};
+
+/// A judged trial, and what was wrong with its entry in the store.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The score.
+    pub judgement: Judgement,
+    /// The entry of the store that was made again.
+    pub remade: Option<Remade>,
+}
+
+/// Makes a trial of a population, diagnoses its logs through files, and only then opens its sheet.
+///
+/// ```text
+/// task, seed --store or draw--> nominal/, logs/ --diagnose, baselines--> answers --\
+///                          \--> held_out/ --errors of all models--> held out ------> Judgement
+///                           \--> sheet.json ------------------------- opened last -/
+/// ```
+///
+/// Logs that are simulated come from the store where there is one; all others are made in `folder`.
+///
+/// # Errors
+///
+/// [`EvaluationError`] when the trial cannot be made, a file cannot be written or read, or the logs cannot be
+/// diagnosed.
+pub fn run(
+    spec: &PopulationSpec,
+    (task, seed): (usize, u64),
+    folder: &Path,
+    store: Option<&Store>,
+) -> Result<Judged, EvaluationError> {
+    let start = Instant::now();
+    let (folder, remade, made_s) = match (spec.origin(task), store) {
+        (Origin::Simulated, Some(store)) => {
+            let kept = store.trial(spec, seed)?;
+            let seconds = if kept.came == Came::WasThere { 0.0 } else { seconds(start.elapsed()) };
+            let remade = match kept.came {
+                Came::Again(remade) => Some(remade),
+                Came::WasThere | Came::Made => None,
+            };
+            (kept.folder, remade, seconds)
+        }
+        (origin, _) => {
+            population::make_any(spec, origin, seed, folder)?;
+            (folder.to_owned(), None, seconds(start.elapsed()))
+        }
+    };
+    let answers = answers(&folder, made_s)?;
+    let judgement = Judgement::new(&Sheet::open(&folder)?, &answers);
+    Ok(Judged { judgement, remade })
+}
+
+/// What diagnosis and baselines say, from the nominal model and the logs alone.
+fn answers(folder: &Path, logs_s: f64) -> Result<Answers, EvaluationError> {
+    let robot = nominal(folder)?;
+    let rate_hz = robot.control.rate_hz;
+    let given = runs(&folder.join("logs"), &robot.robot)?;
+    let held_out = runs(&folder.join("held_out"), &robot.robot)?;
+    let settings = Settings { control_rate_hz: rate_hz, ..Settings::default() };
+    restart_peak();
+    let (diagnosed, diagnosis_s) =
+        timed(|| diagnosis::diagnose(&robot.robot, &given, &settings, &Silent));
+    let peak_memory_mb = peak_mb();
+    let (plain, least_squares_s) = timed(|| least_squares(&robot.robot, rate_hz, &given));
+    let (asked, two_questions_s) = timed(|| two_questions(&robot.robot, rate_hz, &given));
+    let of_robot = |robot: &Robot| robot_error(robot, rate_hz, &held_out).ok();
+    let of = |baseline: &Result<Baseline, EvaluationError>| {
+        baseline.as_ref().ok()?.held_out_error(&robot.robot, rate_hz, &held_out).ok()
+    };
+    let names = |baseline: &Result<Baseline, EvaluationError>| {
+        baseline.as_ref().map_or_else(|_| Vec::new(), |baseline| baseline.names.clone())
+    };
+    Ok(Answers {
+        held_out: HeldOut {
+            nominal: of_robot(&robot.robot),
+            // Who refuses the logs leaves the robot as it is.
+            extended: of_robot(
+                diagnosed.as_ref().map_or(&robot.robot, |outcome| &outcome.extended),
+            ),
+            least_squares: of(&plain),
+            two_questions: of(&asked),
+        },
+        two_questions: names(&asked),
+        least_squares: names(&plain),
+        costs: Costs { logs_s, diagnosis_s, least_squares_s, two_questions_s, peak_memory_mb },
+        diagnosis: diagnosed.map(|outcome| outcome.diagnosis).map_err(|error| error.to_string()),
+    })
+}
+
+/// The nominal model of a trial.
+fn nominal(folder: &Path) -> Result<Loaded, EvaluationError> {
+    let files = ["robot.toml", "robot.urdf"].map(|name| folder.join("nominal").join(name));
+    let file = files.iter().find(|file| file.is_file()).unwrap_or(&files[0]);
+    Ok(Robot::load(file)?)
+}
+
+fn runs(folder: &Path, robot: &Robot) -> Result<Vec<Run>, EvaluationError> {
+    let options = ReadOptions { map: None, effort: "effort" };
+    let read = |path: &PathBuf| Ok(logs::read_run(path, robot, &options)?);
+    crate::trials::logs_of(folder)?.iter().map(read).collect()
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let result = work();
+    (result, seconds(start.elapsed()))
+}
+
+fn seconds(time: Duration) -> f64 {
+    time.as_secs_f64()
+}
