@@ -23,6 +23,7 @@ pub fn short(class: ArmClass, causes: [usize; 2]) -> PopulationSpec {
         causes,
         strangers: 0.5,
         clean: 0.0,
+        spoilt: 0.0,
         recorded: None,
     }
 }

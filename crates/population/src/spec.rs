@@ -49,6 +49,10 @@ pub struct PopulationSpec {
     /// Share of trials in which nothing above the floor is wrong, 0 to 1.
     #[serde(default = "one_in_ten")]
     pub clean: f64,
+    /// Share of trials whose logs are spoilt as loggers spoil them, 0 to 1: a turned sign, another unit, a stuck
+    /// encoder.
+    #[serde(default = "one_in_ten")]
+    pub spoilt: f64,
     /// Recorded logs, where they are present.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recorded: Option<RecordedSpec>,
@@ -96,6 +100,7 @@ impl PopulationSpec {
         check.range("causes", spec.causes.map(|n| n as f64), [0.0, MOST_CAUSES as f64])?;
         check.number("strangers", spec.strangers, [0.0, 1.0])?;
         check.number("clean", spec.clean, [0.0, 1.0])?;
+        check.number("spoilt", spec.spoilt, [0.0, 1.0])?;
         if let Some(recorded) = &mut spec.recorded {
             let path = key.clone().key("recorded").key("data");
             let folder = document.directory_of(&path).join(&recorded.data);

@@ -13,7 +13,8 @@ pub struct StrangerRow {
     pub name: String,
     /// Trials that have it.
     pub trials: usize,
-    /// Those in which it leaves structure open and names nothing false, of those in which an oracle sees it.
+    /// Those in which it leaves structure open, or refuses the logs, and names nothing false, of those in which an
+    /// oracle sees it.
     pub open: Share,
     /// Those that are called consistent or explained.
     pub assured: Share,
@@ -45,7 +46,9 @@ impl StrangerRow {
         Self {
             name: name.to_owned(),
             trials: trials.len(),
-            open: Share::of(&visible, |one| one.is_open() && !one.names_falsely()),
+            open: Share::of(&visible, |one| {
+                (one.is_open() || one.refused.is_some()) && !one.names_falsely()
+            }),
             assured: Share::of(&visible, |one| assured(one)),
             misnamed: Share::of(&visible, |one| one.names_falsely()),
         }

@@ -65,8 +65,17 @@ pub fn run(
 fn answers(folder: &Path, logs_s: f64) -> Result<Answers, EvaluationError> {
     let robot = nominal(folder)?;
     let rate_hz = robot.control.rate_hz;
-    let given = runs(&folder.join("logs"), &robot.robot)?;
     let held_out = runs(&folder.join("held_out"), &robot.robot)?;
+    let error_of = |robot: &Robot| robot_error(robot, rate_hz, &held_out).ok();
+    let nominal = error_of(&robot.robot);
+    let given = match runs(&folder.join("logs"), &robot.robot) {
+        Ok(given) => given,
+        // Logs that cannot be read are refused before anything is said of them.
+        Err(EvaluationError::Log(refusal)) => {
+            return Ok(refused(refusal.to_string(), nominal, logs_s));
+        }
+        Err(error) => return Err(error),
+    };
     let settings = Settings { control_rate_hz: rate_hz, ..Settings::default() };
     restart_peak();
     let (diagnosed, diagnosis_s) =
@@ -74,20 +83,18 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, EvaluationError> {
     let peak_memory_mb = peak_mb();
     let (plain, least_squares_s) = timed(|| least_squares(&robot.robot, rate_hz, &given));
     let (asked, two_questions_s) = timed(|| two_questions(&robot.robot, rate_hz, &given));
-    let of_robot = |robot: &Robot| robot_error(robot, rate_hz, &held_out).ok();
     let of = |baseline: &Result<Baseline, EvaluationError>| {
         baseline.as_ref().ok()?.held_out_error(&robot.robot, rate_hz, &held_out).ok()
     };
     let names = |baseline: &Result<Baseline, EvaluationError>| {
         baseline.as_ref().map_or_else(|_| Vec::new(), |baseline| baseline.names.clone())
     };
+    // Who refuses the logs leaves the robot as it is.
+    let extended = diagnosed.as_ref().map_or(&robot.robot, |outcome| &outcome.extended);
     Ok(Answers {
         held_out: HeldOut {
-            nominal: of_robot(&robot.robot),
-            // Who refuses the logs leaves the robot as it is.
-            extended: of_robot(
-                diagnosed.as_ref().map_or(&robot.robot, |outcome| &outcome.extended),
-            ),
+            nominal,
+            extended: error_of(extended),
             least_squares: of(&plain),
             two_questions: of(&asked),
         },
@@ -96,6 +103,22 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, EvaluationError> {
         costs: Costs { logs_s, diagnosis_s, least_squares_s, two_questions_s, peak_memory_mb },
         diagnosis: diagnosed.map(|outcome| outcome.diagnosis).map_err(|error| error.to_string()),
     })
+}
+
+/// The answers to logs that cannot be read: nobody names anything, and every robot stays as described.
+fn refused(why: String, nominal: Option<Vec<f64>>, logs_s: f64) -> Answers {
+    Answers {
+        diagnosis: Err(why),
+        held_out: HeldOut {
+            extended: nominal.clone(),
+            least_squares: nominal.clone(),
+            two_questions: nominal.clone(),
+            nominal,
+        },
+        two_questions: Vec::new(),
+        least_squares: Vec::new(),
+        costs: Costs { logs_s, ..Costs::default() },
+    }
 }
 
 /// The nominal model of a trial.

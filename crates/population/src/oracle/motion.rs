@@ -31,19 +31,20 @@ pub(crate) struct SeenRun {
 impl SeenRun {
     /// A run whose position, velocity and effort have no noise.
     pub fn new(robot: &Robot, run: &Run) -> Self {
+        let samples = (1.0 / (step_s(run) * RATE_HZ)).round() as usize;
+        Self::thinned(robot, run, samples.max(1))
+    }
+
+    /// The same, of so many samples of the log a mean; a velocity that is not logged is that of the positions.
+    pub fn thinned(robot: &Robot, run: &Run, thinned: usize) -> Self {
         let (rows, joints) = (run.time.len(), robot.joint_count());
-        let length = run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
-        let step_s = if rows > 1 { length / (rows - 1) as f64 } else { 1.0 };
+        let step_s = step_s(run);
         let column = |values: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(rows, joints, values);
         let q = column(&|i, j| run.joints[j].position[i]);
-        let qd = column(&|i, j| run.joints[j].velocity.as_ref().map_or(0.0, |v| v[i]));
+        let rate = slopes(&q, step_s);
+        let qd = column(&|i, j| run.joints[j].velocity.as_ref().map_or(rate[(i, j)], |v| v[i]));
         let effort = column(&|i, j| run.joints[j].effort[i]);
-        let last = rows.saturating_sub(1);
-        let qdd = DMatrix::from_fn(rows, joints, |i, j| {
-            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
-            let time = (after - before).max(1) as f64 * step_s;
-            (qd[(after, j)] - qd[(before, j)]) / time
-        });
+        let qdd = slopes(&qd, step_s);
         let mut beyond = effort.clone();
         let mut tau = vec![0.0; joints];
         for i in 0..rows {
@@ -51,7 +52,6 @@ impl SeenRun {
             body_torque(robot, [&of(&q), &of(&qd), &of(&qdd)], &mut tau);
             tau.iter().enumerate().for_each(|(j, tau)| beyond[(i, j)] -= tau);
         }
-        let thinned = ((1.0 / (step_s * RATE_HZ)).round() as usize).max(1);
         let [q, qd, qdd, effort, beyond] =
             [q, qd, qdd, effort, beyond].map(|signal| means(&signal, thinned));
         Self { step_s: step_s * thinned as f64, thinned, q, qd, qdd, effort, beyond }
@@ -61,6 +61,21 @@ impl SeenRun {
     pub fn rows(&self) -> usize {
         self.q.nrows()
     }
+}
+
+/// Mean time between two samples of a log (s).
+fn step_s(run: &Run) -> f64 {
+    let length = run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
+    if run.time.len() > 1 { length / (run.time.len() - 1) as f64 } else { 1.0 }
+}
+
+/// Central differences of signals over time.
+fn slopes(signal: &DMatrix<f64>, step_s: f64) -> DMatrix<f64> {
+    let last = signal.nrows().saturating_sub(1);
+    DMatrix::from_fn(signal.nrows(), signal.ncols(), |i, j| {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+        (signal[(after, j)] - signal[(before, j)]) / ((after - before).max(1) as f64 * step_s)
+    })
 }
 
 /// Means of `every` rows in turn; what is left at the end is left out.

@@ -16,6 +16,7 @@ use super::draw::HiddenThings;
 use super::known::{Known, described};
 use super::pilot::Pilot;
 use super::seen::{Seen, inertias};
+use super::spoilt::Spoilt;
 use super::step::{step_ms, whole_step_ms};
 use crate::oracle::JointNoise;
 use crate::{
@@ -87,7 +88,9 @@ fn attempted(
     let strangers = usize::from(!clean && random.random_bool(spec.strangers));
     let step = draft.step_ms()?;
     let hidden = draft.hide([causes, strangers], random)?;
-    draft.log(step, &hidden, folder)
+    let spoilt = !clean && random.random_bool(spec.spoilt);
+    let spoilt = spoilt.then(|| Spoilt::draw(&draft.truth.robot, random));
+    draft.log(step, &hidden, spoilt, folder)
 }
 
 /// Refuses runs in which an arm has left its range: it has run away, or fallen, and nobody keeps such a log.
@@ -240,35 +243,41 @@ impl Draft {
         &self,
         step: f64,
         hidden: &HiddenThings,
+        spoilt: Option<Spoilt>,
         folder: &Path,
     ) -> Result<Sheet, PopulationError> {
         let scenario = self.scenario(step, hidden)?;
-        let noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
+        let mut noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
         in_range(&self.truth.robot, &noisy.runs)?;
         let coarse = self.scenario(self.coarse_ms(), hidden)?;
         // A spring may ask for shorter steps than sizes do.
         let seen = Seen::new(&coarse, &self.friction(), hidden)
             .or_else(|_| Seen::new(&scenario, &self.friction(), hidden))?;
-        let held_out = simulate_silent(
-            &scenario,
-            &|name| name == HELD_OUT,
-            &[self.friction(), hidden.causes.clone()].concat(),
-            &hidden.strangers,
-        )?;
+        let effects = [self.friction(), hidden.causes.clone()].concat();
+        let silent = |scenario, wanted: &dyn Fn(&str) -> bool| {
+            simulate_silent(scenario, wanted, &effects, &hidden.strangers)
+        };
+        let held_out = silent(&scenario, &|name| name == HELD_OUT)?;
         let drives = match self.bench.sensors.effort {
             EffortSource::Link => Drives::Unseen,
             EffortSource::Commanded | EffortSource::Motor => Drives::Seen,
         };
         let models = [&self.truth.robot, &self.nominal.robot];
         let differ = differences(models[0], &self.friction, models[1], (&seen.runs, drives));
-        let (causes, strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
+        let (causes, mut strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
+        let scales = seen.scales(&self.truth.robot, &self.noise);
+        if let Some(spoilt) = spoilt {
+            let clean = silent(&scenario, &|name| name != HELD_OUT)?;
+            strangers.push(spoilt.told(&self.truth.robot, &clean, &scales));
+            spoilt.spoil(&self.truth.robot, &mut noisy.runs);
+        }
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
         let sheet = Sheet {
             seed: self.seed,
             corner: self.corner(&noisy.runs),
             knowledge: Knowledge::Whole,
             joints,
-            torque_rms: seen.scales(&self.truth.robot, &self.noise),
+            torque_rms: scales,
             causes,
             strangers,
         };

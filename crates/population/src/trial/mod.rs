@@ -8,6 +8,7 @@ mod known;
 mod make;
 mod pilot;
 mod seen;
+mod spoilt;
 mod step;
 
 pub use any::make_any;
