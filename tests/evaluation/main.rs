@@ -8,4 +8,5 @@ mod paired;
 mod panel;
 mod recorded_diagnosis;
 mod scores;
+mod small_panel;
 mod trials;

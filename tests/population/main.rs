@@ -4,4 +4,5 @@
 mod bench;
 mod made;
 mod recorded;
+mod spec;
 mod store;

@@ -16,6 +16,11 @@ use crate::{ArmClass, EffortClass, PopulationError, RobotFiles};
 const URDF: &str = include_str!("../../../robots/wam7/robot.urdf");
 const TOML: &str = include_str!("../../../robots/wam7/robot.toml");
 
+/// The arm as the project describes it.
+pub(crate) fn files() -> RobotFiles {
+    RobotFiles { urdf: URDF.to_owned(), toml: TOML.to_owned() }
+}
+
 /// What `robot.toml` says of the arm's efforts.
 const SOURCE: &str = "torque_source = \"commanded\"";
 /// What the URDF says of the friction of each joint.

@@ -1,6 +1,9 @@
 use std::path::{Path, PathBuf};
 
 use logs::LogError;
+use robot::{Loaded, Robot};
+
+use crate::PopulationError;
 
 /// A robot as two files: `robot.urdf` and `robot.toml`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,6 +15,25 @@ pub struct RobotFiles {
 }
 
 impl RobotFiles {
+    /// The files of a folder; a URDF alone has a `robot.toml` that says nothing more.
+    pub(crate) fn read(folder: &Path) -> Option<Self> {
+        let urdf = std::fs::read_to_string(folder.join("robot.urdf")).ok()?;
+        let toml = std::fs::read_to_string(folder.join("robot.toml"));
+        Some(Self { urdf, toml: toml.unwrap_or_else(|_| "urdf = \"robot.urdf\"\n".to_owned()) })
+    }
+
+    /// The robot that they describe.
+    ///
+    /// # Errors
+    ///
+    /// [`PopulationError::Robot`], and what keeps them from being written into a temporary folder.
+    pub fn load(&self) -> Result<Loaded, PopulationError> {
+        let temporary = std::env::temp_dir();
+        let at = PopulationError::of_folder(&temporary);
+        let folder = tempfile::tempdir().map_err(at)?;
+        Ok(Robot::load(&self.write(folder.path())?)?)
+    }
+
     /// Writes both into a folder, each whole or not at all, and says where `robot.toml` is.
     ///
     /// # Errors

@@ -1,7 +1,8 @@
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use diagnosis::{Settings, Silent};
+use diagnosis::{DiagnosisError, Outcome, Settings, Silent};
 use logs::{ReadOptions, Run};
 use population::{Came, Origin, PopulationSpec, Remade, Sheet, Store};
 use robot::{Loaded, Robot};
@@ -78,8 +79,9 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, EvaluationError> {
     };
     let settings = Settings { control_rate_hz: rate_hz, ..Settings::default() };
     restart_peak();
-    let (diagnosed, diagnosis_s) =
-        timed(|| diagnosis::diagnose(&robot.robot, &given, &settings, &Silent));
+    let (diagnosed, diagnosis_s) = timed(|| {
+        unless_it_gives_up(|| diagnosis::diagnose(&robot.robot, &given, &settings, &Silent))
+    });
     let peak_memory_mb = peak_mb();
     let (plain, least_squares_s) = timed(|| least_squares(&robot.robot, rate_hz, &given));
     let (asked, two_questions_s) = timed(|| two_questions(&robot.robot, rate_hz, &given));
@@ -101,8 +103,18 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, EvaluationError> {
         two_questions: names(&asked),
         least_squares: names(&plain),
         costs: Costs { logs_s, diagnosis_s, least_squares_s, two_questions_s, peak_memory_mb },
-        diagnosis: diagnosed.map(|outcome| outcome.diagnosis).map_err(|error| error.to_string()),
+        diagnosis: diagnosed.map(|outcome| outcome.diagnosis),
     })
+}
+
+/// What a diagnosis says; in words why it says nothing. A panic is no answer either, and counts as such.
+fn unless_it_gives_up(
+    diagnose: impl FnOnce() -> Result<Outcome, DiagnosisError>,
+) -> Result<Outcome, String> {
+    match catch_unwind(AssertUnwindSafe(diagnose)) {
+        Ok(answer) => answer.map_err(|error| error.to_string()),
+        Err(_) => Err("the program gave up".to_owned()),
+    }
 }
 
 /// The answers to logs that cannot be read: nobody names anything, and every robot stays as described.

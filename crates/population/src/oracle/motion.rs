@@ -4,8 +4,8 @@ use robot::Robot;
 
 use crate::moving::body_torque;
 
-/// Rate to which what an oracle looks at is thinned (Hz): four times the band that motions have.
-const RATE_HZ: f64 = 100.0;
+/// Rate to which what an oracle looks at is thinned (Hz): motions have a band of 10 Hz.
+const RATE_HZ: f64 = 50.0;
 
 /// A noise-free run as an oracle sees it: what moves and what the efforts leave beyond the bodies.
 ///

@@ -4,13 +4,19 @@ use logs::{ReadOptions, Run, read_run};
 use robot::Robot;
 
 use super::cut::{Part, part, thinned, until};
-use crate::{EffortClass, MotionClass, PopulationError};
+use crate::{EffortClass, MotionClass, PopulationError, RobotFiles};
 
 /// Longest part of a log that is used (s).
 const LONGEST_S: f64 = 60.0;
 
-/// Robots that are not in the folder of their logs, in folders of their names.
-const ROBOTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots");
+/// Where the robot of recorded logs is described.
+#[derive(Debug, Clone, Copy)]
+enum Described {
+    /// In files beside the logs.
+    BesideTheLogs,
+    /// In this project: Barrett's arm.
+    Here,
+}
 
 /// A recorded log.
 struct Log {
@@ -35,8 +41,8 @@ pub(super) enum HeldOut {
 struct Entry {
     name: &'static str,
     folder: &'static str,
-    /// Folder in [`ROBOTS`]; without it the robot is beside the logs.
-    robot: Option<&'static str>,
+    /// Where its robot is described.
+    robot: Described,
     effort: EffortClass,
     held_out: HeldOut,
     logs: &'static [Log],
@@ -51,7 +57,7 @@ static ARMS: [Entry; 7] = [
     Entry {
         name: "lwr4",
         folder: "kuka_lwr4",
-        robot: None,
+        robot: Described::BesideTheLogs,
         effort: EffortClass::JointTorque,
         held_out: HeldOut::Log,
         logs: &[
@@ -63,7 +69,7 @@ static ARMS: [Entry; 7] = [
     Entry {
         name: "gen3",
         folder: "kinova_gen3",
-        robot: None,
+        robot: Described::BesideTheLogs,
         effort: EffortClass::Current,
         held_out: HeldOut::Log,
         logs: &[
@@ -77,7 +83,7 @@ static ARMS: [Entry; 7] = [
     Entry {
         name: "tx40",
         folder: "staubli_tx40",
-        robot: None,
+        robot: Described::BesideTheLogs,
         effort: EffortClass::Current,
         held_out: HeldOut::LastQuarter,
         logs: &[log("excitation", MotionClass::Sinusoids, 0)],
@@ -85,7 +91,7 @@ static ARMS: [Entry; 7] = [
     Entry {
         name: "barrett_wam",
         folder: "barrett_wam",
-        robot: Some("wam7"),
+        robot: Described::Here,
         effort: EffortClass::Command,
         held_out: HeldOut::LastQuarter,
         logs: &[log("shoulder_elbow_sweep", MotionClass::Sweep, 0)],
@@ -93,7 +99,7 @@ static ARMS: [Entry; 7] = [
     Entry {
         name: "ur10e",
         folder: "ur10e_joint_by_joint",
-        robot: None,
+        robot: Described::BesideTheLogs,
         effort: EffortClass::Current,
         held_out: HeldOut::Quarter,
         logs: &[
@@ -108,7 +114,7 @@ static ARMS: [Entry; 7] = [
     Entry {
         name: "dfki_pendulum",
         folder: "dfki_pendulum",
-        robot: None,
+        robot: Described::BesideTheLogs,
         effort: EffortClass::Current,
         held_out: HeldOut::Log,
         logs: &[
@@ -121,7 +127,7 @@ static ARMS: [Entry; 7] = [
     Entry {
         name: "panda",
         folder: "panda",
-        robot: None,
+        robot: Described::BesideTheLogs,
         effort: EffortClass::JointTorque,
         held_out: HeldOut::LastQuarter,
         logs: &[log("whole", MotionClass::Sinusoids, 0)],
@@ -136,7 +142,7 @@ static ARMS: [Entry; 7] = [
 pub struct RecordedArm {
     entry: &'static Entry,
     folder: PathBuf,
-    robot: PathBuf,
+    robot: RobotFiles,
 }
 
 /// A log of an arm as trials use it.
@@ -154,9 +160,10 @@ pub fn available(data: &Path) -> Vec<RecordedArm> {
 impl RecordedArm {
     fn find(data: &Path, entry: &'static Entry) -> Option<Self> {
         let folder = data.join(entry.folder);
-        let beside = entry.robot.map_or(folder.clone(), |name| Path::new(ROBOTS).join(name));
-        let robot = ["robot.toml", "robot.urdf"].map(|file| beside.join(file));
-        let robot = robot.into_iter().find(|file| file.is_file())?;
+        let robot = match entry.robot {
+            Described::BesideTheLogs => RobotFiles::read(&folder)?,
+            Described::Here => crate::arm_wam::files(),
+        };
         let arm = Self { entry, folder, robot };
         arm.logs().iter().all(|log| log.is_file()).then_some(arm)
     }
@@ -166,8 +173,8 @@ impl RecordedArm {
         self.entry.name
     }
 
-    /// File of its nominal model.
-    pub fn robot(&self) -> &Path {
+    /// Its nominal model.
+    pub fn robot(&self) -> &RobotFiles {
         &self.robot
     }
 

@@ -1,4 +1,4 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use logs::Run;
 use rand::RngExt;
@@ -11,13 +11,13 @@ use super::draw::draw;
 use super::signals::rms;
 use super::size::Measured;
 use super::transplant::Told;
-use crate::{Corner, Knowledge, Origin, PopulationError, Sheet};
+use crate::{Corner, Knowledge, Origin, PopulationError, RobotFiles, Sheet};
 
 /// A trial of recorded logs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedTrial {
-    /// File of the nominal model.
-    pub robot: PathBuf,
+    /// The nominal model.
+    pub robot: RobotFiles,
     /// Logs given to the diagnosis.
     pub runs: Vec<Run>,
     /// Logs that are held out.
@@ -51,7 +51,7 @@ pub fn draw_recorded(
         return Err(PopulationError::NoRecordedLogs { data: data.to_owned() });
     }
     let arm = &arms[random.random_range(0..arms.len())];
-    let robot = Robot::load(arm.robot())?.robot;
+    let robot = arm.robot().load()?.robot;
     let (used, steps) = arm.read(&robot)?;
     let split = split(arm.held_out(), &used, random.random_range(0..arm.splits()));
     let mut trial = plain(arm, (&robot, &steps), split);
@@ -129,7 +129,7 @@ fn plain(arm: &RecordedArm, (robot, steps): (&Robot, &[f64]), split: Split) -> R
         causes: Vec::new(),
         strangers: Vec::new(),
     };
-    RecordedTrial { robot: arm.robot().to_owned(), runs, held_out: split.held_out, sheet }
+    RecordedTrial { robot: arm.robot().clone(), runs, held_out: split.held_out, sheet }
 }
 
 /// Adds a cause to a plain trial.

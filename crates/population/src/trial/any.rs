@@ -35,14 +35,7 @@ fn take_recorded(
     let trial = draw_recorded(&recorded.data, origin, seed, &mut random)?;
     let nominal = folder.join("nominal");
     std::fs::create_dir_all(&nominal).map_err(PopulationError::of_folder(&nominal))?;
-    for extension in ["urdf", "toml"] {
-        let file = trial.robot.with_extension(extension);
-        let is_of_it = extension == "urdf" || trial.robot.extension().is_some_and(|e| e == "toml");
-        if is_of_it {
-            std::fs::copy(&file, nominal.join(format!("robot.{extension}")))
-                .map_err(PopulationError::of_folder(&file))?;
-        }
-    }
+    trial.robot.write(&nominal)?;
     write_runs(&folder.join("logs"), &trial.runs)?;
     write_runs(&folder.join("held_out"), &trial.held_out)?;
     trial.sheet.write(folder)

@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// Longest step of the simulation in which sizes are settled (ms).
-const PILOT_MS: f64 = 0.5;
+const PILOT_MS: f64 = 2.0;
 
 /// Draws of a trial before it is given up.
 const TRIES: u64 = 8;
@@ -86,8 +86,8 @@ fn attempted(
     let [least, most] = spec.causes;
     let causes = if clean { 0 } else { random.random_range(least..=most) };
     let strangers = usize::from(!clean && random.random_bool(spec.strangers));
-    let step = draft.step_ms()?;
     let hidden = draft.hide([causes, strangers], random)?;
+    let step = draft.step_ms(&hidden)?;
     let spoilt = !clean && random.random_bool(spec.spoilt);
     let spoilt = spoilt.then(|| Spoilt::draw(&draft.truth.robot, random));
     draft.log(step, &hidden, spoilt, folder)
@@ -211,11 +211,11 @@ impl Draft {
         Ok(Scenario::from_document(&Document::from_text("scenario.toml", &text)?)?)
     }
 
-    /// Step of the simulation of the logs (ms), as long as the encoders allow.
-    fn step_ms(&self) -> Result<f64, PopulationError> {
-        let nothing = HiddenThings::default();
-        let with_step = |step| self.scenario(step, &nothing);
-        step_ms(&with_step, &self.friction(), self.period_ms(), &self.encoder_steps())
+    /// Step of the simulation of the logs (ms), as long as the encoders and the springs allow.
+    fn step_ms(&self, hidden: &HiddenThings) -> Result<f64, PopulationError> {
+        let with_step = |step| self.scenario(step, hidden);
+        let effects = [self.friction(), hidden.causes.clone()].concat();
+        step_ms(&with_step, &effects, self.period_ms(), &self.encoder_steps())
     }
 
     /// Step in which sizes are settled and torques compared (ms): what two motions in the same steps have in
@@ -238,6 +238,21 @@ impl Draft {
         Ok(HiddenThings::draw(&pilot, self.bench.class, counts, random))
     }
 
+    /// What an oracle looks at, in steps as long as the springs of what is hidden allow, at least those of the
+    /// logs.
+    fn seen(&self, shortest_ms: f64, hidden: &HiddenThings) -> Result<Seen, PopulationError> {
+        let mut step = self.coarse_ms();
+        loop {
+            let seen = self
+                .scenario(step, hidden)
+                .and_then(|scenario| Seen::new(&scenario, &self.friction(), hidden));
+            if seen.is_ok() || step <= shortest_ms {
+                return seen;
+            }
+            step = (0.5 * step).max(shortest_ms);
+        }
+    }
+
     /// Simulates the runs and writes all files.
     fn log(
         &self,
@@ -249,10 +264,7 @@ impl Draft {
         let scenario = self.scenario(step, hidden)?;
         let mut noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
         in_range(&self.truth.robot, &noisy.runs)?;
-        let coarse = self.scenario(self.coarse_ms(), hidden)?;
-        // A spring may ask for shorter steps than sizes do.
-        let seen = Seen::new(&coarse, &self.friction(), hidden)
-            .or_else(|_| Seen::new(&scenario, &self.friction(), hidden))?;
+        let seen = self.seen(step, hidden)?;
         let effects = [self.friction(), hidden.causes.clone()].concat();
         let silent = |scenario, wanted: &dyn Fn(&str) -> bool| {
             simulate_silent(scenario, wanted, &effects, &hidden.strangers)

@@ -5,7 +5,7 @@ use simulator::simulate_silent_start;
 use crate::PopulationError;
 
 /// Longest step that is tried (ms).
-const LONGEST_MS: f64 = 1.0;
+const LONGEST_MS: f64 = 2.0;
 
 /// Shortest step that is tried (ms).
 const SHORTEST_MS: f64 = 0.1;
@@ -14,7 +14,7 @@ const SHORTEST_MS: f64 = 0.1;
 const SHARE_OF_STEP: f64 = 0.1;
 
 /// Length of motion in which two steps are compared (s).
-const COMPARED_S: f64 = 4.0;
+const COMPARED_S: f64 = 3.0;
 
 /// The longest step (ms) that goes a whole number of times into a period of control, at most so long.
 pub(crate) fn whole_step_ms(period_ms: f64, at_most_ms: f64) -> f64 {
