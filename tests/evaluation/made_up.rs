@@ -15,6 +15,7 @@ pub fn at(effect: EffectKind, joint: &str) -> EffectAt {
     EffectAt { effect, joint: Some(joint.to_owned()), link: None }
 }
 
+/// A finding with a share of the residual, and what it may as well be.
 pub fn finding(at: EffectAt, share_explained: f64, rivals: &[EffectAt]) -> Finding {
     Finding {
         at,

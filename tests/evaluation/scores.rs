@@ -6,69 +6,16 @@ use catalogue::EffectKind::{
     self, Backlash, CoulombFriction, GravityDirection, InertialParameters, Payload, TorqueConstant,
     TorqueOffset, ViscousFriction,
 };
-use diagnosis::{
-    DataSummary, Diagnosis, EffectAt, Estimate, Finding, Gain, InverseGain, RuledOut, SCHEMA,
-    Verdict,
-};
+use diagnosis::{Diagnosis, EffectAt, Estimate, Finding, RuledOut, Verdict};
 use evaluation::{Group, Power, Row, Score, Tally};
 use simulator::Truth;
 
-const ELBOW: &str = "elbow";
+use crate::made_up::{at as at_joint, diagnosis, finding};
 
-fn at_joint(effect: EffectKind, joint: &str) -> EffectAt {
-    EffectAt { effect, joint: Some(joint.to_owned()), link: None }
-}
+const ELBOW: &str = "elbow";
 
 fn at_link(effect: EffectKind, link: &str) -> EffectAt {
     EffectAt { effect, joint: None, link: Some(link.to_owned()) }
-}
-
-/// A finding with a share of the residual, and what it may as well be.
-fn finding(at: EffectAt, share_explained: f64, rivals: &[EffectAt]) -> Finding {
-    Finding {
-        at,
-        parameters: Vec::new(),
-        share_explained,
-        q_value: 0.01,
-        held_out_gain: 0.5,
-        stability: 1.0,
-        not_separable_from: rivals.to_vec(),
-        told_apart_by: None,
-        evidence: Vec::new(),
-        undetermined: Vec::new(),
-    }
-}
-
-fn diagnosis(verdict: Verdict, findings: Vec<Finding>) -> Diagnosis {
-    let inverse = InverseGain {
-        nmse_before: Vec::new(),
-        nmse_after: Vec::new(),
-        rms_before_nm: Vec::new(),
-        rms_after_nm: Vec::new(),
-        held_out: String::new(),
-        folds: Vec::new(),
-    };
-    let data = DataSummary {
-        runs: Vec::new(),
-        cutoff_hz: 10.0,
-        cutoff_reason: String::new(),
-        regression_rate_hz: 50.0,
-        block_s: 1.0,
-        blocks: 1,
-        hypotheses: 1,
-    };
-    Diagnosis {
-        schema: SCHEMA,
-        robot: "arm".to_owned(),
-        verdict,
-        joints: Vec::new(),
-        findings,
-        unexplained: Vec::new(),
-        ruled_out: Vec::new(),
-        gain: Gain { inverse },
-        data,
-        warnings: Vec::new(),
-    }
 }
 
 fn score(verdict: Verdict, findings: Vec<Finding>, truth: &[Truth]) -> Score {

@@ -24,7 +24,11 @@ fn what_no_workshop_has_is_underlined() {
         ("logs = [3, 2]", "population.logs", "[3, 2]"),
         ("log_s = [1.0, 60.0]", "population.log_s", "from 5 to 60 were expected"),
         ("longest_s = 900.0", "population.longest_s", "900, a number from 5 to 480"),
-        ("logs = [8, 8]\nlongest_s = 20.0", "population.longest_s", "at least 40 s for 8 logs of 5 s"),
+        (
+            "logs = [8, 8]\nlongest_s = 20.0",
+            "population.longest_s",
+            "at least 40 s for 8 logs of 5 s",
+        ),
         ("causes = [0, 7]", "population.causes", "from 0 to 6 were expected"),
         ("strangers = 1.5", "population.strangers", "1.5, a number from 0 to 1"),
         ("clean = -0.1", "population.clean", "-0.1, a number from 0 to 1"),

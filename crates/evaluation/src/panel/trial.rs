@@ -73,7 +73,9 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, EvaluationError> {
         Ok(given) => given,
         // Logs that cannot be read are refused before anything is said of them.
         Err(EvaluationError::Log(refusal)) => {
-            return Ok(refused(refusal.to_string(), nominal, logs_s));
+            // Where the folder lies is no part of the answer.
+            let why = refusal.to_string().replace(&format!("{}/", folder.display()), "");
+            return Ok(refused(why, nominal, logs_s));
         }
         Err(error) => return Err(error),
     };
