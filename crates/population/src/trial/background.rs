@@ -12,11 +12,14 @@ pub(crate) struct Friction {
     pub viscous: f64,
 }
 
+/// Largest dry friction that is drawn (N m or N): no drive of these arms has more.
+const MOST_DRY: f64 = 900.0;
+
 /// Everyday friction at every joint: half to twice the drive's usual dry level, and as much viscous friction
 /// at the joint's largest speed as a tenth to all of that.
 pub(crate) fn everyday(robot: &Robot, usual: &[f64], random: &mut ChaCha8Rng) -> Vec<Friction> {
     let joint = |(link, usual): (&robot::Link, &f64)| {
-        let coulomb = usual * 2.0_f64.powf(random.random_range(-1.0..1.0));
+        let coulomb = (usual * 2.0_f64.powf(random.random_range(-1.0..1.0))).min(MOST_DRY);
         let speed = link.joint.limits.velocity.unwrap_or(2.0).max(0.1);
         let share = 10.0_f64.powf(random.random_range(-1.0..0.0));
         Friction { coulomb, viscous: share * coulomb / speed }
