@@ -106,7 +106,7 @@ fn a_step_of_the_simulation_is_a_tenth_of_the_encoders() {
         let far = far.fold(0.0, f64::max);
         let counts = far / sheet.corner.encoder_step;
         println!("{class}: {step} ms, {far:.1e} rad, {counts:.3} steps of the encoder");
-        assert!(counts < 0.2, "{class}: {counts} steps of the encoder in steps of {step} ms");
+        assert!(counts < 0.1, "{class}: {counts} steps of the encoder in steps of {step} ms");
     }
 }
 
