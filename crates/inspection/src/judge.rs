@@ -1,0 +1,172 @@
+use robot::Robot;
+
+use crate::Thresholds;
+use crate::fit::{Drive, Fitted, Sums};
+use crate::pooled::pooled;
+use crate::reading::Reading;
+use crate::samples::Samples;
+use crate::torque::Torque;
+
+/// A drive of nearly the right torque constant.
+pub(crate) const EXACT: Drive = Drive { gain: [0.8, 1.25] };
+
+/// Holds readings of samples against the nominal torque.
+pub(crate) struct Judge<'a> {
+    pub robot: &'a Robot,
+    pub thresholds: &'a Thresholds,
+    torque: Torque,
+    pub samples: Samples,
+    /// Nominal torque as the samples stand: rigid bodies without gravity, gravity per unit, and all.
+    pub inertial: Vec<f64>,
+    pub gravity: [Vec<f64>; 3],
+    pub whole: Vec<f64>,
+    /// Share of the effort of each joint that counts as nothing.
+    pub floors: Vec<f64>,
+}
+
+/// A reading, and what it leaves.
+#[derive(Debug, Clone)]
+pub(crate) struct Judged {
+    pub reading: Reading,
+    /// Share of the effort left at each joint as the log stands, and when it is read so.
+    pub before: Vec<f64>,
+    pub shares: Vec<f64>,
+    /// Logarithm of the factor by which less is left than as the log stands.
+    pub gain: f64,
+}
+
+impl<'a> Judge<'a> {
+    pub fn new(robot: &'a Robot, thresholds: &'a Thresholds, samples: Samples) -> Self {
+        let mut torque = Torque::new(robot);
+        let inertial = torque.inertial(&samples);
+        let gravity = torque.gravity(&samples);
+        let whole = torque.whole(samples.joints, &samples.motion);
+        let floors = floors(&samples, thresholds);
+        Self { robot, thresholds, torque, samples, inertial, gravity, whole, floors }
+    }
+
+    /// The usual bounds of a drive.
+    fn drive(&self) -> Drive {
+        Drive { gain: self.thresholds.drive_gain }
+    }
+
+    /// What each joint's drive leaves, the samples as they stand.
+    pub fn as_is(&self) -> Judged {
+        let fits = self.fits(&self.samples, &self.whole, self.drive());
+        let shares: Vec<f64> = fits.iter().map(|fit| fit.share).collect();
+        Judged { reading: Reading::AsIs, before: shares.clone(), shares, gain: 0.0 }
+    }
+
+    /// The fit of every joint for samples and their nominal torque.
+    pub fn fits(&self, samples: &Samples, tau: &[f64], drive: Drive) -> Vec<Fitted> {
+        let fit = |j| self.sums(samples, tau, j).fit(drive);
+        (0..samples.joints).map(fit).collect()
+    }
+
+    /// Sums of a joint for samples and their nominal torque.
+    pub fn sums(&self, samples: &Samples, tau: &[f64], j: usize) -> Sums {
+        let column = |x: &[f64]| samples.column(x, j);
+        let turned = samples.direction(j);
+        let columns = [column(tau), turned, column(&samples.motion[1]), column(&samples.motion[2])];
+        Sums::of(columns.each_ref().map(Vec::as_slice), &column(&samples.effort))
+    }
+
+    /// What a reading leaves.
+    pub fn judged(&mut self, reading: Reading, as_is: &Judged) -> Judged {
+        let read = reading.applied(&self.samples);
+        let tau = match &reading {
+            _ if reading.of_efforts() => self.whole.clone(),
+            Reading::WithoutGravity => self.inertial.clone(),
+            Reading::Gravity(g) => self.pulled([g.x, g.y, g.z]),
+            _ => self.torque.whole(read.joints, &read.motion),
+        };
+        let narrow = Drive { gain: [2.0 / 3.0, 1.5] };
+        let drive = if matches!(reading, Reading::Unit(_)) { narrow } else { self.drive() };
+        let shares: Vec<f64> = self.fits(&read, &tau, drive).iter().map(|f| f.share).collect();
+        let gain = self.gain(&as_is.shares, &shares);
+        Judged { reading, before: as_is.shares.clone(), shares, gain }
+    }
+
+    /// Efforts without the torque of gravity: with and without it the drives may make no factor, which could
+    /// take gravity away as well. `None` where the efforts hold some of it.
+    pub fn without_gravity(&self) -> Option<Judged> {
+        let pull = self.robot.gravity_in_base();
+        let mut held = vec![0.0; self.inertial.len()];
+        for (unit, g) in self.gravity.iter().zip(pull.iter()) {
+            held.iter_mut().zip(unit).for_each(|(held, unit)| *held += g * unit);
+        }
+        let part = *self.pooled(&self.inertial, &[&held])?.first()?;
+        if part.abs() > self.thresholds.held_gravity {
+            return None;
+        }
+        let shares = |tau: &[f64]| -> Vec<f64> {
+            self.fits(&self.samples, tau, EXACT).iter().map(|fit| fit.share).collect()
+        };
+        let (before, shares) = (shares(&self.whole), shares(&self.inertial));
+        let gain = self.gain(&before, &shares);
+        Some(Judged { reading: Reading::WithoutGravity, before, shares, gain })
+    }
+
+    /// Nominal torque with another acceleration of free fall.
+    pub fn pulled(&self, g: [f64; 3]) -> Vec<f64> {
+        let mut tau = self.inertial.clone();
+        for (unit, g) in self.gravity.iter().zip(g) {
+            tau.iter_mut().zip(unit).for_each(|(tau, unit)| *tau += g * unit);
+        }
+        tau
+    }
+
+    /// Sum over joints of `ln((before + floor) / (after + floor))`.
+    pub fn gain(&self, before: &[f64], after: &[f64]) -> f64 {
+        let gains = before.iter().zip(after).zip(&self.floors);
+        gains.map(|((b, a), floor)| ((b + floor) / (a + floor)).ln()).sum()
+    }
+
+    /// Squares of what the nominal torque of a joint errs by over those of the effort about its mean.
+    pub fn model_floor(&self, j: usize) -> f64 {
+        let tau = self.samples.column(&self.whole, j);
+        let all = tau.iter().map(|t| t * t).sum::<f64>();
+        let about = self.sums(&self.samples, &self.whole, j).total();
+        self.thresholds.model_error.powi(2) * all / about.max(f64::MIN_POSITIVE)
+    }
+
+    /// Common factors of columns that all joints share, beyond a torque that is taken for granted.
+    pub fn pooled(&self, granted: &[f64], columns: &[&[f64]]) -> Option<Vec<f64>> {
+        pooled(&self.samples, granted, columns)
+    }
+
+    /// Takes a reading for true: what follows is judged beside it.
+    pub fn take(&mut self, reading: &Reading) {
+        self.samples = reading.applied(&self.samples);
+        match reading {
+            Reading::WithoutGravity => {
+                self.gravity.iter_mut().flatten().for_each(|unit| *unit = 0.0);
+                self.whole = self.inertial.clone();
+            }
+            Reading::Gravity(g) => self.whole = self.pulled([g.x, g.y, g.z]),
+            _ => {
+                self.inertial = self.torque.inertial(&self.samples);
+                self.gravity = self.torque.gravity(&self.samples);
+                self.whole = self.torque.whole(self.samples.joints, &self.samples.motion);
+            }
+        }
+        self.floors = floors(&self.samples, self.thresholds);
+    }
+}
+
+/// Squares of what models err by, over those of the effort about its mean: a share of the effort, and of its
+/// mean too, which an offset takes off.
+fn floors(samples: &Samples, t: &Thresholds) -> Vec<f64> {
+    let floor = |j: usize| {
+        let effort = samples.column(&samples.effort, j);
+        let mean = effort.iter().sum::<f64>() / effort.len().max(1) as f64;
+        let about = effort.iter().map(|e| (e - mean).powi(2)).sum::<f64>();
+        let all = effort.iter().map(|e| e * e).sum::<f64>();
+        if about > 0.0 { (t.model_error.powi(2) * all / about).max(t.floor) } else { f64::INFINITY }
+    };
+    let all: Vec<f64> = (0..samples.joints).map(floor).collect();
+    all.into_iter().map(|f| if f.is_finite() { f } else { UNHEARD }).collect()
+}
+
+/// Floor of a joint that has no effort: nothing counts there.
+const UNHEARD: f64 = 1e12;

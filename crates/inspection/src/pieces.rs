@@ -1,0 +1,99 @@
+use std::ops::Range;
+
+use logs::Run;
+
+/// A step of time that is longer than so many usual ones ends a piece: more is not interpolated.
+const LONGEST_STEP: f64 = 5.5;
+
+/// Steps of time that differ from the usual one by less than this share count as even.
+const EVEN: f64 = 0.02;
+
+/// A stretch of a run on an even clock, without what was found wrong with it before.
+#[derive(Debug, Clone)]
+pub(crate) struct Piece {
+    /// Time between two samples, on the clock of the file (s).
+    pub step_s: f64,
+    /// Signals of each joint.
+    pub joints: Vec<Signals>,
+}
+
+/// Signals of a joint that are looked at.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Signals {
+    pub position: Vec<f64>,
+    pub effort: Vec<f64>,
+    pub velocity: Option<Vec<f64>>,
+}
+
+impl Piece {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.joints.first().map_or(0, |joint| joint.position.len())
+    }
+}
+
+/// The pieces of a run between its gaps and the rows that are left out.
+///
+/// A clock with jitter or lost rows is made even by linear interpolation.
+pub(crate) fn pieces(run: &Run, left_out: &[Range<usize>]) -> Vec<Piece> {
+    let usual = usual_step(&run.time);
+    if usual <= 0.0 {
+        return Vec::new();
+    }
+    let out = |k: usize| left_out.iter().any(|range| range.contains(&k));
+    let mut all = Vec::new();
+    let mut start = 0;
+    for k in 0..=run.time.len() {
+        let gap =
+            k > 0 && k < run.time.len() && run.time[k] - run.time[k - 1] > LONGEST_STEP * usual;
+        if k == run.time.len() || gap || out(k) {
+            if k > start + 1 {
+                all.push(piece(run, start..k, usual));
+            }
+            start = if k < run.time.len() && out(k) { k + 1 } else { k };
+        }
+    }
+    all
+}
+
+/// The middle step of a clock (s); 0 for fewer than two rows.
+pub(crate) fn usual_step(time: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = time.windows(2).map(|t| t[1] - t[0]).collect();
+    let middle = steps.len() / 2;
+    if steps.is_empty() {
+        return 0.0;
+    }
+    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+fn piece(run: &Run, rows: Range<usize>, usual: f64) -> Piece {
+    let time = &run.time[rows.clone()];
+    let even = time.windows(2).all(|t| (t[1] - t[0] - usual).abs() <= EVEN * usual);
+    let length = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
+    let step_s = if even { length / (time.len() - 1).max(1) as f64 } else { usual };
+    let read = |x: &[f64]| {
+        let own = &x[rows.clone()];
+        if even { own.to_vec() } else { resampled(time, own, step_s) }
+    };
+    let joint = |joint: &logs::Channels| Signals {
+        position: read(&joint.position),
+        effort: read(&joint.effort),
+        velocity: joint.velocity.as_deref().map(read),
+    };
+    Piece { step_s, joints: run.joints.iter().map(joint).collect() }
+}
+
+fn resampled(time: &[f64], x: &[f64], step: f64) -> Vec<f64> {
+    let (first, last) = (time[0], time[time.len() - 1]);
+    let count = ((last - first) / step + 1e-6).floor() as usize + 1;
+    let mut k = 0;
+    let at = |i: usize| {
+        let now = first + i as f64 * step;
+        while k + 2 < time.len() && time[k + 1] <= now {
+            k += 1;
+        }
+        let share = ((now - time[k]) / (time[k + 1] - time[k])).clamp(0.0, 1.0);
+        x[k] + share * (x[k + 1] - x[k])
+    };
+    (0..count).map(at).collect()
+}

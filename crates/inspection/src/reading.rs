@@ -1,0 +1,145 @@
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use crate::samples::Samples;
+use crate::{ObservationKind, Rival};
+
+/// A way to read logs other than as they stand.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Reading {
+    /// As they stand.
+    AsIs,
+    /// The effort of a joint, or of all of them, has the other sign.
+    EffortSign(Option<usize>),
+    /// The position of a joint, or of all of them, has the other sign.
+    PositionSign(Option<usize>),
+    /// The logged position of a joint is so much more than the true one (rad).
+    Offset(usize, f64),
+    /// Two joints have each other's columns.
+    Exchanged(usize, usize),
+    /// Two joints have each other's effort.
+    EffortsExchanged(usize, usize),
+    /// The position of a joint, or of all of them, is degrees.
+    Degrees(Option<usize>),
+    /// Logged efforts per N m (or N) of each joint.
+    Unit(Vec<f64>),
+    /// The efforts lack the torque of gravity.
+    WithoutGravity,
+    /// Acceleration of free fall in the base frame (m/s²).
+    Gravity(Vector3<f64>),
+    /// Logged time per second.
+    Time(f64),
+}
+
+impl Reading {
+    /// The samples as this reading has them; torques of gravity are no part of samples.
+    pub fn applied(&self, samples: &Samples) -> Samples {
+        let mut read = samples.clone();
+        let n = read.joints;
+        let scale = |signal: &mut [f64], joint: Option<usize>, by: f64| match joint {
+            Some(j) => signal.iter_mut().skip(j).step_by(n).for_each(|x| *x *= by),
+            None => signal.iter_mut().for_each(|x| *x *= by),
+        };
+        match self {
+            Self::AsIs | Self::WithoutGravity | Self::Gravity(_) => {}
+            Self::EffortSign(joint) => scale(&mut read.effort, *joint, -1.0),
+            Self::PositionSign(joint) => {
+                read.motion.iter_mut().for_each(|signal| scale(signal, *joint, -1.0));
+            }
+            Self::Degrees(joint) => {
+                read.motion.iter_mut().for_each(|signal| scale(signal, *joint, PI / 180.0));
+            }
+            Self::Offset(j, offset) => {
+                read.motion[0].iter_mut().skip(*j).step_by(n).for_each(|q| *q -= offset);
+            }
+            Self::Exchanged(a, b) => {
+                read.motion.iter_mut().for_each(|signal| exchange(signal, n, *a, *b));
+                exchange(&mut read.effort, n, *a, *b);
+            }
+            Self::EffortsExchanged(a, b) => exchange(&mut read.effort, n, *a, *b),
+            Self::Unit(factors) => {
+                for (j, factor) in factors.iter().enumerate() {
+                    scale(&mut read.effort, Some(j), 1.0 / factor);
+                }
+            }
+            Self::Time(factor) => {
+                scale(&mut read.motion[1], None, *factor);
+                scale(&mut read.motion[2], None, factor * factor);
+            }
+        }
+        read
+    }
+
+    /// Whether it changes efforts alone, so that the nominal torque stays.
+    pub fn of_efforts(&self) -> bool {
+        matches!(self, Self::EffortSign(_) | Self::EffortsExchanged(..) | Self::Unit(_))
+    }
+
+    /// The joints that it exchanges.
+    pub fn exchanged(&self) -> Vec<usize> {
+        match self {
+            Self::Exchanged(a, b) | Self::EffortsExchanged(a, b) => vec![*a, *b],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether it turns a sign.
+    pub fn is_sign(&self) -> bool {
+        matches!(self, Self::EffortSign(_) | Self::PositionSign(_))
+    }
+
+    /// Whether it concerns every joint, of which more than one must bear witness then.
+    pub fn of_the_whole_arm(&self) -> bool {
+        match self {
+            Self::EffortSign(joint) | Self::PositionSign(joint) | Self::Degrees(joint) => {
+                joint.is_none()
+            }
+            Self::Unit(factors) => factors.iter().all(|f| (f - 1.0).abs() > 1e-9),
+            Self::WithoutGravity | Self::Gravity(_) | Self::Time(_) => true,
+            _ => false,
+        }
+    }
+
+    /// What is told of it; `None` for logs as they stand.
+    pub fn rival(&self, joints: usize, nominal: Vector3<f64>) -> Option<Rival> {
+        use ObservationKind as K;
+        let own = |joint: &Option<usize>| joint.map_or_else(|| (0..joints).collect(), |j| vec![j]);
+        let all = || (0..joints).collect();
+        let (kind, joints) = match self {
+            Self::AsIs => return None,
+            Self::EffortSign(j) => (K::EffortSign, own(j)),
+            Self::PositionSign(j) => (K::PositionSign, own(j)),
+            Self::Offset(j, offset) => (K::PositionOffset { offset: *offset }, vec![*j]),
+            Self::Exchanged(a, b) => (K::JointsExchanged, vec![*a, *b]),
+            Self::EffortsExchanged(a, b) => (K::EffortsExchanged, vec![*a, *b]),
+            Self::Degrees(j) => (K::Degrees, own(j)),
+            Self::Unit(factors) => {
+                let off = |f: &f64| (f - 1.0).abs() > 1e-9;
+                let of = |(j, f): (usize, &f64)| off(f).then_some(j);
+                let which: Vec<usize> = factors.iter().enumerate().filter_map(of).collect();
+                let mut those: Vec<f64> = factors.iter().copied().filter(off).collect();
+                those.sort_unstable_by(f64::total_cmp);
+                (K::EffortUnit { factor: *those.get(those.len() / 2)? }, which)
+            }
+            Self::WithoutGravity => (K::EffortWithoutGravity, all()),
+            Self::Gravity(g) => {
+                let angle = g.angle(&nominal);
+                let turned = K::GravityDirection { gravity_in_base: *g, angle };
+                let other = K::GravityValue { value: g.norm() };
+                (if angle > ALIGNED { turned } else { other }, all())
+            }
+            Self::Time(factor) => (K::TimeUnit { factor: *factor }, all()),
+        };
+        Some(Rival { kind, joints })
+    }
+}
+
+/// Angle up to which gravity has the direction of the description (rad).
+const ALIGNED: f64 = 0.3;
+
+fn exchange(signal: &mut [f64], joints: usize, a: usize, b: usize) {
+    for row in signal.chunks_exact_mut(joints) {
+        row.swap(a, b);
+    }
+}

@@ -1,0 +1,242 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::Vector3;
+
+use crate::fit::Drive;
+use crate::judge::{Judge, Judged};
+use crate::payload::shares_with_a_tool;
+use crate::reading::Reading;
+use crate::{Evidence, Observation, Rival, Spoils};
+
+/// Readings that are told of a set of logs, one beside the other.
+const MOST: usize = 4;
+
+/// Rivals from which on logs say too little to name any.
+const MOST_RIVALS: usize = 6;
+
+/// Range of a rotation from which on its position may be degrees (rad).
+const WIDE: f64 = 10.0;
+
+/// What is wrong with logs by the nominal torque: readings that mend it, the best first.
+pub(crate) fn readings(judge: &mut Judge, runs: usize) -> Vec<Observation> {
+    let mut told = Vec::new();
+    while told.len() < MOST {
+        let as_is = judge.as_is();
+        let Some((best, rivals)) = best(judge, &as_is) else { break };
+        let Some(found) = observation(judge, &best, &rivals, runs) else { break };
+        told.push(found);
+        judge.take(&best.reading);
+    }
+    told
+}
+
+/// The reading that mends most, and those that do so as well; `None` where none does, or a tool does too.
+fn best(judge: &mut Judge, as_is: &Judged) -> Option<(Judged, Vec<Judged>)> {
+    let t = judge.thresholds;
+    let candidates = candidates(judge, as_is);
+    let mut judged: Vec<Judged> =
+        candidates.into_iter().map(|reading| judge.judged(reading, as_is)).collect();
+    let without = judge.without_gravity();
+    judged.extend(without.filter(|without| mends(judge, without)));
+    judged.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let best = judged.first()?.clone();
+    if !mends(judge, &best) {
+        return None;
+    }
+    if let Some(tool) = shares_with_a_tool(judge, Drive { gain: t.drive_gain })
+        && judge.gain(&as_is.shares, &tool) > best.gain - t.margin
+    {
+        return None;
+    }
+    let near = |j: &&Judged| j.gain > best.gain - t.margin;
+    let rivals: Vec<Judged> = judged.iter().skip(1).filter(near).cloned().collect();
+    (rivals.len() < MOST_RIVALS).then_some((best, rivals))
+}
+
+/// Factor by which less is left at a joint that witnesses for a reading.
+const WITNESS: f64 = 2.0;
+
+/// Whether a joint that the log as it stands contradicts is understood by the reading.
+fn mends(judge: &Judge, read: &Judged) -> bool {
+    let joint = most_mended(judge, read);
+    let at = |x: &[f64]| x.get(joint).copied().unwrap_or(0.0);
+    let t = judge.thresholds;
+    let ratio = |j: usize| {
+        let [before, after, floor] = [read.before[j], read.shares[j], judge.floors[j]];
+        (before + floor) / (after + floor)
+    };
+    let n = read.shares.len();
+    let witnesses = (0..n).filter(|j| ratio(*j) > WITNESS).count();
+    if read.reading.of_the_whole_arm() && witnesses < n.div_ceil(3).min(2) {
+        return false;
+    }
+    // Of two columns exchanged, each must be at home where it is put.
+    let not_worse = |j: &usize| ratio(*j) > 1.0 - t.alike || read.shares[*j] < judge.floors[*j];
+    if !read.reading.exchanged().iter().all(not_worse) {
+        return false;
+    }
+    let least = match read.gain {
+        gain if gain >= t.gain[1] => t.misfit[1],
+        gain if gain >= t.gain[0] => t.misfit[0],
+        gain if gain >= t.contradicted_gain && read.reading.is_sign() => 1.0,
+        _ => return false,
+    };
+    at(&read.before) >= least.max(4.0 * at(&judge.floors)) && at(&read.shares) <= t.mended
+}
+
+fn most_mended(judge: &Judge, read: &Judged) -> usize {
+    let of = |j: usize| {
+        let [before, after, floor] = [read.before[j], read.shares[j], judge.floors[j]];
+        (before + floor) / (after + floor)
+    };
+    (0..read.shares.len()).max_by(|&a, &b| of(a).total_cmp(&of(b))).unwrap_or(0)
+}
+
+fn observation(
+    judge: &Judge,
+    best: &Judged,
+    rivals: &[Judged],
+    runs: usize,
+) -> Option<Observation> {
+    let nominal = judge.robot.gravity_in_base();
+    let rival = |judged: &Judged| judged.reading.rival(judge.samples.joints, nominal);
+    let Rival { kind, joints } = rival(best)?;
+    let joint = most_mended(judge, best);
+    let at = |x: &[f64]| x.get(joint).copied().unwrap_or(0.0);
+    let evidence =
+        Evidence { joint, before: at(&best.before), after: at(&best.shares), gain: best.gain };
+    let whole = joints.len() == judge.samples.joints && joints.len() > 1;
+    let or: Vec<Rival> = rivals.iter().filter_map(rival).collect();
+    let of_efforts = best.reading.of_efforts() && rivals.iter().all(|r| r.reading.of_efforts());
+    let spoils = if of_efforts && !whole { Spoils::Joints } else { Spoils::Everything };
+    Some(Observation {
+        kind,
+        or,
+        joints,
+        runs: (0..runs).collect(),
+        stretches: Vec::new(),
+        spoils,
+        evidence: Some(evidence),
+    })
+}
+
+/// Readings that may be true of these logs.
+fn candidates(judge: &Judge, as_is: &Judged) -> Vec<Reading> {
+    let t = judge.thresholds;
+    if as_is.shares.iter().all(|share| *share < t.misfit[1]) {
+        return Vec::new();
+    }
+    let links = judge.robot.links();
+    let n = links.len();
+    let mut all = Vec::new();
+    if n > 1 {
+        all.extend([Reading::EffortSign(None), Reading::PositionSign(None)]);
+    }
+    for (j, link) in links.iter().enumerate() {
+        all.extend([Reading::EffortSign(Some(j)), Reading::PositionSign(Some(j))]);
+        if link.joint.kind.is_rotation() {
+            all.extend([FRAC_PI_2, -FRAC_PI_2, PI].map(|offset| Reading::Offset(j, offset)));
+            if span(judge, j) > WIDE {
+                all.push(Reading::Degrees(Some(j)));
+            }
+        }
+        for (k, other) in links.iter().enumerate().skip(j + 1) {
+            all.push(Reading::EffortsExchanged(j, k));
+            if link.joint.kind.is_rotation() == other.joint.kind.is_rotation() {
+                all.push(Reading::Exchanged(j, k));
+            }
+        }
+    }
+    let turn = links.iter().all(|link| link.joint.kind.is_rotation());
+    if n > 1 && turn && (0..n).any(|j| span(judge, j) > WIDE) {
+        all.push(Reading::Degrees(None));
+    }
+    all.extend(gravity(judge));
+    all.extend(time(judge));
+    all.extend(unit(judge));
+    all
+}
+
+fn span(judge: &Judge, j: usize) -> f64 {
+    let q = judge.samples.column(&judge.samples.motion[0], j);
+    let low = q.iter().copied().fold(f64::INFINITY, f64::min);
+    q.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
+}
+
+/// Least and largest gravity of a place where arms work (m/s²): that of the moon, and twice that of the earth.
+const PULLS: [f64; 2] = [1.0, 20.0];
+
+/// Gravity as the efforts ask for it, where it is another one than that of the description.
+fn gravity(judge: &Judge) -> Option<Reading> {
+    let t = judge.thresholds;
+    let columns = judge.gravity.each_ref().map(Vec::as_slice);
+    let found = judge.pooled(&judge.inertial, &columns)?;
+    let found = Vector3::new(*found.first()?, *found.get(1)?, *found.get(2)?);
+    let nominal = judge.robot.gravity_in_base();
+    let factor = found.norm() / nominal.norm().max(f64::MIN_POSITIVE);
+    let is_somewhere = found.norm() > PULLS[0] && found.norm() < PULLS[1];
+    let other_size = factor > t.gravity_factor || factor < 1.0 / t.gravity_factor;
+    // Of a direction, the size says whether the efforts are torques at all.
+    let turned = found.angle(&nominal) > t.gravity_angle && !other_size;
+    let aligned = found.angle(&nominal) < t.gravity_angle && other_size;
+    (is_somewhere && (turned || aligned)).then_some(Reading::Gravity(found))
+}
+
+/// Time as the efforts ask for it.
+///
+/// ```text
+/// effort = g(q) + factor² (M qdd + C qd)_logged
+/// ```
+fn time(judge: &Judge) -> Option<Reading> {
+    let granted: Vec<f64> =
+        judge.whole.iter().zip(&judge.inertial).map(|(w, inertial)| w - inertial).collect();
+    let squared = *judge.pooled(&granted, &[&judge.inertial])?.first()?;
+    let least = judge.thresholds.time_factor;
+    let factor = squared.max(0.0).sqrt();
+    (factor > least || (factor > 0.0 && factor < 1.0 / least)).then_some(Reading::Time(factor))
+}
+
+/// Units of the efforts: factors that no drive's error makes, or the same one everywhere.
+fn unit(judge: &Judge) -> Vec<Reading> {
+    let t = judge.thresholds;
+    let free = Drive { gain: [0.0, f64::INFINITY] };
+    let fits = judge.fits(&judge.samples, &judge.whole, free);
+    let none = judge.fits(&judge.samples, &judge.whole, Drive { gain: [0.0, 0.0] });
+    let needed = |j: usize| {
+        fits[j].share < t.mended && none[j].share > NEEDED * (fits[j].share + judge.floors[j])
+    };
+    let known: Vec<f64> =
+        (0..fits.len()).filter(|j| needed(*j)).map(|j| fits[j].coefficients[0]).collect();
+    let mut sorted = known.clone();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let Some(&middle) = sorted.get(sorted.len() / 2) else { return Vec::new() };
+    let [low, high] = t.drive_gain;
+    let is_unit = |c: f64| c > 0.0 && (c > high || c < low);
+    let alike = known.iter().all(|c| (c / middle).ln().abs() < (1.0 + t.alike).ln());
+    let mut all = Vec::new();
+    if is_unit(middle) && alike {
+        all.push(Reading::Unit(vec![middle; fits.len()]));
+    }
+    let mut units: Vec<f64> = known.iter().copied().filter(|c| is_unit(*c)).collect();
+    units.sort_unstable_by(f64::total_cmp);
+    // What says nothing of its own unit has that of most others.
+    let usual = units.get(units.len() / 2).copied().filter(|_| 2 * units.len() > known.len());
+    let own = |j: usize| match fits[j].coefficients[0] {
+        c if needed(j) => {
+            if is_unit(c) {
+                c
+            } else {
+                1.0
+            }
+        }
+        _ => usual.unwrap_or(1.0),
+    };
+    let each: Vec<f64> = (0..fits.len()).map(own).collect();
+    if each.iter().any(|c| (c - 1.0).abs() > 1e-9) {
+        all.push(Reading::Unit(each));
+    }
+    all
+}
+
+/// Factor by which friction alone leaves more than with the nominal torque where that is needed.
+const NEEDED: f64 = 4.0;

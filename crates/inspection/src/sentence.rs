@@ -1,0 +1,257 @@
+use std::f64::consts::PI;
+
+use logs::Run;
+use robot::Robot;
+
+use crate::{Observation, ObservationKind, Rival, Stretch};
+
+const FOREIGN: &str = "Nothing of the nominal torque is in the efforts, whatever sign, order, unit, gravity or clock \
+                       they are read with";
+
+/// Stretches that are told one by one.
+const MOST_STRETCHES: usize = 3;
+
+impl Observation {
+    /// What is wrong and where, the evidence with its numbers, and what to do, in words.
+    ///
+    /// Names of joints and runs are those of the arguments of [`crate::inspect`].
+    pub fn sentence(&self, robot: &Robot, runs: &[Run]) -> String {
+        let names = Names { robot, runs };
+        let mut text = names.what(self.kind, &self.joints);
+        if let ObservationKind::Overlap { shift_s, length_s } = self.kind {
+            return names.overlap(&self.runs, shift_s, length_s);
+        }
+        if !self.stretches.is_empty() {
+            text += &format!(" ({})", names.stretches(&self.stretches));
+        }
+        for other in &self.or {
+            text += &format!(", or {}", names.alternative(other));
+        }
+        text += ".";
+        if let Some(e) = &self.evidence {
+            let read = match self.kind {
+                ObservationKind::AnotherRobot => "friction and offset alone",
+                _ => "the log read so",
+            };
+            text += &format!(
+                " At joint {} the nominal torque leaves {} of the effort's variance as the log stands, {read} {}.",
+                names.joint(e.joint),
+                percent(e.before),
+                percent(e.after)
+            );
+        }
+        format!("{text} {}", remedy(self.kind))
+    }
+}
+
+/// Names of joints and runs.
+struct Names<'a> {
+    robot: &'a Robot,
+    runs: &'a [Run],
+}
+
+impl Names<'_> {
+    fn joint(&self, j: usize) -> String {
+        self.robot.joint_names().nth(j).unwrap_or("?").to_owned()
+    }
+
+    fn run(&self, r: usize) -> &str {
+        self.runs.get(r).map_or("?", |run| run.name.as_str())
+    }
+
+    /// `joint a`, `joints a and b`, `all joints`.
+    fn joints(&self, joints: &[usize]) -> String {
+        let names: Vec<String> = joints.iter().map(|&j| self.joint(j)).collect();
+        match names.as_slice() {
+            all if all.len() == self.robot.joint_count() && all.len() > 2 => {
+                "all joints".to_owned()
+            }
+            [] => "no joint".to_owned(),
+            [one] => format!("joint {one}"),
+            [first @ .., last] => format!("joints {} and {last}", first.join(", ")),
+        }
+    }
+
+    /// Units of position and effort of joints.
+    fn units(&self, joints: &[usize]) -> [&'static str; 2] {
+        let slides = |j: &usize| {
+            self.robot.links().get(*j).is_some_and(|link| !link.joint.kind.is_rotation())
+        };
+        if !joints.is_empty() && joints.iter().all(slides) { ["m", "N"] } else { ["rad", "N m"] }
+    }
+
+    fn what(&self, kind: ObservationKind, joints: &[usize]) -> String {
+        use ObservationKind as K;
+        let at = self.joints(joints);
+        match kind {
+            K::StuckEncoder | K::Held | K::Spikes { .. } | K::TurnJump { .. } => {
+                self.moment(kind, joints)
+            }
+            K::EffortSign => format!("The effort of {at} seems to have the other sign"),
+            K::PositionSign => format!("The position of {at} seems to have the other sign"),
+            K::VelocitySign => format!(
+                "The velocity column of {at} has the other sign than the derivative of the position"
+            ),
+            K::JointsExchanged => format!("The columns of {at} seem to be exchanged"),
+            K::EffortsExchanged => format!("The efforts of {at} seem to be exchanged"),
+            K::EffortUnit { factor } => {
+                let (factor, [_, unit]) = (number(factor), self.units(joints));
+                format!(
+                    "The effort of {at} seems to be in another unit: {factor} logged per {unit}"
+                )
+            }
+            K::EffortWithoutGravity => "The efforts lack the torque of gravity".to_owned(),
+            K::GravityDirection { .. } | K::GravityValue { .. } => self.gravity(kind),
+            K::PositionOffset { offset } => {
+                format!(
+                    "The position of {at} seems to be off by {:.0} degrees",
+                    offset * 180.0 / PI
+                )
+            }
+            K::Degrees => format!("The position of {at} seems to be degrees"),
+            K::TimeUnit { factor } => format!(
+                "Effort and motion disagree on what a second is: {} in the column `time` are one",
+                number(factor)
+            ),
+            K::EffortShifted { shift_s } => format!(
+                "The efforts fit the motion when they are taken {:.2} s {}",
+                shift_s.abs(),
+                if shift_s > 0.0 { "earlier" } else { "later" }
+            ),
+            K::VelocityUnit { factor } => format!(
+                "The velocity columns are {} times the derivative of the positions",
+                number(factor)
+            ),
+            K::AtLimit { share, limit } => {
+                let (share, [_, unit]) = (percent(share), self.units(joints));
+                format!("The effort of {at} is at {limit:.3} {unit} for {share} of the time")
+            }
+            K::Overlap { .. } => String::new(),
+            K::AnotherRobot => FOREIGN.to_owned(),
+        }
+    }
+
+    /// What is wrong with some seconds.
+    fn moment(&self, kind: ObservationKind, joints: &[usize]) -> String {
+        use ObservationKind as K;
+        let at = self.joints(joints);
+        match kind {
+            K::StuckEncoder => format!("The position of {at} stands still while the arm moves on"),
+            K::Spikes { count, height } => {
+                let [unit, _] = self.units(joints);
+                format!(
+                    "The position of {at} has single samples that are off: {count}, by up to {height:.3} {unit}"
+                )
+            }
+            K::TurnJump { turns } => {
+                let turns = turns.abs();
+                format!("The position of {at} jumps between two samples, by {turns} full turns")
+            }
+            _ => "All signals stand still while the clock runs on".to_owned(),
+        }
+    }
+
+    /// Another gravity than that of the description.
+    fn gravity(&self, kind: ObservationKind) -> String {
+        let nominal = self.robot.gravity_in_base().norm();
+        match kind {
+            ObservationKind::GravityDirection { gravity_in_base: g, angle } => format!(
+                "The efforts ask for a gravity of ({:.2}, {:.2}, {:.2}) m/s² in the base frame, {:.0} degrees from that \
+                 of the description",
+                g.x,
+                g.y,
+                g.z,
+                angle * 180.0 / PI
+            ),
+            ObservationKind::GravityValue { value } => format!(
+                "The efforts ask for a gravity of {value:.2} m/s², the description has {nominal:.2} m/s²"
+            ),
+            _ => String::new(),
+        }
+    }
+
+    fn alternative(&self, rival: &Rival) -> String {
+        let what = self.what(rival.kind, &rival.joints);
+        let mut letters = what.chars();
+        let first = letters.next().map(|c| c.to_lowercase().to_string()).unwrap_or_default();
+        first + letters.as_str()
+    }
+
+    fn overlap(&self, runs: &[usize], shift_s: f64, length_s: f64) -> String {
+        let name = |k: usize| self.run(runs.get(k).copied().unwrap_or(usize::MAX));
+        format!(
+            "Runs {} and {} hold the same {length_s:.2} s, in the second {shift_s:+.3} s later. {}",
+            name(0),
+            name(1),
+            remedy(ObservationKind::Overlap { shift_s, length_s })
+        )
+    }
+
+    fn stretches(&self, all: &[Stretch]) -> String {
+        let one = |s: &Stretch| {
+            if s.to_s - s.from_s > 0.0 {
+                format!("run {}, {:.3} to {:.3} s", self.run(s.run), s.from_s, s.to_s)
+            } else {
+                format!("run {}, {:.3} s", self.run(s.run), s.from_s)
+            }
+        };
+        let first: Vec<String> = all.iter().take(MOST_STRETCHES).map(one).collect();
+        let more = all.len().saturating_sub(MOST_STRETCHES);
+        let rest = if more > 0 { format!("; and {more} more") } else { String::new() };
+        first.join("; ") + &rest
+    }
+}
+
+fn remedy(kind: ObservationKind) -> &'static str {
+    use ObservationKind as K;
+    match kind {
+        K::EffortSign => "Turn the sign of the column, or the joint's axis in the description.",
+        K::PositionSign => {
+            "Turn the sign of position and velocity, or the joint's axis in the description."
+        }
+        K::VelocitySign => "The velocity column is not used; turn its sign.",
+        K::JointsExchanged | K::EffortsExchanged => "Put the columns under the right names.",
+        K::EffortUnit { .. } => "State the unit in the column map.",
+        K::EffortWithoutGravity => {
+            "Log the whole torque, or add the controller's gravity torque to the effort."
+        }
+        K::GravityDirection { .. } | K::GravityValue { .. } => {
+            "State how the base is mounted: `gravity` in robot.toml."
+        }
+        K::PositionOffset { .. } => {
+            "Check the zero of the encoder against that of the description."
+        }
+        K::Degrees => "State the unit in the column map.",
+        K::TimeUnit { .. } => {
+            "State the unit of time in the column map, or log the controller's clock."
+        }
+        K::EffortShifted { .. } => "Check that both are of one clock.",
+        K::VelocityUnit { .. } => {
+            "The velocity columns are not used; state their unit in the column map."
+        }
+        K::StuckEncoder => "Leave these seconds out, and check the encoder and its cable.",
+        K::Held => "Leave these seconds out, and check the logger.",
+        K::Spikes { .. } => "Leave these samples out.",
+        K::TurnJump { .. } => "Take the full turns from the samples behind the jump.",
+        K::AtLimit { .. } => {
+            "Record a gentler motion: a clipped effort says nothing of the torque."
+        }
+        K::Overlap { .. } => {
+            "Use one of them: what is fitted to the one is not tested by the other."
+        }
+        K::AnotherRobot => "Check that logs and description are of the same robot.",
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+/// A factor with three digits.
+fn number(x: f64) -> String {
+    match x.abs() {
+        size if !(1e-2..1e5).contains(&size) => format!("{x:.2e}"),
+        size if size >= 100.0 => format!("{x:.0}"),
+        _ => format!("{x:.3}"),
+    }
+}

@@ -1,0 +1,7 @@
+//! What is told of whole logs before causes are sought.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
+
+mod recorded;
+mod spoil;
+mod spoilt;
+mod store;
