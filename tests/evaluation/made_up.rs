@@ -55,6 +55,7 @@ pub fn diagnosis(verdict: Verdict, findings: Vec<Finding>) -> Diagnosis {
         verdict,
         joints: Vec::new(),
         findings,
+        negligible: Vec::new(),
         unexplained: Vec::new(),
         ruled_out: Vec::new(),
         gain: Gain { inverse },

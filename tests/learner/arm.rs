@@ -72,5 +72,5 @@ pub fn run(seed: f64, samples: usize, share: f64) -> Prepared {
         }
     }
     let run = PreparedRun { name: format!("run {seed}"), rate_hz: 50.0, time, joints };
-    Prepared { runs: vec![run], cutoff_hz: 10.0, cutoff_reason: String::new(), warnings: vec![] }
+    Prepared::exact(vec![run], 10.0)
 }

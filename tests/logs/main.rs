@@ -2,10 +2,15 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 mod bad_input;
+mod estimators;
 mod files;
 mod filter;
 mod growing;
 mod info;
+mod link_lag;
+mod noise;
 mod preparation;
 mod recorded;
+mod smoother;
 mod support;
+mod survey;

@@ -300,3 +300,26 @@ fn a_lag_that_an_even_motion_cannot_show_is_not_held_against_the_velocity() {
     let even = prepare(&[run(time.clone(), vec![j1])], &PrepareSettings { cutoff_hz: Some(5.0) });
     assert_eq!(even.unwrap().warnings, []);
 }
+
+/// Five dropouts of 9 ms at 1 kHz in a motion of .8 Hz: a 36th of its period.
+#[test]
+fn dropouts_shorter_than_a_quarter_period_of_the_cutoff_are_filled() {
+    let all = clock(10_000, 1000.0);
+    let is_lost = |k: usize| k % 1900 > 1890;
+    let time: Vec<f64> =
+        all.iter().enumerate().filter(|(k, _)| !is_lost(*k)).map(|x| *x.1).collect();
+    // Steps of 1e-4 rad: the slope of one sample beside a gap is off by up to .1 rad/s.
+    let counted = |t: f64| (motion(t) / 1e-4).round() * 1e-4;
+    let recorded = run(time.clone(), vec![follows("j1", &time, counted)]);
+    let of = |cutoff_hz: f64| {
+        let settings = PrepareSettings { cutoff_hz: Some(cutoff_hz) };
+        prepare(std::slice::from_ref(&recorded), &settings).unwrap()
+    };
+    let filled = of(5.0);
+    assert_eq!(filled.runs.len(), 1, "{:?}", filled.warnings);
+    assert!(matches!(filled.warnings[..], [LogWarning::Resampled { .. }]));
+    let errors = errors(&filled.runs[0]);
+    assert!(errors[0] < 1e-4 && errors[1] < 1e-3 && errors[2] < 1e-2, "{errors:?}");
+    // A quarter period of 40 Hz is 6 ms.
+    assert!(of(40.0).runs.len() > 1);
+}

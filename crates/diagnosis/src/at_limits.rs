@@ -50,9 +50,7 @@ mod tests {
         let joints = vec![PreparedJoint::exact([vec![], vec![], vec![]], effort.collect())];
         let time = (0..200).map(f64::from).collect();
         let run = PreparedRun { name: "run".to_owned(), rate_hz: 1.0, time, joints };
-        let cutoff_reason = String::new();
-        let (runs, warnings) = (vec![run], Vec::new());
-        at_limits(&robot, &Prepared { runs, warnings, cutoff_reason, cutoff_hz: 0.1 })
+        at_limits(&robot, &Prepared::exact(vec![run], 0.1))
     }
 
     #[test]

@@ -213,7 +213,12 @@ fn equations(
     for block in of.iter().map(|&b| &problem.blocks[b]) {
         let signals = &design.runs[block.run].joints[*joint];
         let (from, samples) = (block.samples.start, block.samples.len());
-        let b = factors[block.run].rows(from, samples);
+        let mut b = factors[block.run].rows(from, samples).into_owned();
+        for (t, tells) in signals.tells[block.samples.clone()].iter().enumerate() {
+            if !tells {
+                b.row_mut(t).fill(0.0);
+            }
+        }
         let x = signals.x.rows(from, samples).tr_mul(&b) * weight;
         for (i, k) in columns.iter().enumerate() {
             let Some(place) = design.local[*joint].iter().position(|c| c == k) else { continue };

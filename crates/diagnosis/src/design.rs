@@ -40,6 +40,8 @@ pub(crate) struct Design {
     pub frame: Frame,
     /// Joints that moved; the rows of others take no part.
     pub moved: Vec<bool>,
+    /// Which joints move in which run, `[run][joint]`.
+    pub moves: Vec<Vec<bool>>,
     /// Number of the motion of each run: runs that repeat a motion share it.
     pub motion: Vec<usize>,
     /// What it explains.
@@ -72,6 +74,25 @@ pub(crate) struct JointDesign {
     pub nominal: Vec<f64>,
     /// Position, velocity and acceleration.
     pub state: [Vec<f64>; 3],
+    /// Whether a sample tells of the effort: not where the joint stands, held by any part of its dry
+    /// friction.
+    pub tells: Vec<bool>,
+    /// Whether the joint slides: where it turns or stands, dry friction is anything up to its level,
+    /// and what is left there is nobody's fault.
+    pub slides: Vec<bool>,
+}
+
+/// Least share of a run's samples in which a joint moves that moves in it.
+const MOVES: f64 = 0.05;
+
+impl RunDesign {
+    fn moves(&self) -> Vec<bool> {
+        let moves = |joint: &JointDesign| {
+            let tells = joint.tells.iter().filter(|t| **t).count();
+            tells as f64 > MOVES * joint.tells.len() as f64
+        };
+        self.joints.iter().map(moves).collect()
+    }
 }
 
 impl JointDesign {
@@ -116,10 +137,12 @@ impl Design {
             frame,
             moved: log.rows(),
             look: log.look,
+            moves: Vec::new(),
             motion: Vec::new(),
         };
         let origins = design.lay_out(robot, hypotheses, &scale, &evaluated);
         design.runs = evaluated.iter().map(|e| e.to_run(&design.local, &origins)).collect();
+        design.moves = design.runs.iter().map(RunDesign::moves).collect();
         design.motion = motions(&design);
         Ok(design)
     }

@@ -9,6 +9,7 @@ use crate::error::DiagnosisError;
 use crate::extent::inadequate;
 use crate::heard::Heard;
 use crate::held_out::HeldOut;
+use crate::inspected::{Inspected, inspected};
 use crate::limits::limits;
 use crate::log::Log;
 use crate::progress::Progress;
@@ -73,13 +74,17 @@ pub fn diagnose(
     settings.check()?;
     progress.stage("preparing the logs", 2);
     let (runs, mut warnings) = distinct(robot, runs)?;
+    let Inspected { runs, spoilt, warnings: seen } = inspected(robot, &runs);
+    warnings.extend(seen);
     let mut prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
     warnings.extend(without_idle_encoders(robot, &mut prepared));
     warnings.extend(at_limits(robot, &prepared));
     progress.step();
-    let inadequate = inadequate(robot, &prepared);
+    let unmoved = inadequate(robot, &prepared);
+    let inadequate: Vec<Option<String>> =
+        spoilt.into_iter().zip(unmoved).map(|(spoilt, unmoved)| spoilt.or(unmoved)).collect();
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
     let quiet = Log { without: &settings.without, ..Log::new(&prepared, &moved) };
     let parted = between(robot, robot, settings, (&quiet, &inadequate))?;
@@ -154,7 +159,7 @@ fn listened(study: &Study, runs: &[Run]) -> Result<Heard, DiagnosisError> {
     // What is as slow as the motion may be its, and what is faster too where it repeats.
     let motions = &study.design.motion;
     let all_differ = motions.len() >= 2 && motions.iter().enumerate().all(|(r, m)| *m == r);
-    let slowest_hz = if all_differ { prepared.motion_hz() } else { prepared.cutoff_hz };
+    let slowest_hz = if all_differ { prepared.motion_hz } else { prepared.cutoff_hz };
     Ok(tones(&extended, &wide, &Frame::of_logs(&wide), (&study.log, slowest_hz))?)
 }
 

@@ -16,10 +16,13 @@ use crate::tones::Rest;
 const EVALUATION_RATE: f64 = 16.0;
 
 /// Rate of the regression, in cut-off frequencies: just above twice the band.
-const REGRESSION_RATE: f64 = 2.5;
+pub(crate) const REGRESSION_RATE: f64 = 2.5;
 
 /// Order of the low-pass filter, before it runs forward and backward.
 const ORDER: usize = 4;
+
+/// How far beyond a stand the low-pass carries what holds the joint there, in periods of the cut-off.
+const CARRIED: f64 = 0.35;
 
 /// Least RMS value of a sine of size one behind the low-pass that is one in its band.
 const IN_BAND: f64 = 1e-4;
@@ -118,6 +121,18 @@ impl<'a> Along<'a> {
     fn finish(&self, mut x: Vec<f64>) -> Vec<f64> {
         self.low_pass.apply(&mut x);
         decimate(&x, self.strides[1])
+    }
+
+    /// Whether a sample at the rate of the regression is as far from where a joint `rests` as the
+    /// low-pass carries what holds it there.
+    fn away(&self, rests: &[bool]) -> Vec<bool> {
+        let margin = (CARRIED / (self.cutoff_hz * self.motion.period_s)).round() as usize;
+        let mut away = vec![true; rests.len()];
+        for (t, _) in rests.iter().enumerate().filter(|(_, rests)| **rests) {
+            let end = (t + margin + 1).min(away.len());
+            away[t.saturating_sub(margin)..end].fill(false);
+        }
+        away.into_iter().step_by(self.strides[1]).collect()
     }
 
     /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
@@ -257,6 +272,8 @@ pub(crate) struct Evaluated {
     known: Vec<Vec<f64>>,
     nominal: Vec<Vec<f64>>,
     state: [Vec<Vec<f64>>; 3],
+    tells: Vec<Vec<bool>>,
+    slides: Vec<Vec<bool>>,
 }
 
 impl Evaluated {
@@ -285,16 +302,24 @@ impl Evaluated {
             }
             Look::Twist => (along.twists()?, vec![Vec::new(); joints]),
         };
+        let time = decimate(&decimate(&along.run.time, first), second);
+        let tells = |j: usize| match look {
+            Look::Effort => along.away(&along.motion.stands(j)),
+            Look::Twist => vec![true; time.len()],
+        };
+        let slides = |j: usize| along.away(&along.motion.rests(j));
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
             rate_hz: along.rate_hz,
             name: along.run.name.clone(),
-            time: decimate(&decimate(&along.run.time, first), second),
             measured,
             known,
             nominal,
             state: [&motion.q, &motion.qd, &motion.qdd]
                 .map(|s| s.iter().map(|x| decimate(x, second)).collect()),
+            tells: (0..joints).map(tells).collect(),
+            slides: (0..joints).map(slides).collect(),
+            time,
         })
     }
 
@@ -326,6 +351,8 @@ impl Evaluated {
                 known: self.known[j].clone(),
                 nominal: self.nominal[j].clone(),
                 state: [0, 1, 2].map(|s| self.state[s][j].clone()),
+                tells: self.tells[j].clone(),
+                slides: self.slides[j].clone(),
             }
         };
         let joints = (0..local.len()).map(joint).collect();

@@ -59,7 +59,7 @@ pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &
 }
 
 /// The fit about a robot that already has the findings, where columns are tangents only.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Refit {
     /// The robot that it is about.
     pub about: Robot,
@@ -96,7 +96,7 @@ impl Refit {
 }
 
 /// The robot with the findings of a model.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Solved {
     /// Weights of the model about the robot without them.
     pub weights: Vec<f64>,

@@ -6,6 +6,7 @@ use robot::Robot;
 
 use crate::contest::Apart;
 use crate::extend::is_tangent;
+use crate::failed::Failed;
 use crate::log::Look;
 use crate::problem::{HeldOut, Model, Problem};
 use crate::result::{EffectAt, Finding};
@@ -37,6 +38,8 @@ pub(crate) struct Evidence<'a> {
     pub apart: &'a Apart,
     /// What has no name because its size would have to vary, and how.
     pub withheld: &'a Withheld,
+    /// What predicts worse than the description.
+    pub failed: &'a Failed,
     pub seed: u64,
 }
 

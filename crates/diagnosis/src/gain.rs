@@ -1,10 +1,6 @@
-use logs::LogError;
-use rayon::prelude::*;
-
 use crate::blocks::{Block, Fold};
 use crate::extend::Solved;
 use crate::problem::Problem;
-use crate::progress::Progress;
 use crate::result::{FoldGain, InverseGain};
 use crate::search::Record;
 
@@ -17,26 +13,10 @@ pub(crate) struct HeldOutGain {
     pub folds: Vec<Solved>,
 }
 
-/// Searches on some blocks, and solves for the sizes of what it comes to.
-pub(crate) type Search<'a> = &'a (dyn Fn(&[usize]) -> Result<Solved, LogError> + Sync);
-
 impl HeldOutGain {
-    /// Searches and solves anew without each fold of `whole`, and predicts that fold.
-    pub fn new(
-        record: &Record,
-        whole: &Problem,
-        search: Search,
-        progress: &dyn Progress,
-    ) -> Result<Self, LogError> {
-        progress.stage("testing on held-out data", whole.folds.len());
-        let without = |fold: &Fold| {
-            let solved = search(&fold.train);
-            progress.step();
-            solved
-        };
-        let folds: Vec<Solved> =
-            whole.folds.par_iter().map(without).collect::<Result<_, LogError>>()?;
-        Ok(Self { inverse: inverse(record, whole, &folds), folds })
+    /// What the fits without each fold of `whole` predict of it.
+    pub fn new(record: &Record, whole: &Problem, folds: Vec<Solved>) -> Self {
+        Self { inverse: inverse(record, whole, &folds), folds }
     }
 
     /// What is left of the efforts of every fold of `whole` by what was found without it,
@@ -97,20 +77,30 @@ fn squares(whole: &Problem, fold: &Fold, solved: &Solved, j: usize) -> (f64, usi
 
 fn name(whole: &Problem, f: usize) -> String {
     let runs = &whole.design.runs;
-    if runs.len() == 1 {
-        return format!("part {} of {}", f + 1, whole.folds.len());
+    if is_in_parts(whole) {
+        let of = if runs.len() == 1 { "" } else { " of every run" };
+        return format!("part {} of {}{of}", f + 1, whole.folds.len());
     }
     let mut held: Vec<usize> = whole.folds[f].test.iter().map(|&b| whole.blocks[b].run).collect();
     held.dedup();
     held.iter().map(|&r| runs[r].name.as_str()).collect::<Vec<_>>().join(" + ")
 }
 
+/// Whether parts of runs are held out rather than runs.
+fn is_in_parts(whole: &Problem) -> bool {
+    let run = |b: &usize| whole.blocks[*b].run;
+    let is_torn =
+        |f: &Fold| f.test.iter().any(|b| f.train.iter().any(|other| run(other) == run(b)));
+    whole.folds.iter().any(is_torn)
+}
+
 fn held_out(whole: &Problem) -> String {
     let runs = whole.design.runs.len();
     let count = whole.folds.len();
-    if runs == 1 {
+    if is_in_parts(whole) {
+        let of = if runs == 1 { "the run" } else { "every run" };
         format!(
-            "each of {count} parts of the run in turn, with a gap on either side; causes and sizes found on the others"
+            "each of {count} parts of {of} in turn, with a gap on either side; causes and sizes found on the others"
         )
     } else if count == runs {
         "each run in turn; causes and sizes found on the others".to_owned()

@@ -31,15 +31,20 @@ impl JointGram {
         self.count += other.count;
     }
 
-    /// Sum of squares left by the local weights `w`: `yy - 2 w' xy + w' xx w`.
-    pub fn remaining(&self, w: &[f64]) -> f64 {
-        let w = DVector::from_column_slice(w);
-        (self.yy - 2.0 * w.dot(&self.xy) + w.dot(&(&self.xx * &w))).max(0.0)
+    /// Sum of squares left by the local weights `w`, each with its place: `yy - 2 w' xy + w' xx w`.
+    fn remaining(&self, w: &[(usize, f64)]) -> f64 {
+        let explained = |&(i, wi): &(usize, f64)| {
+            let column = self.xx.column(i);
+            wi * (2.0 * self.xy[i] - w.iter().map(|&(k, wk)| column[k] * wk).sum::<f64>())
+        };
+        (self.yy - w.iter().map(explained).sum::<f64>()).max(0.0)
     }
 
     /// `X' (y - X w)`.
-    pub fn score(&self, w: &[f64]) -> DVector<f64> {
-        &self.xy - &self.xx * DVector::from_column_slice(w)
+    fn score(&self, w: &[(usize, f64)]) -> DVector<f64> {
+        let mut score = self.xy.clone();
+        w.iter().for_each(|&(k, wk)| score.axpy(-wk, &self.xx.column(k), 1.0));
+        score
     }
 }
 
@@ -75,10 +80,12 @@ impl Grams {
     pub fn new(design: &Design, blocks: &[Block]) -> Self {
         let joint = |block: &Block, j: usize| {
             let signals = &design.runs[block.run].joints[j];
-            let x = signals.x.rows_range(block.samples.clone());
+            let told: Vec<usize> =
+                block.samples.clone().filter(|t| signals.tells.get(*t) == Some(&true)).collect();
             let y = signals.residual().skip(block.samples.start).take(block.samples.len());
-            let y: DVector<f64> = DVector::from_iterator(block.samples.len(), y);
-            let x = x.into_owned();
+            let y = y.zip(&signals.tells[block.samples.clone()]).filter(|(_, tells)| **tells);
+            let y = DVector::from_iterator(told.len(), y.map(|(y, _)| y));
+            let x = signals.x.select_rows(&told);
             let xt = x.transpose();
             JointGram { xx: &xt * &x, xy: &xt * &y, yy: y.norm_squared(), count: y.len() }
         };
@@ -118,16 +125,22 @@ impl Grams {
     pub fn score(&self, block: usize, weight: &[f64], w: &[f64]) -> DVector<f64> {
         let mut score = DVector::zeros(self.width);
         for (j, &c) in weight.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-            let local: Vec<f64> = self.local[j].iter().map(|&k| w[k]).collect();
+            let local = self.local(j, w);
             let part = self.blocks[block][j].score(&local);
             self.local[j].iter().zip(part.iter()).for_each(|(&k, s)| score[k] += c * s);
         }
         score
     }
 
+    /// The weights at joint `j` that are not zero, with their places: few of its columns are in a model.
+    fn local(&self, j: usize, w: &[f64]) -> Vec<(usize, f64)> {
+        let all = self.local[j].iter().map(|&k| w[k]).enumerate();
+        all.filter(|(_, w)| w.abs() > 0.0).collect()
+    }
+
     /// Sum of squares and number of samples that `w` leaves at joint `j` over the blocks `of`.
     pub fn remaining(&self, j: usize, of: &[usize], w: &[f64]) -> (f64, usize) {
-        let local: Vec<f64> = self.local[j].iter().map(|&k| w[k]).collect();
+        let local = self.local(j, w);
         of.iter().fold((0.0, 0), |(sum, n), &b| {
             let gram = &self.blocks[b][j];
             (sum + gram.remaining(&local), n + gram.count)

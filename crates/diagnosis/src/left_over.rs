@@ -89,8 +89,7 @@ mod tests {
         let effort = time.iter().map(|t| effort(*t)).collect();
         let joints = vec![PreparedJoint::exact(state, effort)];
         let run = PreparedRun { name: "run".to_owned(), rate_hz: RATE_HZ, time, joints };
-        let cutoff_reason = String::new();
-        Prepared { runs: vec![run], warnings: Vec::new(), cutoff_reason, cutoff_hz: 10.0 }
+        Prepared::exact(vec![run], 10.0)
     }
 
     /// The largest of the middle of what is left, and of the effort there.

@@ -22,15 +22,16 @@ mod error;
 mod evaluate;
 mod extend;
 mod extent;
+mod failed;
 mod findings;
 mod fit;
 mod flip_test;
-mod floor;
 mod gain;
 mod gram;
 mod heard;
 mod held_out;
 mod idle;
+mod inspected;
 mod left_over;
 mod limits;
 mod log;
@@ -38,6 +39,7 @@ mod noise;
 mod problem;
 mod progress;
 mod repeats;
+mod report;
 mod result;
 mod rivals;
 mod ruled_out;
@@ -49,6 +51,7 @@ mod settle;
 mod settled;
 mod shapes;
 mod significance;
+mod spectrum;
 mod stability;
 mod structure;
 mod study;
@@ -56,6 +59,7 @@ mod tone;
 mod tone_finding;
 mod tone_fit;
 mod tones;
+mod torque_noise;
 mod traces;
 mod uncertainty;
 mod verdict;
@@ -70,7 +74,8 @@ pub use left_over::{LeftOver, left_over};
 pub use progress::{Progress, Silent};
 pub use result::{
     DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
-    JointReport, NoiseFloorSource, RuledOut, RunSummary, SCHEMA, Unexplained, Verdict,
+    JointReport, Negligible, NoiseFloorSource, NoiseSpectrum, RuledOut, RunSummary, SCHEMA,
+    Unexplained, Verdict,
 };
 pub use settings::Settings;
 pub use traces::{JointTraces, RunTraces};

@@ -58,7 +58,7 @@ impl<'a> Problem<'a> {
         of: &[usize],
         weight: Vec<f64>,
     ) -> Self {
-        let folds = folds(blocks, of, &design.motion, Folding::ByMotion);
+        let folds = folds(design, blocks, of, Folding::ByMotion);
         let info = grams.information(of, &weight);
         let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
         let idle = Model::new();
@@ -73,7 +73,7 @@ impl<'a> Problem<'a> {
 
     /// The same problem held out in another way.
     pub fn refolded(&self, folding: Folding) -> Self {
-        let folds = folds(self.blocks, &self.of, &self.design.motion, folding);
+        let folds = folds(self.design, self.blocks, &self.of, folding);
         let information = |f: &Fold| self.grams.information(&f.train, &self.weight);
         let training = folds.iter().map(information).collect();
         Self { folds, training, ..self.clone() }
@@ -149,6 +149,25 @@ impl<'a> Problem<'a> {
         &self,
         left: impl Fn(usize, usize, usize) -> Vec<f64>,
     ) -> Vec<Vec<Vec<f64>>> {
+        self.residuals(left, |_, left| left.to_vec())
+    }
+
+    /// The same of the samples that tell of the efforts.
+    pub fn told_residuals(
+        &self,
+        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+    ) -> Vec<Vec<Vec<f64>>> {
+        self.residuals(left, |tells, left| {
+            left.iter().zip(tells).filter(|(_, tells)| **tells).map(|(left, _)| *left).collect()
+        })
+    }
+
+    /// Held-out residuals, of which `taken` takes its part of what a block tells and leaves.
+    fn residuals(
+        &self,
+        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+        taken: impl Fn(&[bool], &[f64]) -> Vec<f64>,
+    ) -> Vec<Vec<Vec<f64>>> {
         let fold_of = |b: usize| self.folds.iter().position(|f| f.test.contains(&b));
         let mut residuals = vec![Vec::new(); self.design.joints()];
         for run in 0..self.design.runs.len() {
@@ -164,7 +183,10 @@ impl<'a> Problem<'a> {
                     if used { left(f, run, j) } else { Vec::new() }
                 };
                 let left: Vec<Vec<f64>> = (0..self.folds.len()).map(of_fold).collect();
-                let part = |(block, f): &(&Block, usize)| left[*f][block.samples.clone()].to_vec();
+                let tells = &self.design.runs[run].joints[j].tells;
+                let part = |(block, f): &(&Block, usize)| {
+                    taken(&tells[block.samples.clone()], &left[*f][block.samples.clone()])
+                };
                 residual.push(own.iter().flat_map(part).collect());
             }
         }
@@ -176,13 +198,13 @@ impl<'a> Problem<'a> {
         let weights: Vec<Vec<f64>> =
             (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
         let left = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
-        Noise::of(&self.held_out_residuals(left))
+        Noise::of(&self.told_residuals(left))
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.
     pub fn fitted_noise(&self, model: &Model) -> Noise {
         let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
-        Noise::of(&self.held_out_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
+        Noise::of(&self.told_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
     }
 
     /// The model of every hypothesis at once, but those that may pass for others in an effort.

@@ -47,6 +47,8 @@ pub struct Diagnosis {
     pub joints: Vec<JointReport>,
     /// Named causes, the largest share first.
     pub findings: Vec<Finding>,
+    /// Causes that the logs show and that do not matter: below the practical size at every joint.
+    pub negligible: Vec<Negligible>,
     /// What no named cause reproduces.
     pub unexplained: Vec<Unexplained>,
     /// Effects that were tested and not found.
@@ -74,10 +76,12 @@ pub struct JointReport {
     pub residual_rms_nm: f64,
     /// RMS of measured minus extended effort, on held-out data.
     pub remaining_rms_nm: f64,
-    /// RMS of what no function of the state predicts.
+    /// RMS of the noise in the band of the diagnosis, from sources outside of what is left.
     pub noise_floor_rms_nm: f64,
-    /// Where the noise floor comes from.
+    /// Where most of the noise comes from.
     pub noise_floor_from: NoiseFloorSource,
+    /// Noise and rest over frequency.
+    pub spectrum: NoiseSpectrum,
     /// Integrated autocorrelation time of the remaining residual (s).
     pub autocorrelation_time_s: f64,
     /// Number of independent samples that the record is worth.
@@ -92,10 +96,35 @@ pub struct JointReport {
 pub enum NoiseFloorSource {
     /// Difference between runs that repeat a motion.
     Repeats,
-    /// Spectrum of the effort above the band of the motion.
-    HighFrequencyBand,
-    /// What a flexible predictor of the state leaves on held-out data.
-    FlexiblePredictor,
+    /// The effort's own noise, above the motion or of its step.
+    Effort,
+    /// The noise of the encoders, carried to torque by the inertia of the arm.
+    Encoders,
+    /// Nothing tells it.
+    Unknown,
+}
+
+impl NoiseFloorSource {
+    /// Where the noise comes from, after a number of N m.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Repeats => "of what differs between runs of one motion",
+            Self::Effort => "of the effort's own noise",
+            Self::Encoders => "of the encoders' noise, carried by the arm's inertia",
+            Self::Unknown => "of which the logs tell nothing",
+        }
+    }
+}
+
+/// What is left of a joint's effort and its noise over frequency, behind the low-pass.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct NoiseSpectrum {
+    /// Frequencies (Hz).
+    pub hz: Vec<f64>,
+    /// One-sided density of the noise with a source ((N m)²/Hz or N²/Hz).
+    pub noise_nm2_per_hz: Vec<f64>,
+    /// The same of what is left of the effort on held-out data.
+    pub left_nm2_per_hz: Vec<f64>,
 }
 
 /// A number with its uncertainty.
@@ -210,6 +239,20 @@ impl Finding {
         let part = matches!(rival.effect, CoulombFriction | TorqueOffset);
         self.at.effect == AsymmetricFriction && part && rival.joint == self.at.joint
     }
+}
+
+/// A cause that is seen and too small to be a finding.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Negligible {
+    /// The effect and its place.
+    #[serde(flatten)]
+    pub at: EffectAt,
+    /// The joint at which it matters most.
+    pub most_at: String,
+    /// RMS of what it takes off the held-out error there (N m or N).
+    pub rms_nm: f64,
+    /// RMS below which it would not matter there (N m or N).
+    pub least_nm: f64,
 }
 
 /// Structure left at a joint.

@@ -80,6 +80,9 @@ impl Evidence<'_> {
         let p = self.significance.p[g].map_or_else(String::new, |p| format!(", p = {p:.3}"));
         let because = if let Some(variation) = self.withheld.get(&g) {
             self.words(variation)
+        } else if self.failed.drops(problem.design, g) && gain > 0.0 {
+            "what was fitted here predicts efforts that took no part worse than the description"
+                .to_owned()
         } else if problem.idle.contains(&g) {
             "a robot that has it is no nearer to the logs".to_owned()
         } else if !self.selection.is_possible(&larger, g) {

@@ -17,6 +17,8 @@ pub struct Settings {
     pub sign_flips: usize,
     /// Least held-out fall of a joint's RMS error that counts, as a share of its effort RMS.
     pub practical_share: f64,
+    /// Share of a joint's effort RMS below which what is left beyond the noise is not open.
+    pub open_share: f64,
     /// Effects that are not looked for, and named neither as a cause nor as its rival.
     pub without: Vec<EffectKind>,
 }
@@ -31,6 +33,7 @@ impl Default for Settings {
             // The least p-value, 1e-4, times a hundred and some hypotheses is still below 0.05.
             sign_flips: 9999,
             practical_share: 0.005,
+            open_share: 0.02,
             without: Vec::new(),
         }
     }
@@ -57,8 +60,12 @@ impl Settings {
         if self.sign_flips < 99 {
             return refuse("number of sign flips", self.sign_flips as f64, "at least 99");
         }
-        if !(self.practical_share >= 0.0 && self.practical_share < 1.0) {
-            return refuse("practical share", self.practical_share, "a number from 0 to below 1");
+        for (name, share) in
+            [("practical share", self.practical_share), ("open share", self.open_share)]
+        {
+            if !(0.0..1.0).contains(&share) {
+                return refuse(name, share, "a number from 0 to below 1");
+            }
         }
         Ok(())
     }

@@ -77,6 +77,8 @@ pub(crate) struct Left {
     pub residual: DVector<f64>,
     /// One over the mean square of the residual.
     weight: f64,
+    /// One where a sample tells of the effort, else zero: rows of all the others are none.
+    tells: DVector<f64>,
 }
 
 impl Left {
@@ -89,14 +91,18 @@ impl Left {
             x.rows_mut(first, run.x.nrows()).copy_from(&run.x);
             first += run.x.nrows();
         }
+        let tells = runs().flat_map(|run| &run.tells).map(|tells| f64::from(u8::from(*tells)));
+        let tells = DVector::from_iterator(samples, tells);
+        x.column_iter_mut().for_each(|mut column| column.component_mul_assign(&tells));
         let y = DVector::from_iterator(samples, runs().flat_map(|run| run.residual()));
+        let y = y.component_mul(&tells);
         let power = y.norm_squared() / samples.max(1) as f64;
         let ridge = design.local[j].iter().map(|&column| power / design.prior[column].powi(2));
         let ridge = DVector::from_iterator(x.ncols(), ridge);
         let normal = (x.tr_mul(&x) + DMatrix::from_diagonal(&ridge)).cholesky()?;
         let residual = &y - &x * normal.solve(&x.tr_mul(&y));
         let mean = residual.norm_squared() / samples.max(1) as f64;
-        (mean > 0.0).then(|| Self { x, normal, y, ridge, residual, weight: mean.recip() })
+        (mean > 0.0).then(|| Self { x, normal, y, ridge, residual, weight: mean.recip(), tells })
     }
 }
 
@@ -111,7 +117,7 @@ fn explained(left: &[Option<Left>], runs: &[Vec<Column>]) -> Option<f64> {
             let part =
                 |run: &Vec<Column>| run[k].iter().find(|p| p.joint == j).map(|p| p.values.clone());
             let parts: Option<Vec<Vec<f64>>> = runs.iter().map(part).collect();
-            Some(DVector::from_vec(parts?.concat()))
+            Some(DVector::from_vec(parts?.concat()).component_mul(&left.tells))
         };
         let Some(columns) = (0..width).map(column).collect::<Option<Vec<_>>>() else { continue };
         let c = DMatrix::from_columns(&columns);

@@ -8,7 +8,7 @@ use crate::problem::{Model, Problem};
 /// Number of complementary pairs of half-samples.
 const PAIRS: usize = 25;
 
-/// Share of half-samples of the blocks in which each hypothesis of the model still has
+/// Share of half-samples of the independent stretches in which each hypothesis of the model still has
 /// evidence, given the others.
 ///
 /// # Source
@@ -18,11 +18,11 @@ pub(crate) fn stability(problem: &Problem, model: &Model, seed: u64) -> Vec<(usi
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut kept: Vec<(usize, usize)> = model.iter().map(|&g| (g, 0)).collect();
     for _ in 0..PAIRS {
-        let mut blocks = problem.of.clone();
-        blocks.shuffle(&mut rng);
-        let (first, second) = blocks.split_at(blocks.len() / 2);
+        let mut groups = problem.independent();
+        groups.shuffle(&mut rng);
+        let (first, second) = groups.split_at(groups.len() / 2);
         for half in [first, second] {
-            let info = problem.grams.information(half, &problem.weight);
+            let info = problem.grams.information(&half.concat(), &problem.weight);
             let evidence = |m: &Model| {
                 Fit::new(&info, problem.columns(m), problem.design.beliefs()).map(|f| f.evidence)
             };

@@ -88,6 +88,8 @@ pub(crate) struct Probe<'a> {
     blocks: &'a [Block],
     folds: &'a [Fold],
     families: Vec<Family>,
+    /// Which samples of every run tell of the effort.
+    tells: Vec<&'a [bool]>,
     /// Features of every block, samples by columns.
     features: Vec<DMatrix<f64>>,
 }
@@ -96,7 +98,7 @@ impl<'a> Probe<'a> {
     /// The predictor for `joint`, held out as the folds say.
     pub fn new(
         robot: &'a Robot,
-        design: &Design,
+        design: &'a Design,
         (blocks, folds): (&'a [Block], &'a [Fold]),
         joint: usize,
     ) -> Self {
@@ -108,7 +110,8 @@ impl<'a> Probe<'a> {
             let mut x = DMatrix::zeros(block.samples.len(), width);
             for (family, &(low, high)) in families.iter().zip(&spans) {
                 let (values, qd) = (family.signal.values(run), &run.joints[joint].state[1]);
-                for (row, t) in block.samples.clone().enumerate() {
+                let tells = |&(_, t): &(usize, usize)| run.joints[joint].tells[t];
+                for (row, t) in block.samples.clone().enumerate().filter(tells) {
                     let factor = match family.factor {
                         Factor::One => 1.0,
                         Factor::Direction => qd[t].signum(),
@@ -123,12 +126,21 @@ impl<'a> Probe<'a> {
             x
         };
         let features = blocks.iter().map(features).collect();
-        Self { robot, blocks, folds, families, features }
+        let tells = design.runs.iter().map(|run| run.joints[joint].tells.as_slice()).collect();
+        Self { robot, blocks, folds, families, tells, features }
     }
 
     /// The structure in a residual, given `[run][sample]`.
     pub fn structure(&self, residual: &[Vec<f64>]) -> Structure {
-        let part = |b: &Block| DVector::from_column_slice(&residual[b.run][b.samples.clone()]);
+        let part = |b: &Block| {
+            let told = residual[b.run][b.samples.clone()]
+                .iter()
+                .zip(&self.tells[b.run][b.samples.clone()]);
+            DVector::from_iterator(
+                b.samples.len(),
+                told.map(|(left, tells)| if *tells { *left } else { 0.0 }),
+            )
+        };
         let parts: Vec<DVector<f64>> = self.blocks.iter().map(part).collect();
         let time = integrated_time(residual);
         let all = 0..self.families.last().map_or(0, |f| f.columns.end);

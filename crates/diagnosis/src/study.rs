@@ -1,5 +1,6 @@
 use effects::weeded;
 use logs::LogError;
+use rayon::prelude::*;
 use robot::Robot;
 
 use crate::between::{Between, between};
@@ -8,29 +9,22 @@ use crate::contest::Apart;
 use crate::design::Design;
 use crate::error::DiagnosisError;
 use crate::extend::{Solved, solved};
-use crate::extent::range;
+use crate::failed::{Failed, rise};
 use crate::findings::{Evidence, Found};
-use crate::floor::Floors;
-use crate::gain::{HeldOutGain, measured};
+use crate::gain::HeldOutGain;
 use crate::gram::Grams;
 use crate::held_out::{HeldOut, spans};
 use crate::idle::idle;
 use crate::log::Log;
-use crate::noise::integrated_time;
 use crate::problem::{Model, Problem};
 use crate::progress::Progress;
-use crate::result::{
-    DataSummary, Diagnosis, Finding, Gain, JointReport, RuledOut, SCHEMA, Unexplained, Verdict,
-};
+use crate::result::{Diagnosis, RuledOut};
 use crate::search::Record;
 use crate::settings::Settings;
 use crate::settled::{Settled, Withheld};
 use crate::significance::Significance;
-use crate::structure::{Probe, Structure};
-use crate::tone_finding::tone_finding;
 use crate::traces::{RunTraces, traces};
 use crate::uncertainty::Fitted;
-use crate::verdict::{Situation, overall};
 
 /// Everything a diagnosis looks at, once the logs are prepared.
 #[derive(Debug, Clone, Copy)]
@@ -47,21 +41,21 @@ pub(crate) struct Study<'a> {
 }
 
 /// What the search over the whole record came to.
-struct Answer<'a> {
-    problem: Problem<'a>,
+pub(crate) struct Answer<'a> {
     /// The same problem held out by run.
-    by_run: Problem<'a>,
-    extended: Robot,
-    found: Vec<Found>,
-    ruled_out: Vec<RuledOut>,
+    pub by_run: Problem<'a>,
+    pub extended: Robot,
+    pub found: Vec<Found>,
+    pub ruled_out: Vec<RuledOut>,
     /// Number of hypotheses tested.
-    hypotheses: usize,
-    gain: HeldOutGain,
+    pub hypotheses: usize,
+    pub gain: HeldOutGain,
+    pub failed: Failed,
     /// What is left by what was found without each run, and by nothing, `[joint][run][sample]`.
-    left: Vec<Vec<Vec<f64>>>,
-    gap: Vec<Vec<Vec<f64>>>,
+    pub left: Vec<Vec<Vec<f64>>>,
+    pub gap: Vec<Vec<Vec<f64>>>,
     /// What second encoders show.
-    between: Option<Between>,
+    pub between: Option<Between>,
 }
 
 /// What a search over the whole record came to.
@@ -72,6 +66,7 @@ pub(crate) struct Conclusion<'a> {
     pub solution: Solved,
     pub apart: Apart,
     pub withheld: Withheld,
+    pub failed: Failed,
 }
 
 /// What a search came to whose effects all do what their columns say.
@@ -160,21 +155,18 @@ impl Study<'_> {
         progress: &dyn Progress,
     ) -> Result<Answer<'b>, DiagnosisError> {
         let conclusion = self.conclusion(record, progress)?;
-        let Conclusion { problem, solution, significance, withheld, .. } = &conclusion;
-        let by_run = problem.refolded(Folding::ByRun);
-        let search = |of: &[usize]| self.named(self.searched(record, of)?, withheld);
-        let gain = HeldOutGain::new(record, &by_run, &search, progress)?;
+        let by_run = conclusion.problem.refolded(Folding::ByRun);
+        let (conclusion, gain) = self.that_predicts(record, &by_run, conclusion, progress)?;
         let left = gain.left(&by_run);
         let gap = by_run
             .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
         let (found, ruled_out) = self.told(record, &conclusion);
-        let extended = self.finished(solution.robot.clone());
-        let hypotheses = significance.count();
+        let extended = self.finished(conclusion.solution.robot.clone());
+        let hypotheses = conclusion.significance.count();
         let between = self.between(&extended)?;
         let extended = between.as_ref().map_or(extended, |b| b.robot.clone());
-        let Conclusion { problem, .. } = conclusion;
         Ok(Answer {
-            problem,
+            failed: conclusion.failed,
             by_run,
             extended,
             found,
@@ -211,7 +203,8 @@ impl Study<'_> {
         let (Settled { model, significance, solution, withheld }, apart) =
             self.contested(record, &problem, model)?;
         progress.step();
-        Ok(Conclusion { problem, model, significance, solution, apart, withheld })
+        let failed = Failed::default();
+        Ok(Conclusion { problem, model, significance, solution, apart, withheld, failed })
     }
 
     /// What a search on the blocks `of` comes to. It goes on without every effect that does less than
@@ -229,25 +222,77 @@ impl Study<'_> {
         }
     }
 
-    /// What a search came to, without what has no name over the whole record.
-    fn named(&self, searched: Searched, withheld: &Withheld) -> Result<Solved, LogError> {
-        let Searched { problem, model, solution } = searched;
-        let named: Model = model.iter().copied().filter(|g| !withheld.contains_key(g)).collect();
-        if named == model {
-            return Ok(solution);
+    /// What predicts held-out efforts better than the description does of a conclusion, and by how
+    /// much. A joint of which nothing does keeps its description.
+    fn that_predicts<'b>(
+        &self,
+        record: &Record<'b>,
+        by_run: &Problem<'b>,
+        mut conclusion: Conclusion<'b>,
+        progress: &dyn Progress,
+    ) -> Result<(Conclusion<'b>, HeldOutGain), DiagnosisError> {
+        progress.stage("testing on held-out data", by_run.folds.len());
+        let search = |fold: &Fold| {
+            let searched = self.searched(record, &fold.train);
+            progress.step();
+            searched
+        };
+        let searched: Vec<Searched> =
+            by_run.folds.par_iter().map(search).collect::<Result<_, LogError>>()?;
+        let withheld = &conclusion.withheld;
+        let gain = |failed: &Failed| -> Result<HeldOutGain, LogError> {
+            let named = |searched: &Searched| self.named(searched, withheld, failed);
+            let folds = searched.par_iter().map(named).collect::<Result<_, LogError>>()?;
+            Ok(HeldOutGain::new(record, by_run, folds))
+        };
+        let mut failed = Failed::default();
+        let mut best = gain(&failed)?;
+        while let Some(more) = failed.with_worse_joints(&best.inverse) {
+            (best, failed) = (gain(&more)?, more);
         }
-        solved(self.robot, &self.log, &problem, &named)
+        for g in failed.suspects(record.design, &conclusion.model, &best.inverse) {
+            let less = failed.without(g);
+            let other = gain(&less)?;
+            if rise(&other.inverse) < rise(&best.inverse) {
+                (best, failed) = (other, less);
+            }
+        }
+        let model = failed.kept(&conclusion.problem, &conclusion.model);
+        failed.dropped = conclusion.model.difference(&model).copied().collect();
+        if model != conclusion.model {
+            let problem = &conclusion.problem;
+            conclusion.solution = solved(self.robot, &self.log, problem, &model)?;
+        }
+        Ok((Conclusion { model, failed, ..conclusion }, best))
+    }
+
+    /// What a search came to, without what has no name over the whole record and what failed.
+    fn named(
+        &self,
+        searched: &Searched,
+        withheld: &Withheld,
+        failed: &Failed,
+    ) -> Result<Solved, LogError> {
+        let Searched { problem, model, solution } = searched;
+        let mut named = failed.kept(problem, model);
+        named.retain(|g| !withheld.contains_key(g));
+        if named == *model {
+            return Ok(solution.clone());
+        }
+        solved(self.robot, &self.log, problem, &named)
     }
 
     /// The findings of a conclusion, and what they leave out.
     pub fn told(&self, record: &Record, conclusion: &Conclusion) -> (Vec<Found>, Vec<RuledOut>) {
-        let Conclusion { problem, model, significance, solution, apart, withheld } = conclusion;
+        let Conclusion { problem, model, significance, solution, apart, withheld, failed } =
+            conclusion;
         let evidence = Evidence {
             selection: &record.selection(problem),
             model,
             significance,
             apart,
             withheld,
+            failed,
             seed: self.settings.seed,
         };
         let first = self.fitted(problem, model, solution);
@@ -268,22 +313,6 @@ impl Study<'_> {
         finished
     }
 
-    /// What is found by the search and by listening, the largest share first.
-    fn findings(&self, answer: &Answer) -> Vec<Finding> {
-        let heard = self.log.tones.iter().map(|tone| tone_finding(self.nominal, tone));
-        let limited = self.log.limits.iter().map(|limit| limit.finding(self.nominal));
-        let between = answer.between.iter().flat_map(|b| b.found.clone());
-        let found = answer.found.iter().map(|f| f.finding.clone());
-        let mut findings: Vec<Finding> = found.chain(between).chain(heard).chain(limited).collect();
-        findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
-        findings
-    }
-
-    fn ruled_out(&self, answer: &Answer) -> Vec<RuledOut> {
-        let between = answer.between.iter().flat_map(|b| &b.ruled_out);
-        answer.ruled_out.iter().chain(between).cloned().collect()
-    }
-
     /// A model as it was solved first, about the robot without findings.
     pub fn fitted<'b>(
         &'b self,
@@ -294,106 +323,4 @@ impl Study<'_> {
         let Self { robot: about, nominal, .. } = *self;
         Fitted { problem, model, weights: &solution.weights, about, nominal }
     }
-
-    fn report(&self, record: &Record, answer: &Answer) -> Diagnosis {
-        let floors = Floors::new(self.design, self.log.prepared);
-        let reports: Vec<(JointReport, Structure)> =
-            (0..self.design.joints()).map(|j| self.joint(record, answer, &floors, j)).collect();
-        let unexplained = reports.iter().filter_map(unexplained).collect();
-        let joints: Vec<JointReport> = reports.into_iter().map(|(j, _)| j).collect();
-        Diagnosis {
-            schema: SCHEMA,
-            robot: self.robot.name().to_owned(),
-            verdict: overall(&joints.iter().map(|j| j.verdict).collect::<Vec<_>>()),
-            joints,
-            findings: self.findings(answer),
-            unexplained,
-            ruled_out: self.ruled_out(answer),
-            gain: Gain { inverse: answer.gain.inverse.clone() },
-            data: self.data(record, answer),
-            warnings: Vec::new(),
-        }
-    }
-
-    fn joint(
-        &self,
-        record: &Record,
-        answer: &Answer,
-        floors: &Floors,
-        j: usize,
-    ) -> (JointReport, Structure) {
-        let problem = &answer.problem;
-        let inverse = &answer.gain.inverse;
-        let (torque_rms, _) = measured(record, &problem.of, j);
-        let tones = self.log.tones.iter().filter(|t| t.joint == j).count();
-        let limits = self.log.limits.iter().filter(|l| l.joint == j).count();
-        // What a search without a part of the record takes for a cause is none where the search
-        // over all of it has dropped it again.
-        let is_named = tones + limits > 0 || answer.found.iter().any(|f| f.fall[j].abs() > 0.0);
-        let residual = if is_named { answer.left[j].clone() } else { answer.gap[j].clone() };
-        let time = integrated_time(&residual);
-        let moved = self.design.moved[j];
-        let structure = if moved {
-            let parts = (record.blocks, answer.by_run.folds.as_slice());
-            Probe::new(self.robot, self.design, parts, j).structure(&residual)
-        } else {
-            Structure { share: 0.0, depends_on: Vec::new() }
-        };
-        let nominal_rms = inverse.rms_before_nm[j];
-        let remaining_rms = if is_named { inverse.rms_after_nm[j] } else { nominal_rms };
-        let (floor, source) =
-            floors.choose(j, remaining_rms * (1.0 - structure.share).sqrt(), time);
-        let lowered = |f: &&Found| f.fall[j] > record.practical[j].powi(2);
-        let situation = Situation {
-            inadequate: self.inadequate[j].clone(),
-            findings: answer.found.iter().filter(lowered).count() + tones + limits,
-            between: answer.between.as_ref().map_or(0, |b| b.at(&self.robot.links()[j].joint.name)),
-            torque_rms,
-            nominal_rms,
-            remaining_rms,
-            floor,
-            structure: structure.share,
-        };
-        let (verdict, because) = situation.verdict();
-        let samples = residual.iter().map(Vec::len).sum::<usize>() as f64;
-        let report = JointReport {
-            name: self.robot.links()[j].joint.name.clone(),
-            verdict,
-            because,
-            torque_rms_nm: torque_rms,
-            residual_rms_nm: nominal_rms,
-            remaining_rms_nm: remaining_rms,
-            noise_floor_rms_nm: floor,
-            noise_floor_from: source,
-            autocorrelation_time_s: time / self.design.rate_hz,
-            effective_samples: samples / time,
-            range: range(self.log.prepared, j),
-        };
-        (report, Structure { share: situation.unexplained(), ..structure })
-    }
-
-    fn data(&self, record: &Record, answer: &Answer) -> DataSummary {
-        let samples: usize = self.design.runs.iter().map(|r| r.time.len()).sum();
-        DataSummary {
-            runs: Vec::new(),
-            cutoff_hz: self.log.prepared.cutoff_hz,
-            cutoff_reason: self.log.prepared.cutoff_reason.clone(),
-            regression_rate_hz: self.design.rate_hz,
-            block_s: samples as f64 / record.blocks.len() as f64 / self.design.rate_hz,
-            blocks: record.blocks.len(),
-            hypotheses: answer.hypotheses + answer.between.as_ref().map_or(0, |b| b.hypotheses),
-        }
-    }
-}
-
-fn unexplained((joint, structure): &(JointReport, Structure)) -> Option<Unexplained> {
-    let left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
-    left.then(|| {
-        let ratio = joint.remaining_rms_nm / joint.residual_rms_nm.max(f64::MIN_POSITIVE);
-        Unexplained {
-            joint: joint.name.clone(),
-            share: (structure.share * ratio * ratio).min(1.0),
-            depends_on: structure.depends_on.clone(),
-        }
-    })
 }

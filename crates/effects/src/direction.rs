@@ -34,9 +34,26 @@ fn turn(stretch: &mut [f64], period_s: f64) {
     }
 }
 
+/// Where a joint stands for longer than 0.2 s, or stands at either end of the run: what holds it
+/// there is anything up to its dry friction.
+pub(crate) fn stands(qd: &[f64], rest: f64, period_s: f64) -> Vec<bool> {
+    let mut stands: Vec<bool> = qd.iter().map(|v| v.abs() < rest).collect();
+    let brief = |from: usize, to: usize| (to - from + 1) as f64 * period_s <= BRIEF_S;
+    let mut from = 0;
+    while from < stands.len() {
+        let length = stands[from..].iter().take_while(|s| **s == stands[from]).count();
+        let end = from + length;
+        if stands[from] && from > 0 && end < stands.len() && brief(from, end) {
+            stands[from..end].fill(false);
+        }
+        from = end;
+    }
+    stands
+}
+
 #[cfg(test)]
 mod tests {
-    use super::direction;
+    use super::{direction, stands};
 
     fn of(qd: &[f64]) -> Vec<f64> {
         direction(qd.iter().copied(), 1.0, 0.05)
@@ -53,5 +70,12 @@ mod tests {
         let long = [2.0, 0.5, 0.25, 0.0, -0.25, -0.5, -2.0];
         assert_eq!(of(&long), [1.0, 0.5, 0.25, 0.0, -0.25, -0.5, -1.0]);
         assert_eq!(of(&[0.5, 2.0, 0.25]), [0.5, 1.0, 0.25]);
+    }
+
+    #[test]
+    fn a_joint_stands_where_it_is_slow_for_long_or_at_either_end() {
+        let qd = [2.0, 0.5, 0.25, 0.0, -0.25, -0.5, -2.0, -0.5, 2.0, 0.0];
+        let long = [false, true, true, true, true, true, false, false, false, true];
+        assert_eq!(stands(&qd, 1.0, 0.05), long);
     }
 }

@@ -1,12 +1,12 @@
 use std::sync::OnceLock;
 
 use dynamics::{Dynamics, PARAMETERS_PER_LINK};
-use logs::{Prepared, rest_speeds};
+use logs::{JointNoise, Prepared, rest_speeds};
 use nalgebra::{UnitVector3, Vector3};
 use robot::{Actuator, Robot, SensingSide};
 
 use crate::cable_loop::Loop;
-use crate::direction::direction;
+use crate::direction::{direction, stands};
 use crate::dry_friction::dry_friction;
 use crate::give::{Give, curvature, rate};
 use crate::slopes::Slopes;
@@ -89,6 +89,9 @@ pub struct Frame {
     pub centre: Vec<f64>,
     /// Half that range (rad or m).
     pub reach: Vec<f64>,
+    /// Change of position that the logs resolve: the step of the encoder, or two standard deviations
+    /// of its noise behind four times the cut-off (rad or m).
+    pub resolution: Vec<f64>,
 }
 
 impl Frame {
@@ -98,8 +101,15 @@ impl Frame {
         let spans = (0..rest_speed.len()).map(|j| logs.span(j));
         let (centre, reach) =
             spans.map(|(low, high)| (0.5 * (low + high), 0.5 * (high - low))).unzip();
-        Self { rest_speed, centre, reach }
+        let resolution = logs.noise.iter().map(|noise| resolution(noise, logs.cutoff_hz)).collect();
+        Self { rest_speed, centre, reach, resolution }
     }
+}
+
+/// Change of position that a joint's encoder resolves (rad or m).
+fn resolution(noise: &JointNoise, cutoff_hz: f64) -> f64 {
+    let deviation = (4.0 * cutoff_hz * noise.position.density).sqrt();
+    noise.position.step.unwrap_or(0.0).max(2.0 * deviation)
 }
 
 impl Motion {
@@ -175,6 +185,17 @@ impl Motion {
     /// Number of samples.
     pub fn samples(&self) -> usize {
         self.q.first().map_or(0, Vec::len)
+    }
+
+    /// Where joint `j` stands for longer than 0.2 s or at either end, by the speed that is reported:
+    /// there its dry friction is anything up to the level, and the effort says nothing of it.
+    pub fn stands(&self, j: usize) -> Vec<bool> {
+        stands(&self.qd_reported[j], self.rest_speed[j], self.period_s)
+    }
+
+    /// Where joint `j` is at rest, however briefly, by the speed that is reported.
+    pub fn rests(&self, j: usize) -> Vec<bool> {
+        self.qd_reported[j].iter().map(|v| v.abs() < self.rest_speed[j]).collect()
     }
 
     /// What moving the link of joint `j` changes.

@@ -21,6 +21,10 @@ const SMALL: f64 = 0.002;
 /// Shortest way that is one (rad or m): drives have 0.2 to 5 mrad, and encoders count in tenths of that.
 const SHORTEST: f64 = 1e-4;
 
+/// The same in changes of position that the logs resolve: a shorter one is dry friction whose turn
+/// the encoder shows late.
+const RESOLVED: f64 = 2.0;
+
 /// Relative difference of the ways whose motions are compared.
 const STEP: f64 = 0.1;
 
@@ -89,17 +93,20 @@ impl Explain for PreslidingFriction {
     }
 
     /// To first order in the way, half the friction over a way is all of it over half the way.
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
         let (Place::Joint(j), [change, damping @ ..]) = (place, weights) else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
         let level = level(drive);
-        match drive.presliding.as_mut() {
-            Some(way) => *way += change,
-            None if level > 0.0 && *change > 0.0 => {
-                drive.presliding = Some(SMALL * change / level);
-            }
-            None => {}
+        let way = match drive.presliding {
+            Some(way) => way + change,
+            None if level > 0.0 => SMALL * change / level,
+            None => 0.0,
+        };
+        let resolved = frame.resolution.get(j).map_or(0.0, |r| RESOLVED * r);
+        if drive.presliding.is_some() || way > 0.0 {
+            // What is not resolved has no way, which is not sound.
+            drive.presliding = Some(if way >= resolved { way } else { 0.5 * SHORTEST });
         }
         if let [damping] = damping {
             drive.presliding_damping = Some(drive.presliding_damping.unwrap_or(0.0) + damping);

@@ -4,7 +4,8 @@ use robot::Robot;
 /// How large things are in a set of logs: what the priors of the weights are made from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
-    /// RMS of the measured effort of each joint (N·m or N).
+    /// RMS of the measured effort of each joint, or the larger friction that the robot is said to
+    /// have: that of a description in which it dwarfs all effort can be taken back whole (N·m or N).
     pub effort: Vec<f64>,
     /// Largest speed of each joint (rad/s or m/s).
     pub speed: Vec<f64>,
@@ -26,9 +27,16 @@ impl Scale {
             logs.runs.iter().flat_map(move |run: &PreparedRun| pick(&run.joints[j]).iter().copied())
         };
         let largest = |j, pick| all(j, pick).fold(0.0, |m: f64, x| m.max(x.abs()));
-        let rms = |j| {
-            let (n, sum) = all(j, |p| &p.effort).fold((0, 0.0), |(n, s), x| (n + 1, s + x * x));
+        let rms = |j, pick| {
+            let (n, sum) = all(j, pick).fold((0, 0.0), |(n, s), x| (n + 1, s + x * x));
             (sum / f64::from(n.max(1))).sqrt()
+        };
+        let effort = |j: usize| {
+            let drive = &robot.links()[j].actuator;
+            let level = drive.coulomb_forward.max(drive.coulomb_backward);
+            let friction = level + drive.viscous * largest(j, |p| &p.qd);
+            let gain = drive.transmission_ratio * drive.torque_gain;
+            rms(j, |p| &p.effort).max(gain.abs() * friction)
         };
         let range = |j| {
             let (low, high) = logs.span(j);
@@ -36,7 +44,7 @@ impl Scale {
         };
         let [link_mass, link_length] = Self::of_links(robot);
         Self {
-            effort: joints.clone().map(rms).collect(),
+            effort: joints.clone().map(effort).collect(),
             speed: joints.clone().map(|j| largest(j, |p| &p.qd)).collect(),
             acceleration: joints.clone().map(|j| largest(j, |p| &p.qdd)).collect(),
             range: joints.map(range).collect(),

@@ -234,12 +234,7 @@ impl Data {
 /// The prepared runs that are logs of these names or parts of them.
 pub(crate) fn runs_named(prepared: &Prepared, names: &[String]) -> Prepared {
     let is_meant = |run: &&PreparedRun| names.iter().any(|name| is_part_of(&run.name, name));
-    Prepared {
-        runs: prepared.runs.iter().filter(is_meant).cloned().collect(),
-        warnings: Vec::new(),
-        cutoff_reason: prepared.cutoff_reason.clone(),
-        cutoff_hz: prepared.cutoff_hz,
-    }
+    prepared.with_runs(prepared.runs.iter().filter(is_meant).cloned().collect())
 }
 
 /// Whether a prepared run is a log or, where it was split at gaps, a part of it.

@@ -161,7 +161,7 @@ impl Logs<'_> {
         let mut all = vec![Vec::new(); joints];
         for span in spans {
             let run = &self.prepared.runs[span.run];
-            let torque = model.torque(&Samples::new(&self.with(vec![run.clone()])));
+            let torque = model.torque(&Samples::new(&self.prepared.with_runs(vec![run.clone()])));
             let low_pass = LowPass::new(ORDER, self.prepared.cutoff_hz, run.rate_hz)?;
             let samples = samples_in(run, span);
             for (j, (joint, all)) in run.joints.iter().zip(&mut all).enumerate() {
@@ -181,14 +181,7 @@ impl Logs<'_> {
             let run = &self.prepared.runs[span.run];
             run.part(samples_in(run, span))
         };
-        Samples::new(&self.with(spans.iter().map(cut).collect()))
-    }
-
-    /// Other runs, prepared in the same way.
-    fn with(&self, runs: Vec<PreparedRun>) -> Prepared {
-        let (cutoff_hz, cutoff_reason) =
-            (self.prepared.cutoff_hz, self.prepared.cutoff_reason.clone());
-        Prepared { runs, cutoff_hz, cutoff_reason, warnings: Vec::new() }
+        Samples::new(&self.prepared.with_runs(spans.iter().map(cut).collect()))
     }
 }
 

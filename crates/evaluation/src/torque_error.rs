@@ -100,12 +100,7 @@ impl TorqueError {
 /// What a learned model leaves of each run.
 fn left_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogError> {
     let of = |run: &PreparedRun| {
-        let part = Prepared {
-            runs: vec![run.clone()],
-            warnings: Vec::new(),
-            cutoff_reason: test.cutoff_reason.clone(),
-            cutoff_hz: test.cutoff_hz,
-        };
+        let part = test.with_runs(vec![run.clone()]);
         let low_pass = LowPass::new(ORDER, test.cutoff_hz, run.rate_hz)?;
         Ok(in_band(run, &model.torque(&Samples::new(&part)), &low_pass))
     };

@@ -304,12 +304,7 @@ mod tests {
             time: vec![0.0],
             joints: vec![joint; 3],
         };
-        let samples = Samples::new(&logs::Prepared {
-            runs: vec![run],
-            cutoff_hz: 10.0,
-            cutoff_reason: String::new(),
-            warnings: Vec::new(),
-        });
+        let samples = Samples::new(&logs::Prepared::exact(vec![run], 10.0));
         let mut regression = Regression::new(&arm(), ColumnSet::INERTIAL);
         let error = regression.add_samples(&samples).unwrap_err();
         assert_eq!(error, LearnerError::WrongJoints { expected: 2, got: 3 });

@@ -1,9 +1,11 @@
 use robot::{Joint, Robot};
 
 use crate::{
-    Agreement, Channel, Channels, Run, cutoff, degrees,
-    filtered::Filtered,
+    Agreement, Channel, Channels, Run, choice,
+    clock::Fill,
+    degrees,
     run::{median, range},
+    sources::Comparison,
     uniform::{moving, uniform},
 };
 
@@ -173,16 +175,19 @@ fn quantisation_step(position: &[f64]) -> Option<f64> {
 /// Agreement of each joint's velocity column, over the longest piece of the run.
 fn agreements(run: &Run) -> Vec<Option<Agreement>> {
     let none = || vec![None; run.joints.len()];
-    let pieces = uniform(run, 0);
+    let pieces = uniform(run, 0, Fill::SAMPLES);
     let longest = pieces.into_iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s()));
     let Some(piece) = longest else { return none() };
     let pieces = [piece];
     let moves = moving(&pieces);
-    let (cutoff_hz, _) = cutoff::choose(&pieces, &moves);
-    match Filtered::of(&pieces[0], cutoff_hz) {
-        Ok(filtered) => (0..run.joints.len())
-            .map(|joint| if moves[0][joint] { filtered.velocity_agreement(joint) } else { None })
-            .collect(),
-        Err(_) => none(),
-    }
+    let Ok(choice) = choice::choose(std::slice::from_ref(run), &pieces, None) else {
+        return none();
+    };
+    let (cutoff_hz, motion_hz) = (choice.cutoff.cutoff_hz, choice.cutoff.motion_hz);
+    let comparison = Comparison { cutoff_hz, motion_hz };
+    let of = |joint: usize| match moves[0][joint] {
+        true => comparison.velocity_agreement(&pieces[0], joint),
+        false => None,
+    };
+    (0..run.joints.len()).map(of).collect()
 }

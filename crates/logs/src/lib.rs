@@ -17,6 +17,7 @@
 //! column alike.
 
 mod agreement;
+mod choice;
 mod clock;
 mod column_map;
 mod csv_file;
@@ -30,12 +31,20 @@ mod filtered;
 mod format;
 mod held;
 mod info;
+mod lattice;
+mod link_lag;
+mod motion_band;
+mod noise;
 mod parquet_file;
 mod plan;
 mod prepare;
+mod prepared;
 mod read;
+mod readings;
 mod rest;
 mod run;
+mod sources;
+mod spectrum;
 mod turns;
 mod uniform;
 mod unit;
@@ -51,9 +60,9 @@ pub use error::LogError;
 pub use filter::{LowPass, decimate};
 pub use held::centre_commands;
 pub use info::{Gap, JointInfo, LogInfo, log_info};
-pub use prepare::{
-    PrepareSettings, Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide, prepare,
-};
+pub use noise::{ChannelNoise, JointNoise, NoiseSource};
+pub use prepare::{PrepareSettings, prepare};
+pub use prepared::{Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide};
 pub use read::{ReadOptions, read_run};
 pub use rest::rest_speeds;
 pub use run::{Channel, Channels, Run};

@@ -1,8 +1,12 @@
 use crate::Prepared;
+use crate::filtered::WIDE;
 use crate::run::median;
 
 /// Least and largest speed that counts as rest, as shares of the largest speed in the logs.
-const REST_SHARES: [f64; 2] = [2e-4, 1e-2];
+const REST_SHARES: [f64; 2] = [2e-4, 0.1];
+
+/// The largest share that what a filter takes from the velocity makes rest of.
+const LARGEST_TAKEN: f64 = 1e-2;
 
 /// Speed that counts as rest, in standard deviations of the velocity's noise.
 const REST_OF_NOISE: f64 = 4.0;
@@ -11,24 +15,33 @@ const REST_OF_NOISE: f64 = 4.0;
 const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
 /// Speed below which each joint counts as at rest (rad/s or m/s): four standard deviations of
-/// the noise of its velocity, between 0.02 and 1 per cent of its largest speed.
+/// the noise of its velocity behind the wide filter, between 0.02 and 10 per cent of its largest speed.
 ///
-/// The noise is what the narrow filter takes from the velocity of the wide one. Where it takes
-/// nothing, the noise is not known and the larger bound holds.
+/// The noise is that of its channels, or what the narrow filter takes from the velocity of the wide
+/// one: that is also how a filter rings where a joint stops, and counts up to 1 per cent. Where
+/// neither tells anything 1 per cent is taken.
 pub fn rest_speeds(prepared: &Prepared) -> Vec<f64> {
     let joints = prepared.runs.first().map_or(0, |r| r.joints.len());
     (0..joints).map(|j| rest_speed(prepared, j)).collect()
 }
 
 fn rest_speed(prepared: &Prepared, j: usize) -> f64 {
-    let joints = || prepared.runs.iter().map(|r| &r.joints[j]);
-    let largest = joints().flat_map(|s| &s.wide.qd).fold(0.0, |most: f64, v| most.max(v.abs()));
-    let taken = joints().flat_map(|s| s.wide.qd.iter().zip(&s.qd)).map(|(w, n)| (w - n).abs());
-    let taken: Vec<f64> = taken.collect();
-    let noise = median(&taken) / MEDIAN_OF_NORMAL;
+    let velocities = prepared.runs.iter().flat_map(|r| &r.joints[j].wide.qd);
+    let largest = velocities.fold(0.0, |most: f64, v| most.max(v.abs()));
     let [low, high] = REST_SHARES.map(|share| share * largest);
-    let noise = if noise > 0.0 { noise } else { high };
-    (REST_OF_NOISE * noise).clamp(low, high).max(f64::MIN_POSITIVE)
+    let cutoff_hz = WIDE * prepared.cutoff_hz;
+    let known = prepared.noise.get(j).map_or(0.0, |noise| noise.velocity_rms(cutoff_hz));
+    let taken = taken(prepared, j);
+    let taken = if taken > 0.0 { taken } else { largest };
+    let speed = (REST_OF_NOISE * known).max((REST_OF_NOISE * taken).min(LARGEST_TAKEN * largest));
+    speed.clamp(low, high).max(f64::MIN_POSITIVE)
+}
+
+/// What the narrow filter takes from the velocity of the wide one, as a standard deviation.
+fn taken(prepared: &Prepared, j: usize) -> f64 {
+    let joints = prepared.runs.iter().map(|r| &r.joints[j]);
+    let taken = joints.flat_map(|s| s.wide.qd.iter().zip(&s.qd)).map(|(w, n)| (w - n).abs());
+    median(&taken.collect::<Vec<f64>>()) / MEDIAN_OF_NORMAL
 }
 
 #[cfg(test)]
@@ -62,12 +75,7 @@ mod tests {
             time: times,
             joints: vec![joint],
         };
-        Prepared {
-            runs: vec![run],
-            cutoff_hz: 10.0,
-            cutoff_reason: String::new(),
-            warnings: Vec::new(),
-        }
+        Prepared::exact(vec![run], 10.0)
     }
 
     #[test]

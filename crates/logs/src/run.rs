@@ -49,6 +49,37 @@ pub struct Channels {
     pub link_position: Option<Vec<f64>>,
 }
 
+impl Run {
+    /// The run without the samples of some seconds, each from its first to its last moment.
+    #[must_use]
+    pub fn without(&self, seconds: &[[f64; 2]]) -> Self {
+        let is_left = |t: &f64| !seconds.iter().any(|[from, to]| (*from..=*to).contains(t));
+        let left: Vec<bool> = self.time.iter().map(is_left).collect();
+        let keep = |x: &Vec<f64>| -> Vec<f64> {
+            x.iter().zip(&left).filter(|(_, left)| **left).map(|(x, _)| *x).collect()
+        };
+        let some = |x: &Option<Vec<f64>>| x.as_ref().map(keep);
+        let joint = |c: &Channels| Channels {
+            name: c.name.clone(),
+            position: keep(&c.position),
+            effort: keep(&c.effort),
+            velocity: some(&c.velocity),
+            acceleration: some(&c.acceleration),
+            desired_position: some(&c.desired_position),
+            desired_velocity: some(&c.desired_velocity),
+            desired_acceleration: some(&c.desired_acceleration),
+            commanded_effort: some(&c.commanded_effort),
+            link_position: some(&c.link_position),
+        };
+        Self {
+            time: keep(&self.time),
+            joints: self.joints.iter().map(joint).collect(),
+            extra: self.extra.iter().map(|(name, x)| (name.clone(), keep(x))).collect(),
+            ..self.clone()
+        }
+    }
+}
+
 /// The signals a joint may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Channel {

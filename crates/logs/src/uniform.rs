@@ -1,7 +1,6 @@
 use crate::{
     Channel, LogError, Run,
-    clock::{Piece, pieces},
-    differentiate::differentiate,
+    clock::{Fill, Piece, pieces},
     run::range,
 };
 
@@ -36,16 +35,9 @@ impl UniformRun {
     }
 }
 
-impl UniformJoint {
-    /// The measured velocity, or the derivative of the position where there is none.
-    pub(crate) fn raw_velocity(&self, rate_hz: f64) -> Vec<f64> {
-        self.velocity.clone().unwrap_or_else(|| differentiate(&self.q, rate_hz))
-    }
-}
-
 /// The pieces of one run, each on its own uniform clock.
-pub(crate) fn uniform(run: &Run, index: usize) -> Vec<UniformRun> {
-    let pieces = pieces(&run.time);
+pub(crate) fn uniform(run: &Run, index: usize, fill: Fill) -> Vec<UniformRun> {
+    let pieces = pieces(&run.time, fill);
     let several = pieces.len() > 1;
     let named = pieces.iter().enumerate().map(|(number, piece)| {
         let name = match several {
@@ -75,6 +67,9 @@ fn resampled(run: &Run, index: usize, name: String, piece: &Piece) -> UniformRun
     UniformRun { run: index, name, rate_hz: piece.rate_hz, deviation_s, time, joints }
 }
 
+/// Least range of a joint that moves, as a share of the largest range of any joint.
+pub(crate) const MOVING_SHARE: f64 = 0.05;
+
 /// Which joints move, per run: those whose position ranges over a twentieth of the
 /// largest range of any joint in any run, and over a thousandth of a radian or metre.
 pub(crate) fn moving(runs: &[UniformRun]) -> Vec<Vec<bool>> {
@@ -84,7 +79,7 @@ pub(crate) fn moving(runs: &[UniformRun]) -> Vec<Vec<bool>> {
     };
     let largest =
         runs.iter().flat_map(|r| &r.joints).map(|joint| span(&joint.q)).fold(0.0, f64::max);
-    let least = (0.05 * largest).max(1e-3);
+    let least = (MOVING_SHARE * largest).max(1e-3);
     runs.iter().map(|r| r.joints.iter().map(|joint| span(&joint.q) >= least).collect()).collect()
 }
 

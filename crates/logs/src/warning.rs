@@ -62,6 +62,16 @@ pub enum LogWarning {
         /// The joint.
         joint: String,
     },
+    /// The second encoder of a joint is on another clock than the first.
+    #[error("joint {joint}: its link_position is {} (standard error {:.2} ms) against its position; it was moved by that", late(*lag_s), 1e3 * lag_std_s)]
+    LinkLag {
+        /// The joint.
+        joint: String,
+        /// How late the second encoder is (s).
+        lag_s: f64,
+        /// Standard error of that (s).
+        lag_std_s: f64,
+    },
     /// The clock was not uniform.
     #[error("run {run}: its clock is not uniform (steps differ by up to {:.3} ms from the usual one); it was resampled at {rate_hz} Hz", 1e3 * deviation_s)]
     Resampled {
@@ -74,17 +84,28 @@ pub enum LogWarning {
     },
     /// A run has gaps that are too long to be filled.
     #[error(
-        "run {run}: {gaps} gaps of more than {longest_filled} samples; it was split there, pieces under {shortest_s:.3} s left out"
+        "run {run}: {gaps} gaps of more than {:.0} ms; it was split there, pieces under {shortest_s:.3} s left out",
+        1e3 * longest_s
     )]
     Split {
         /// The run.
         run: String,
         /// Number of gaps.
         gaps: usize,
-        /// The longest gap that is filled (samples).
-        longest_filled: usize,
+        /// The longest gap that is filled (s).
+        longest_s: f64,
         /// The shortest piece kept (s).
         shortest_s: f64,
+    },
+    /// Much of the acceleration of a joint is noise.
+    #[error("joint {joint}: noise is {:.0} % of its acceleration below {cutoff_hz:.1} Hz; what its inertia does cannot be told from it", 100.0 * share)]
+    NoisyAcceleration {
+        /// The joint.
+        joint: String,
+        /// Noise over acceleration, both RMS.
+        share: f64,
+        /// Cut-off of the low-pass (Hz).
+        cutoff_hz: f64,
     },
     /// Many samples of the effort sit at its extreme values.
     #[error("run {run}: {:.1} % of the effort of joint {joint} sits at its extreme values: the drive or its sensor may saturate", 100.0 * share)]

@@ -228,7 +228,12 @@ mod tests {
         }
         let logs = log(&robot, |v| 0.2 * v);
         let found = design(&question(&robot, friction(1)), Some(&logs), &SHORT).unwrap();
-        let frame = Frame { rest_speed: vec![1e-3; 2], centre: vec![0.0; 2], reach: vec![1.0; 2] };
+        let frame = Frame {
+            rest_speed: vec![1e-3; 2],
+            centre: vec![0.0; 2],
+            reach: vec![1.0; 2],
+            resolution: vec![0.0; 2],
+        };
         let motion = found.motion.unwrap().motion;
         let along = Record::of_motion(&motion, 500.0).evaluate(&robot, &frame);
         for (torque, limit) in along.torque.iter().zip(limits) {

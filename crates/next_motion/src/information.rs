@@ -238,7 +238,12 @@ mod tests {
         };
         let [q, qd, qdd] = [0, 1, 2].map(|d| vec![signal(d)]);
         let record = Record { state: [q, qd, qdd], period_s: 1.0 / rate_hz };
-        let frame = Frame { rest_speed: vec![1e-6], centre: vec![0.0], reach: vec![1.0] };
+        let frame = Frame {
+            rest_speed: vec![1e-6],
+            centre: vec![0.0],
+            reach: vec![1.0],
+            resolution: vec![0.0],
+        };
         let at = |kind| Hypothesis { kind, place: Place::Joint(0) };
         let layout = Layout {
             hypotheses: vec![at(EffectKind::CableSpring), at(EffectKind::RotorInertia)],

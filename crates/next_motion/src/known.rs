@@ -56,6 +56,7 @@ impl Known {
                 rest_speed: each(|u| REST_SHARE * u.speed),
                 centre: each(|u| u.middle),
                 reach: each(|u| u.half),
+                resolution: vec![0.0; usable.len()],
             },
             scale: supposed(robot),
             information: layout.nothing(),

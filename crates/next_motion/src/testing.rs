@@ -61,6 +61,7 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
         rest_speed: vec![1e-3; joints],
         centre: vec![0.0; joints],
         reach: vec![1.0; joints],
+        resolution: vec![0.0; joints],
     };
     let motion = Record::of_run(&run, 1).evaluate(robot, &frame);
     for (joint, effort) in run.joints.iter_mut().zip(&motion.effort) {
@@ -68,5 +69,5 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
     }
     let last = &mut run.joints[joints - 1];
     last.effort.iter_mut().zip(&last.qd).for_each(|(e, v)| *e += extra(*v));
-    Prepared { runs: vec![run], cutoff_hz: 4.0, cutoff_reason: String::new(), warnings: Vec::new() }
+    Prepared::exact(vec![run], 4.0)
 }

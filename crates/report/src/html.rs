@@ -8,7 +8,10 @@ use crate::numbers::{percent, significant};
 use crate::places::listed;
 use crate::residual::{ResidualRow, residual_rows};
 use crate::sentence::{bottom_line, verdict_sentence};
-use crate::tables::{Cause, JointRow, RuledOutRow, cause, class_of, joint_rows, ruled_out};
+use crate::spectra::spectra;
+use crate::tables::{
+    Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, negligible, ruled_out,
+};
 use crate::{Chart, Provenance, Report, ReportError, ResidualModel, json};
 
 /// Joints whose figures are shown without a click; never one whose data are inadequate.
@@ -44,10 +47,12 @@ struct Page<'a> {
     bottom_line: String,
     warnings: &'a [String],
     joints: Vec<JointRow>,
+    spectra: Vec<String>,
     folds: Vec<Fold<'a>>,
     forward: Option<ForwardTable>,
     drift: String,
     causes: Vec<Cause>,
+    negligible: Vec<NegligibleRow>,
     figures: Vec<JointSection>,
     left: Vec<Left>,
     residual: Option<&'a ResidualModel>,
@@ -113,10 +118,12 @@ impl<'a> Page<'a> {
             bottom_line: bottom_line(report),
             warnings: &diagnosis.warnings,
             joints: joint_rows(report),
+            spectra: spectra(report)?,
             folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
             forward: forward_table(report),
             drift: report.forward.and_then(drift_chart).map_or_else(String::new, |c| c.svg()),
             causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
+            negligible: negligible(report),
             figures: sections(report),
             left: left(diagnosis),
             residual: report.residual,
@@ -237,6 +244,32 @@ mod tests {
             "<code>models/named-gp.parquet</code>",
             "position of elbow (21 % of its range)",
             "<li>one thing to know</li>",
+        ] {
+            assert!(page.contains(expected), "{expected} is missing");
+        }
+    }
+
+    #[test]
+    fn spectra_and_what_is_negligible_are_shown_where_there_are_some() {
+        let mut sample = sample::arm();
+        let without = super::html(&sample.report()).unwrap();
+        assert!(!without.contains("over frequency</summary>") && !without.contains("negligible<"));
+        let spectrum = &mut sample.diagnosis.joints[1].spectrum;
+        spectrum.hz = vec![0.1, 1.0];
+        (spectrum.left_nm2_per_hz, spectrum.noise_nm2_per_hz) = (vec![1.0; 2], vec![0.1; 2]);
+        sample.diagnosis.negligible = vec![diagnosis::Negligible {
+            at: sample.diagnosis.findings[1].at.clone(),
+            most_at: "elbow".into(),
+            rms_nm: 0.0123,
+            least_nm: 0.05,
+        }];
+        let page = super::html(&sample.report()).unwrap();
+        assert_eq!(page.matches("<svg").count(), without.matches("<svg").count() + 1);
+        for expected in [
+            "What is left beside the noise, over frequency</summary>",
+            r#"aria-label="elbow: what is left 1.0 to 1.0 (N·m)²/Hz, noise 0.10 to 0.10"#,
+            "IN02 inertial parameters</th><td>of link elbow_link</td><td>elbow</td>",
+            r#"<td class="n">0.012 N·m</td><td class="n">0.050 N·m</td>"#,
         ] {
             assert!(page.contains(expected), "{expected} is missing");
         }

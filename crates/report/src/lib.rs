@@ -41,6 +41,7 @@ mod run;
 mod sample;
 mod sentence;
 mod sheet;
+mod spectra;
 mod tables;
 mod terminal;
 mod tracking;

@@ -9,6 +9,8 @@ pub(crate) struct JointUnits {
     pub position: &'static str,
     pub velocity: &'static str,
     pub effort: &'static str,
+    /// One-sided spectral density of the effort.
+    pub density: &'static str,
     /// What the effort is: `torque` or `force`.
     pub load: &'static str,
 }
@@ -20,9 +22,15 @@ impl JointUnits {
         let is_rotation =
             index.and_then(|i| robot.links().get(i)).is_none_or(|l| l.joint.kind.is_rotation());
         if is_rotation {
-            Self { position: "rad", velocity: "rad/s", effort: "N·m", load: "torque" }
+            Self {
+                position: "rad",
+                velocity: "rad/s",
+                effort: "N·m",
+                density: "(N·m)²/Hz",
+                load: "torque",
+            }
         } else {
-            Self { position: "m", velocity: "m/s", effort: "N", load: "force" }
+            Self { position: "m", velocity: "m/s", effort: "N", density: "N²/Hz", load: "force" }
         }
     }
 
@@ -104,5 +112,7 @@ mod tests {
         let robot = Robot::new("arm", nalgebra::Vector3::zeros(), links).unwrap();
         assert_eq!(JointUnits::of(&robot, "elbow").said("0.4 N m RMS"), "0.4 N RMS");
         assert_eq!(JointUnits::of(&robot, "shoulder").said("0.4 N m RMS"), "0.4 N·m RMS");
+        let densities = ["elbow", "shoulder"].map(|joint| JointUnits::of(&robot, joint).density);
+        assert_eq!(densities, ["N²/Hz", "(N·m)²/Hz"]);
     }
 }

@@ -3,8 +3,8 @@
 use catalogue::EffectKind;
 use diagnosis::{
     DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
-    JointReport, JointTraces, NoiseFloorSource, RuledOut, RunSummary, RunTraces, SCHEMA,
-    Unexplained, Verdict,
+    JointReport, JointTraces, NoiseFloorSource, NoiseSpectrum, RuledOut, RunSummary, RunTraces,
+    SCHEMA, Unexplained, Verdict,
 };
 use quick_xml::Reader;
 use quick_xml::events::Event;
@@ -118,6 +118,7 @@ fn diagnosis(names: &[&str]) -> Diagnosis {
             joint(names[1], Verdict::PartlyExplained),
         ],
         findings: vec![coulomb(names[0]), inertia("elbow_link")],
+        negligible: Vec::new(),
         unexplained: vec![Unexplained {
             joint: names[1].into(),
             share: 0.29,
@@ -167,7 +168,8 @@ fn joint(name: &str, verdict: Verdict) -> JointReport {
         residual_rms_nm: 2.1,
         remaining_rms_nm: 0.4,
         noise_floor_rms_nm: 0.35,
-        noise_floor_from: NoiseFloorSource::FlexiblePredictor,
+        noise_floor_from: NoiseFloorSource::Effort,
+        spectrum: NoiseSpectrum::default(),
         autocorrelation_time_s: 0.4,
         effective_samples: 120.0,
         range: 2.5,

@@ -1,5 +1,5 @@
 use catalogue::EffectKind;
-use diagnosis::{EffectAt, Estimate, Finding, NoiseFloorSource, RuledOut, Verdict};
+use diagnosis::{EffectAt, Estimate, Finding, Negligible, NoiseFloorSource, RuledOut, Verdict};
 
 use crate::Report;
 use crate::numbers::{interval, percent, significant, unit};
@@ -75,8 +75,13 @@ pub(crate) fn class_of(verdict: Verdict) -> &'static str {
 pub(crate) fn words_for_floor(source: NoiseFloorSource) -> [&'static str; 2] {
     match source {
         NoiseFloorSource::Repeats => ["repeats", "what differs between runs of one motion"],
-        NoiseFloorSource::HighFrequencyBand => ["white", "white noise measured above the band"],
-        NoiseFloorSource::FlexiblePredictor => ["state", "what no function of the state predicts"],
+        NoiseFloorSource::Effort => {
+            ["effort", "the effort's own noise, above the motion or of its step"]
+        }
+        NoiseFloorSource::Encoders => {
+            ["encoders", "noise of the encoders, carried by the arm's inertia"]
+        }
+        NoiseFloorSource::Unknown => ["unknown", "of which the logs tell nothing"],
     }
 }
 
@@ -184,6 +189,31 @@ fn parameter_row(estimate: &Estimate, kind: EffectKind) -> ParameterRow {
         nominal: format!("{}{space}{unit}", significant(estimate.nominal, 3)),
         determined: estimate.determined,
     }
+}
+
+/// An effect that is seen and does not matter, as text.
+pub(crate) struct NegligibleRow {
+    pub effect: String,
+    pub place: String,
+    /// The joint at which it matters most, with its size there and the size that would matter.
+    pub joint: String,
+    pub size: String,
+    pub least: String,
+}
+
+/// What is seen and does not matter.
+pub(crate) fn negligible(report: &Report) -> Vec<NegligibleRow> {
+    let row = |seen: &Negligible| {
+        let effort = JointUnits::of(report.robot, &seen.most_at).effort;
+        NegligibleRow {
+            effect: seen.at.effect.label(),
+            place: place(&seen.at),
+            joint: seen.most_at.clone(),
+            size: format!("{} {effort}", significant(seen.rms_nm, 2)),
+            least: format!("{} {effort}", significant(seen.least_nm, 2)),
+        }
+    };
+    report.diagnosis.negligible.iter().map(row).collect()
 }
 
 /// An effect that was looked for and not found, as text.

@@ -60,6 +60,24 @@ pub fn text(report: &Report) -> String {
     out
 }
 
+/// Whether nothing is left open at a joint.
+fn is_closed(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Consistent | Verdict::Explained)
+}
+
+/// What is seen at a joint and does not matter.
+fn negligible(out: &mut String, report: &Report, joint: &str) {
+    for seen in report.diagnosis.negligible.iter().filter(|n| n.most_at == joint) {
+        let said = format!(
+            "seen and negligible: {}, {} of the {} N m RMS that would matter",
+            name_beside_joint(&seen.at),
+            significant(seen.rms_nm, 2),
+            significant(seen.least_nm, 2)
+        );
+        note(out, &JointUnits::of(report.robot, joint).said(&said));
+    }
+}
+
 fn is_adequate(joint: &JointReport) -> bool {
     joint.verdict != Verdict::DataInadequate
 }
@@ -110,10 +128,11 @@ fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
     if found.is_empty() && is_adequate(joint) {
         elsewhere(out, report, index);
     }
-    if found.is_empty() || !is_adequate(joint) {
+    found.iter().for_each(|f| finding(out, f));
+    if found.is_empty() || !is_closed(joint.verdict) {
         note(out, &JointUnits::of(report.robot, &joint.name).said(&joint.because));
     }
-    found.iter().for_each(|f| finding(out, f));
+    negligible(out, report, &joint.name);
     for left in report.diagnosis.unexplained.iter().filter(|u| u.joint == joint.name) {
         let signals: Vec<String> = left
             .depends_on
@@ -293,18 +312,18 @@ RMS (72 % less).
 error              measured minus predicted torque, nominal -> extended model, of the torque itself
 gap                mean square of the nominal error; shares of similar causes need not add up
 gain               fall of the held-out mean square error when the cause is added last
-noise (state)      what no function of the state predicts
+noise (effort)     the effort's own noise, above the motion or of its step
 
 links and whole robot
   IN02 inertial parameters of elbow_link                                71 % of the gap, gain 62 %
     mass 2.50 kg (2.30 to 2.70)
     not determined by this log: com y
 
-shoulder           explained         error 2.10 -> 0.400 of 5.00 N·m RMS, noise 0.350 (state)
+shoulder           explained         error 2.10 -> 0.400 of 5.00 N·m RMS, noise 0.350 (effort)
   FR02 Coulomb friction    2.00 N·m (1.80 to 2.20)                      71 % of the gap, gain 62 %
     may as well be FR01 viscous friction at shoulder
 
-elbow              partly explained  error 0.900 -> 0.500 of 5.00 N·m RMS, noise 0.350 (state)
+elbow              partly explained  error 0.900 -> 0.500 of 5.00 N·m RMS, noise 0.350 (effort)
     no cause of its own; affected by IN02 inertial parameters of elbow_link
     the reason in a sentence
     left: 29 % of the gap has no name, it follows position of elbow (31 %)

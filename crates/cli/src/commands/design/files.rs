@@ -174,6 +174,7 @@ fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
         rest_speed: vec![REST_SPEED; joints],
         centre: vec![0.0; joints],
         reach: vec![1.0; joints],
+        resolution: vec![0.0; joints],
     };
     let along = Along::new(robot, &frame, [q.clone(), qd.clone(), qdd.clone()], rate_hz.recip());
     let channels = |(j, name): (usize, &str)| Channels {

@@ -183,12 +183,7 @@ fn samples(robot: &Robot, n: usize, seed: u64) -> Samples {
         time: (0..n).map(|i| i as f64).collect(),
         joints: joints.collect(),
     };
-    Samples::new(&Prepared {
-        runs: vec![run],
-        cutoff_hz: f64::INFINITY,
-        cutoff_reason: String::new(),
-        warnings: Vec::new(),
-    })
+    Samples::new(&Prepared::exact(vec![run], f64::INFINITY))
 }
 
 /// A number from 0 to 1, spread evenly over `i` in another way for every `d`.

@@ -109,12 +109,7 @@ fn part(prepared: &mut Prepared, role: &str) -> Prepared {
     let all = std::mem::take(&mut prepared.runs);
     let (runs, others) = all.into_iter().partition(|run| is_of(&run.name));
     prepared.runs = others;
-    Prepared {
-        runs,
-        cutoff_hz: prepared.cutoff_hz,
-        cutoff_reason: prepared.cutoff_reason.clone(),
-        warnings: Vec::new(),
-    }
+    prepared.with_runs(runs)
 }
 
 /// Refuses a recording among the first `tested` runs that comes again among the others.

@@ -1,0 +1,50 @@
+use inspection::{Observation, ObservationKind, Spoils, inspect};
+use logs::Run;
+use robot::Robot;
+
+/// Fewest samples of a run that is worth keeping.
+const FEWEST_SAMPLES: usize = 100;
+
+/// Logs after a look at the whole of them.
+#[derive(Debug)]
+pub(crate) struct Inspected {
+    /// The runs without the seconds that are spoilt.
+    pub runs: Vec<Run>,
+    /// Why the effort of a joint cannot be used, for every joint of which that is so.
+    pub spoilt: Vec<Option<String>>,
+    /// What was seen, each in a sentence.
+    pub warnings: Vec<String>,
+}
+
+/// Looks at whole logs: a turned sign, another unit, a frozen encoder. No cause is sought where they
+/// spoil what it would be sought in.
+pub(crate) fn inspected(robot: &Robot, runs: &[Run]) -> Inspected {
+    let mut seen = inspect(robot, runs);
+    // A drive at its limit gives the torque of the limit, and what it was asked for beyond is a cause.
+    seen.retain(|o| !matches!(o.kind, ObservationKind::AtLimit { .. }));
+    let said = |o: &Observation| o.sentence(robot, runs);
+    let reason = |j: usize| {
+        let spoils = |o: &&Observation| match o.spoils {
+            Spoils::Everything => true,
+            Spoils::Joints => o.joints.contains(&j),
+            Spoils::Stretches | Spoils::Nothing => false,
+        };
+        seen.iter().find(spoils).map(said)
+    };
+    let spoilt = (0..robot.joint_count()).map(reason).collect();
+    let warnings = seen.iter().map(said).collect();
+    Inspected { runs: without_spoilt_seconds(runs, &seen), spoilt, warnings }
+}
+
+/// The runs without spoilt seconds; a run of which too little is left is left out, unless that is so
+/// of all.
+fn without_spoilt_seconds(runs: &[Run], seen: &[Observation]) -> Vec<Run> {
+    let spoilt = |run: usize| -> Vec<[f64; 2]> {
+        let observations = seen.iter().filter(|o| o.spoils == Spoils::Stretches);
+        let stretches = observations.flat_map(|o| &o.stretches).filter(|s| s.run == run);
+        stretches.map(|s| [s.from_s, s.to_s]).collect()
+    };
+    let kept = runs.iter().enumerate().map(|(r, run)| run.without(&spoilt(r)));
+    let kept: Vec<Run> = kept.filter(|run| run.time.len() >= FEWEST_SAMPLES).collect();
+    if kept.is_empty() { runs.to_vec() } else { kept }
+}
