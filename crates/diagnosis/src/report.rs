@@ -1,3 +1,5 @@
+use robot::TorqueSource;
+
 use crate::design::{JointDesign, RunDesign};
 use crate::evaluate::REGRESSION_RATE;
 use crate::extent::range;
@@ -64,6 +66,7 @@ impl Study<'_> {
             remaining_rms: rms(&rest),
             samples: independent(&rest),
             noise: noise.rms(j),
+            is_command: self.nominal.links()[j].actuator.torque_source == TorqueSource::Commanded,
             near_rest: self.near_rest(j),
             failed: answer.failed.is_told_at(self.design, j),
             practical: self.settings.open_share,

@@ -1,9 +1,10 @@
 use crate::result::{NoiseFloorSource, Verdict};
 
 /// How far above the noise what is left may be and still be noise, whatever the length of the log: a
-/// density read from a spectrum is some ten per cent off, and the steps of encoders that a controller
-/// turns into effort are not white.
+/// density read from a spectrum is some ten per cent off. A command holds besides what a controller
+/// makes of the steps of encoders, which is not white.
 const OF_NOISE: f64 = 1.2;
+const OF_COMMANDED_NOISE: f64 = 1.6;
 
 /// Standard errors of an RMS, `1 / sqrt(2 n)` of it for `n` independent samples, that it may be besides.
 const ERRORS: f64 = 3.0;
@@ -31,6 +32,8 @@ pub(crate) struct Situation {
     pub samples: f64,
     /// Noise of the effort, and where it comes from.
     pub noise: (f64, NoiseFloorSource),
+    /// Whether the effort is what a controller asked for.
+    pub is_command: bool,
     /// RMS of dry friction that nobody knows while the joint turns (N·m or N).
     pub near_rest: f64,
     /// Share of the effort below which what is left does not matter.
@@ -56,8 +59,9 @@ impl Situation {
 
     /// Whether what is left is noise.
     fn is_noise(&self) -> bool {
+        let most = if self.is_command { OF_COMMANDED_NOISE } else { OF_NOISE };
         let error = (2.0 * self.samples.max(1.0)).sqrt().recip();
-        self.remaining_rms <= (OF_NOISE + ERRORS * error) * self.floor()
+        self.remaining_rms <= (most + ERRORS * error) * self.floor()
     }
 
     /// Whether what is left beyond the noise does not matter.
@@ -176,6 +180,7 @@ mod tests {
             remaining_rms,
             samples: 450.0,
             noise: (noise, NoiseFloorSource::Effort),
+            is_command: false,
             near_rest: 0.0,
             practical: 0.02,
             structure: 0.0,

@@ -128,9 +128,13 @@ fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
     if found.is_empty() && is_adequate(joint) {
         elsewhere(out, report, index);
     }
+    let because = JointUnits::of(report.robot, &joint.name).said(&joint.because);
+    if found.is_empty() || !is_adequate(joint) {
+        note(out, &because);
+    }
     found.iter().for_each(|f| finding(out, f));
-    if found.is_empty() || !is_closed(joint.verdict) {
-        note(out, &JointUnits::of(report.robot, &joint.name).said(&joint.because));
+    if !found.is_empty() && is_adequate(joint) && !is_closed(joint.verdict) {
+        note(out, &because);
     }
     negligible(out, report, &joint.name);
     for left in report.diagnosis.unexplained.iter().filter(|u| u.joint == joint.name) {
