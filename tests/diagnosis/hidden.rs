@@ -204,12 +204,13 @@ fn hidden_pairs_are_both_found() {
     }
 }
 
-/// In columns about the robot without either the two are one. The wrist's encoder leaves a band in which
-/// either may have the name; both are said.
+/// In columns about the robot without either the two are one.
 #[test]
-fn hidden_delays_are_named_or_said_beside_a_lag_in_lively_motions() {
+fn hidden_delays_are_told_from_lags_in_lively_motions() {
     let found = score_along(Hidden::One(E::ActuatorDelay), 1, LIVELY);
-    assert!(found.as_one_of, "{}", found.words());
+    assert!(found.exactly, "{}", found.words());
+    assert!(!names(&found).any(|at| at.effect == E::ActuatorLag), "{}", found.words());
+    check_sizes(&found);
 }
 
 /// Where a joint turns, its direction is not known, and its friction is as large as around it.

@@ -57,11 +57,15 @@ fn p_values(robot: &Robot, files: &[PathBuf]) -> Vec<f64> {
     let prepared = prepare(&runs, &PrepareSettings::default()).unwrap();
     let moved: Vec<bool> = inadequate(robot, &prepared).iter().map(Option::is_none).collect();
     let design = Design::new(robot, &Log::new(&prepared, &moved)).unwrap();
-    let blocks = blocks(&design, 1.0);
-    let grams = Grams::new(&design, &blocks);
     let practical = vec![0.0; design.joints()];
+    // Blocks as a diagnosis cuts them: by the memory of what a model of everything leaves.
+    let rough = blocks(&design, 1.0);
+    let grams = Grams::new(&design, &rough);
     let record =
-        Record { robot, design: &design, blocks: &blocks, grams: &grams, practical: &practical };
+        Record { robot, design: &design, blocks: &rough, grams: &grams, practical: &practical };
+    let blocks = blocks(&design, record.memory());
+    let grams = Grams::new(&design, &blocks);
+    let record = Record { blocks: &blocks, grams: &grams, ..record };
     let all: Vec<usize> = (0..blocks.len()).collect();
     let (problem, model) = record.search(&all);
     let weights = problem.fit(&model).unwrap().expand(design.width);
@@ -103,7 +107,7 @@ fn recorded_residuals_make_few_impossible_causes_significant() {
         if arm == "kuka_lwr4" {
             // Above nominal, and known to be: slow sines, whose moved columns resemble them,
             // and a residual that repeats from run to run. 24 when repeats are flipped apart.
-            assert!(alarms <= 16 && p.len() == 70, "{alarms} of {}", p.len());
+            assert!(alarms <= 14 && p.len() == 70, "{alarms} of {}", p.len());
         } else {
             counts = (counts.0 + alarms, counts.1 + p.len());
         }

@@ -70,7 +70,8 @@ pub struct JointReport {
     pub verdict: Verdict,
     /// Why, in a sentence.
     pub because: String,
-    /// RMS of the measured effort in the band of the diagnosis (N m or N).
+    /// RMS of the measured effort in the band of the diagnosis, as the two below where the joint
+    /// moves: while it stands for long it is held by any part of its dry friction (N m or N).
     pub torque_rms_nm: f64,
     /// RMS of measured minus nominal effort.
     pub residual_rms_nm: f64,

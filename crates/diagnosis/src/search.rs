@@ -38,6 +38,17 @@ impl<'a> Record<'a> {
         rough.reweighted(noise.weights(&self.design.moved))
     }
 
+    /// Median over joints of the autocorrelation time of what a model of everything leaves (samples).
+    pub fn memory(&self) -> f64 {
+        let all: Vec<usize> = (0..self.blocks.len()).collect();
+        let problem = self.problem(&all);
+        let noise = problem.noise(&problem.everything());
+        let moved = noise.time.iter().zip(&self.design.moved).filter(|(_, m)| **m);
+        let mut times: Vec<f64> = moved.map(|(t, _)| *t).collect();
+        times.sort_by(f64::total_cmp);
+        times.get(times.len() / 2).copied().unwrap_or(1.0)
+    }
+
     /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by the noise
     /// that they leave.
     ///

@@ -130,13 +130,7 @@ impl Study<'_> {
             grams: &grams,
             practical: &practical,
         };
-        let all: Vec<usize> = (0..rough.len()).collect();
-        let problem = record.problem(&all);
-        let noise = problem.noise(&problem.everything());
-        let moved = noise.time.iter().zip(&self.design.moved).filter(|(_, m)| **m);
-        let mut times: Vec<f64> = moved.map(|(t, _)| *t).collect();
-        times.sort_by(f64::total_cmp);
-        Ok(blocks(self.design, times.get(times.len() / 2).copied().unwrap_or(1.0)))
+        Ok(blocks(self.design, record.memory()))
     }
 
     /// Least fall of each joint's held-out RMS error that counts (N·m or N).

@@ -103,7 +103,7 @@ impl Situation {
             (0, 0) => "the description leaves",
             _ => "the findings leave",
         };
-        let left = format!("{subject} {:.3} N m RMS", self.remaining_rms);
+        let left = format!("{subject} {:.3} N m RMS while it moves", self.remaining_rms);
         if self.is_noise() {
             return format!("{left}, within the noise: {}", self.of_noise());
         }
