@@ -46,14 +46,14 @@ pub(crate) struct Fold {
 ///
 /// They are so short that every joint has about 24 of them in which it moves, in motions that differ:
 /// what a joint does in one log of six, or in three repeats of one motion, is cut as finely as one log
-/// of that alone would be. Where the whole record is too short for that, blocks are shortened until
-/// there are sixteen, and nowhere else below five autocorrelation times.
+/// of that alone would be. Where a joint moves too briefly for that, blocks are shortened until it has
+/// sixteen.
 pub(crate) fn blocks(design: &Design, autocorrelation: f64) -> Vec<Block> {
     let lengths: Vec<usize> = design.runs.iter().map(|r| r.time.len()).collect();
     let total = lengths.iter().sum::<usize>() as f64;
     let least = least_told(design).unwrap_or(total);
     let wanted = (least / WANTED_BLOCKS).max(BLOCK_TIMES * autocorrelation);
-    let length = wanted.min(total / FEWEST_BLOCKS as f64).max(FEWEST_SAMPLES);
+    let length = wanted.min(least / FEWEST_BLOCKS as f64).max(FEWEST_SAMPLES);
     let length = length.max(total / MOST_BLOCKS);
     let cut = |(run, &n): (usize, &usize)| {
         let count = ((n as f64 / length).round() as usize).max(1);

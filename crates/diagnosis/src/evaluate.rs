@@ -124,11 +124,11 @@ impl<'a> Along<'a> {
     }
 
     /// Whether a sample at the rate of the regression is as far from where a joint `rests`, and from
-    /// the ends of the run, beyond which a late torque looks, as the low-pass carries what is there.
+    /// the end of the run, beyond which a late torque looks, as the low-pass carries what is there.
     fn away(&self, rests: &[bool]) -> Vec<bool> {
         let margin = (CARRIED / (self.cutoff_hz * self.motion.period_s)).round() as usize;
-        let samples = rests.len();
-        let mut away: Vec<bool> = (0..samples).map(|t| t.min(samples - 1 - t) >= margin).collect();
+        let mut away = vec![true; rests.len()];
+        away[rests.len().saturating_sub(margin)..].fill(false);
         for (t, _) in rests.iter().enumerate().filter(|(_, rests)| **rests) {
             let end = (t + margin + 1).min(away.len());
             away[t.saturating_sub(margin)..end].fill(false);
