@@ -24,6 +24,10 @@ const ORDER: usize = 4;
 /// How far beyond a stand the low-pass carries what holds the joint there, in periods of the cut-off.
 const CARRIED: f64 = 0.35;
 
+/// Noise of readings of the efforts, as a share of them, above which the start of a run takes no part:
+/// the low-pass begins in the first reading, with all of its noise.
+const NOISY: f64 = 0.1;
+
 /// Least RMS value of a sine of size one behind the low-pass that is one in its band.
 const IN_BAND: f64 = 1e-4;
 
@@ -124,16 +128,28 @@ impl<'a> Along<'a> {
     }
 
     /// Whether a sample at the rate of the regression is as far from where a joint `rests`, and from
-    /// the end of the run, beyond which a late torque looks, as the low-pass carries what is there.
-    fn away(&self, rests: &[bool]) -> Vec<bool> {
+    /// the end of the run, beyond which a late torque looks, as the low-pass carries what is there; and
+    /// as far from the start where the run is `noisy`.
+    fn away(&self, rests: &[bool], noisy: bool) -> Vec<bool> {
         let margin = (CARRIED / (self.cutoff_hz * self.motion.period_s)).round() as usize;
         let mut away = vec![true; rests.len()];
         away[rests.len().saturating_sub(margin)..].fill(false);
+        away[..if noisy { margin.min(rests.len()) } else { 0 }].fill(false);
         for (t, _) in rests.iter().enumerate().filter(|(_, rests)| **rests) {
             let end = (t + margin + 1).min(away.len());
             away[t.saturating_sub(margin)..end].fill(false);
         }
         away.into_iter().step_by(self.strides[1]).collect()
+    }
+
+    /// Whether readings of the efforts are noisy, by the RMS difference of two in turn, over `sqrt 2`,
+    /// and over all joints.
+    fn is_noisy(&self) -> bool {
+        let efforts = || self.run.joints.iter().map(|joint| &joint.effort);
+        let steps: f64 =
+            efforts().flat_map(|x| x.windows(2)).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+        let whole: f64 = efforts().flatten().map(|x| x * x).sum();
+        0.5 * steps > NOISY * NOISY * whole
     }
 
     /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
@@ -304,11 +320,12 @@ impl Evaluated {
             Look::Twist => (along.twists()?, vec![Vec::new(); joints]),
         };
         let time = decimate(&decimate(&along.run.time, first), second);
+        let noisy = along.is_noisy();
         let tells = |j: usize| match look {
-            Look::Effort => along.away(&along.motion.stands(j)),
+            Look::Effort => along.away(&along.motion.stands(j), noisy),
             Look::Twist => vec![true; time.len()],
         };
-        let slides = |j: usize| along.away(&along.motion.rests(j));
+        let slides = |j: usize| along.away(&along.motion.rests(j), noisy);
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
             rate_hz: along.rate_hz,
