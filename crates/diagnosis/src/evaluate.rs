@@ -49,6 +49,8 @@ pub(crate) struct Along<'a> {
     /// `[joint][_][sample]`: an orthonormal basis of the tones there may be in the effort.
     heard: Vec<Vec<Vec<f64>>>,
     limits: &'a [Limit],
+    /// Whether readings of the efforts are noisy.
+    noisy: bool,
     cutoff_hz: f64,
     low_pass: LowPass,
     /// Samples of the run to one of the motion, and of the motion to one of the regression.
@@ -84,7 +86,9 @@ impl<'a> Along<'a> {
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
         let heard = vec![Vec::new(); run.joints.len()];
-        let mut along = Self { motion, run, heard, limits, cutoff_hz, low_pass, strides, rate_hz };
+        let noisy = is_noisy(run);
+        let mut along =
+            Self { motion, run, heard, limits, noisy, cutoff_hz, low_pass, strides, rate_hz };
         for tone in tones {
             along.hear(tone)?;
         }
@@ -130,26 +134,16 @@ impl<'a> Along<'a> {
     /// Whether a sample at the rate of the regression is as far from where a joint `rests`, and from
     /// the end of the run, beyond which a late torque looks, as the low-pass carries what is there; and
     /// as far from the start where the run is `noisy`.
-    fn away(&self, rests: &[bool], noisy: bool) -> Vec<bool> {
+    fn away(&self, rests: &[bool]) -> Vec<bool> {
         let margin = (CARRIED / (self.cutoff_hz * self.motion.period_s)).round() as usize;
         let mut away = vec![true; rests.len()];
         away[rests.len().saturating_sub(margin)..].fill(false);
-        away[..if noisy { margin.min(rests.len()) } else { 0 }].fill(false);
+        away[..if self.noisy { margin.min(rests.len()) } else { 0 }].fill(false);
         for (t, _) in rests.iter().enumerate().filter(|(_, rests)| **rests) {
             let end = (t + margin + 1).min(away.len());
             away[t.saturating_sub(margin)..end].fill(false);
         }
         away.into_iter().step_by(self.strides[1]).collect()
-    }
-
-    /// Whether readings of the efforts are noisy, by the RMS difference of two in turn, over `sqrt 2`,
-    /// and over all joints.
-    fn is_noisy(&self) -> bool {
-        let efforts = || self.run.joints.iter().map(|joint| &joint.effort);
-        let steps: f64 =
-            efforts().flat_map(|x| x.windows(2)).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
-        let whole: f64 = efforts().flatten().map(|x| x * x).sum();
-        0.5 * steps > NOISY * NOISY * whole
     }
 
     /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
@@ -320,12 +314,11 @@ impl Evaluated {
             Look::Twist => (along.twists()?, vec![Vec::new(); joints]),
         };
         let time = decimate(&decimate(&along.run.time, first), second);
-        let noisy = along.is_noisy();
         let tells = |j: usize| match look {
-            Look::Effort => along.away(&along.motion.stands(j), noisy),
+            Look::Effort => along.away(&along.motion.stands(j)),
             Look::Twist => vec![true; time.len()],
         };
-        let slides = |j: usize| along.away(&along.motion.rests(j), noisy);
+        let slides = |j: usize| along.away(&along.motion.rests(j));
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
             rate_hz: along.rate_hz,
@@ -376,6 +369,16 @@ impl Evaluated {
         let joints = (0..local.len()).map(joint).collect();
         RunDesign { name: self.name.clone(), time: self.time.clone(), joints }
     }
+}
+
+/// Whether readings of the efforts are noisy, by the RMS difference of two in turn, over `sqrt 2`, and
+/// over all joints.
+fn is_noisy(run: &PreparedRun) -> bool {
+    let efforts = || run.joints.iter().map(|joint| &joint.effort);
+    let steps: f64 =
+        efforts().flat_map(|x| x.windows(2)).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+    let whole: f64 = efforts().flatten().map(|x| x * x).sum();
+    0.5 * steps > NOISY * NOISY * whole
 }
 
 /// The signals of all joints less others.
