@@ -84,8 +84,8 @@ fn trial(task: usize, named: bool, seconds: f64) -> Record {
     let effect = if named { CoulombFriction } else { Backlash };
     let mut said = answers(Verdict::Explained, vec![finding(at(effect, "elbow"), 0.5, &[])]);
     said.costs.diagnosis_s = seconds;
-    said.held_out.nominal = Some(vec![1.0, 1.0]);
-    said.held_out.extended = Some(if named { vec![0.5, 0.5] } else { vec![2.0, 2.0] });
+    said.held_out.nominal = Some(vec![Some(1.0), Some(1.0)]);
+    said.held_out.extended = Some(if named { vec![Some(0.5); 2] } else { vec![Some(2.0); 2] });
     let judgement = Judgement::new(&sheet, &said);
     Record {
         task,

@@ -116,28 +116,36 @@ fn of_recorded_logs_only_what_was_added_is_asked_for() {
 /// Errors of 3 of 10 N m and of 0.8 of 2 N m: sqrt((0.3^2 + 0.4^2) / 2).
 #[test]
 fn errors_are_those_of_joints_over_their_torque() {
-    let held_out = |extended: Option<Vec<f64>>| {
+    let held_out = |extended: Option<Vec<Option<f64>>>| {
         let mut said = answers(Verdict::Explained, Vec::new());
-        said.held_out = HeldOut { nominal: Some(vec![3.0, 0.8]), extended, ..HeldOut::default() };
+        said.held_out =
+            HeldOut { nominal: Some(vec![Some(3.0), Some(0.8)]), extended, ..HeldOut::default() };
         Judgement::new(&sheet(&[]), &said).prediction
     };
-    let half = held_out(Some(vec![1.5, 0.4]));
+    let half = held_out(Some(vec![Some(1.5), Some(0.4)]));
     let nominal = half.nominal.as_ref().unwrap();
     assert!((nominal.all - 0.125_f64.sqrt()).abs() < 1e-12);
     assert!((nominal.joints[0].unwrap() - 0.3).abs() < 1e-12);
     assert!((half.ratio(half.extended.as_ref()).unwrap() - 0.5).abs() < 1e-12);
     assert_eq!((half.worse(), half.ratio(half.least_squares.as_ref())), (Some(false), None));
-    assert_eq!(held_out(Some(vec![3.0 * 1.009, 0.8 * 1.009])).worse(), Some(false));
-    assert_eq!(held_out(Some(vec![3.0 * 1.011, 0.8 * 1.011])).worse(), Some(true));
-    assert_eq!(held_out(Some(vec![f64::NAN, 0.1])).worse(), Some(true), "no prediction at all");
+    assert_eq!(held_out(Some(vec![Some(3.0 * 1.009), Some(0.8 * 1.009)])).worse(), Some(false));
+    assert_eq!(held_out(Some(vec![Some(3.0 * 1.011), Some(0.8 * 1.011)])).worse(), Some(true));
+    assert_eq!(
+        held_out(Some(vec![Some(f64::NAN), Some(0.1)])).worse(),
+        Some(true),
+        "no prediction at all"
+    );
     assert_eq!(held_out(None).worse(), None);
 
     // A joint without effort has no error to speak of.
     let mut said = answers(Verdict::Explained, Vec::new());
-    said.held_out.nominal = Some(vec![3.0, 0.8]);
+    said.held_out.nominal = Some(vec![Some(3.0), Some(0.8)]);
     let resting = Sheet { torque_rms: vec![10.0, 0.0], ..sheet(&[]) };
     let nominal = Judgement::new(&resting, &said).prediction.nominal.unwrap();
     assert!(nominal.joints[1].is_none() && (nominal.all - 0.3).abs() < 1e-12);
+    // Nor has one that stands all along.
+    said.held_out.nominal = Some(vec![Some(3.0), None]);
+    assert_eq!(Judgement::new(&sheet(&[]), &said).prediction.nominal, Some(nominal));
 }
 
 #[test]
@@ -311,7 +319,7 @@ fn a_judgement_is_read_back_as_it_was_written() {
         Verdict::PartlyExplained,
         vec![finding(at(CoulombFriction, "elbow"), 0.6, &[at(Backlash, "elbow")])],
     );
-    said.held_out.nominal = Some(vec![1.0, 2.0]);
+    said.held_out.nominal = Some(vec![Some(1.0), Some(2.0)]);
     said.two_questions = vec![at(Backlash, "elbow")];
     let judgement = Judgement::new(&sheet, &said);
     assert!(judgement.causes[0].visible());

@@ -41,6 +41,7 @@ mod tracked_error;
 mod tracking_scenario;
 mod tracking_spec;
 mod trials;
+mod turning_error;
 mod words;
 
 pub use baselines::{Baseline, least_squares, robot_error, two_questions};

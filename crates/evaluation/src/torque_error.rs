@@ -7,6 +7,7 @@ use logs::{
 use robot::Robot;
 use serde::{Deserialize, Serialize};
 
+use crate::turning_error::TurningError;
 use crate::{EvaluationError, Learned, TrackingScenario};
 
 /// Order of the low-pass of torques, as in the diagnosis.
@@ -53,8 +54,11 @@ pub fn torque_errors(
     Ok(errors)
 }
 
-/// RMS by joint of what a described robot leaves of runs (N m or N), in the band of their motion
-/// ([`left_over`]): the nominal one, one that a diagnosis has extended, any.
+/// RMS by joint of what a described robot leaves of runs (N m or N) while the joint moves, in the band
+/// of their motion ([`left_over`]): the nominal one, one that a diagnosis has extended, any.
+///
+/// A joint slower than 5 mrad/s (or mm/s) for .2 s is held by dry friction of any size up to its level,
+/// which no model predicts; these samples count nothing, and a joint that only stands has no error.
 ///
 /// # Errors
 ///
@@ -67,15 +71,14 @@ pub fn robot_error(
     robot: &Robot,
     control_rate_hz: Option<f64>,
     runs: &[Run],
-) -> Result<Vec<f64>, EvaluationError> {
+) -> Result<Vec<Option<f64>>, EvaluationError> {
     let mut test = prepare(runs, &PrepareSettings::default())?;
     centre_commands(robot, &mut test.runs, control_rate_hz);
-    let mut sums = vec![Sums::default(); robot.joint_count()];
-    for run in left_over(robot, &rest_speeds(&test), &test)? {
-        let joints = run.measured.iter().zip(&run.left);
-        sums.iter_mut().zip(joints).for_each(|(sums, (torque, left))| sums.add(torque, left));
+    let mut errors = TurningError::new(robot.joint_count());
+    for (run, rest) in test.runs.iter().zip(left_over(robot, &rest_speeds(&test), &test)?) {
+        errors.add(run, test.cutoff_hz, &rest.left)?;
     }
-    Ok(sums.iter().map(|sums| sums.mean(sums.error).sqrt()).collect())
+    Ok(errors.rms())
 }
 
 impl TorqueError {

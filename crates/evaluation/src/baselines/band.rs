@@ -17,7 +17,7 @@ const GUARD: f64 = 4.0;
 ///
 /// Rates and filters are those of `diagnosis::left_over`, so that errors of all models are of the
 /// same samples.
-pub(super) struct Band {
+pub(crate) struct Band {
     /// Samples of a log to one of a column.
     pub stride: usize,
     second: usize,

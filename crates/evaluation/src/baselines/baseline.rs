@@ -1,5 +1,5 @@
 use diagnosis::EffectAt;
-use logs::{PrepareSettings, PreparedRun, Run};
+use logs::{PrepareSettings, PreparedJoint, PreparedRun, Run};
 use robot::Robot;
 
 use super::band::Band;
@@ -8,6 +8,7 @@ use super::scales::Scales;
 use super::shape::Shape;
 use super::sight::Sight;
 use crate::EvaluationError;
+use crate::turning_error::TurningError;
 
 /// What a plain method makes of logs.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,20 +93,17 @@ impl Baseline {
         robot: &Robot,
         control_rate_hz: Option<f64>,
         runs: &[Run],
-    ) -> Result<Vec<f64>, EvaluationError> {
+    ) -> Result<Vec<Option<f64>>, EvaluationError> {
         let test = prepared(robot, control_rate_hz, runs, &PrepareSettings::default())?;
-        let mut squares = vec![0.0; robot.joint_count()];
-        let mut samples = 0;
+        let mut errors = TurningError::new(robot.joint_count());
         for run in &test.runs {
             let band = Band::new(test.cutoff_hz, run.rate_hz)?;
+            let error = |(joint, predicted): (&PreparedJoint, Vec<f64>)| {
+                band.of_log(joint.effort.iter().zip(predicted).map(|(e, p)| e - p).collect())
+            };
             let both = run.joints.iter().zip(self.predict(robot, run));
-            for ((joint, predicted), square) in both.zip(&mut squares) {
-                let error = joint.effort.iter().zip(predicted).map(|(e, p)| e - p).collect();
-                let error = band.of_log(error);
-                *square += error.iter().map(|e| e * e).sum::<f64>();
-            }
-            samples += band.of_log(run.time.clone()).len();
+            errors.add(run, test.cutoff_hz, &both.map(error).collect::<Vec<_>>())?;
         }
-        Ok(squares.iter().map(|square| (square / samples.max(1) as f64).sqrt()).collect())
+        Ok(errors.rms())
     }
 }

@@ -29,6 +29,7 @@ mod shape;
 mod sight;
 mod two_questions;
 
+pub(crate) use band::Band;
 pub use baseline::Baseline;
 pub use least_squares::least_squares;
 pub use two_questions::two_questions;

@@ -17,17 +17,17 @@ pub struct Answers {
 }
 
 /// RMS error of the torque of a log that took no part (N m or N), joint by joint in the order of the
-/// sheet; none of what could not be measured.
+/// sheet and while the joint moves; none of what could not be measured.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct HeldOut {
     /// Of the robot as described.
-    pub nominal: Option<Vec<f64>>,
+    pub nominal: Option<Vec<Option<f64>>>,
     /// Of the robot with the findings.
-    pub extended: Option<Vec<f64>>,
+    pub extended: Option<Vec<Option<f64>>>,
     /// Of plain least squares.
-    pub least_squares: Option<Vec<f64>>,
+    pub least_squares: Option<Vec<Option<f64>>>,
     /// Of what the two questions fit.
-    pub two_questions: Option<Vec<f64>>,
+    pub two_questions: Option<Vec<Option<f64>>>,
 }
 
 /// What a trial cost, in seconds by the wall clock.

@@ -19,11 +19,11 @@ pub struct Prediction {
 /// Errors of torque over the RMS of the effort of their joints.
 ///
 /// ```text
-/// joints_j = RMS(error_j) / RMS(effort_j),   all = sqrt(mean over j of joints_j^2)
+/// joints_j = RMS(error_j while j moves) / RMS(effort_j),   all = sqrt(mean over j of joints_j^2)
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RelativeError {
-    /// Joint by joint; none of a joint without effort.
+    /// Joint by joint; none of a joint without effort or motion.
     pub joints: Vec<Option<f64>>,
     /// Over all joints.
     #[serde(deserialize_with = "stored::number")]
@@ -35,7 +35,7 @@ impl Prediction {
     pub const MARGIN: f64 = 0.01;
 
     pub(super) fn new(held_out: &HeldOut, torque_rms: &[f64]) -> Self {
-        let of = |errors: &Option<Vec<f64>>| {
+        let of = |errors: &Option<Vec<Option<f64>>>| {
             errors.as_ref().and_then(|errors| RelativeError::new(errors, torque_rms))
         };
         Self {
@@ -62,10 +62,11 @@ impl Prediction {
 }
 
 impl RelativeError {
-    /// None where no joint has an effort.
-    fn new(errors: &[f64], torque_rms: &[f64]) -> Option<Self> {
-        let relative =
-            |(error, rms): (&f64, &f64)| (rms.is_finite() && *rms > 0.0).then(|| error / rms);
+    /// None where no joint has an effort and moves.
+    fn new(errors: &[Option<f64>], torque_rms: &[f64]) -> Option<Self> {
+        let relative = |(error, rms): (&Option<f64>, &f64)| {
+            error.filter(|_| rms.is_finite() && *rms > 0.0).map(|error| error / rms)
+        };
         let joints: Vec<Option<f64>> = errors.iter().zip(torque_rms).map(relative).collect();
         let squares: Vec<f64> = joints.iter().flatten().map(|error| error * error).collect();
         let all = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();

@@ -120,7 +120,7 @@ fn unless_it_gives_up(
 }
 
 /// The answers to logs that cannot be read: nobody names anything, and every robot stays as described.
-fn refused(why: String, nominal: Option<Vec<f64>>, logs_s: f64) -> Answers {
+fn refused(why: String, nominal: Option<Vec<Option<f64>>>, logs_s: f64) -> Answers {
     Answers {
         diagnosis: Err(why),
         held_out: HeldOut {
