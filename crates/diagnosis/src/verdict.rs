@@ -9,6 +9,10 @@ const OF_COMMANDED_NOISE: f64 = 1.6;
 /// Standard errors of an RMS, `1 / sqrt(2 n)` of it for `n` independent samples, that it may be besides.
 const ERRORS: f64 = 3.0;
 
+/// Share of the effort's RMS, 2 % of its power, up to which what is left is taken for noise though it
+/// exceeds the noise: what the two differ by is of the size of what matters where they are larger.
+const DROWNED: f64 = 0.15;
+
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
 const DEPENDS: f64 = 0.15;
 
@@ -64,21 +68,35 @@ impl Situation {
         self.remaining_rms <= (most + ERRORS * error) * self.floor()
     }
 
-    /// Whether what is left beyond the noise does not matter.
-    fn is_small(&self) -> bool {
-        self.unexplained().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
+    /// Whether what is left beyond `floor` does not matter.
+    fn is_small(&self, floor: f64) -> bool {
+        let beyond = (self.remaining_rms.powi(2) - floor.powi(2)).max(0.0).sqrt();
+        beyond <= self.practical * self.torque_rms
+    }
+
+    /// Whether what is left may be noise, and so large a share of the effort that what matters may be
+    /// in it.
+    fn is_drowned(&self) -> bool {
+        self.is_noise()
+            && self.remaining_rms > DROWNED * self.torque_rms
+            && !self.is_small(self.noise.0)
+    }
+
+    /// Whether nothing is open.
+    fn is_closed(&self) -> bool {
+        !self.is_drowned() && (self.is_noise() || self.is_small(self.floor()))
     }
 
     /// The verdict and why.
     ///
     /// Nothing is open where what is left is within noise that has a source, or a share of the effort
     /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort.
+    /// effort. Noise of more than [`DROWNED`] of the effort closes nothing that exceeds it.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
             return (Verdict::DataInadequate, reason.clone());
         }
-        let closed = self.is_noise() || self.is_small();
+        let closed = self.is_closed();
         let named = self.findings + self.between > 0;
         let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
         let is_sane = fell && self.remaining_rms < self.torque_rms;
@@ -86,6 +104,7 @@ impl Situation {
             (false, true) => Verdict::Consistent,
             (true, true) if is_sane => Verdict::Explained,
             (true, _) if is_sane => Verdict::PartlyExplained,
+            (false, false) if self.is_drowned() => Verdict::DataInadequate,
             _ => Verdict::Unexplained,
         };
         (verdict, self.because(verdict))
@@ -104,10 +123,17 @@ impl Situation {
             _ => "the findings leave",
         };
         let left = format!("{subject} {:.3} N m RMS while it moves", self.remaining_rms);
+        if self.is_drowned() {
+            let percent = 100.0 * self.remaining_rms / self.torque_rms;
+            return format!(
+                "{left}, {percent:.0} % of its effort, in which noise and a cause cannot be told apart: {}",
+                self.of_noise()
+            );
+        }
         if self.is_noise() {
             return format!("{left}, within the noise: {}", self.of_noise());
         }
-        if self.is_small() {
+        if self.is_small(self.floor()) {
             let percent = 100.0 * self.practical;
             return format!(
                 "{left}, beyond the noise less than {percent:.0} % of its effort ({})",
@@ -192,12 +218,28 @@ mod tests {
     #[test]
     fn a_rest_within_its_noise_or_two_per_cent_of_the_effort_is_closed() {
         // 450 independent samples: 1.3 times the noise.
-        assert_eq!(joint(0, 2.0, 1.55).verdict().0, Verdict::Consistent);
-        assert_eq!(joint(0, 2.0, 1.52).verdict().0, Verdict::Unexplained);
+        let strong = |noise| Situation { torque_rms: 20.0, ..joint(0, 2.0, noise) }.verdict().0;
+        assert_eq!(strong(1.55), Verdict::Consistent);
+        assert_eq!(strong(1.52), Verdict::Unexplained);
         assert_eq!(joint(0, 0.19, 0.0).verdict().0, Verdict::Consistent);
         assert_eq!(joint(1, 0.19, 0.0).verdict().0, Verdict::Explained);
         assert_eq!(joint(0, 0.3, 0.1).verdict().0, Verdict::Unexplained);
         assert_eq!(joint(1, 0.3, 0.1).verdict().0, Verdict::PartlyExplained);
+    }
+
+    #[test]
+    fn noise_of_a_sixth_of_the_effort_closes_nothing_that_exceeds_it() {
+        let noisy = |findings, left, noise| {
+            let joint = Situation { nominal_rms: 3.0, ..joint(findings, left, noise) };
+            joint.verdict().0
+        };
+        assert_eq!(noisy(0, 1.7, 1.5), Verdict::DataInadequate);
+        assert_eq!(noisy(1, 1.7, 1.5), Verdict::PartlyExplained);
+        assert_eq!(noisy(0, 1.7, 1.7), Verdict::Consistent);
+        assert_eq!(noisy(1, 1.4, 1.2), Verdict::Explained);
+        // Nor does the friction of a joint that often turns.
+        let turning = Situation { near_rest: 1.5, ..joint(0, 1.7, 0.1) };
+        assert_eq!(turning.verdict().0, Verdict::DataInadequate);
     }
 
     #[test]
