@@ -236,7 +236,8 @@ impl<'a> Along<'a> {
         Ok(LeftOver { measured, left })
     }
 
-    /// What the robot leaves of the efforts, with the positions and speeds of the motors.
+    /// What the robot leaves of the efforts, with the positions and speeds of the motors
+    /// and where they stand.
     pub fn rest(self) -> Result<Rest<'a>, LogError> {
         let [first, second] = self.strides;
         let thin = |x: &Vec<Vec<f64>>| x.iter().map(|x| decimate(x, second)).collect();
@@ -245,6 +246,9 @@ impl<'a> Along<'a> {
             q: thin(&self.motion.q),
             qd: thin(&self.motion.qd),
             left: self.left(&self.measured()?),
+            stands: (0..self.run.joints.len())
+                .map(|j| self.away(&self.motion.stands(j)).iter().map(|away| !away).collect())
+                .collect(),
             along: self,
         })
     }

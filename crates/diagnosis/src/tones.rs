@@ -86,6 +86,8 @@ pub(crate) struct Rest<'a> {
     pub q: Vec<Vec<f64>>,
     pub qd: Vec<Vec<f64>>,
     pub left: Vec<Vec<f64>>,
+    /// Whether the joint is held by any part of its dry friction, or the low-pass mixes that in.
+    pub stands: Vec<Vec<bool>>,
 }
 
 /// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
@@ -136,7 +138,12 @@ struct Joint<'a> {
 fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3]) -> Vec<Tone> {
     let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
     let highest = TAU * HIGHEST * cutoff_hz;
-    let by_speed = |run: &Rest| run.qd[j].iter().map(|v| highest / v.abs().max(1e-9)).collect();
+    // What holds a standing joint is a constant of any size, and with it a sine over position.
+    let by_speed = |run: &Rest| {
+        let at =
+            |(v, stands): (&f64, &bool)| if *stands { 0.0 } else { highest / v.abs().max(1e-9) };
+        run.qd[j].iter().zip(&run.stands[j]).map(at).collect()
+    };
     let by_speed: Vec<Vec<f64>> = runs.iter().map(by_speed).collect();
     let anywhere: Vec<Vec<f64>> = runs.iter().map(|r| vec![highest; r.time.len()]).collect();
     let slowest_hz = slowest_hz.max(LOWEST_HZ);
@@ -368,13 +375,13 @@ impl Joint<'_> {
         let (least, most) =
             sizes.iter().fold((f64::INFINITY, 0.0), |(l, m), (z, _)| (z.min(l), z.max(m)));
         let expected: f64 = sizes.iter().map(|(z, n)| 0.5 * z * z * *n as f64).sum();
-        if most > EVEN * least || expected < 0.5 * SHARE * power_of(self.left) {
+        if most > EVEN * least || expected < 0.5 * SHARE * self.power_of(self.left) {
             return None;
         }
         let mut tone = self.fitted(at, step)?;
         // A tone of one phase that differs from run to run keeps time with something else.
         let even = tone.amplitude() > least / EVEN;
-        tone.share = 1.0 - power_of(&self.without(&tone)) / power_of(self.left);
+        tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
         (even && tone.share > SHARE).then_some(tone)
     }
 
@@ -416,6 +423,13 @@ impl Joint<'_> {
         Some(Tone { joint: self.index, beat, z: fit.z, error, stands_out: 0.0, share: 0.0 })
     }
 
+    /// Sum of squares over all runs, where samples count at any beat.
+    fn power_of(&self, left: &[Vec<f64>]) -> f64 {
+        let counted = left.iter().flatten().zip(self.highest.iter().flatten());
+        let counted = counted.filter(|(_, highest)| **highest > 0.0);
+        counted.map(|(x, _)| x * x).sum::<f64>().max(f64::MIN_POSITIVE)
+    }
+
     /// `sum r exp(-i at beat)` of one run over the samples that count, and their number.
     fn sum(&self, r: usize, at: f64) -> (Complex<f64>, usize) {
         let samples = self.left[r].iter().zip(self.beat(r)).zip(&self.highest[r]);
@@ -424,11 +438,6 @@ impl Joint<'_> {
             (sum + Complex::cis(-at * beat) * *x, n + 1)
         })
     }
-}
-
-/// Sum of squares over all runs.
-fn power_of(left: &[Vec<f64>]) -> f64 {
-    left.iter().flatten().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 impl Spectrum {
