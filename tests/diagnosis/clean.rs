@@ -1,6 +1,6 @@
 //! Logs that the model describes: nothing may be found.
 
-use checks::synthetic::{Noise, Truth, log, wam};
+use checks::synthetic::{Noise, Truth, log, run, wam};
 use diagnosis::{Settings, Silent, Verdict, diagnose};
 
 use crate::world::named;
@@ -63,4 +63,29 @@ fn a_motion_as_fast_as_the_cutoff_is_weakened_alike_on_both_sides() {
             );
         }
     }
+}
+
+/// Described friction holds a joint that stands with any torque up to its level: a constant for every
+/// stand, through which a sine over position goes as well as one does through any few values.
+#[test]
+fn what_holds_a_standing_joint_is_no_ripple() {
+    const LEVELS_NM: [f64; 7] = [1.5, 1.5, 1.0, 1.0, 0.2, 0.2, 0.05];
+    let mut robot = wam();
+    for (j, level) in LEVELS_NM.into_iter().enumerate() {
+        let drive = &mut robot.link_mut(j).unwrap().actuator;
+        (drive.coulomb_forward, drive.coulomb_backward) = (level, level);
+    }
+    let friction = |j: usize, [q, qd, _]: [f64; 3]| {
+        // The path stands to the last digit; where it does the torque follows from the place alone.
+        let held = (1e5 * q).sin();
+        LEVELS_NM[j] * if qd.abs() < 1e-9 { held } else { qd.signum() }
+    };
+    let truth = Truth { torque: &friction, ..Truth::of(&robot) };
+    let mut ripples = Vec::new();
+    for seed in 300..308 {
+        let run = [run(&truth, &Noise::of_a_wam(), 8.0, seed)];
+        let answer = diagnose(&robot, &run, &Settings::default(), &Silent).unwrap().diagnosis;
+        ripples.extend(named(&answer).into_iter().filter(|name| name.contains("ripple")));
+    }
+    assert_eq!(ripples, Vec::<String>::new());
 }
