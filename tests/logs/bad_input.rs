@@ -198,6 +198,21 @@ fn degrees_beyond_the_limits() {
     );
 }
 
+/// A counter that wraps leaves the limits, and is no log in degrees.
+#[test]
+fn a_jump_by_a_turn_is_not_degrees() {
+    let told = |written: fn(f64) -> f64| {
+        let at = |k: u32| (0.01 * f64::from(k), (0.02 * f64::from(k)).sin());
+        let rows = (0..400).map(at).map(|(t, q)| format!("{t},{},0,0,0\n", written(q)));
+        let file = Scratch::new("run.csv", format!("{HEADER}\n{}", rows.collect::<String>()));
+        read_run(&file.path, &two_joints(), &ReadOptions::default()).map_err(|e| e.to_string())
+    };
+    let wrapped = told(|q| if q > 0.5 { q + std::f64::consts::TAU } else { q });
+    assert!(wrapped.is_ok(), "{wrapped:?}");
+    let degrees = told(f64::to_degrees).unwrap_err();
+    assert!(degrees.contains("looks like degrees"), "{degrees}");
+}
+
 #[test]
 fn degrees_against_the_velocity_column() {
     let arm = robot(&[("j1", JointKind::Continuous)]);

@@ -1,6 +1,6 @@
 //! Positions in degrees where radians were expected.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use robot::Joint;
 
@@ -9,6 +9,9 @@ use crate::{Channels, run::range};
 /// Radians per degree.
 const DEGREE: f64 = PI / 180.0;
 
+/// How near to full turns a jump between two samples is (rad).
+const NEAR_A_TURN: f64 = 0.5;
+
 /// Why the positions of a rotation must be degrees, as the end of `joint j1 ...`;
 /// `None` where radians are possible.
 ///
@@ -16,7 +19,8 @@ const DEGREE: f64 = PI / 180.0;
 ///
 /// ```text
 /// limits    |q| > 2 pi, and q is beyond twice the limits, which it keeps in degrees
-///           (a revolute joint without limits counts as one of two turns either way)
+///           (a revolute joint without limits counts as one of two turns either way),
+///           unless the position jumps by full turns, as a counter does that wraps
 /// velocity  the velocity column is pi/180 times the derivative of the position
 /// speed     |q| > 4 pi, and most of the motion is above 3 times the highest speed,
 ///           which it keeps in degrees
@@ -29,6 +33,7 @@ pub(crate) fn evidence(joint: &Joint, time: &[f64], channels: &Channels) -> Opti
     }
     let found = farthest(&channels.position).1.abs();
     if found > TAU
+        && !jumps_by_turns(&channels.position)
         && let Some(expectation) = beyond_limits(joint, &channels.position)
     {
         return Some(expectation);
@@ -56,6 +61,21 @@ pub(crate) fn beyond_limits(joint: &Joint, position: &[f64]) -> Option<String> {
     let beyond = low.abs().max(high.abs()) > 2.0 * reach;
     (joint.kind.is_rotation() && beyond && fits)
         .then(|| format!("is limited to {lower} .. {upper} rad"))
+}
+
+/// Whether some steps are full turns and no other is a quarter turn.
+fn jumps_by_turns(position: &[f64]) -> bool {
+    let mut jumps = false;
+    for pair in position.windows(2) {
+        let step = pair[1] - pair[0];
+        let turns = (step / TAU).round();
+        if turns.abs() > 0.0 && (step - turns * TAU).abs() < NEAR_A_TURN {
+            jumps = true;
+        } else if step.abs() >= FRAC_PI_2 {
+            return false;
+        }
+    }
+    jumps
 }
 
 fn slow_velocity(channels: &Channels, rate: &[f64]) -> Option<String> {
