@@ -7,8 +7,8 @@ mod undone;
 use catalogue::EffectKind;
 use checks::synthetic::wam;
 use effects::{
-    Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Scale, hypotheses,
-    model,
+    Column, Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Scale,
+    hypotheses, model,
 };
 use robot::{Coupling, Robot, Stribeck, TorqueSource, Wave};
 
@@ -216,6 +216,37 @@ fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
     for j in [0, 1, 3] {
         let of_spring = Hypothesis { kind: EffectKind::JointElasticity, place: Place::Joint(j) };
         check_columns(&springy(j), |h| h == of_spring);
+    }
+}
+
+/// What is said to be exact has the same columns about a robot that has it, with all that is exact
+/// besides; a tangent has others.
+#[test]
+fn exact_columns_stay_where_effects_grow_and_tangents_turn() {
+    let grown = |robot: &mut Robot, h: Hypothesis| {
+        let weights: Vec<f64> = h.prior(robot, &scale(robot)).iter().map(|w| 0.1 * w).collect();
+        h.extend(robot, &weights, &frame(robot));
+    };
+    let mut before = worn();
+    // Friction that grows with the load makes columns of all that loads.
+    (0..7).for_each(|j| before.link_mut(j).unwrap().actuator.load_friction = 0.0);
+    let mut exact = before.clone();
+    let all = hypotheses(&before);
+    all.iter().filter(|h| !h.is_tangent()).for_each(|h| grown(&mut exact, *h));
+    let nominal = motion(&before);
+    for h in all.into_iter().filter(|h| !h.is_doubtful()) {
+        let mut after = exact.clone();
+        if h.is_tangent() {
+            grown(&mut after, h);
+        }
+        let values = |columns: Vec<Column>| -> Vec<f64> {
+            columns.into_iter().flatten().flat_map(|part| part.values).collect()
+        };
+        let [first, last] = [h.columns(&nominal), h.columns(&motion(&after))].map(values);
+        let largest = first.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let differs = first.iter().zip(&last).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let share = differs / largest;
+        assert!(if h.is_tangent() { share > 1e-4 } else { share < 1e-9 }, "{h:?}: {share}");
     }
 }
 

@@ -1,4 +1,3 @@
-use catalogue::{EffectKind, Family};
 use nalgebra::{DMatrix, DVector};
 
 use crate::design::{Design, RunDesign};
@@ -73,8 +72,8 @@ pub(crate) fn variation(fitted: &Fitted, group: usize, size: &[f64]) -> Option<V
     let columns = problem.columns(model);
     let alone = explained_alone(problem, &columns, group, size)?;
     let base = held_out(problem, &columns, None)?;
-    let kind = problem.design.groups[group].hypothesis.kind;
-    let most = if is_rough(kind) { MOST_OF_ROUGH } else { MOST };
+    let nature = problem.design.groups[group].hypothesis.nature();
+    let most = if nature.is_some_and(|n| n.is_rough) { MOST_OF_ROUGH } else { MOST };
     let mut largest: Option<(f64, Contrast)> = None;
     for contrast in contrasts(problem.design, group, size) {
         let fall = base - held_out(problem, &columns, Some(&contrast))?;
@@ -85,12 +84,6 @@ pub(crate) fn variation(fitted: &Fitted, group: usize, size: &[f64]) -> Option<V
     }
     let (fall, Contrast { joint, with, .. }) = largest?;
     Some(Variation { rms: (fall / alone).sqrt(), with, joint })
-}
-
-/// Whether the law of an effect is a rough one.
-fn is_rough(kind: EffectKind) -> bool {
-    let rough = [EffectKind::CableSpring, EffectKind::DifferentialCoupling];
-    kind.entry().family == Family::Friction || rough.contains(&kind)
 }
 
 /// What the torque of an effect explains that the other columns of a model cannot (weighted sum of

@@ -27,18 +27,14 @@ pub fn diagnosed(kind: EffectKind) -> Result<Diagnosed, &'static str> {
         EffectKind::TorqueSaturation => {
             Ok(Diagnosed { how: "as effort beyond a limit that moves nothing", parameters })
         }
-        EffectKind::Backlash
-        | EffectKind::JointElasticity
-        | EffectKind::TransmissionRatio
-        | EffectKind::EncoderOffset => {
-            let model = effects::model(kind)?;
-            let how =
-                "by its columns in a regression: of the effort, or of what two encoders differ by";
-            Ok(Diagnosed { how, parameters: model.parameters() })
-        }
         _ => {
             let model = effects::model(kind)?;
-            Ok(Diagnosed { how: "by its columns in a regression", parameters: model.parameters() })
+            let how = if model.nature().is_before_the_link {
+                "by its columns in a regression: of the effort, or of what two encoders differ by"
+            } else {
+                "by its columns in a regression"
+            };
+            Ok(Diagnosed { how, parameters: model.parameters() })
         }
     }
 }

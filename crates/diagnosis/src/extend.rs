@@ -1,4 +1,3 @@
-use catalogue::EffectKind;
 use effects::Hypothesis;
 use logs::LogError;
 use robot::Robot;
@@ -18,34 +17,6 @@ const SETTLED: f64 = 1e-4;
 
 /// Shortest share of a step that is tried.
 const SHORTEST: f64 = 0.125;
-
-/// Whether the columns of an effect are those of a small change only, follow from what the other
-/// findings change, or are more about a robot that has it.
-pub(crate) fn is_tangent(kind: EffectKind) -> bool {
-    use EffectKind::{CableSpring, GravityDirection, TorqueConstant};
-    is_doubtful(kind) || matches!(kind, TorqueConstant | GravityDirection | CableSpring)
-}
-
-/// Whether the columns of an effect are made of the model's own torque, which is wrong wherever
-/// something else is, or have a shape that was chosen among many.
-pub(crate) fn is_doubtful(kind: EffectKind) -> bool {
-    use EffectKind as K;
-    matches!(
-        kind,
-        K::StribeckFriction
-            | K::PreslidingFriction
-            | K::PositionDependentFriction
-            | K::DifferentialCoupling
-            | K::LoadDependentFriction
-            | K::EncoderOffset
-            | K::TransmissionRatio
-            | K::Backlash
-            | K::JointElasticity
-            | K::TimeSkew
-            | K::ActuatorDelay
-            | K::ActuatorLag
-    )
-}
 
 /// The robot changed by the weights of a model.
 pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &[f64]) -> Robot {
@@ -146,7 +117,7 @@ pub(crate) fn solved(
     let first = settle(problem, model, &problem.info, robot);
     let hypotheses: Vec<Hypothesis> =
         model.iter().map(|&g| problem.design.groups[g].hypothesis).collect();
-    if !hypotheses.iter().any(|h| is_tangent(h.kind)) {
+    if !hypotheses.iter().any(|h| h.is_tangent()) {
         let robot = extended(robot, problem.design, model, &first);
         return Ok(Solved { weights: first, robot, refit: None });
     }

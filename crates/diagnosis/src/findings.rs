@@ -5,7 +5,6 @@ use effects::{Hypothesis, Place};
 use robot::Robot;
 
 use crate::contest::Apart;
-use crate::extend::is_tangent;
 use crate::failed::Failed;
 use crate::log::Look;
 use crate::problem::{HeldOut, Model, Problem};
@@ -79,8 +78,9 @@ impl Evidence<'_> {
     /// The one finding whose columns are those of a small change only: what the last fit, about the
     /// robot that has it, explains beyond them is its doing.
     fn only_tangent(&self) -> Option<usize> {
-        let kind = |g: usize| self.selection.problem.design.groups[g].hypothesis.kind;
-        let mut tangents = self.model.iter().copied().filter(|g| is_tangent(kind(*g)));
+        let groups = &self.selection.problem.design.groups;
+        let mut tangents =
+            self.model.iter().copied().filter(|g| groups[*g].hypothesis.is_tangent());
         tangents.next().filter(|_| tangents.next().is_none())
     }
 
@@ -105,9 +105,10 @@ impl Evidence<'_> {
         let drive = &extended.links()[j].actuator;
         let least = 0.5 * drive.coulomb_forward.min(drive.coulomb_backward);
         let too_small = |h: &usize| self.smallest(*h, &fit).is_none_or(|smallest| smallest > least);
-        let forms = [K::StribeckFriction, K::PreslidingFriction, K::PositionDependentFriction];
-        let forms = forms.map(|kind| design.find(Hypothesis { kind, place }));
-        forms.into_iter().flatten().filter(|h| !self.model.contains(h)).filter(too_small).collect()
+        let own = design.groups[g].hypothesis;
+        let is_form = |h: &usize| design.groups[*h].hypothesis.varies() == Some(own);
+        let forms = (0..design.groups.len()).filter(is_form);
+        forms.filter(|h| !self.model.contains(h)).filter(too_small).collect()
     }
 
     /// Asymmetric friction, where Coulomb friction `g` and an offset of the same joint may as well be

@@ -1,7 +1,7 @@
 use logs::LogError;
 use robot::Robot;
 
-use crate::extend::{Solved, is_tangent, solved};
+use crate::extend::{Solved, solved};
 use crate::log::Log;
 use crate::problem::{Model, Problem};
 use crate::select::LEAST_EVIDENCE_OF_DOUBTFUL;
@@ -31,7 +31,7 @@ pub(crate) fn idle(
         return Ok(None);
     }
     let mut least: Option<(f64, usize)> = None;
-    let is_bent = |g: &&usize| is_tangent(problem.design.groups[**g].hypothesis.kind);
+    let is_bent = |g: &&usize| problem.design.groups[**g].hypothesis.is_tangent();
     for &g in model.iter().filter(is_bent) {
         let mut without = model.clone();
         without.remove(&g);

@@ -4,7 +4,6 @@ use nalgebra::DVector;
 
 use crate::blocks::{Block, Fold, Folding, folds};
 use crate::design::Design;
-use crate::extend::is_doubtful;
 use crate::fit::Fit;
 use crate::gram::{Grams, Information};
 use crate::log::Look;
@@ -211,7 +210,7 @@ impl<'a> Problem<'a> {
     pub fn everything(&self) -> Model {
         let groups = &self.design.groups;
         let firm =
-            |g: &usize| self.design.look == Look::Twist || !is_doubtful(groups[*g].hypothesis.kind);
+            |g: &usize| self.design.look == Look::Twist || !groups[*g].hypothesis.is_doubtful();
         (0..groups.len()).filter(firm).collect()
     }
 }

@@ -1,4 +1,5 @@
 use catalogue::EffectKind;
+use effects::Shows;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
@@ -207,17 +208,14 @@ impl Finding {
     /// What it may as well be: other causes, and forms of the same dry friction that differ only where
     /// the logs do not look, such as `FR04 Stribeck friction near rest`.
     pub fn rivals(&self) -> (Vec<String>, Vec<String>) {
-        use EffectKind::{
-            CoulombFriction, PositionDependentFriction, PreslidingFriction, StribeckFriction,
+        let shows = |r: &EffectAt| {
+            let (of, shows) = effects::model(r.effect).ok()?.nature().form_of?;
+            (of == self.at.effect && r.joint == self.at.joint).then_some(shows)
         };
-        let own = self.at.effect == CoulombFriction;
-        let near_rest = |r: &EffectAt| matches!(r.effect, StribeckFriction | PreslidingFriction);
-        let is_form = |r: &&EffectAt| {
-            let differs = near_rest(r) || r.effect == PositionDependentFriction;
-            own && differs && r.joint == self.at.joint
-        };
-        let (forms, others): (Vec<_>, Vec<_>) = self.not_separable_from.iter().partition(is_form);
-        let (at_rest, elsewhere): (Vec<_>, Vec<_>) = forms.into_iter().partition(|r| near_rest(r));
+        let all = self.not_separable_from.iter();
+        let (forms, others): (Vec<_>, Vec<_>) = all.partition(|r| shows(r).is_some());
+        let is_near_rest = |r: &&EffectAt| shows(r) == Some(Shows::NearRest);
+        let (at_rest, elsewhere): (Vec<_>, Vec<_>) = forms.into_iter().partition(is_near_rest);
         let words = |forms: Vec<&EffectAt>, place: &str| {
             let labels: Vec<String> = forms.iter().map(|r| r.effect.label()).collect();
             (!labels.is_empty()).then(|| format!("{} {place}", labels.join(" or ")))
@@ -236,9 +234,8 @@ impl Finding {
     /// Whether a rival does its work only together with another one: Coulomb friction with an offset
     /// that of asymmetric friction.
     fn is_the_work_of(&self, rival: &EffectAt) -> bool {
-        use EffectKind::{AsymmetricFriction, CoulombFriction, TorqueOffset};
-        let part = matches!(rival.effect, CoulombFriction | TorqueOffset);
-        self.at.effect == AsymmetricFriction && part && rival.joint == self.at.joint
+        let parts = effects::model(self.at.effect).map_or(&[] as &[_], |m| m.nature().together);
+        parts.contains(&rival.effect) && rival.joint == self.at.joint
     }
 }
 

@@ -1,5 +1,3 @@
-use catalogue::EffectKind;
-
 use crate::problem::{HeldOut, Model, Problem};
 use crate::select::Selection;
 use crate::worse::Worse;
@@ -75,11 +73,8 @@ pub(crate) fn replaced(problem: &Problem, without: &Model, group: usize, rival: 
     let mut model = without.clone();
     model.insert(rival);
     let hypothesis = problem.design.groups[group].hypothesis;
-    if hypothesis.kind == EffectKind::AsymmetricFriction {
-        let symmetric =
-            effects::Hypothesis { kind: EffectKind::CoulombFriction, place: hypothesis.place };
-        model.extend(problem.design.find(symmetric));
-    }
+    let symmetric = hypothesis.together().first().and_then(|&level| problem.design.find(level));
+    model.extend(symmetric);
     model
 }
 

@@ -1,10 +1,8 @@
 use std::cmp::Ordering;
 
-use catalogue::EffectKind;
-use effects::{Hypothesis, Place};
+use effects::{Hypothesis, Plainer};
 use robot::Robot;
 
-use crate::extend::is_doubtful;
 use crate::fit::Fit;
 use crate::log::Look;
 use crate::problem::{HeldOut, Model, Problem};
@@ -60,8 +58,8 @@ impl Selection<'_> {
     /// friction with a torque offset of the same joint, at most half its level. The two are the
     /// same torque.
     fn fewer(&self, model: &mut Model) {
-        for j in 0..self.problem.design.joints() {
-            let Some((two, one)) = self.two_for_one(model, Place::Joint(j)) else { continue };
+        for one in 0..self.problem.design.groups.len() {
+            let Some(two) = self.two_for_one(model, one) else { continue };
             let mut other = model.clone();
             other.retain(|g| !two.contains(g));
             other.insert(one);
@@ -71,17 +69,16 @@ impl Selection<'_> {
         }
     }
 
-    /// Two findings of a joint that one hypothesis may replace; not where another finding says how
+    /// Findings of a joint that `one` hypothesis may replace; not where another finding says how
     /// the level of the friction varies.
-    fn two_for_one(&self, model: &Model, place: Place) -> Option<([usize; 2], usize)> {
-        use EffectKind::{AsymmetricFriction, CoulombFriction, TorqueOffset};
-        let design = self.problem.design;
-        let at = |kind| self.find(Hypothesis { kind, place });
-        let two = [at(CoulombFriction)?, at(TorqueOffset)?];
-        let level = Hypothesis { kind: CoulombFriction, place };
-        let varies = |g: &usize| design.groups[*g].hypothesis.varies() == Some(level);
-        let are_there = two.iter().all(|g| model.contains(g)) && !model.iter().any(varies);
-        are_there.then_some((two, at(AsymmetricFriction)?))
+    fn two_for_one(&self, model: &Model, one: usize) -> Option<Vec<usize>> {
+        let groups = &self.problem.design.groups;
+        let one = self.find(groups[one].hypothesis)?;
+        let parts = groups[one].hypothesis.together();
+        let varies = |g: &usize| groups[*g].hypothesis.varies().is_some_and(|h| parts.contains(&h));
+        let two: Vec<usize> = parts.iter().map(|&part| self.find(part)).collect::<Option<_>>()?;
+        let are_there = !two.is_empty() && two.iter().all(|g| model.contains(g));
+        (are_there && !model.iter().any(varies)).then_some(two)
     }
 
     /// Names a disputed cause by its plainer rival, where that has as much evidence: rotor inertia
@@ -142,27 +139,8 @@ impl Selection<'_> {
 
     /// Hypotheses that have the name where they do the work of `g`, alone or together.
     fn plainer_than(&self, g: usize) -> Vec<usize> {
-        use EffectKind::{
-            CoulombFriction, DifferentialCoupling, InertialParameters, LoadDependentFriction,
-            RotorInertia, TorqueConstant, TransmissionRatio, ViscousFriction,
-        };
-        let design = self.problem.design;
-        let Hypothesis { kind, place } = design.groups[g].hypothesis;
-        let plain: Vec<Hypothesis> = match (kind, place) {
-            (InertialParameters, Place::Link(j)) => {
-                vec![Hypothesis { kind: RotorInertia, place: Place::Joint(j) }]
-            }
-            (DifferentialCoupling, _) => {
-                let joints = design.groups[g].joints.iter().map(|&j| Place::Joint(j));
-                let both = |place| {
-                    [CoulombFriction, ViscousFriction].map(|kind| Hypothesis { kind, place })
-                };
-                joints.flat_map(both).collect()
-            }
-            (TransmissionRatio, _) => vec![Hypothesis { kind: TorqueConstant, place }],
-            (LoadDependentFriction, _) => vec![Hypothesis { kind: CoulombFriction, place }],
-            _ => Vec::new(),
-        };
+        let group = &self.problem.design.groups[g];
+        let plain = group.hypothesis.plainer(&group.joints);
         plain.into_iter().filter_map(|h| self.find(h)).collect()
     }
 
@@ -190,7 +168,7 @@ impl Selection<'_> {
             let prior = &self.problem.design.prior;
             if columns.is_empty() || self.is_excluded(model, g) || self.problem.idle.contains(&g) {
                 f64::NEG_INFINITY
-            } else if self.kind(g) == EffectKind::DifferentialCoupling {
+            } else if self.is_beside_the_plain(g) {
                 self.beyond_the_plain(model, g)
             } else {
                 fit.evidence_of(&self.problem.info, &columns, prior)
@@ -214,13 +192,18 @@ impl Selection<'_> {
         fit.evidence_of(&self.problem.info, &columns, &self.problem.design.prior)
     }
 
-    fn kind(&self, g: usize) -> EffectKind {
-        self.problem.design.groups[g].hypothesis.kind
+    fn is_beside_the_plain(&self, g: usize) -> bool {
+        let nature = self.problem.design.groups[g].hypothesis.nature();
+        nature.is_some_and(|n| matches!(n.plainer, Plainer::AtEveryJoint(_)))
     }
 
     /// Least gain in log evidence for hypothesis `g`.
     fn least_evidence(&self, g: usize) -> f64 {
-        if is_doubtful(self.kind(g)) { LEAST_EVIDENCE_OF_DOUBTFUL } else { LEAST_EVIDENCE }
+        if self.problem.design.groups[g].hypothesis.is_doubtful() {
+            LEAST_EVIDENCE_OF_DOUBTFUL
+        } else {
+            LEAST_EVIDENCE
+        }
     }
 
     /// Whether the model already holds another name for the same change, unless `g` says

@@ -109,7 +109,7 @@ impl Uncertainty {
                 let mut estimate = estimate(quantity, sd * self.t, before * self.t);
                 let at = (quantity.value, weights);
                 clip(&mut estimate, (&own, &gradient), &design.bounds, at);
-                if hypothesis.kind == EffectKind::JointElasticity {
+                if hypothesis.nature().is_some_and(|n| n.is_reciprocal) {
                     let half = self.t * self.sd(&place, &DVector::from_element(own.len(), 1.0));
                     estimate.ci95 = between(estimate.value.recip(), half);
                 }

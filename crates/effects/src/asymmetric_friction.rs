@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint, unbounded};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `forward` for positive and `-backward` for negative velocity: two weights a joint,
 /// the change of the mean level and half the change of the difference.
@@ -15,6 +15,22 @@ const LARGEST_SKEW: f64 = 0.5;
 impl Explain for AsymmetricFriction {
     fn kind(&self) -> EffectKind {
         EffectKind::AsymmetricFriction
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Exact,
+            is_rough: true,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[EffectKind::CoulombFriction, EffectKind::TorqueOffset],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

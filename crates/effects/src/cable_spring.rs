@@ -3,7 +3,7 @@ use robot::{Actuator, Robot};
 
 use crate::cable_loop::Loop;
 use crate::explain::{actuator_quantity, down_to_zero, every_joint, unbounded};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `stiffness x + cubic x³ + h`, `x = q - rest`, with the loop `h`.
 ///
@@ -31,6 +31,22 @@ const LOOP_STEP: (f64, f64) = (-0.5, 1.0);
 impl Explain for CableSpring {
     fn kind(&self) -> EffectKind {
         EffectKind::CableSpring
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Tangent,
+            is_rough: true,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

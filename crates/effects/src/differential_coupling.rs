@@ -2,7 +2,9 @@ use catalogue::EffectKind;
 use robot::{Actuator, Coupling, Robot};
 
 use crate::explain::{actuator_quantity, down_to_zero, joints_where};
-use crate::{Column, Explain, Frame, Motion, Part, Place, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Linearity, Motion, Nature, Part, Place, Plainer, Quantity, Scale,
+};
 
 /// Friction of two motors that a joint and the next one share: a dry level and a viscous factor of
 /// the motor that turns with the sum, the same of the one that turns with the difference; where
@@ -55,6 +57,25 @@ fn is_known(c: &Coupling) -> bool {
 impl Explain for DifferentialCoupling {
     fn kind(&self) -> EffectKind {
         EffectKind::DifferentialCoupling
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: true,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::AtEveryJoint(&[
+                EffectKind::CoulombFriction,
+                EffectKind::ViscousFriction,
+            ]),
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     /// Joints with a coupling, or with the germ of one.

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, every_joint, unbounded};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `tau(q - offset) - tau(q)`: one weight a joint, the change of the offset (rad or m).
 ///
@@ -16,6 +16,22 @@ const OFFSET_SD: f64 = 0.05;
 impl Explain for EncoderOffset {
     fn kind(&self) -> EffectKind {
         EffectKind::EncoderOffset
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: false,
+            is_before_the_link: true,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

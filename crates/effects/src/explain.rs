@@ -1,7 +1,7 @@
 use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
-use crate::{Frame, Motion, Place, Scale};
+use crate::{Frame, Motion, Nature, Place, Scale};
 
 /// What one unit of a weight adds to the effort of one joint, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +34,9 @@ pub struct Quantity {
 pub trait Explain: Sync {
     /// The effect.
     fn kind(&self) -> EffectKind;
+
+    /// What is known of it before any log.
+    fn nature(&self) -> Nature;
 
     /// Those of its parameters that it finds.
     fn parameters(&self) -> &'static [Parameter] {

@@ -3,7 +3,7 @@ use nalgebra::{Rotation3, Vector3};
 use robot::Robot;
 
 use crate::motion::tilt_axes;
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `G(q) (g - g_nominal)`: two weights, the tilt of gravity about two horizontal axes (rad).
 ///
@@ -20,6 +20,22 @@ const TILT_LIMIT: f64 = 0.5;
 impl Explain for GravityDirection {
     fn kind(&self) -> EffectKind {
         EffectKind::GravityDirection
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Tangent,
+            is_rough: false,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, _: &Robot) -> Vec<Place> {

@@ -1,7 +1,9 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::{Column, Explain, Frame, MODELLED, Motion, Quantity, Scale, model};
+use crate::{
+    Column, Explain, Frame, Linearity, MODELLED, Motion, Nature, Plainer, Quantity, Scale, model,
+};
 
 /// Where an effect acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -53,12 +55,25 @@ impl Hypothesis {
         self.model().map(|m| m.twist(self.place, motion)).unwrap_or_default()
     }
 
+    /// See [`Explain::nature`]; none of an effect without a model.
+    pub fn nature(self) -> Option<Nature> {
+        self.model().map(Explain::nature)
+    }
+
+    /// Whether its columns are those of a small change only ([`Linearity::Tangent`] or less).
+    pub fn is_tangent(self) -> bool {
+        self.nature().is_some_and(|n| n.linearity != Linearity::Exact)
+    }
+
+    /// Whether its columns may pass for what something else does ([`Linearity::Doubtful`]).
+    pub fn is_doubtful(self) -> bool {
+        self.nature().is_some_and(|n| n.linearity == Linearity::Doubtful)
+    }
+
     /// The joint of an effect that lies between its encoder and its link: where a second encoder
     /// shows the link, it shows the effect.
     pub fn before_the_link(self) -> Option<usize> {
-        use EffectKind::{Backlash, EncoderOffset, JointElasticity, TransmissionRatio};
-        let between = [Backlash, EncoderOffset, JointElasticity, TransmissionRatio];
-        self.joint().filter(|_| between.contains(&self.kind))
+        self.joint().filter(|_| self.nature().is_some_and(|n| n.is_before_the_link))
     }
 
     /// See [`Explain::prior`].
@@ -102,33 +117,44 @@ impl Hypothesis {
     /// so that both cannot be part of one model. Asymmetric friction is Coulomb friction with an
     /// offset.
     pub fn excludes(self, other: Self) -> bool {
-        use EffectKind::{
-            AsymmetricFriction, CoulombFriction, InertialParameters, Payload, TorqueOffset,
+        let holds = |a: Self, b: Self| {
+            a.nature().is_some_and(|n| n.other_name == Some(b.kind) || n.together.contains(&b.kind))
         };
-        let pairs = [
-            (InertialParameters, Payload),
-            (AsymmetricFriction, CoulombFriction),
-            (AsymmetricFriction, TorqueOffset),
-        ];
-        let is = |(a, b)| (self.kind, other.kind) == (a, b) || (other.kind, self.kind) == (a, b);
-        self.place == other.place && pairs.into_iter().any(is)
+        self.place == other.place && (holds(self, other) || holds(other, self))
     }
 
     /// Whether `self` and `other` have the same columns about a robot without either.
     pub fn is_twin(self, other: Self) -> bool {
-        use EffectKind::{ActuatorDelay, ActuatorLag};
-        let kinds = (self.kind, other.kind);
-        let are_late = [(ActuatorDelay, ActuatorLag), (ActuatorLag, ActuatorDelay)];
-        self.place == other.place && are_late.contains(&kinds)
+        self.place == other.place && self.nature().is_some_and(|n| n.twin == Some(other.kind))
     }
 
     /// The Coulomb friction whose level this effect makes vary.
     pub fn varies(self) -> Option<Self> {
-        use EffectKind::{
-            CoulombFriction, PositionDependentFriction, PreslidingFriction, StribeckFriction,
-        };
-        let varying = [StribeckFriction, PreslidingFriction, PositionDependentFriction];
-        varying.contains(&self.kind).then_some(Self { kind: CoulombFriction, place: self.place })
+        let (kind, _) = self.nature()?.form_of?;
+        Some(Self { kind, place: self.place })
+    }
+
+    /// Effects of the same place that together are this one: Coulomb friction, the level of asymmetric
+    /// friction, and its offset.
+    pub fn together(self) -> Vec<Self> {
+        let kinds = self.nature().map_or(&[] as &[EffectKind], |n| n.together);
+        kinds.iter().map(|&kind| Self { kind, place: self.place }).collect()
+    }
+
+    /// Effects that have the name where they do the work of this one, which reaches `joints`.
+    pub fn plainer(self, joints: &[usize]) -> Vec<Self> {
+        let at = |kind: EffectKind, place| Self { kind, place };
+        match self.nature().map_or(Plainer::Nothing, |n| n.plainer) {
+            Plainer::Nothing => Vec::new(),
+            Plainer::Here(kind) => vec![at(kind, self.place)],
+            Plainer::AtTheJoint(kind) => {
+                self.link().map(|j| at(kind, Place::Joint(j))).into_iter().collect()
+            }
+            Plainer::AtEveryJoint(kinds) => {
+                let of = |&j: &usize| kinds.iter().map(move |&kind| at(kind, Place::Joint(j)));
+                joints.iter().flat_map(of).collect()
+            }
+        }
     }
 
     /// Index of the joint, for an effect of a joint.

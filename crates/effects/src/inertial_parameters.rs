@@ -3,7 +3,7 @@ use dynamics::PARAMETERS_PER_LINK;
 use robot::{Inertia, Robot};
 
 use crate::explain::{down_to_zero, unbounded};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
 /// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
@@ -12,6 +12,22 @@ pub(crate) struct InertialParameters;
 impl Explain for InertialParameters {
     fn kind(&self) -> EffectKind {
         EffectKind::InertialParameters
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Exact,
+            is_rough: false,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: Some(EffectKind::Payload),
+            twin: None,
+            plainer: Plainer::AtTheJoint(EffectKind::RotorInertia),
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -3,7 +3,7 @@ use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::transmission::{Carried, Gap, play};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
 /// `1 / stiffness`.
@@ -45,6 +45,22 @@ fn per_compliance(
 impl Explain for JointElasticity {
     fn kind(&self) -> EffectKind {
         EffectKind::JointElasticity
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: false,
+            is_before_the_link: true,
+            is_reciprocal: true,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     /// The stiffness: damping acts only at frequencies that the motion does not reach.

@@ -3,7 +3,7 @@ use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, down_to_zero};
 use crate::timing::{TIME_SD, commanded, torque_rate};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// Torque that comes later than its command: one weight a joint, the change of a time (s).
 ///
@@ -33,6 +33,25 @@ impl Explain for LateTorque {
         match self {
             Self::Delay => EffectKind::ActuatorDelay,
             Self::Lag => EffectKind::ActuatorLag,
+        }
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: false,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: Some(match self {
+                Self::Delay => EffectKind::ActuatorLag,
+                Self::Lag => EffectKind::ActuatorDelay,
+            }),
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
         }
     }
 

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `coefficient |load| sign(qd)`: one weight a joint, the change of the coefficient.
 pub(crate) struct LoadDependentFriction;
@@ -13,6 +13,22 @@ const COEFFICIENT_SD: f64 = 0.2;
 impl Explain for LoadDependentFriction {
     fn kind(&self) -> EffectKind {
         EffectKind::LoadDependentFriction
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: true,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Here(EffectKind::CoulombFriction),
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

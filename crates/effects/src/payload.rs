@@ -3,7 +3,7 @@ use nalgebra::Vector3;
 use robot::{Inertia, Robot};
 
 use crate::inertial_parameters::{InertialParameters, mass_and_com, quantities};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `Y_last pi_payload`: ten weights, the inertial parameters of a body held by a last
 /// link, about that link's origin.
@@ -18,6 +18,22 @@ const REACH: f64 = 0.5;
 impl Explain for Payload {
     fn kind(&self) -> EffectKind {
         EffectKind::Payload
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Exact,
+            is_rough: false,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     /// Every link that carries no other.

@@ -5,7 +5,9 @@ use nalgebra::Complex;
 use robot::{Actuator, Robot, Wave};
 
 use crate::explain::{actuator_quantity, at_joint, joints_where, unbounded};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale, Shows,
+};
 
 /// Coulomb friction that varies with the position of the motor: two weights a joint, the change of
 /// the wave in phase and in quadrature (N·m or N); where there is one, a third for its periods.
@@ -37,6 +39,22 @@ fn amplitude(drive: &Actuator) -> Option<(Complex<f64>, Wave)> {
 impl Explain for PositionDependentFriction {
     fn kind(&self) -> EffectKind {
         EffectKind::PositionDependentFriction
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: true,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: Some((EffectKind::CoulombFriction, Shows::AtOtherPositions)),
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 2,
+        }
     }
 
     /// Joints with a wave, or with the germ of one.

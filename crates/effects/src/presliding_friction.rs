@@ -3,7 +3,9 @@ use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::motion::{bending, bristles};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale, Shows,
+};
 
 /// Dry friction that builds up over a way. In a robot without, one weight a joint: the friction (N·m or
 /// N) that builds up over a small way instead of at once. In a robot with a way two: the changes of the
@@ -41,6 +43,22 @@ fn level(drive: &Actuator) -> f64 {
 impl Explain for PreslidingFriction {
     fn kind(&self) -> EffectKind {
         EffectKind::PreslidingFriction
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: true,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: Some((EffectKind::CoulombFriction, Shows::NearRest)),
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: Some(1),
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -2,7 +2,9 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot, Stribeck};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, joints_where};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale, Shows,
+};
 
 /// Dry friction near rest beyond the Coulomb level: one weight a joint, the change of the excess;
 /// where there is some, a second one for the change of the velocity.
@@ -34,6 +36,22 @@ fn of(drive: &Actuator) -> Option<Stribeck> {
 impl Explain for StribeckFriction {
     fn kind(&self) -> EffectKind {
         EffectKind::StribeckFriction
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Doubtful,
+            is_rough: true,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: Some((EffectKind::CoulombFriction, Shows::NearRest)),
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: Some(1),
+            phases: 1,
+        }
     }
 
     /// Joints with an excess, or with the germ of one.

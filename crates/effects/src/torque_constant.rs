@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, every_joint};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `torque_gain tau`: one weight a joint, the change of the gain.
 ///
@@ -20,6 +20,22 @@ const GAIN_LIMIT: f64 = 0.4;
 impl Explain for TorqueConstant {
     fn kind(&self) -> EffectKind {
         EffectKind::TorqueConstant
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Tangent,
+            is_rough: false,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, every_joint, unbounded};
-use crate::{Column, Explain, Frame, Motion, Place, Quantity, Scale};
+use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
 
 /// `offset`: one weight a joint, the change of the effort reported at zero torque.
 pub(crate) struct TorqueOffset;
@@ -10,6 +10,22 @@ pub(crate) struct TorqueOffset;
 impl Explain for TorqueOffset {
     fn kind(&self) -> EffectKind {
         EffectKind::TorqueOffset
+    }
+
+    fn nature(&self) -> Nature {
+        Nature {
+            linearity: Linearity::Exact,
+            is_rough: false,
+            is_before_the_link: false,
+            is_reciprocal: false,
+            form_of: None,
+            together: &[],
+            other_name: None,
+            twin: None,
+            plainer: Plainer::Nothing,
+            seen_by: None,
+            phases: 1,
+        }
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

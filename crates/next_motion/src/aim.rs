@@ -1,4 +1,3 @@
-use catalogue::EffectKind;
 use effects::Hypothesis;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
@@ -86,9 +85,7 @@ impl<'a> Question<'a> {
 /// The Coulomb friction that a cause shares with its rivals: of one that is asymmetric only the
 /// asymmetry is disputed, of one whose level varies only that it does.
 fn shared_part(cause: Hypothesis) -> Option<Hypothesis> {
-    let asymmetric = cause.kind == EffectKind::AsymmetricFriction;
-    let symmetric = Hypothesis { kind: EffectKind::CoulombFriction, place: cause.place };
-    if asymmetric { Some(symmetric) } else { cause.varies() }
+    cause.together().first().copied().or_else(|| cause.varies())
 }
 
 /// Level of the Coulomb friction that the robot is described with (N·m or N).
@@ -213,6 +210,8 @@ fn learned(known: &Information, columns: &[usize], others: &[usize], prior: &[f6
 #[cfg(test)]
 mod tests {
     use effects::Place;
+
+    use catalogue::EffectKind;
 
     use super::*;
     use crate::testing::turntable;
