@@ -13,6 +13,9 @@ const ERRORS: f64 = 3.0;
 /// exceeds the noise: what the two differ by is of the size of what matters where they are larger.
 const DROWNED: f64 = 0.15;
 
+/// Share of the effort's RMS that noise may be for a joint to be said anything of: a sixth of its power.
+pub(crate) const MOST_NOISE: f64 = 0.4;
+
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
 const DEPENDS: f64 = 0.15;
 
@@ -82,6 +85,11 @@ impl Situation {
             && !self.is_small(self.noise.0)
     }
 
+    /// Whether there is next to nothing but noise.
+    fn is_all_noise(&self) -> bool {
+        self.noise.0 > MOST_NOISE * self.torque_rms
+    }
+
     /// Whether nothing is open.
     fn is_closed(&self) -> bool {
         !self.is_drowned() && (self.is_noise() || self.is_small(self.floor()))
@@ -91,7 +99,8 @@ impl Situation {
     ///
     /// Nothing is open where what is left is within noise that has a source, or a share of the effort
     /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort. Noise of more than [`DROWNED`] of the effort closes nothing that exceeds it.
+    /// effort. Noise of more than [`DROWNED`] of the effort closes nothing that exceeds it, of more than
+    /// [`MOST_NOISE`] nothing at all.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
             return (Verdict::DataInadequate, reason.clone());
@@ -107,6 +116,9 @@ impl Situation {
             (false, false) if self.is_drowned() => Verdict::DataInadequate,
             _ => Verdict::Unexplained,
         };
+        let is_open = verdict == Verdict::Unexplained;
+        let verdict =
+            if self.is_all_noise() && !is_open { Verdict::DataInadequate } else { verdict };
         (verdict, self.because(verdict))
     }
 
@@ -123,7 +135,7 @@ impl Situation {
             _ => "the findings leave",
         };
         let left = format!("{subject} {:.3} N m RMS while it moves", self.remaining_rms);
-        if self.is_drowned() {
+        if self.is_drowned() || self.is_all_noise() {
             let percent = 100.0 * self.remaining_rms / self.torque_rms;
             return format!(
                 "{left}, {percent:.0} % of its effort, in which noise and a cause cannot be told apart: {}",
@@ -172,10 +184,13 @@ impl Situation {
     }
 }
 
-/// The verdict over all joints.
-pub(crate) fn overall(joints: &[Verdict]) -> Verdict {
+/// The verdict over all joints, of which each `tells` something or not: it moved enough, and its effort is
+/// more than noise. A joint that does not is left out; with one that does and whose data are inadequate
+/// all the same the model is explained in part.
+pub(crate) fn overall(joints: &[Verdict], tells: &[bool]) -> Verdict {
     use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
     let adequate: Vec<Verdict> = joints.iter().copied().filter(|v| *v != DataInadequate).collect();
+    let is_drowned = joints.iter().zip(tells).any(|(v, tells)| *v == DataInadequate && *tells);
     let has = |v: Verdict| adequate.contains(&v);
     if adequate.is_empty() {
         DataInadequate
@@ -184,7 +199,7 @@ pub(crate) fn overall(joints: &[Verdict]) -> Verdict {
     } else if has(Unexplained) {
         Unexplained
     } else if has(Explained) {
-        Explained
+        if is_drowned { PartlyExplained } else { Explained }
     } else {
         Consistent
     }
@@ -236,6 +251,8 @@ mod tests {
         assert_eq!(noisy(0, 1.7, 1.5), Verdict::DataInadequate);
         assert_eq!(noisy(1, 1.7, 1.5), Verdict::PartlyExplained);
         assert_eq!(noisy(0, 1.7, 1.7), Verdict::Consistent);
+        let mostly = Situation { torque_rms: 3.3, ..joint(0, 1.7, 1.7) };
+        assert_eq!(mostly.verdict().0, Verdict::DataInadequate);
         assert_eq!(noisy(1, 1.4, 1.2), Verdict::Explained);
         // Nor does the friction of a joint that often turns.
         let turning = Situation { near_rest: 1.5, ..joint(0, 1.7, 0.1) };
@@ -267,10 +284,14 @@ mod tests {
     #[test]
     fn the_overall_verdict_is_no_better_than_the_worst_adequate_joint() {
         use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
-        assert_eq!(overall(&[DataInadequate, Consistent]), Consistent);
-        assert_eq!(overall(&[Explained, Consistent]), Explained);
-        assert_eq!(overall(&[Unexplained, Consistent]), Unexplained);
-        assert_eq!(overall(&[Unexplained, Explained]), PartlyExplained);
-        assert_eq!(overall(&[DataInadequate]), DataInadequate);
+        let of = |joints: &[Verdict]| overall(joints, &[false, true]);
+        assert_eq!(of(&[DataInadequate, Consistent]), Consistent);
+        assert_eq!(of(&[Explained, Consistent]), Explained);
+        assert_eq!(of(&[Unexplained, Consistent]), Unexplained);
+        assert_eq!(of(&[Unexplained, Explained]), PartlyExplained);
+        assert_eq!(of(&[DataInadequate]), DataInadequate);
+        assert_eq!(of(&[DataInadequate, Explained]), Explained);
+        assert_eq!(of(&[Explained, DataInadequate]), PartlyExplained);
+        assert_eq!(of(&[Consistent, DataInadequate]), Consistent);
     }
 }

@@ -8,14 +8,25 @@ use crate::places::{counted, listed};
 pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
     let Diagnosis { robot, joints, findings, verdict, .. } = diagnosis;
     let effects = counted(findings.len(), "named effect");
-    let left = at_joints(joints, |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained));
+    let is_open = |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained);
+    let left = at_joints(joints, is_open);
+    let is_lost = |v| v == Verdict::DataInadequate;
+    let shown = if joints.iter().any(|j| is_lost(j.verdict)) {
+        format!(" at {}", at_joints(joints, |v| !is_lost(v)))
+    } else {
+        String::new()
+    };
     match verdict {
         Verdict::Consistent => {
-            format!("Consistent: the log gives no reason to change the model of {robot}")
+            format!("Consistent: the log gives no reason to change the model of {robot}{shown}")
         }
         Verdict::Explained => format!(
-            "Explained: {effects} {} nearly all that the model of {robot} gets wrong",
+            "Explained: {effects} {} nearly all that the model of {robot} gets wrong{shown}",
             verb(findings.len())
+        ),
+        Verdict::PartlyExplained if !joints.iter().any(|j| is_open(j.verdict)) => format!(
+            "Partly explained: {effects} found in the model of {robot}, the data are inadequate at {}",
+            at_joints(joints, is_lost)
         ),
         Verdict::PartlyExplained => {
             format!(
@@ -159,6 +170,20 @@ mod tests {
             verdict_sentence(&sample.diagnosis),
             "Partly explained: 2 named effects found in the model of arm, structure is left at joint elbow"
         );
+    }
+
+    #[test]
+    fn the_sentence_leaves_out_joints_of_which_the_logs_show_nothing() {
+        let mut diagnosis = sample::arm().diagnosis;
+        let first = diagnosis.joints[0].name.clone();
+        (diagnosis.joints[0].verdict, diagnosis.joints[1].verdict) =
+            (Verdict::Explained, Verdict::DataInadequate);
+        diagnosis.verdict = Verdict::Explained;
+        let sentence = verdict_sentence(&diagnosis);
+        assert!(sentence.ends_with(&format!("gets wrong at joint {first}")), "{sentence}");
+        diagnosis.verdict = Verdict::PartlyExplained;
+        let sentence = verdict_sentence(&diagnosis);
+        assert!(sentence.ends_with("the data are inadequate at joint elbow"), "{sentence}");
     }
 
     #[test]
