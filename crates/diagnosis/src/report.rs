@@ -15,7 +15,7 @@ use crate::structure::{Probe, Structure};
 use crate::study::{Answer, Study};
 use crate::tone_finding::tone_finding;
 use crate::torque_noise::TorqueNoise;
-use crate::verdict::{MOST_NOISE, Situation, overall};
+use crate::verdict::{Situation, overall};
 
 impl Study<'_> {
     /// The answer; `data.runs` and `warnings` are left for the caller.
@@ -31,7 +31,7 @@ impl Study<'_> {
             robot: self.robot.name().to_owned(),
             verdict: overall(
                 &joints.iter().map(|j| j.verdict).collect::<Vec<_>>(),
-                &joints.iter().zip(self.inadequate).map(tells).collect::<Vec<_>>(),
+                &self.inadequate.iter().map(Option::is_none).collect::<Vec<_>>(),
             ),
             joints,
             findings: self.findings(answer, least),
@@ -214,11 +214,6 @@ fn independent(left: &[Vec<f64>]) -> f64 {
 fn rms(left: &[Vec<f64>]) -> f64 {
     let (n, sum) = left.iter().flatten().fold((0_usize, 0.0), |(n, s), x| (n + 1, s + x * x));
     (sum / n.max(1) as f64).sqrt()
-}
-
-/// Whether a joint moved enough, and its effort is more than noise.
-fn tells((joint, inadequate): (&JointReport, &Option<String>)) -> bool {
-    inadequate.is_none() && joint.noise_floor_rms_nm <= MOST_NOISE * joint.torque_rms_nm
 }
 
 fn spectra(noise: &[(f64, f64)], left: &Spectrum) -> NoiseSpectrum {

@@ -13,8 +13,9 @@ const ERRORS: f64 = 3.0;
 /// exceeds the noise: what the two differ by is of the size of what matters where they are larger.
 const DROWNED: f64 = 0.15;
 
-/// Share of the effort's RMS that noise may be for a joint to be said anything of: a sixth of its power.
-pub(crate) const MOST_NOISE: f64 = 0.4;
+/// Share of the effort's RMS, a sixth of its power, above which noise is most of what a joint shows: a
+/// rest near it hides no more than that.
+const MOST_NOISE: f64 = 0.4;
 
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
 const DEPENDS: f64 = 0.15;
@@ -82,12 +83,8 @@ impl Situation {
     fn is_drowned(&self) -> bool {
         self.is_noise()
             && self.remaining_rms > DROWNED * self.torque_rms
+            && self.noise.0 <= MOST_NOISE * self.torque_rms
             && !self.is_small(self.noise.0)
-    }
-
-    /// Whether there is next to nothing but noise.
-    fn is_all_noise(&self) -> bool {
-        self.noise.0 > MOST_NOISE * self.torque_rms
     }
 
     /// Whether nothing is open.
@@ -99,8 +96,7 @@ impl Situation {
     ///
     /// Nothing is open where what is left is within noise that has a source, or a share of the effort
     /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort. Noise of more than [`DROWNED`] of the effort closes nothing that exceeds it, of more than
-    /// [`MOST_NOISE`] nothing at all.
+    /// effort. Noise between [`DROWNED`] and [`MOST_NOISE`] of the effort closes nothing that exceeds it.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
             return (Verdict::DataInadequate, reason.clone());
@@ -116,9 +112,6 @@ impl Situation {
             (false, false) if self.is_drowned() => Verdict::DataInadequate,
             _ => Verdict::Unexplained,
         };
-        let is_open = verdict == Verdict::Unexplained;
-        let verdict =
-            if self.is_all_noise() && !is_open { Verdict::DataInadequate } else { verdict };
         (verdict, self.because(verdict))
     }
 
@@ -135,7 +128,7 @@ impl Situation {
             _ => "the findings leave",
         };
         let left = format!("{subject} {:.3} N m RMS while it moves", self.remaining_rms);
-        if self.is_drowned() || self.is_all_noise() {
+        if self.is_drowned() {
             let percent = 100.0 * self.remaining_rms / self.torque_rms;
             return format!(
                 "{left}, {percent:.0} % of its effort, in which noise and a cause cannot be told apart: {}",
@@ -184,13 +177,12 @@ impl Situation {
     }
 }
 
-/// The verdict over all joints, of which each `tells` something or not: it moved enough, and its effort is
-/// more than noise. A joint that does not is left out; with one that does and whose data are inadequate
-/// all the same the model is explained in part.
-pub(crate) fn overall(joints: &[Verdict], tells: &[bool]) -> Verdict {
+/// The verdict over all joints, of which each `moved` enough or not. A joint that did not is left out;
+/// with one that did and is lost in noise the model is explained in part.
+pub(crate) fn overall(joints: &[Verdict], moved: &[bool]) -> Verdict {
     use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
     let adequate: Vec<Verdict> = joints.iter().copied().filter(|v| *v != DataInadequate).collect();
-    let is_drowned = joints.iter().zip(tells).any(|(v, tells)| *v == DataInadequate && *tells);
+    let is_drowned = joints.iter().zip(moved).any(|(v, moved)| *v == DataInadequate && *moved);
     let has = |v: Verdict| adequate.contains(&v);
     if adequate.is_empty() {
         DataInadequate
@@ -251,8 +243,9 @@ mod tests {
         assert_eq!(noisy(0, 1.7, 1.5), Verdict::DataInadequate);
         assert_eq!(noisy(1, 1.7, 1.5), Verdict::PartlyExplained);
         assert_eq!(noisy(0, 1.7, 1.7), Verdict::Consistent);
-        let mostly = Situation { torque_rms: 3.3, ..joint(0, 1.7, 1.7) };
-        assert_eq!(mostly.verdict().0, Verdict::DataInadequate);
+        // Where most is noise there is nothing to lose in it.
+        let mostly = Situation { torque_rms: 3.3, ..joint(0, 1.7, 1.5) };
+        assert_eq!(mostly.verdict().0, Verdict::Consistent);
         assert_eq!(noisy(1, 1.4, 1.2), Verdict::Explained);
         // Nor does the friction of a joint that often turns.
         let turning = Situation { near_rest: 1.5, ..joint(0, 1.7, 0.1) };
