@@ -13,9 +13,9 @@ const ERRORS: f64 = 3.0;
 /// exceeds the noise: what the two differ by is of the size of what matters where they are larger.
 const DROWNED: f64 = 0.15;
 
-/// Share of the effort's RMS, a sixth of its power, above which noise is most of what a joint shows: a
+/// Share of the effort's RMS, a sixteenth of its power, above which noise is most of what a joint shows: a
 /// rest near it hides no more than that.
-const MOST_NOISE: f64 = 0.4;
+const MOST_NOISE: f64 = 0.25;
 
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
 const DEPENDS: f64 = 0.15;
