@@ -1,3 +1,4 @@
+use effects::Law;
 use nalgebra::{DMatrix, DVector};
 
 use crate::design::{Design, RunDesign};
@@ -73,7 +74,7 @@ pub(crate) fn variation(fitted: &Fitted, group: usize, size: &[f64]) -> Option<V
     let alone = explained_alone(problem, &columns, group, size)?;
     let base = held_out(problem, &columns, None)?;
     let nature = problem.design.groups[group].hypothesis.nature();
-    let most = if nature.is_some_and(|n| n.is_rough) { MOST_OF_ROUGH } else { MOST };
+    let most = if nature.is_some_and(|n| n.law == Law::Rough) { MOST_OF_ROUGH } else { MOST };
     let mut largest: Option<(f64, Contrast)> = None;
     for contrast in contrasts(problem.design, group, size) {
         let fall = base - held_out(problem, &columns, Some(&contrast))?;

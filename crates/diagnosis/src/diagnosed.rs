@@ -1,4 +1,5 @@
 use catalogue::{EffectKind, Parameter};
+use effects::Seat;
 
 /// What a diagnosis finds of an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +30,7 @@ pub fn diagnosed(kind: EffectKind) -> Result<Diagnosed, &'static str> {
         }
         _ => {
             let model = effects::model(kind)?;
-            let how = if model.nature().is_before_the_link {
+            let how = if model.nature().seat == Seat::BeforeTheLink {
                 "by its columns in a regression: of the effort, or of what two encoders differ by"
             } else {
                 "by its columns in a regression"

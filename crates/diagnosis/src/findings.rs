@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use catalogue::EffectKind;
-use effects::{Hypothesis, Place};
+use effects::Hypothesis;
 use robot::Robot;
 
 use crate::contest::Apart;
@@ -95,20 +95,18 @@ impl Evidence<'_> {
     /// Forms of dry friction that these logs could not show beside Coulomb friction `g`, were
     /// they half as large as its level: near rest, or over positions that they have not seen.
     fn hidden_beside(&self, g: usize, fitted: &Fitted) -> Vec<usize> {
-        use EffectKind as K;
         let problem = self.selection.problem;
         let design = problem.design;
-        let Hypothesis { kind, place } = design.groups[g].hypothesis;
-        let (K::CoulombFriction, Place::Joint(j)) = (kind, place) else { return Vec::new() };
+        let own = design.groups[g].hypothesis;
+        let is_form = |h: &usize| design.groups[*h].hypothesis.varies() == Some(own);
+        let forms: Vec<usize> = (0..design.groups.len()).filter(is_form).collect();
+        let Some(j) = own.joint().filter(|_| !forms.is_empty()) else { return Vec::new() };
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let extended = fitted.robot();
         let drive = &extended.links()[j].actuator;
         let least = 0.5 * drive.coulomb_forward.min(drive.coulomb_backward);
         let too_small = |h: &usize| self.smallest(*h, &fit).is_none_or(|smallest| smallest > least);
-        let own = design.groups[g].hypothesis;
-        let is_form = |h: &usize| design.groups[*h].hypothesis.varies() == Some(own);
-        let forms = (0..design.groups.len()).filter(is_form);
-        forms.filter(|h| !self.model.contains(h)).filter(too_small).collect()
+        forms.into_iter().filter(|h| !self.model.contains(h)).filter(too_small).collect()
     }
 
     /// Asymmetric friction, where Coulomb friction `g` and an offset of the same joint may as well be

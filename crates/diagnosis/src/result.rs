@@ -209,7 +209,7 @@ impl Finding {
     /// the logs do not look, such as `FR04 Stribeck friction near rest`.
     pub fn rivals(&self) -> (Vec<String>, Vec<String>) {
         let shows = |r: &EffectAt| {
-            let (of, shows) = effects::model(r.effect).ok()?.nature().form_of?;
+            let (of, shows) = effects::model(r.effect).ok()?.nature().form_of()?;
             (of == self.at.effect && r.joint == self.at.joint).then_some(shows)
         };
         let all = self.not_separable_from.iter();
@@ -234,7 +234,7 @@ impl Finding {
     /// Whether a rival does its work only together with another one: Coulomb friction with an offset
     /// that of asymmetric friction.
     fn is_the_work_of(&self, rival: &EffectAt) -> bool {
-        let parts = effects::model(self.at.effect).map_or(&[] as &[_], |m| m.nature().together);
+        let parts = effects::model(self.at.effect).map_or(&[] as &[_], |m| m.nature().together());
         parts.contains(&rival.effect) && rival.joint == self.at.joint
     }
 }

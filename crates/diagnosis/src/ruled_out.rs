@@ -1,4 +1,5 @@
 use catalogue::EffectKind;
+use effects::Weights;
 use nalgebra::DMatrix;
 
 use crate::constancy::Variation;
@@ -48,8 +49,9 @@ impl Evidence<'_> {
         let columns = problem.new_columns(self.model, g);
         let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
         let errors = standard_errors(problem, fit, &complement);
-        let phases = problem.design.groups[g].hypothesis.nature().map_or(1, |n| n.phases);
-        let errors = errors.get(..phases)?;
+        let nature = problem.design.groups[g].hypothesis.nature();
+        let has_phases = nature.is_some_and(|n| n.weights == Weights::Phases);
+        let errors = errors.get(..if has_phases { 2 } else { 1 })?;
         let error = errors.iter().copied().fold(0.0, f64::max);
         Some(DETECTED_AT * error * self.largest_unseen(g))
     }
@@ -126,11 +128,11 @@ impl Evidence<'_> {
 /// spring's weight is its compliance, and what is beyond the level of Coulomb friction is that of
 /// breaking away, or all that is springy.
 fn read(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
-    let Ok(nature) = effects::model(kind).map(effects::Explain::nature) else {
-        return (weight, size);
-    };
-    let size = if nature.is_reciprocal { size.map(f64::recip) } else { size };
-    (nature.seen_by.unwrap_or(weight), size)
+    match effects::model(kind).map(|model| model.nature().weights) {
+        Ok(Weights::Reciprocal) => (weight, size.map(f64::recip)),
+        Ok(Weights::SeenBy(parameter)) => (parameter, size),
+        _ => (weight, size),
+    }
 }
 
 /// Standard errors of the weights of a group that is not in the model: the larger of what

@@ -1,6 +1,6 @@
 use std::cmp::Ordering;
 
-use effects::{Hypothesis, Plainer};
+use effects::{Hypothesis, Nature};
 use robot::Robot;
 
 use crate::fit::Fit;
@@ -73,7 +73,7 @@ impl Selection<'_> {
     /// the level of the friction varies.
     fn two_for_one(&self, model: &Model, one: usize) -> Option<Vec<usize>> {
         let groups = &self.problem.design.groups;
-        let one = self.find(groups[one].hypothesis)?;
+        self.find(groups[one].hypothesis)?;
         let parts = groups[one].hypothesis.together();
         let varies = |g: &usize| groups[*g].hypothesis.varies().is_some_and(|h| parts.contains(&h));
         let two: Vec<usize> = parts.iter().map(|&part| self.find(part)).collect::<Option<_>>()?;
@@ -194,7 +194,7 @@ impl Selection<'_> {
 
     fn is_beside_the_plain(&self, g: usize) -> bool {
         let nature = self.problem.design.groups[g].hypothesis.nature();
-        nature.is_some_and(|n| matches!(n.plainer, Plainer::AtEveryJoint(_)))
+        nature.is_some_and(Nature::adds_to_the_plain)
     }
 
     /// Least gain in log evidence for hypothesis `g`.

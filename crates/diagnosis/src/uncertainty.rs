@@ -1,5 +1,5 @@
 use catalogue::EffectKind;
-use effects::{Hypothesis, Quantity};
+use effects::{Hypothesis, Quantity, Weights};
 use nalgebra::{DMatrix, DVector};
 use robot::{Actuator, Robot};
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
@@ -109,7 +109,7 @@ impl Uncertainty {
                 let mut estimate = estimate(quantity, sd * self.t, before * self.t);
                 let at = (quantity.value, weights);
                 clip(&mut estimate, (&own, &gradient), &design.bounds, at);
-                if hypothesis.nature().is_some_and(|n| n.is_reciprocal) {
+                if hypothesis.nature().is_some_and(|n| n.weights == Weights::Reciprocal) {
                     let half = self.t * self.sd(&place, &DVector::from_element(own.len(), 1.0));
                     estimate.ci95 = between(estimate.value.recip(), half);
                 }

@@ -9,13 +9,9 @@ const OF_COMMANDED_NOISE: f64 = 1.6;
 /// Standard errors of an RMS, `1 / sqrt(2 n)` of it for `n` independent samples, that it may be besides.
 const ERRORS: f64 = 3.0;
 
-/// Share of the effort's RMS, 2 % of its power, up to which what is left is taken for noise though it
-/// exceeds the noise: what the two differ by is of the size of what matters where they are larger.
+/// Share of the effort's RMS above which only the effort's own noise closes a joint: more room than that
+/// measures up to what matters.
 const DROWNED: f64 = 0.15;
-
-/// Share of the effort's RMS, a sixteenth of its power, above which noise is most of what a joint shows: a
-/// rest near it hides no more than that.
-const MOST_NOISE: f64 = 0.25;
 
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
 const DEPENDS: f64 = 0.15;
@@ -65,43 +61,41 @@ impl Situation {
         self.noise.0.hypot(self.near_rest)
     }
 
-    /// Whether what is left is noise.
+    /// Whether what is left is within so many times a floor, but for the error of an RMS.
+    fn is_within(&self, most: f64, floor: f64) -> bool {
+        let error = (2.0 * self.samples.max(1.0)).sqrt().recip();
+        self.remaining_rms <= (most + ERRORS * error) * floor
+    }
+
+    /// Whether what is left may be noise.
     fn is_noise(&self) -> bool {
         let most = if self.is_command { OF_COMMANDED_NOISE } else { OF_NOISE };
-        let error = (2.0 * self.samples.max(1.0)).sqrt().recip();
-        self.remaining_rms <= (most + ERRORS * error) * self.floor()
+        self.is_within(most, self.floor())
     }
 
-    /// Whether what is left beyond `floor` does not matter.
-    fn is_small(&self, floor: f64) -> bool {
-        let beyond = (self.remaining_rms.powi(2) - floor.powi(2)).max(0.0).sqrt();
-        beyond <= self.practical * self.torque_rms
-    }
-
-    /// Whether what is left may be noise, and so large a share of the effort that what matters may be
-    /// in it.
+    /// Whether it may be noise for no better reason than that a command or a turning joint is given
+    /// more room, and is so large that what matters fits in.
     fn is_drowned(&self) -> bool {
         self.is_noise()
             && self.remaining_rms > DROWNED * self.torque_rms
-            && self.noise.0 <= MOST_NOISE * self.torque_rms
-            && !self.is_small(self.noise.0)
+            && !self.is_within(OF_NOISE, self.noise.0)
     }
 
-    /// Whether nothing is open.
-    fn is_closed(&self) -> bool {
-        !self.is_drowned() && (self.is_noise() || self.is_small(self.floor()))
+    /// Whether what is left beyond the noise does not matter.
+    fn is_small(&self) -> bool {
+        self.unexplained().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
     }
 
     /// The verdict and why.
     ///
     /// Nothing is open where what is left is within noise that has a source, or a share of the effort
     /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort. Noise between [`DROWNED`] and [`MOST_NOISE`] of the effort closes nothing that exceeds it.
+    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
             return (Verdict::DataInadequate, reason.clone());
         }
-        let closed = self.is_closed();
+        let closed = !self.is_drowned() && (self.is_noise() || self.is_small());
         let named = self.findings + self.between > 0;
         let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
         let is_sane = fell && self.remaining_rms < self.torque_rms;
@@ -138,7 +132,7 @@ impl Situation {
         if self.is_noise() {
             return format!("{left}, within the noise: {}", self.of_noise());
         }
-        if self.is_small(self.floor()) {
+        if self.is_small() {
             let percent = 100.0 * self.practical;
             return format!(
                 "{left}, beyond the noise less than {percent:.0} % of its effort ({})",
@@ -225,9 +219,8 @@ mod tests {
     #[test]
     fn a_rest_within_its_noise_or_two_per_cent_of_the_effort_is_closed() {
         // 450 independent samples: 1.3 times the noise.
-        let strong = |noise| Situation { torque_rms: 20.0, ..joint(0, 2.0, noise) }.verdict().0;
-        assert_eq!(strong(1.55), Verdict::Consistent);
-        assert_eq!(strong(1.52), Verdict::Unexplained);
+        assert_eq!(joint(0, 2.0, 1.55).verdict().0, Verdict::Consistent);
+        assert_eq!(joint(0, 2.0, 1.52).verdict().0, Verdict::Unexplained);
         assert_eq!(joint(0, 0.19, 0.0).verdict().0, Verdict::Consistent);
         assert_eq!(joint(1, 0.19, 0.0).verdict().0, Verdict::Explained);
         assert_eq!(joint(0, 0.3, 0.1).verdict().0, Verdict::Unexplained);
@@ -235,21 +228,18 @@ mod tests {
     }
 
     #[test]
-    fn noise_of_a_sixth_of_the_effort_closes_nothing_that_exceeds_it() {
-        let noisy = |findings, left, noise| {
-            let joint = Situation { nominal_rms: 3.0, ..joint(findings, left, noise) };
-            joint.verdict().0
+    fn more_room_than_noise_has_closes_no_joint_of_which_it_is_a_sixth() {
+        let command = |findings, torque_rms| {
+            Situation { torque_rms, is_command: true, ..joint(findings, 1.7, 1.2) }.verdict().0
         };
-        assert_eq!(noisy(0, 1.7, 1.5), Verdict::DataInadequate);
-        assert_eq!(noisy(1, 1.7, 1.5), Verdict::PartlyExplained);
-        assert_eq!(noisy(0, 1.7, 1.7), Verdict::Consistent);
-        // Where most is noise there is nothing to lose in it.
-        let mostly = Situation { torque_rms: 3.3, ..joint(0, 1.7, 1.5) };
-        assert_eq!(mostly.verdict().0, Verdict::Consistent);
-        assert_eq!(noisy(1, 1.4, 1.2), Verdict::Explained);
+        assert_eq!(command(0, 12.0), Verdict::Consistent);
+        assert_eq!(command(0, 11.0), Verdict::DataInadequate);
+        assert_eq!(command(1, 12.0), Verdict::Explained);
+        assert_eq!(command(1, 11.0), Verdict::PartlyExplained);
         // Nor does the friction of a joint that often turns.
-        let turning = Situation { near_rest: 1.5, ..joint(0, 1.7, 0.1) };
-        assert_eq!(turning.verdict().0, Verdict::DataInadequate);
+        let turning = |left| Situation { near_rest: 1.5, ..joint(0, left, 0.1) }.verdict().0;
+        assert_eq!(turning(1.4), Verdict::Consistent);
+        assert_eq!(turning(1.6), Verdict::DataInadequate);
     }
 
     #[test]

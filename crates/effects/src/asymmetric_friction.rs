@@ -2,7 +2,10 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint, unbounded};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Weights,
+};
 
 /// `forward` for positive and `-backward` for negative velocity: two weights a joint,
 /// the change of the mean level and half the change of the difference.
@@ -18,19 +21,9 @@ impl Explain for AsymmetricFriction {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Exact,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[EffectKind::CoulombFriction, EffectKind::TorqueOffset],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        const RELATIONS: &[Relation] =
+            &[Relation::Together(&[EffectKind::CoulombFriction, EffectKind::TorqueOffset])];
+        Nature::new(Linearity::Exact, Law::Rough, Seat::Elsewhere, Weights::Direct, RELATIONS)
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

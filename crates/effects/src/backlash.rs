@@ -3,7 +3,9 @@ use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::transmission::{Carried, Gap, play};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
 /// of the gap (rad or m).
@@ -33,19 +35,7 @@ impl Explain for Backlash {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: false,
-            is_before_the_link: true,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Direct, &[])
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -3,7 +3,9 @@ use robot::{Actuator, Robot};
 
 use crate::cable_loop::Loop;
 use crate::explain::{actuator_quantity, down_to_zero, every_joint, unbounded};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// `stiffness x + cubic x³ + h`, `x = q - rest`, with the loop `h`.
 ///
@@ -34,19 +36,7 @@ impl Explain for CableSpring {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Tangent,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Tangent, Law::Rough, Seat::Elsewhere, Weights::Direct, &[])
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

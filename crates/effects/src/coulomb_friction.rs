@@ -2,7 +2,9 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// `level sign(qd)`: one weight a joint, the change of both Coulomb levels.
 pub(crate) struct CoulombFriction;
@@ -13,19 +15,7 @@ impl Explain for CoulombFriction {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Exact,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Exact, Law::Rough, Seat::Elsewhere, Weights::Direct, &[])
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -3,7 +3,8 @@ use robot::{Actuator, Coupling, Robot};
 
 use crate::explain::{actuator_quantity, down_to_zero, joints_where};
 use crate::{
-    Column, Explain, Frame, Linearity, Motion, Nature, Part, Place, Plainer, Quantity, Scale,
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Part, Place, Quantity, Relation, Scale,
+    Seat, Weights,
 };
 
 /// Friction of two motors that a joint and the next one share: a dry level and a viscous factor of
@@ -60,22 +61,11 @@ impl Explain for DifferentialCoupling {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::AtEveryJoint(&[
-                EffectKind::CoulombFriction,
-                EffectKind::ViscousFriction,
-            ]),
-            seen_by: None,
-            phases: 1,
-        }
+        const RELATIONS: &[Relation] = &[Relation::PlainerAtEveryJoint(&[
+            EffectKind::CoulombFriction,
+            EffectKind::ViscousFriction,
+        ])];
+        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::Direct, RELATIONS)
     }
 
     /// Joints with a coupling, or with the germ of one.

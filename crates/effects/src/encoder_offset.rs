@@ -2,7 +2,9 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, every_joint, unbounded};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// `tau(q - offset) - tau(q)`: one weight a joint, the change of the offset (rad or m).
 ///
@@ -19,19 +21,7 @@ impl Explain for EncoderOffset {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: false,
-            is_before_the_link: true,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Direct, &[])
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -3,7 +3,9 @@ use nalgebra::{Rotation3, Vector3};
 use robot::Robot;
 
 use crate::motion::tilt_axes;
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// `G(q) (g - g_nominal)`: two weights, the tilt of gravity about two horizontal axes (rad).
 ///
@@ -23,19 +25,7 @@ impl Explain for GravityDirection {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Tangent,
-            is_rough: false,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Tangent, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
     }
 
     fn places(&self, _: &Robot) -> Vec<Place> {

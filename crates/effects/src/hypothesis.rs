@@ -2,7 +2,8 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::{
-    Column, Explain, Frame, Linearity, MODELLED, Motion, Nature, Plainer, Quantity, Scale, model,
+    Column, Explain, Frame, Linearity, MODELLED, Motion, Nature, Quantity, Relation, Scale, Seat,
+    model,
 };
 
 /// Where an effect acts.
@@ -73,7 +74,7 @@ impl Hypothesis {
     /// The joint of an effect that lies between its encoder and its link: where a second encoder
     /// shows the link, it shows the effect.
     pub fn before_the_link(self) -> Option<usize> {
-        self.joint().filter(|_| self.nature().is_some_and(|n| n.is_before_the_link))
+        self.joint().filter(|_| self.nature().is_some_and(|n| n.seat == Seat::BeforeTheLink))
     }
 
     /// See [`Explain::prior`].
@@ -118,43 +119,53 @@ impl Hypothesis {
     /// offset.
     pub fn excludes(self, other: Self) -> bool {
         let holds = |a: Self, b: Self| {
-            a.nature().is_some_and(|n| n.other_name == Some(b.kind) || n.together.contains(&b.kind))
+            let is_b = |r: &Relation| match r {
+                Relation::OtherNameOf(kind) => *kind == b.kind,
+                Relation::Together(kinds) => kinds.contains(&b.kind),
+                _ => false,
+            };
+            a.relations().iter().any(is_b)
         };
         self.place == other.place && (holds(self, other) || holds(other, self))
     }
 
     /// Whether `self` and `other` have the same columns about a robot without either.
     pub fn is_twin(self, other: Self) -> bool {
-        self.place == other.place && self.nature().is_some_and(|n| n.twin == Some(other.kind))
+        self.place == other.place && self.relations().contains(&Relation::TwinOf(other.kind))
     }
 
     /// The Coulomb friction whose level this effect makes vary.
     pub fn varies(self) -> Option<Self> {
-        let (kind, _) = self.nature()?.form_of?;
+        let (kind, _) = self.nature()?.form_of()?;
         Some(Self { kind, place: self.place })
     }
 
     /// Effects of the same place that together are this one: Coulomb friction, the level of asymmetric
     /// friction, and its offset.
     pub fn together(self) -> Vec<Self> {
-        let kinds = self.nature().map_or(&[] as &[EffectKind], |n| n.together);
+        let kinds = self.nature().map_or(&[] as &[EffectKind], Nature::together);
         kinds.iter().map(|&kind| Self { kind, place: self.place }).collect()
     }
 
     /// Effects that have the name where they do the work of this one, which reaches `joints`.
     pub fn plainer(self, joints: &[usize]) -> Vec<Self> {
-        let at = |kind: EffectKind, place| Self { kind, place };
-        match self.nature().map_or(Plainer::Nothing, |n| n.plainer) {
-            Plainer::Nothing => Vec::new(),
-            Plainer::Here(kind) => vec![at(kind, self.place)],
-            Plainer::AtTheJoint(kind) => {
+        let at = |&kind: &EffectKind, place| Self { kind, place };
+        let of = |relation: &Relation| match relation {
+            Relation::PlainerHere(kind) => vec![at(kind, self.place)],
+            Relation::PlainerAtTheJoint(kind) => {
                 self.link().map(|j| at(kind, Place::Joint(j))).into_iter().collect()
             }
-            Plainer::AtEveryJoint(kinds) => {
-                let of = |&j: &usize| kinds.iter().map(move |&kind| at(kind, Place::Joint(j)));
-                joints.iter().flat_map(of).collect()
+            Relation::PlainerAtEveryJoint(kinds) => {
+                let all = |&j: &usize| kinds.iter().map(move |kind| at(kind, Place::Joint(j)));
+                joints.iter().flat_map(all).collect()
             }
-        }
+            _ => Vec::new(),
+        };
+        self.relations().iter().flat_map(of).collect()
+    }
+
+    fn relations(self) -> &'static [Relation] {
+        self.nature().map_or(&[], |n| n.relations)
     }
 
     /// Index of the joint, for an effect of a joint.

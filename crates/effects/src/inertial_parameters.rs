@@ -3,7 +3,10 @@ use dynamics::PARAMETERS_PER_LINK;
 use robot::{Inertia, Robot};
 
 use crate::explain::{down_to_zero, unbounded};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Weights,
+};
 
 /// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
 /// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
@@ -15,19 +18,11 @@ impl Explain for InertialParameters {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Exact,
-            is_rough: false,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: Some(EffectKind::Payload),
-            twin: None,
-            plainer: Plainer::AtTheJoint(EffectKind::RotorInertia),
-            seen_by: None,
-            phases: 1,
-        }
+        const RELATIONS: &[Relation] = &[
+            Relation::OtherNameOf(EffectKind::Payload),
+            Relation::PlainerAtTheJoint(EffectKind::RotorInertia),
+        ];
+        Nature::new(Linearity::Exact, Law::Firm, Seat::Elsewhere, Weights::Direct, RELATIONS)
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -3,7 +3,10 @@ use robot::{Actuator, Robot};
 
 use crate::explain::{actuator_quantity, down_to_zero};
 use crate::timing::{TIME_SD, commanded, torque_rate};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Weights,
+};
 
 /// Torque that comes later than its command: one weight a joint, the change of a time (s).
 ///
@@ -37,22 +40,11 @@ impl Explain for LateTorque {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: false,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: Some(match self {
-                Self::Delay => EffectKind::ActuatorLag,
-                Self::Lag => EffectKind::ActuatorDelay,
-            }),
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        let twin: &[Relation] = match self {
+            Self::Delay => &[Relation::TwinOf(EffectKind::ActuatorLag)],
+            Self::Lag => &[Relation::TwinOf(EffectKind::ActuatorDelay)],
+        };
+        Nature::new(Linearity::Doubtful, Law::Firm, Seat::Elsewhere, Weights::Direct, twin)
     }
 
     /// Joints whose log has a command, or may have: a measured torque has it behind it.

@@ -56,6 +56,6 @@ pub use hypothesis::{Hypothesis, Place, hypotheses};
 pub use left_out::left_out;
 pub use model::{MODELLED, model};
 pub use motion::{Encoders, Frame, Motion, drive_torque};
-pub use nature::{Linearity, Nature, Plainer, Shows};
+pub use nature::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 pub use remedy::remedy;
 pub use scale::Scale;

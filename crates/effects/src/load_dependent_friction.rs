@@ -2,7 +2,10 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Weights,
+};
 
 /// `coefficient |load| sign(qd)`: one weight a joint, the change of the coefficient.
 pub(crate) struct LoadDependentFriction;
@@ -16,19 +19,8 @@ impl Explain for LoadDependentFriction {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Here(EffectKind::CoulombFriction),
-            seen_by: None,
-            phases: 1,
-        }
+        const RELATIONS: &[Relation] = &[Relation::PlainerHere(EffectKind::CoulombFriction)];
+        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::Direct, RELATIONS)
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -12,6 +12,37 @@ pub enum Linearity {
     Doubtful,
 }
 
+/// How far the law of an effect holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Law {
+    /// One size holds everywhere.
+    Firm,
+    /// Sizes differ with speed, position or load.
+    Rough,
+}
+
+/// Where an effect lies, seen from the first encoder of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seat {
+    /// Between that encoder and the link: a second one at the link shows it.
+    BeforeTheLink,
+    /// Anywhere else.
+    Elsewhere,
+}
+
+/// How a weight tells its parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weights {
+    /// It is the change of the parameter of the same index.
+    Direct,
+    /// It is the change of the reciprocal of that parameter.
+    Reciprocal,
+    /// How large the effect would have to be to be seen is told of this parameter.
+    SeenBy(usize),
+    /// The first two are one size in two phases.
+    Phases,
+}
+
 /// Where a form of dry friction differs from Coulomb friction of one level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shows {
@@ -21,17 +52,23 @@ pub enum Shows {
     AtOtherPositions,
 }
 
-/// Effects that have the name where they do the work of another, alone or together.
+/// What an effect is to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Plainer {
-    /// There are none.
-    Nothing,
-    /// This one at the same place.
-    Here(EffectKind),
-    /// This one at the joint that carries the link.
-    AtTheJoint(EffectKind),
-    /// These at every joint that the other reaches: what it explains is what it adds to them.
-    AtEveryJoint(&'static [EffectKind]),
+pub enum Relation {
+    /// It makes the size of that effect of the same joint vary, which shows there.
+    FormOf(EffectKind, Shows),
+    /// It is these effects of the same place together.
+    Together(&'static [EffectKind]),
+    /// It is another name for changes of the same numbers.
+    OtherNameOf(EffectKind),
+    /// It has the same columns about a robot without either.
+    TwinOf(EffectKind),
+    /// That effect at the same place has the name where it does the work.
+    PlainerHere(EffectKind),
+    /// The same of that effect at the joint that carries the link.
+    PlainerAtTheJoint(EffectKind),
+    /// The same of these at every joint that it reaches: what it explains is what it adds to them.
+    PlainerAtEveryJoint(&'static [EffectKind]),
 }
 
 /// What is known of an effect before any log.
@@ -41,24 +78,48 @@ pub enum Plainer {
 pub struct Nature {
     /// How its columns depend on the robot.
     pub linearity: Linearity,
-    /// Whether the law holds roughly: its sizes differ with speed, position or load.
-    pub is_rough: bool,
-    /// Whether it lies between the first encoder of a joint and the link.
-    pub is_before_the_link: bool,
-    /// Whether its weights are reciprocals of its parameters.
-    pub is_reciprocal: bool,
-    /// The effect of the same joint whose size it makes vary, and where that shows.
-    pub form_of: Option<(EffectKind, Shows)>,
-    /// Effects of the same place that together are this one.
-    pub together: &'static [EffectKind],
-    /// Another name for changes of the same numbers.
-    pub other_name: Option<EffectKind>,
-    /// The effect of the same columns about a robot without either.
-    pub twin: Option<EffectKind>,
-    /// Effects that have the name where they do its work.
-    pub plainer: Plainer,
-    /// The parameter that tells how large it would have to be to be seen; that of the weight where none.
-    pub seen_by: Option<usize>,
-    /// Number of its first columns that are one size in several phases.
-    pub phases: usize,
+    /// How far its law holds.
+    pub law: Law,
+    /// Where it lies.
+    pub seat: Seat,
+    /// How its weights tell its parameters.
+    pub weights: Weights,
+    /// What it is to other effects.
+    pub relations: &'static [Relation],
+}
+
+impl Nature {
+    /// All that is known of an effect.
+    pub(crate) const fn new(
+        linearity: Linearity,
+        law: Law,
+        seat: Seat,
+        weights: Weights,
+        relations: &'static [Relation],
+    ) -> Self {
+        Self { linearity, law, seat, weights, relations }
+    }
+
+    /// Whether what it explains is what it adds to its plainer rivals at every joint.
+    pub fn adds_to_the_plain(self) -> bool {
+        self.relations.iter().any(|r| matches!(r, Relation::PlainerAtEveryJoint(_)))
+    }
+
+    /// Effects that together are this one.
+    pub fn together(self) -> &'static [EffectKind] {
+        let parts = |r: &Relation| match r {
+            Relation::Together(kinds) => Some(*kinds),
+            _ => None,
+        };
+        self.relations.iter().find_map(parts).unwrap_or_default()
+    }
+
+    /// The effect whose size it makes vary, and where that shows.
+    pub fn form_of(self) -> Option<(EffectKind, Shows)> {
+        let form = |r: &Relation| match r {
+            Relation::FormOf(kind, shows) => Some((*kind, *shows)),
+            _ => None,
+        };
+        self.relations.iter().find_map(form)
+    }
 }

@@ -3,7 +3,9 @@ use nalgebra::Vector3;
 use robot::{Inertia, Robot};
 
 use crate::inertial_parameters::{InertialParameters, mass_and_com, quantities};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// `Y_last pi_payload`: ten weights, the inertial parameters of a body held by a last
 /// link, about that link's origin.
@@ -21,19 +23,7 @@ impl Explain for Payload {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Exact,
-            is_rough: false,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Exact, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
     }
 
     /// Every link that carries no other.

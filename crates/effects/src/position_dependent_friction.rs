@@ -6,7 +6,8 @@ use robot::{Actuator, Robot, Wave};
 
 use crate::explain::{actuator_quantity, at_joint, joints_where, unbounded};
 use crate::{
-    Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale, Shows,
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Shows, Weights,
 };
 
 /// Coulomb friction that varies with the position of the motor: two weights a joint, the change of
@@ -42,19 +43,9 @@ impl Explain for PositionDependentFriction {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: Some((EffectKind::CoulombFriction, Shows::AtOtherPositions)),
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 2,
-        }
+        const RELATIONS: &[Relation] =
+            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::AtOtherPositions)];
+        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::Phases, RELATIONS)
     }
 
     /// Joints with a wave, or with the germ of one.

@@ -4,7 +4,8 @@ use robot::{Actuator, Robot};
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, every_joint};
 use crate::motion::{bending, bristles};
 use crate::{
-    Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale, Shows,
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Shows, Weights,
 };
 
 /// Dry friction that builds up over a way. In a robot without, one weight a joint: the friction (N·m or
@@ -46,19 +47,9 @@ impl Explain for PreslidingFriction {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: Some((EffectKind::CoulombFriction, Shows::NearRest)),
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: Some(1),
-            phases: 1,
-        }
+        const RELATIONS: &[Relation] =
+            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::NearRest)];
+        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::SeenBy(1), RELATIONS)
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

@@ -3,7 +3,8 @@ use robot::{Actuator, Robot, Stribeck};
 
 use crate::explain::{actuator_quantity, at_joint, down_to_zero, joints_where};
 use crate::{
-    Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale, Shows,
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Shows, Weights,
 };
 
 /// Dry friction near rest beyond the Coulomb level: one weight a joint, the change of the excess;
@@ -39,19 +40,9 @@ impl Explain for StribeckFriction {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: true,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: Some((EffectKind::CoulombFriction, Shows::NearRest)),
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: Some(1),
-            phases: 1,
-        }
+        const RELATIONS: &[Relation] =
+            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::NearRest)];
+        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::SeenBy(1), RELATIONS)
     }
 
     /// Joints with an excess, or with the germ of one.

@@ -3,7 +3,9 @@ use robot::Robot;
 
 use crate::explain::{actuator_quantity, unbounded};
 use crate::timing::{TIME_SD, torque_rate};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// `tau(t - skew) - tau(t)` at every joint: one weight, the change of the skew (s).
 pub(crate) struct TimeSkew;
@@ -14,19 +16,7 @@ impl Explain for TimeSkew {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: false,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Doubtful, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
     }
 
     fn places(&self, _: &Robot) -> Vec<Place> {

@@ -2,7 +2,9 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, every_joint};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
+};
 
 /// `torque_gain tau`: one weight a joint, the change of the gain.
 ///
@@ -23,19 +25,7 @@ impl Explain for TorqueConstant {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Tangent,
-            is_rough: false,
-            is_before_the_link: false,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Nothing,
-            seen_by: None,
-            phases: 1,
-        }
+        Nature::new(Linearity::Tangent, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

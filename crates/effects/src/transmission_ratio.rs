@@ -2,7 +2,10 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::explain::{actuator_quantity, at_joint, every_joint};
-use crate::{Column, Explain, Frame, Linearity, Motion, Nature, Place, Plainer, Quantity, Scale};
+use crate::{
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
+    Weights,
+};
 
 /// `ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)`: one weight a joint, the change of
 /// the ratio.
@@ -22,19 +25,8 @@ impl Explain for TransmissionRatio {
     }
 
     fn nature(&self) -> Nature {
-        Nature {
-            linearity: Linearity::Doubtful,
-            is_rough: false,
-            is_before_the_link: true,
-            is_reciprocal: false,
-            form_of: None,
-            together: &[],
-            other_name: None,
-            twin: None,
-            plainer: Plainer::Here(EffectKind::TorqueConstant),
-            seen_by: None,
-            phases: 1,
-        }
+        const RELATIONS: &[Relation] = &[Relation::PlainerHere(EffectKind::TorqueConstant)];
+        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Direct, RELATIONS)
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {
