@@ -90,7 +90,8 @@ impl Situation {
     ///
     /// Nothing is open where what is left is within noise that has a source, or a share of the effort
     /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone.
+    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone. Where a fit failed nothing is
+    /// consistent.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
             return (Verdict::DataInadequate, reason.clone());
@@ -100,6 +101,8 @@ impl Situation {
         let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
         let is_sane = fell && self.remaining_rms < self.torque_rms;
         let verdict = match (named, closed) {
+            // Something was there to fit, though no two parts of the logs agree on it.
+            (false, true) if self.failed => Verdict::DataInadequate,
             (false, true) => Verdict::Consistent,
             (true, true) if is_sane => Verdict::Explained,
             (true, _) if is_sane => Verdict::PartlyExplained,
@@ -240,6 +243,14 @@ mod tests {
         let turning = |left| Situation { near_rest: 1.5, ..joint(0, left, 0.1) }.verdict().0;
         assert_eq!(turning(1.4), Verdict::Consistent);
         assert_eq!(turning(1.6), Verdict::DataInadequate);
+    }
+
+    #[test]
+    fn a_joint_whose_fit_failed_is_not_called_consistent() {
+        let failed = |noise| Situation { failed: true, ..joint(0, 1.0, noise) }.verdict();
+        assert_eq!(failed(0.95).0, Verdict::DataInadequate);
+        assert!(failed(0.95).1.contains("predicts worse than the description"));
+        assert_eq!(failed(0.1).0, Verdict::Unexplained);
     }
 
     #[test]
