@@ -80,7 +80,8 @@ pub fn bottom_line(report: &Report) -> String {
     let Total { what, unit, over, .. } = total;
     let held_out = &report.diagnosis.gain.inverse.held_out;
     let Some(fall) = total.fall() else {
-        return "No joint has held-out data on which a gain could be measured".to_owned();
+        return "The logs show no joint well enough for a gain to be measured on held-out data"
+            .to_owned();
     };
     let (before, after) = total.told();
     if before == after {
