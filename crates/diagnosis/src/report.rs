@@ -29,10 +29,7 @@ impl Study<'_> {
         Diagnosis {
             schema: SCHEMA,
             robot: self.robot.name().to_owned(),
-            verdict: overall(
-                &joints.iter().map(|j| j.verdict).collect::<Vec<_>>(),
-                &self.inadequate.iter().map(Option::is_none).collect::<Vec<_>>(),
-            ),
+            verdict: overall(&joints.iter().map(|j| j.verdict).collect::<Vec<_>>()),
             joints,
             findings: self.findings(answer, least),
             negligible: self.negligible(answer, least),

@@ -174,12 +174,10 @@ impl Situation {
     }
 }
 
-/// The verdict over all joints, of which each `moved` enough or not. A joint that did not is left out;
-/// with one that did and is lost in noise the model is explained in part.
-pub(crate) fn overall(joints: &[Verdict], moved: &[bool]) -> Verdict {
+/// The verdict over all joints of which the logs show enough.
+pub(crate) fn overall(joints: &[Verdict]) -> Verdict {
     use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
     let adequate: Vec<Verdict> = joints.iter().copied().filter(|v| *v != DataInadequate).collect();
-    let is_drowned = joints.iter().zip(moved).any(|(v, moved)| *v == DataInadequate && *moved);
     let has = |v: Verdict| adequate.contains(&v);
     if adequate.is_empty() {
         DataInadequate
@@ -188,7 +186,7 @@ pub(crate) fn overall(joints: &[Verdict], moved: &[bool]) -> Verdict {
     } else if has(Unexplained) {
         Unexplained
     } else if has(Explained) {
-        if is_drowned { PartlyExplained } else { Explained }
+        Explained
     } else {
         Consistent
     }
@@ -278,14 +276,10 @@ mod tests {
     #[test]
     fn the_overall_verdict_is_no_better_than_the_worst_adequate_joint() {
         use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
-        let of = |joints: &[Verdict]| overall(joints, &[false, true]);
-        assert_eq!(of(&[DataInadequate, Consistent]), Consistent);
-        assert_eq!(of(&[Explained, Consistent]), Explained);
-        assert_eq!(of(&[Unexplained, Consistent]), Unexplained);
-        assert_eq!(of(&[Unexplained, Explained]), PartlyExplained);
-        assert_eq!(of(&[DataInadequate]), DataInadequate);
-        assert_eq!(of(&[DataInadequate, Explained]), Explained);
-        assert_eq!(of(&[Explained, DataInadequate]), PartlyExplained);
-        assert_eq!(of(&[Consistent, DataInadequate]), Consistent);
+        assert_eq!(overall(&[DataInadequate, Consistent]), Consistent);
+        assert_eq!(overall(&[Explained, Consistent]), Explained);
+        assert_eq!(overall(&[Unexplained, Consistent]), Unexplained);
+        assert_eq!(overall(&[Unexplained, Explained]), PartlyExplained);
+        assert_eq!(overall(&[DataInadequate]), DataInadequate);
     }
 }

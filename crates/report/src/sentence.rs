@@ -8,8 +8,7 @@ use crate::places::{counted, listed};
 pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
     let Diagnosis { robot, joints, findings, verdict, .. } = diagnosis;
     let effects = counted(findings.len(), "named effect");
-    let is_open = |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained);
-    let left = at_joints(joints, is_open);
+    let left = at_joints(joints, |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained));
     let is_lost = |v| v == Verdict::DataInadequate;
     let shown = if joints.iter().any(|j| is_lost(j.verdict)) {
         format!(" at {}", at_joints(joints, |v| !is_lost(v)))
@@ -23,10 +22,6 @@ pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
         Verdict::Explained => format!(
             "Explained: {effects} {} nearly all that the model of {robot} gets wrong{shown}",
             verb(findings.len())
-        ),
-        Verdict::PartlyExplained if !joints.iter().any(|j| is_open(j.verdict)) => format!(
-            "Partly explained: {effects} found in the model of {robot}, the data are inadequate at {}",
-            at_joints(joints, is_lost)
         ),
         Verdict::PartlyExplained => {
             format!(
@@ -182,9 +177,6 @@ mod tests {
         diagnosis.verdict = Verdict::Explained;
         let sentence = verdict_sentence(&diagnosis);
         assert!(sentence.ends_with(&format!("gets wrong at joint {first}")), "{sentence}");
-        diagnosis.verdict = Verdict::PartlyExplained;
-        let sentence = verdict_sentence(&diagnosis);
-        assert!(sentence.ends_with("the data are inadequate at joint elbow"), "{sentence}");
     }
 
     #[test]
