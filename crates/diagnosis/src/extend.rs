@@ -41,6 +41,8 @@ pub(crate) struct Refit {
     pub weights: Vec<f64>,
     /// Weighted sum of squares that the robot leaves.
     left: f64,
+    /// What it would leave were the columns the same with what is still changed.
+    expected: f64,
 }
 
 impl Refit {
@@ -56,8 +58,8 @@ impl Refit {
         let weight = problem.weight.clone();
         let fit = Problem::new(&design, problem.blocks, &grams, &problem.of, weight);
         let weights = settle(&fit, &model, &fit.info, &about);
-        let left = fit.info.yy;
-        Ok(Self { about, design, grams, model, weights, left })
+        let (left, expected) = (fit.info.yy, fit.info.deviance(&weights));
+        Ok(Self { about, design, grams, model, weights, left, expected })
     }
 
     /// The robot a share of the way on that is still to go.
@@ -137,7 +139,8 @@ pub(crate) fn solved(
             }
             continue;
         }
-        let is_settled = fit.left >= (1.0 - SETTLED) * least;
+        let is_settled =
+            fit.left >= (1.0 - SETTLED) * least || fit.expected >= (1.0 - SETTLED) * fit.left;
         (least, share, worse) = (fit.left, 1.0, None);
         best = Some(fit);
         if is_settled {
