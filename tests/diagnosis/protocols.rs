@@ -1,12 +1,19 @@
 //! Recorded logs as workshops take them: joint by joint, with coarse encoders, with dropouts.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use catalogue::EffectKind as E;
 use checks::recorded::folder;
+use checks::synthetic::wam;
 use diagnosis::{Diagnosis, Settings, Silent, Verdict, diagnose};
-use logs::{ReadOptions, Run, read_run};
+use dynamics::Dynamics;
+use logs::{Channels, ReadOptions, Run, read_run};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use robot::Robot;
+
+use crate::world::{named, sign};
 
 fn diagnosis(folder: &Path, runs: &[&str]) -> Diagnosis {
     let robot =
@@ -78,4 +85,64 @@ fn recorded_pendulum_has_friction_and_no_play_though_its_encoder_is_coarse() {
     }
     // The arm was led by a hand, whose force is in no effort.
     assert_eq!(kinds(&diagnosis(&folder, &["gravity_compensation"])), []);
+}
+
+/// One log, in which the joints of an arm move one after the other, out and back, in 3 s each; what holds them
+/// at rest is balance and friction within its level, of which the log shows nothing.
+fn one_after_the_other(level: f64) -> Run {
+    const RATE_HZ: f64 = 250.0;
+    let robot = wam();
+    let joints = robot.joint_count();
+    let samples = (3.0 * RATE_HZ) as usize * joints;
+    let time: Vec<f64> = (0..samples).map(|k| k as f64 / RATE_HZ).collect();
+    // q = A / 2 (1 - cos x) sin(2 x), one turn of x in 2.4 s, after .3 s of rest.
+    let state = |j: usize, t: f64| -> [f64; 3] {
+        let (s, w) = ((t - 3.0 * j as f64 - 0.3) / 2.4, TAU / 2.4);
+        if !(0.0..=1.0).contains(&s) {
+            return [0.3, 0.0, 0.0];
+        }
+        let ([one, two], half) = ([TAU * s, 2.0 * TAU * s].map(f64::sin_cos), 0.5 * 0.6);
+        let swell = 1.0 - one.1;
+        let slope = one.0 * two.0 + 2.0 * swell * two.1;
+        let bend = one.1 * two.0 + 4.0 * one.0 * two.1 - 4.0 * swell * two.0;
+        [0.3 + half * swell * two.0, half * w * slope, half * w * w * bend]
+    };
+    let dynamics = Dynamics::new(&robot);
+    let mut noise = ChaCha8Rng::seed_from_u64(5);
+    let mut efforts = vec![Vec::new(); joints];
+    for t in &time {
+        let states: Vec<[f64; 3]> = (0..joints).map(|j| state(j, *t)).collect();
+        let of = |k: usize| states.iter().map(|s| s[k]).collect::<Vec<f64>>();
+        let torque = dynamics.inverse_dynamics(&of(0), &of(1), &of(2)).unwrap();
+        for (j, effort) in efforts.iter_mut().enumerate() {
+            let [_, qd, qdd] = states[j];
+            let drive = robot.links()[j].actuator.rotor_inertia * qdd + level * sign(qd);
+            effort.push(torque[j] + drive + noise.random_range(-0.02..0.02));
+        }
+    }
+    let channels = |(j, effort): (usize, Vec<f64>)| Channels {
+        name: robot.joint_names().nth(j).unwrap().to_owned(),
+        position: time.iter().map(|t| state(j, *t)[0]).collect(),
+        effort,
+        ..Channels::default()
+    };
+    Run {
+        name: "one after the other".to_owned(),
+        source: Default::default(),
+        sha256: String::new(),
+        is_torn: false,
+        joints: efforts.into_iter().enumerate().map(channels).collect(),
+        time,
+        extra: Default::default(),
+    }
+}
+
+/// Every joint moves in a seventh of the log, and most of them in one fifth of it alone.
+#[test]
+fn joints_that_move_one_after_the_other_in_one_log_are_each_found_to_rub() {
+    let answer = diagnose(&wam(), &[one_after_the_other(0.6)], &Settings::default(), &Silent)
+        .unwrap()
+        .diagnosis;
+    println!("{:?}", named(&answer));
+    within(&levels(&answer), &[0.6; 7], 0.25);
 }
