@@ -62,6 +62,7 @@ mod tones;
 mod torque_noise;
 mod traces;
 mod uncertainty;
+mod unnamed;
 mod verdict;
 mod worse;
 
