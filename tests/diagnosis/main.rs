@@ -15,6 +15,7 @@ mod hidden;
 mod intervals;
 mod poor;
 mod protocols;
+mod read_so;
 mod recorded;
 mod repeatable;
 mod repeats;

@@ -41,6 +41,7 @@ pub fn diagnosis(verdict: Verdict, findings: Vec<Finding>) -> Diagnosis {
         folds: Vec::new(),
     };
     let data = DataSummary {
+        put_right: false,
         runs: Vec::new(),
         cutoff_hz: 10.0,
         cutoff_reason: String::new(),

@@ -6,7 +6,7 @@ use crate::log::{Log, Look};
 use crate::progress::Silent;
 use crate::result::{Finding, RuledOut};
 use crate::settings::Settings;
-use crate::study::Study;
+use crate::study::{Study, Told};
 
 /// What second encoders at the links show of what lies between motors and links.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ pub(crate) fn between(
     let study = Study { nominal, robot, settings, log, design, inadequate };
     study.with_record(|record| {
         let conclusion = study.conclusion(record, &Silent)?;
-        let (found, ruled_out) = study.told(record, &conclusion);
+        let Told { found, ruled_out, .. } = study.told(record, &conclusion);
         Ok(Some(Between {
             found: found.into_iter().map(|f| f.finding).collect(),
             ruled_out,

@@ -6,7 +6,7 @@ use crate::at_limits::at_limits;
 use crate::between::between;
 use crate::design::Design;
 use crate::error::DiagnosisError;
-use crate::extent::inadequate;
+use crate::extent::{inadequate, without_unrecorded};
 use crate::heard::Heard;
 use crate::held_out::HeldOut;
 use crate::inspected::{Inspected, inspected};
@@ -37,6 +37,8 @@ pub struct Outcome {
     pub traces: Vec<RunTraces>,
     /// The robot with its findings.
     pub extended: Robot,
+    /// The logs as they were read, where they are wrong as they stand: a turned sign, another unit.
+    pub read: Option<Vec<Run>>,
     /// The logs as they were diagnosed.
     pub prepared: Prepared,
     /// What was held out in turn, by stretches of `prepared`.
@@ -74,11 +76,12 @@ pub fn diagnose(
     settings.check()?;
     progress.stage("preparing the logs", 2);
     let (runs, mut warnings) = distinct(robot, runs)?;
-    let Inspected { runs, spoilt, warnings: seen } = inspected(robot, &runs);
+    let Inspected { runs, read, spoilt, warnings: seen } = inspected(robot, &runs);
     warnings.extend(seen);
     let mut prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
+    warnings.extend(without_unrecorded(robot, &mut prepared));
     warnings.extend(without_idle_encoders(robot, &mut prepared));
     warnings.extend(at_limits(robot, &prepared));
     progress.step();
@@ -120,7 +123,11 @@ pub fn diagnose(
     let (mut diagnosis, traces, extended, held_out) = study.run(progress)?;
     diagnosis.data.runs = runs.iter().map(summary).collect();
     diagnosis.warnings = warnings;
-    Ok(Outcome { diagnosis, traces, extended, prepared, held_out })
+    if read.is_some() {
+        diagnosis.data.put_right = true;
+        diagnosis.verdict = diagnosis.verdict.if_so_read();
+    }
+    Ok(Outcome { diagnosis, traces, extended, read, prepared, held_out })
 }
 
 /// Whether motors turn otherwise than they were described to: then efforts differ too.

@@ -1,27 +1,76 @@
-use logs::Prepared;
+use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::{Joint, Robot};
 
 /// Range of motion below which a joint counts as unmoved, as a share of its limits' span
 /// or of a full turn.
-const UNMOVED_SHARE: f64 = 0.02;
+const UNMOVED_SHARE: f64 = 0.005;
+
+/// The same in steps of its encoder.
+const UNMOVED_STEPS: f64 = 20.0;
 
 /// Why the logs can say nothing of a joint, for every joint of which that is so.
 pub(crate) fn inadequate(robot: &Robot, prepared: &Prepared) -> Vec<Option<String>> {
     let reason = |(j, link): (usize, &robot::Link)| {
-        let (range, least) = (range(prepared, j), UNMOVED_SHARE * full_range(&link.joint));
+        let (range, least) = (range(prepared, j), least(prepared, j, link));
         if range <= least {
             let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
             return Some(format!(
                 "the joint moves over {range:.4} {unit} in these logs, at least {least:.3} are needed"
             ));
         }
-        let constant = prepared.runs.iter().find(|r| {
-            let effort = &r.joints[j].effort;
-            effort.iter().all(|e| (e - effort[0]).abs() <= f64::EPSILON * effort[0].abs())
-        })?;
-        Some(format!("its effort never changes in {}: it was not recorded there", constant.name))
+        let run = prepared.runs.iter().find(|run| is_unrecorded(run, j, least))?;
+        Some(format!("its effort never changes in {}: it was not recorded there", run.name))
     };
     robot.links().iter().enumerate().map(reason).collect()
+}
+
+/// Leaves out runs in which the effort of a joint never changes while it moves, with a warning each, where
+/// these are less than half of the samples.
+pub(crate) fn without_unrecorded(robot: &Robot, prepared: &mut Prepared) -> Vec<String> {
+    let joints: Vec<(&str, f64)> = (robot.links().iter().enumerate())
+        .map(|(j, link)| (link.joint.name.as_str(), least(prepared, j, link)))
+        .collect();
+    let unrecorded = |run: &PreparedRun| -> Vec<&str> {
+        let those =
+            joints.iter().enumerate().filter(|(j, (_, least))| is_unrecorded(run, *j, *least));
+        those.map(|(_, (name, _))| *name).collect()
+    };
+    let found: Vec<Vec<&str>> = prepared.runs.iter().map(unrecorded).collect();
+    let samples = |with: bool| -> usize {
+        let those = prepared.runs.iter().zip(&found).filter(|(_, names)| names.is_empty() != with);
+        those.map(|(run, _)| run.time.len()).sum()
+    };
+    if samples(true) >= samples(false) {
+        return Vec::new();
+    }
+    let of = |(run, names): (&PreparedRun, &Vec<&str>)| {
+        (!names.is_empty()).then(|| {
+            format!(
+                "{} was left out: the effort of {} never changes in it, though the arm moves",
+                run.name,
+                names.join(", ")
+            )
+        })
+    };
+    let warnings = prepared.runs.iter().zip(&found).filter_map(of).collect();
+    let mut recorded = found.iter().map(Vec::is_empty);
+    prepared.runs.retain(|_| recorded.next().unwrap_or(true));
+    warnings
+}
+
+/// Whether the effort of joint `j` never changes in a run in which it moves over more than `least`.
+fn is_unrecorded(run: &PreparedRun, j: usize, least: f64) -> bool {
+    let PreparedJoint { q, effort, .. } = &run.joints[j];
+    let span = |(low, high): (f64, f64), q: &f64| (low.min(*q), high.max(*q));
+    let (low, high) = q.iter().fold((f64::INFINITY, f64::NEG_INFINITY), span);
+    let first = effort.first().copied().unwrap_or(0.0);
+    high - low > least && effort.iter().all(|e| (e - first).abs() <= f64::EPSILON * first.abs())
+}
+
+/// Range above which a joint moves (rad or m).
+fn least(prepared: &Prepared, j: usize, link: &robot::Link) -> f64 {
+    let step = prepared.noise.get(j).and_then(|noise| noise.position.step).unwrap_or(0.0);
+    (UNMOVED_SHARE * full_range(&link.joint)).max(UNMOVED_STEPS * step)
 }
 
 /// Range of motion of joint `j` over all runs (rad or m).
@@ -35,4 +84,53 @@ pub(crate) fn range(prepared: &Prepared, j: usize) -> f64 {
 fn full_range(joint: &Joint) -> f64 {
     let unlimited = if joint.kind.is_rotation() { std::f64::consts::TAU } else { 1.0 };
     joint.limits.position.map_or(unlimited, |(low, high)| (high - low).min(unlimited))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A hinge that turns over `range` with an effort that changes by `swing` N m either way.
+    fn run(name: &str, samples: usize, range: f64, swing: f64) -> PreparedRun {
+        let wave: Vec<f64> = (0..samples).map(|k| (0.1 * k as f64).sin()).collect();
+        let q = wave.iter().map(|w| 0.5 * range * w).collect();
+        let effort = wave.iter().map(|w| 0.7 + swing * w).collect();
+        let time = (0..samples).map(|k| 0.01 * k as f64).collect();
+        let joint = PreparedJoint::exact([q, wave.clone(), wave], effort);
+        PreparedRun { name: name.to_owned(), rate_hz: 100.0, time, joints: vec![joint] }
+    }
+
+    fn pendulum() -> Robot {
+        let text = r#"<robot name="pendulum"><link name="base"/><link name="arm"><inertial><mass value="2"/>
+            <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+            <joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/></joint></robot>"#;
+        Robot::from_urdf(text).unwrap()
+    }
+
+    #[test]
+    fn a_joint_moves_that_turns_over_two_degrees() {
+        let reason = |range| {
+            let prepared = Prepared::exact(vec![run("a", 1000, range, 2.0)], 5.0);
+            inadequate(&pendulum(), &prepared).remove(0)
+        };
+        assert_eq!(reason(0.035), None);
+        let expected = "the joint moves over 0.0300 rad in these logs, at least 0.031 are needed";
+        assert_eq!(reason(0.03).as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn a_short_run_without_effort_is_left_out_and_a_long_one_spoils_the_joint() {
+        let told = |samples| {
+            let runs = vec![run("a", 1000, 1.0, 2.0), run("b", samples, 1.0, 0.0)];
+            let mut prepared = Prepared::exact(runs, 5.0);
+            let warnings = without_unrecorded(&pendulum(), &mut prepared);
+            (warnings, prepared.runs.len(), inadequate(&pendulum(), &prepared).remove(0))
+        };
+        let expected =
+            "b was left out: the effort of hinge never changes in it, though the arm moves"
+                .to_owned();
+        assert_eq!(told(900), (vec![expected], 1, None));
+        let expected = "its effort never changes in b: it was not recorded there".to_owned();
+        assert_eq!(told(1100), (Vec::new(), 2, Some(expected)));
+    }
 }

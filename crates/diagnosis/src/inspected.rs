@@ -1,4 +1,4 @@
-use inspection::{Observation, ObservationKind, Spoils, inspect};
+use inspection::{Mended, Observation, ObservationKind, Spoils, mended};
 use logs::Run;
 use robot::Robot;
 
@@ -10,19 +10,21 @@ const FEWEST_SAMPLES: usize = 100;
 pub(crate) struct Inspected {
     /// The runs without the seconds that are spoilt.
     pub runs: Vec<Run>,
+    /// Whole runs as they were read, where that is not as they stand.
+    pub read: Option<Vec<Run>>,
     /// Why the effort of a joint cannot be used, for every joint of which that is so.
     pub spoilt: Vec<Option<String>>,
     /// What was seen, each in a sentence.
     pub warnings: Vec<String>,
 }
 
-/// Looks at whole logs: a turned sign, another unit, a frozen encoder. No cause is sought where they
-/// spoil what it would be sought in.
+/// Looks at whole logs: a turned sign, another unit, a frozen encoder. What has one reading only is read so.
+/// No cause is sought where others spoil what it would be sought in.
 pub(crate) fn inspected(robot: &Robot, runs: &[Run]) -> Inspected {
-    let mut seen = inspect(robot, runs);
+    let Mended { runs: read, mended, left: mut seen } = mended(robot, runs);
     // A drive at its limit gives the torque of the limit, and what it was asked for beyond is a cause.
     seen.retain(|o| !matches!(o.kind, ObservationKind::AtLimit { .. }));
-    let said = |o: &Observation| o.sentence(robot, runs);
+    let said = |o: &Observation| o.sentence(robot, &read);
     let reason = |j: usize| {
         let spoils = |o: &&Observation| match o.spoils {
             Spoils::Everything => true,
@@ -32,8 +34,10 @@ pub(crate) fn inspected(robot: &Robot, runs: &[Run]) -> Inspected {
         seen.iter().find(spoils).map(said)
     };
     let spoilt = (0..robot.joint_count()).map(reason).collect();
-    let warnings = seen.iter().map(said).collect();
-    Inspected { runs: without_spoilt_seconds(runs, &seen), spoilt, warnings }
+    let put_right = |o: &Observation| format!("{} Until then the logs are read so.", said(o));
+    let warnings = mended.iter().map(put_right).chain(seen.iter().map(said)).collect();
+    let runs = without_spoilt_seconds(&read, &seen);
+    Inspected { runs, read: (!mended.is_empty()).then_some(read), spoilt, warnings }
 }
 
 /// The runs without spoilt seconds; a run of which too little is left is left out, unless that is so

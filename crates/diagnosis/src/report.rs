@@ -15,7 +15,7 @@ use crate::structure::{Probe, Structure};
 use crate::study::{Answer, Study};
 use crate::tone_finding::tone_finding;
 use crate::torque_noise::TorqueNoise;
-use crate::verdict::{Situation, overall};
+use crate::verdict::{Situation, hides, overall};
 
 impl Study<'_> {
     /// The answer; `data.runs` and `warnings` are left for the caller.
@@ -26,10 +26,17 @@ impl Study<'_> {
         let reports: Vec<(JointReport, Structure)> = (0..self.design.joints()).map(joint).collect();
         let unexplained = reports.iter().filter_map(unexplained).collect();
         let joints: Vec<JointReport> = reports.into_iter().map(|(j, _)| j).collect();
+        let hides = |((joint, unseen), inadequate): &((&JointReport, &f64), &Option<String>)| {
+            joint.verdict == Verdict::DataInadequate
+                && inadequate.is_none()
+                && hides(**unseen, joint.torque_rms_nm)
+        };
+        let each = joints.iter().zip(&answer.unseen_friction).zip(self.inadequate);
+        let hiding = each.filter(hides).count();
         Diagnosis {
             schema: SCHEMA,
             robot: self.robot.name().to_owned(),
-            verdict: overall(&joints.iter().map(|j| j.verdict).collect::<Vec<_>>()),
+            verdict: overall(&joints.iter().map(|j| j.verdict).collect::<Vec<_>>(), hiding),
             joints,
             findings: self.findings(answer, least),
             negligible: self.negligible(answer, least),
@@ -61,6 +68,7 @@ impl Study<'_> {
             inadequate: self.inadequate[j].clone(),
             findings: answer.found.iter().filter(lowered).count() + heard,
             between: answer.between.as_ref().map_or(0, |b| b.at(name)),
+            unseen: answer.unseen_friction[j],
             torque_rms: self.torque_rms(j),
             nominal_rms: rms(&gap),
             remaining_rms: rms(&rest),
@@ -156,6 +164,7 @@ impl Study<'_> {
         let samples: usize = self.design.runs.iter().map(|r| r.time.len()).sum();
         DataSummary {
             runs: Vec::new(),
+            put_right: false,
             cutoff_hz: self.log.prepared.cutoff_hz,
             cutoff_reason: self.log.prepared.cutoff_reason.clone(),
             regression_rate_hz: self.design.rate_hz,

@@ -33,6 +33,15 @@ impl Verdict {
             Self::DataInadequate => "data inadequate",
         }
     }
+
+    /// The verdict on logs that were not read as they stand: how they are to be read is for those to say who
+    /// recorded them, so that nothing is closed.
+    pub(crate) fn if_so_read(self) -> Self {
+        match self {
+            Self::Consistent | Self::Explained => Self::PartlyExplained,
+            open => open,
+        }
+    }
 }
 
 /// The whole answer to one question: what does the model get wrong in these logs?
@@ -332,6 +341,8 @@ pub struct FoldGain {
 pub struct DataSummary {
     /// One entry a run.
     pub runs: Vec<RunSummary>,
+    /// Whether the logs were not read as they stand; a warning says how.
+    pub put_right: bool,
     /// Cut-off of the low-pass filter (Hz).
     pub cutoff_hz: f64,
     /// Why this cut-off.

@@ -1,5 +1,5 @@
 use catalogue::EffectKind;
-use effects::Weights;
+use effects::{Hypothesis, Place, Weights};
 use nalgebra::DMatrix;
 
 use crate::constancy::Variation;
@@ -40,6 +40,20 @@ impl Evidence<'_> {
             unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
             because,
         }
+    }
+
+    /// The smallest level of dry friction that would have been found at every joint where none is (N·m or N);
+    /// zero where some form of it is a finding, or none is looked for.
+    pub fn unseen_friction(&self) -> Vec<f64> {
+        let problem = self.selection.problem;
+        let fit = problem.fit(self.model);
+        let unseen = |j: usize| {
+            let (kind, place) = (EffectKind::CoulombFriction, Place::Joint(j));
+            let g = problem.design.find(Hypothesis { kind, place })?;
+            let is_new = !problem.new_columns(self.model, g).is_empty();
+            fit.as_ref().filter(|_| is_new).and_then(|fit| self.smallest(g, fit))
+        };
+        (0..problem.design.joints()).map(|j| unseen(j).unwrap_or(0.0)).collect()
     }
 
     /// The smallest weight that would have been found of `g`, whatever its shape, in the first column

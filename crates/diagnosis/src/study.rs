@@ -47,6 +47,8 @@ pub(crate) struct Answer<'a> {
     pub extended: Robot,
     pub found: Vec<Found>,
     pub ruled_out: Vec<RuledOut>,
+    /// The smallest level of dry friction that would have been found at every joint (N·m or N).
+    pub unseen_friction: Vec<f64>,
     /// Number of hypotheses tested.
     pub hypotheses: usize,
     pub gain: HeldOutGain,
@@ -67,6 +69,14 @@ pub(crate) struct Conclusion<'a> {
     pub apart: Apart,
     pub withheld: Withheld,
     pub failed: Failed,
+}
+
+/// What is told of a conclusion.
+pub(crate) struct Told {
+    pub found: Vec<Found>,
+    pub ruled_out: Vec<RuledOut>,
+    /// The smallest level of dry friction that would have been found at every joint (N·m or N).
+    pub unseen_friction: Vec<f64>,
 }
 
 /// What a search came to whose effects all do what their columns say.
@@ -154,7 +164,7 @@ impl Study<'_> {
         let left = gain.left(&by_run);
         let gap = by_run
             .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
-        let (found, ruled_out) = self.told(record, &conclusion);
+        let Told { found, ruled_out, unseen_friction } = self.told(record, &conclusion);
         let extended = self.finished(conclusion.solution.robot.clone());
         let hypotheses = conclusion.significance.count();
         let between = self.between(&extended)?;
@@ -165,6 +175,7 @@ impl Study<'_> {
             extended,
             found,
             ruled_out,
+            unseen_friction,
             hypotheses,
             gain,
             left,
@@ -277,7 +288,7 @@ impl Study<'_> {
     }
 
     /// The findings of a conclusion, and what they leave out.
-    pub fn told(&self, record: &Record, conclusion: &Conclusion) -> (Vec<Found>, Vec<RuledOut>) {
+    pub fn told(&self, record: &Record, conclusion: &Conclusion) -> Told {
         let Conclusion { problem, model, significance, solution, apart, withheld, failed } =
             conclusion;
         let evidence = Evidence {
@@ -291,7 +302,8 @@ impl Study<'_> {
         };
         let first = self.fitted(problem, model, solution);
         let found = solution.tell(&first, |fitted| evidence.findings(fitted));
-        (found, evidence.ruled_out())
+        let unseen_friction = evidence.unseen_friction();
+        Told { found, ruled_out: evidence.ruled_out(), unseen_friction }
     }
 
     /// What second encoders show, about the robot that the efforts extend.

@@ -16,6 +16,15 @@ const DROWNED: f64 = 0.15;
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
 const DEPENDS: f64 = 0.15;
 
+/// Share of a joint's effort RMS below which dry friction that goes unseen does not matter: what arms have is
+/// several times as large.
+const UNSEEN: f64 = 0.1;
+
+/// Whether dry friction that goes unseen may matter: the logs say nothing of a joint then, however little is left.
+pub(crate) fn hides(unseen: f64, torque_rms: f64) -> bool {
+    unseen > UNSEEN * torque_rms
+}
+
 /// What is known of one joint when its verdict is due.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Situation {
@@ -27,6 +36,8 @@ pub(crate) struct Situation {
     pub between: usize,
     /// Whether what was fitted predicts worse than the description.
     pub failed: bool,
+    /// The smallest level of dry friction that would have been found, where none was (N·m or N).
+    pub unseen: f64,
     /// RMS of the effort (N·m or N).
     pub torque_rms: f64,
     /// Held-out RMS error of the nominal and of the extended model.
@@ -100,16 +111,32 @@ impl Situation {
         let named = self.findings + self.between > 0;
         let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
         let is_sane = fell && self.remaining_rms < self.torque_rms;
+        let blind = hides(self.unseen, self.torque_rms);
         let verdict = match (named, closed) {
             // Something was there to fit, though no two parts of the logs agree on it.
-            (false, true) if self.failed => Verdict::DataInadequate,
+            (false, true) if self.failed || blind => Verdict::DataInadequate,
             (false, true) => Verdict::Consistent,
-            (true, true) if is_sane => Verdict::Explained,
+            (true, true) if is_sane && !blind => Verdict::Explained,
             (true, _) if is_sane => Verdict::PartlyExplained,
             (false, false) if self.is_drowned() => Verdict::DataInadequate,
             _ => Verdict::Unexplained,
         };
-        (verdict, self.because(verdict))
+        let because = self.because(verdict);
+        if closed && blind {
+            return (verdict, format!("{because}; {}", self.of_unseen()));
+        }
+        (verdict, because)
+    }
+
+    fn of_unseen(&self) -> String {
+        if self.unseen > self.torque_rms {
+            return "these logs show no friction of this joint, however large".to_owned();
+        }
+        let percent = 100.0 * self.unseen / self.torque_rms;
+        format!(
+            "dry friction of up to {:.3} N m, {percent:.0} % of its effort, would go unseen",
+            self.unseen
+        )
     }
 
     fn because(&self, verdict: Verdict) -> String {
@@ -174,14 +201,15 @@ impl Situation {
     }
 }
 
-/// The verdict over all joints of which the logs show enough.
-pub(crate) fn overall(joints: &[Verdict]) -> Verdict {
+/// The verdict over all joints of which the logs show enough. Nothing is closed where any of them moves and
+/// hides what friction it may have.
+pub(crate) fn overall(joints: &[Verdict], hiding: usize) -> Verdict {
     use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
     let adequate: Vec<Verdict> = joints.iter().copied().filter(|v| *v != DataInadequate).collect();
     let has = |v: Verdict| adequate.contains(&v);
-    if adequate.is_empty() {
+    if adequate.is_empty() || (hiding > 0 && adequate.iter().all(|v| *v == Consistent)) {
         DataInadequate
-    } else if has(PartlyExplained) || (has(Unexplained) && has(Explained)) {
+    } else if has(PartlyExplained) || (has(Explained) && (hiding > 0 || has(Unexplained))) {
         PartlyExplained
     } else if has(Unexplained) {
         Unexplained
@@ -203,6 +231,7 @@ mod tests {
             findings,
             between: 0,
             failed: false,
+            unseen: 0.0,
             torque_rms: 10.0,
             nominal_rms: 2.0,
             remaining_rms,
@@ -244,6 +273,21 @@ mod tests {
     }
 
     #[test]
+    fn a_joint_whose_friction_would_go_unseen_is_not_closed() {
+        let joint = |findings, unseen| Situation { unseen, ..joint(findings, 0.19, 0.0) }.verdict();
+        assert_eq!(joint(0, 0.9).0, Verdict::Consistent);
+        assert_eq!(joint(1, 0.9).0, Verdict::Explained);
+        let (verdict, because) = joint(0, 1.1);
+        assert_eq!(verdict, Verdict::DataInadequate);
+        assert!(
+            because
+                .ends_with("dry friction of up to 1.100 N m, 11 % of its effort, would go unseen")
+        );
+        assert_eq!(joint(1, 1.1).0, Verdict::PartlyExplained);
+        assert!(joint(0, f64::INFINITY).1.ends_with("no friction of this joint, however large"));
+    }
+
+    #[test]
     fn a_joint_whose_fit_failed_is_not_called_consistent() {
         let failed = |noise| Situation { failed: true, ..joint(0, 1.0, noise) }.verdict();
         assert_eq!(failed(0.95).0, Verdict::DataInadequate);
@@ -276,10 +320,13 @@ mod tests {
     #[test]
     fn the_overall_verdict_is_no_better_than_the_worst_adequate_joint() {
         use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
-        assert_eq!(overall(&[DataInadequate, Consistent]), Consistent);
-        assert_eq!(overall(&[Explained, Consistent]), Explained);
-        assert_eq!(overall(&[Unexplained, Consistent]), Unexplained);
-        assert_eq!(overall(&[Unexplained, Explained]), PartlyExplained);
-        assert_eq!(overall(&[DataInadequate]), DataInadequate);
+        assert_eq!(overall(&[DataInadequate, Consistent], 0), Consistent);
+        assert_eq!(overall(&[DataInadequate, Consistent], 1), DataInadequate);
+        assert_eq!(overall(&[DataInadequate, Explained], 1), PartlyExplained);
+        assert_eq!(overall(&[DataInadequate, Unexplained], 1), Unexplained);
+        assert_eq!(overall(&[Explained, Consistent], 0), Explained);
+        assert_eq!(overall(&[Unexplained, Consistent], 0), Unexplained);
+        assert_eq!(overall(&[Unexplained, Explained], 0), PartlyExplained);
+        assert_eq!(overall(&[DataInadequate], 0), DataInadequate);
     }
 }

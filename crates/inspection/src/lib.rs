@@ -7,6 +7,7 @@ mod inspect;
 mod judge;
 mod jumps;
 mod limits;
+mod mend;
 mod moments;
 mod observation;
 mod overlaps;
@@ -27,5 +28,6 @@ mod thresholds;
 mod torque;
 
 pub use inspect::{inspect, inspect_with};
+pub use mend::{Mended, mended};
 pub use observation::{Evidence, Observation, ObservationKind, Rival, Spoils, Stretch};
 pub use thresholds::Thresholds;

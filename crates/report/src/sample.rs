@@ -141,6 +141,7 @@ fn diagnosis(names: &[&str]) -> Diagnosis {
             },
         },
         data: DataSummary {
+            put_right: false,
             runs: vec![RunSummary {
                 name: "run_1".into(),
                 sha256: "cd".repeat(32),

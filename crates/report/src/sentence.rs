@@ -6,9 +6,10 @@ use crate::places::{counted, listed};
 
 /// The verdict over all joints in one sentence.
 pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
-    let Diagnosis { robot, joints, findings, verdict, .. } = diagnosis;
+    let Diagnosis { robot, joints, findings, verdict, data, .. } = diagnosis;
     let effects = counted(findings.len(), "named effect");
-    let left = at_joints(joints, |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained));
+    let is_open = |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained);
+    let left = at_joints(joints, is_open);
     let is_lost = |v| v == Verdict::DataInadequate;
     let shown = if joints.iter().any(|j| is_lost(j.verdict)) {
         format!(" at {}", at_joints(joints, |v| !is_lost(v)))
@@ -23,6 +24,17 @@ pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
             "Explained: {effects} {} nearly all that the model of {robot} gets wrong{shown}",
             verb(findings.len())
         ),
+        // Every joint that the logs show is closed: how they are to be read is open, or what others hide.
+        Verdict::PartlyExplained if !joints.iter().any(|j| is_open(j.verdict)) => {
+            let closed = if findings.is_empty() {
+                format!("the log gives no reason to change the model of {robot}{shown}")
+            } else {
+                let verb = verb(findings.len());
+                format!("{effects} {verb} nearly all that the model of {robot} gets wrong{shown}")
+            };
+            let read = ", provided that the logs are read as the warnings say";
+            format!("Partly explained: {closed}{}", if data.put_right { read } else { "" })
+        }
         Verdict::PartlyExplained => {
             format!(
                 "Partly explained: {effects} found in the model of {robot}, structure is left at {left}"
@@ -31,6 +43,12 @@ pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
         Verdict::Unexplained => format!(
             "Unexplained: the model of {robot} misses structure at {left}, and no effect of the catalogue reproduces it"
         ),
+        Verdict::DataInadequate if joints.iter().any(|j| !is_lost(j.verdict)) => {
+            let lost = at_joints(joints, is_lost);
+            format!(
+                "Data inadequate: the log gives no reason to change the model of {robot}{shown}, and shows too little of {lost}"
+            )
+        }
         Verdict::DataInadequate => {
             format!("Data inadequate: this log cannot show what the model of {robot} gets wrong")
         }
@@ -177,6 +195,28 @@ mod tests {
         diagnosis.verdict = Verdict::Explained;
         let sentence = verdict_sentence(&diagnosis);
         assert!(sentence.ends_with(&format!("gets wrong at joint {first}")), "{sentence}");
+    }
+
+    #[test]
+    fn the_sentence_says_what_keeps_an_answer_open_whose_joints_are_closed() {
+        let mut diagnosis = sample::arm().diagnosis;
+        let names: Vec<String> = diagnosis.joints.iter().map(|j| j.name.clone()).collect();
+        diagnosis.joints.iter_mut().for_each(|j| j.verdict = Verdict::Explained);
+        (diagnosis.verdict, diagnosis.data.put_right) = (Verdict::PartlyExplained, true);
+        let sentence = verdict_sentence(&diagnosis);
+        let read = "gets wrong, provided that the logs are read as the warnings say";
+        assert!(sentence.ends_with(read), "{sentence}");
+        diagnosis.data.put_right = false;
+        diagnosis.joints[1].verdict = Verdict::DataInadequate;
+        let sentence = verdict_sentence(&diagnosis);
+        assert!(sentence.ends_with(&format!("gets wrong at joint {}", names[0])), "{sentence}");
+        diagnosis.joints[0].verdict = Verdict::Consistent;
+        diagnosis.verdict = Verdict::DataInadequate;
+        let sentence = verdict_sentence(&diagnosis);
+        assert!(
+            sentence.ends_with(&format!("shows too little of joint {}", names[1])),
+            "{sentence}"
+        );
     }
 
     #[test]

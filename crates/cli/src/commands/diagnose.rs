@@ -74,8 +74,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let outcome = diagnosis::diagnose(&loaded.robot, &runs, &settings, progress);
     bar.finish();
     let outcome = outcome?;
+    let read = outcome.read.as_deref().unwrap_or(&runs);
 
-    let forward = forward(arguments, &loaded, &runs, &outcome);
+    let forward = forward(arguments, &loaded, read, &outcome);
 
     let learn = |ResidualKind::Gp| {
         residual::learn(&loaded.robot, &outcome, (!arguments.quiet).then(Line::new))
@@ -94,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     write(&arguments.out, &loaded, &outcome, (&report, &json), residual.as_ref())?;
     let diagnosed = Diagnosed {
         loaded: &loaded,
-        runs: &runs,
+        runs: read,
         outcome: &outcome,
         verdict: &report::markdown(&report),
     };

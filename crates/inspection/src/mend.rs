@@ -1,0 +1,201 @@
+use std::f64::consts::PI;
+
+use logs::{Channels, Run};
+use robot::Robot;
+
+use crate::inspect::inspect;
+use crate::{Observation, ObservationKind, Rival, Spoils};
+
+/// Units of time and effort are powers of ten apart. A clock is told from velocities to some per mille; an effort
+/// from a model and a torque constant that may both be off, which `drive_gain` bounds.
+const OF_TIME: f64 = 1.05;
+const OF_EFFORT: f64 = 2.0;
+
+/// Logs after what is surely wrong with the whole of them was put right.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mended {
+    /// The runs as they are to be read.
+    pub runs: Vec<Run>,
+    /// What was put right.
+    pub mended: Vec<Observation>,
+    /// What is wrong with the runs as they are read now.
+    pub left: Vec<Observation>,
+}
+
+/// Puts right what spoils whole logs and has one reading only: a turned sign, exchanged columns, a unit that is a
+/// power of ten off, degrees.
+///
+/// Logs that a reading does not free of what spoils them are left as they are: it was not the cause then.
+pub fn mended(robot: &Robot, runs: &[Run]) -> Mended {
+    let seen = inspect(robot, runs);
+    let mut read = runs.to_vec();
+    let is_mended = |o: &&Observation| o.spoils_whole_logs() && o.mend(&mut read);
+    let mended: Vec<Observation> = seen.iter().filter(is_mended).cloned().collect();
+    if mended.is_empty() {
+        return Mended { runs: runs.to_vec(), mended, left: seen };
+    }
+    let left = inspect(robot, &read);
+    if left.iter().any(Observation::spoils_whole_logs) {
+        return Mended { runs: runs.to_vec(), mended: Vec::new(), left: seen };
+    }
+    Mended { runs: read, mended, left }
+}
+
+impl Observation {
+    fn spoils_whole_logs(&self) -> bool {
+        let is_of_the_arm = !matches!(self.kind, ObservationKind::AtLimit { .. });
+        is_of_the_arm && matches!(self.spoils, Spoils::Joints | Spoils::Everything)
+    }
+
+    /// Whether a rival is the same joints in the same unit, from another estimate of its factor.
+    fn is_same_unit(&self, rival: &Rival) -> bool {
+        use ObservationKind::EffortUnit;
+        let (EffortUnit { factor: a }, EffortUnit { factor: b }) = (self.kind, rival.kind) else {
+            return false;
+        };
+        self.joints == rival.joints && power_of_ten(a, OF_EFFORT) == power_of_ten(b, OF_EFFORT)
+    }
+
+    /// Reads the runs as this has them; whether there is one such way.
+    fn mend(&self, runs: &mut [Run]) -> bool {
+        use ObservationKind as K;
+        if !self.or.iter().all(|rival| self.is_same_unit(rival)) {
+            return false;
+        }
+        match (self.kind, self.joints.as_slice()) {
+            (K::EffortSign, joints) => at(runs, joints, |joint| scale(&mut joint.effort, -1.0)),
+            (K::PositionSign, joints) => at(runs, joints, |joint| scale_motion(joint, -1.0)),
+            (K::Degrees, joints) => at(runs, joints, |joint| scale_motion(joint, PI / 180.0)),
+            (K::EffortUnit { factor }, joints) => {
+                let Some(unit) = power_of_ten(factor, OF_EFFORT) else { return false };
+                at(runs, joints, |joint| scale(&mut joint.effort, 1.0 / unit));
+            }
+            (K::TimeUnit { factor }, _) => {
+                let Some(unit) = power_of_ten(factor, OF_TIME) else { return false };
+                runs.iter_mut().flat_map(|run| &mut run.time).for_each(|t| *t /= unit);
+            }
+            (K::JointsExchanged, &[a, b]) => runs.iter_mut().for_each(|run| exchange(run, a, b)),
+            (K::EffortsExchanged, &[a, b]) => {
+                runs.iter_mut().for_each(|run| exchange_efforts(run, a, b));
+            }
+            _ => return false,
+        }
+        true
+    }
+}
+
+/// The power of ten that a factor is near to, other than one.
+fn power_of_ten(factor: f64, nearly: f64) -> Option<f64> {
+    let unit = 10_f64.powf(factor.log10().round());
+    let is_near =
+        (factor / unit).ln().abs() < nearly.ln() && (unit - 1.0).abs() > 0.5 * unit.min(1.0);
+    is_near.then_some(unit)
+}
+
+/// Changes some joints of every run.
+fn at(runs: &mut [Run], joints: &[usize], change: impl Fn(&mut Channels)) {
+    for run in runs {
+        joints.iter().for_each(|&j| change(&mut run.joints[j]));
+    }
+}
+
+fn scale(signal: &mut [f64], by: f64) {
+    signal.iter_mut().for_each(|x| *x *= by);
+}
+
+/// Scales the positions of a joint, and those of its velocities and accelerations that are theirs.
+fn scale_motion(joint: &mut Channels, by: f64) {
+    let of_the_positions = follows(joint);
+    scale(&mut joint.position, by);
+    joint.link_position.iter_mut().for_each(|link| scale(link, by));
+    if of_the_positions {
+        joint.velocity.iter_mut().chain(&mut joint.acceleration).for_each(|x| scale(x, by));
+    }
+}
+
+/// Whether a velocity column goes the way the positions do, sample by sample; so where there is none.
+fn follows(joint: &Channels) -> bool {
+    let Some(velocity) = &joint.velocity else { return true };
+    let steps = joint.position.windows(2).map(|q| q[1] - q[0]);
+    let product = |(step, v): (f64, &f64)| if v.is_finite() { step * v } else { 0.0 };
+    steps.zip(velocity).map(product).sum::<f64>() >= 0.0
+}
+
+/// Exchanges the efforts of two joints.
+fn exchange_efforts(run: &mut Run, a: usize, b: usize) {
+    let effort = std::mem::take(&mut run.joints[a].effort);
+    run.joints[a].effort = std::mem::replace(&mut run.joints[b].effort, effort);
+}
+
+/// Exchanges all columns of two joints, whose names stay.
+fn exchange(run: &mut Run, a: usize, b: usize) {
+    run.joints.swap(a, b);
+    let name = std::mem::take(&mut run.joints[a].name);
+    run.joints[a].name = std::mem::replace(&mut run.joints[b].name, name);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{pendulum, swing};
+
+    fn read(change: fn(&mut Run)) -> (Mended, Vec<Run>) {
+        let true_runs = vec![swing(0.3), swing(1.1)];
+        let mut runs = true_runs.clone();
+        runs.iter_mut().for_each(change);
+        (mended(&pendulum(), &runs), true_runs)
+    }
+
+    #[test]
+    fn time_in_milliseconds_is_read_as_such() {
+        let (mended, true_runs) = read(|run| run.time.iter_mut().for_each(|t| *t *= 1e3));
+        let kinds: Vec<ObservationKind> = mended.mended.iter().map(|o| o.kind).collect();
+        assert!(matches!(kinds.as_slice(), [ObservationKind::TimeUnit { .. }]), "{kinds:?}");
+        assert_eq!(mended.left, []);
+        for (read, run) in mended.runs.iter().zip(&true_runs) {
+            let apart = |(a, b): (&f64, &f64)| (a - b).abs();
+            assert!(read.time.iter().zip(&run.time).map(apart).fold(0.0, f64::max) < 1e-9);
+            assert_eq!(read.joints, run.joints);
+        }
+    }
+
+    /// 1.25 is no unit: how much of it is the clock's is not known.
+    #[test]
+    fn time_that_runs_slowly_stays_as_it_is() {
+        let (mended, _) = read(|run| run.time.iter_mut().for_each(|t| *t *= 1.25));
+        assert_eq!(mended.mended, []);
+        assert!(mended.left.iter().any(Observation::spoils_whole_logs), "{:?}", mended.left);
+        assert!((mended.runs[0].time[1] - 1.25 / 250.0).abs() < 1e-12);
+    }
+
+    /// A pendulum has the same logs with its effort turned and with its position turned.
+    #[test]
+    fn a_sign_that_may_be_another_one_stays_as_it_is() {
+        let (mended, _) = read(|run| scale(&mut run.joints[0].effort, -1.0));
+        assert_eq!(mended.mended, []);
+        assert!(!mended.left.is_empty());
+    }
+
+    #[test]
+    fn units_are_powers_of_ten() {
+        assert_eq!(power_of_ten(1400.0, OF_EFFORT), Some(1e3));
+        assert_eq!(power_of_ten(1.0 / 0.7e3, OF_EFFORT), Some(1e-3));
+        assert_eq!(power_of_ten(400.0, OF_EFFORT), None);
+        assert_eq!(power_of_ten(1.3, OF_EFFORT), None);
+        assert_eq!(power_of_ten(1001.0, OF_TIME), Some(1e3));
+        assert_eq!(power_of_ten(1100.0, OF_TIME), None);
+    }
+
+    #[test]
+    fn a_velocity_column_of_its_own_sign_keeps_it() {
+        let mut joint = swing(0.3).joints.remove(0);
+        let velocity = joint.velocity.clone();
+        scale(&mut joint.position, -1.0);
+        scale_motion(&mut joint, -1.0);
+        assert_eq!(joint.velocity, velocity);
+        let position = joint.position.clone();
+        scale_motion(&mut joint, -1.0);
+        scale_motion(&mut joint, -1.0);
+        assert_eq!((joint.position, joint.velocity), (position, velocity));
+    }
+}
