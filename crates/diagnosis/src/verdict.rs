@@ -17,8 +17,8 @@ const DROWNED: f64 = 0.15;
 const DEPENDS: f64 = 0.15;
 
 /// Share of a joint's effort RMS below which dry friction that goes unseen does not matter: what arms have is
-/// several times as large.
-const UNSEEN: f64 = 0.1;
+/// most of the effort of a joint that carries no load.
+const UNSEEN: f64 = 0.25;
 
 /// Whether dry friction that goes unseen may matter: the logs say nothing of a joint then, however little is left.
 pub(crate) fn hides(unseen: f64, torque_rms: f64) -> bool {
@@ -275,15 +275,15 @@ mod tests {
     #[test]
     fn a_joint_whose_friction_would_go_unseen_is_not_closed() {
         let joint = |findings, unseen| Situation { unseen, ..joint(findings, 0.19, 0.0) }.verdict();
-        assert_eq!(joint(0, 0.9).0, Verdict::Consistent);
-        assert_eq!(joint(1, 0.9).0, Verdict::Explained);
-        let (verdict, because) = joint(0, 1.1);
+        assert_eq!(joint(0, 2.4).0, Verdict::Consistent);
+        assert_eq!(joint(1, 2.4).0, Verdict::Explained);
+        let (verdict, because) = joint(0, 2.6);
         assert_eq!(verdict, Verdict::DataInadequate);
         assert!(
             because
-                .ends_with("dry friction of up to 1.100 N m, 11 % of its effort, would go unseen")
+                .ends_with("dry friction of up to 2.600 N m, 26 % of its effort, would go unseen")
         );
-        assert_eq!(joint(1, 1.1).0, Verdict::PartlyExplained);
+        assert_eq!(joint(1, 2.6).0, Verdict::PartlyExplained);
         assert!(joint(0, f64::INFINITY).1.ends_with("no friction of this joint, however large"));
     }
 
