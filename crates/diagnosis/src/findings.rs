@@ -15,7 +15,6 @@ use crate::settled::Withheld;
 use crate::significance::Significance;
 use crate::stability::stability;
 use crate::uncertainty::{Fitted, Uncertainty};
-use crate::unnamed::widening;
 
 /// What two encoders cannot say of their difference.
 const WHICH_ENCODER: &str = "it is what the two encoders differ by: which of them is off, a pose measured from outside tells";
@@ -50,8 +49,6 @@ impl Evidence<'_> {
         let problem = self.selection.problem;
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
-        let factors = widening(problem, self.model, &self.selection.practical);
-        let uncertainty = uncertainty.widened(fitted, (problem, self.model), &factors);
         let with = problem.held_out(self.model);
         let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
         let nominal = problem.held_out(&Model::new());

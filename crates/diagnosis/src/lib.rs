@@ -62,7 +62,6 @@ mod tones;
 mod torque_noise;
 mod traces;
 mod uncertainty;
-mod unnamed;
 mod verdict;
 mod worse;
 

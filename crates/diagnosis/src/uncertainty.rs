@@ -1,5 +1,3 @@
-use std::collections::BTreeMap;
-
 use catalogue::EffectKind;
 use effects::{Hypothesis, Quantity, Weights};
 use nalgebra::{DMatrix, DVector};
@@ -78,31 +76,6 @@ impl Uncertainty {
         let t =
             StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0)).map_or(2.0, |d| d.inverse_cdf(0.975));
         Self { columns, likelihood, blocks, t }
-    }
-
-    /// The same with the standard deviation of every column of the fit times a factor, where `factors`, by the
-    /// columns of another `problem` with the same hypotheses, have one.
-    pub fn widened(
-        mut self,
-        fitted: &Fitted,
-        (problem, model): (&Problem, &Model),
-        factors: &BTreeMap<usize, f64>,
-    ) -> Self {
-        let mut own: BTreeMap<usize, f64> = BTreeMap::new();
-        for group in model.iter().map(|&g| &problem.design.groups[g]) {
-            let last = fitted.problem.design.find(group.hypothesis);
-            let columns = last.map(|g| &fitted.problem.design.groups[g].columns);
-            let pairs = columns.into_iter().flatten().zip(&group.columns);
-            own.extend(pairs.filter_map(|(last, k)| Some((*last, *factors.get(k)?))));
-        }
-        let factor: Vec<f64> =
-            self.columns.iter().map(|k| own.get(k).copied().unwrap_or(1.0)).collect();
-        for all in [&mut self.likelihood, &mut self.blocks] {
-            *all = DMatrix::from_fn(all.nrows(), all.ncols(), |i, k| {
-                factor[i] * all[(i, k)] * factor[k]
-            });
-        }
-        self
     }
 
     /// The parameters of `hypothesis` as the user reads them, with intervals, where it and its
