@@ -3,15 +3,12 @@ use robot::{Joint, Robot};
 
 /// Range of motion below which a joint counts as unmoved, as a share of its limits' span
 /// or of a full turn.
-const UNMOVED_SHARE: f64 = 0.005;
-
-/// The same in steps of its encoder.
-const UNMOVED_STEPS: f64 = 20.0;
+const UNMOVED_SHARE: f64 = 0.02;
 
 /// Why the logs can say nothing of a joint, for every joint of which that is so.
 pub(crate) fn inadequate(robot: &Robot, prepared: &Prepared) -> Vec<Option<String>> {
     let reason = |(j, link): (usize, &robot::Link)| {
-        let (range, least) = (range(prepared, j), least(prepared, j, link));
+        let (range, least) = (range(prepared, j), least(link));
         if range <= least {
             let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
             return Some(format!(
@@ -27,9 +24,8 @@ pub(crate) fn inadequate(robot: &Robot, prepared: &Prepared) -> Vec<Option<Strin
 /// Leaves out runs in which the effort of a joint never changes while it moves, with a warning each, where
 /// these are less than half of the samples.
 pub(crate) fn without_unrecorded(robot: &Robot, prepared: &mut Prepared) -> Vec<String> {
-    let joints: Vec<(&str, f64)> = (robot.links().iter().enumerate())
-        .map(|(j, link)| (link.joint.name.as_str(), least(prepared, j, link)))
-        .collect();
+    let joints: Vec<(&str, f64)> =
+        robot.links().iter().map(|link| (link.joint.name.as_str(), least(link))).collect();
     let unrecorded = |run: &PreparedRun| -> Vec<&str> {
         let those =
             joints.iter().enumerate().filter(|(j, (_, least))| is_unrecorded(run, *j, *least));
@@ -68,9 +64,8 @@ fn is_unrecorded(run: &PreparedRun, j: usize, least: f64) -> bool {
 }
 
 /// Range above which a joint moves (rad or m).
-fn least(prepared: &Prepared, j: usize, link: &robot::Link) -> f64 {
-    let step = prepared.noise.get(j).and_then(|noise| noise.position.step).unwrap_or(0.0);
-    (UNMOVED_SHARE * full_range(&link.joint)).max(UNMOVED_STEPS * step)
+fn least(link: &robot::Link) -> f64 {
+    UNMOVED_SHARE * full_range(&link.joint)
 }
 
 /// Range of motion of joint `j` over all runs (rad or m).
@@ -108,14 +103,14 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_moves_that_turns_over_two_degrees() {
+    fn a_joint_moves_that_turns_over_a_fiftieth_of_a_turn() {
         let reason = |range| {
             let prepared = Prepared::exact(vec![run("a", 1000, range, 2.0)], 5.0);
             inadequate(&pendulum(), &prepared).remove(0)
         };
-        assert_eq!(reason(0.035), None);
-        let expected = "the joint moves over 0.0300 rad in these logs, at least 0.031 are needed";
-        assert_eq!(reason(0.03).as_deref(), Some(expected));
+        assert_eq!(reason(0.13), None);
+        let expected = "the joint moves over 0.1200 rad in these logs, at least 0.126 are needed";
+        assert_eq!(reason(0.12).as_deref(), Some(expected));
     }
 
     #[test]
