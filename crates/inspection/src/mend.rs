@@ -146,16 +146,21 @@ mod tests {
         (mended(&pendulum(), &runs), true_runs)
     }
 
+    /// Beside a velocity column of a slow pendulum it may be that column that is in another unit.
     #[test]
     fn time_in_milliseconds_is_read_as_such() {
-        let (mended, true_runs) = read(|run| run.time.iter_mut().for_each(|t| *t *= 1e3));
+        let (mended, true_runs) = read(|run| {
+            run.time.iter_mut().for_each(|t| *t *= 1e3);
+            run.joints[0].velocity = None;
+        });
         let kinds: Vec<ObservationKind> = mended.mended.iter().map(|o| o.kind).collect();
         assert!(matches!(kinds.as_slice(), [ObservationKind::TimeUnit { .. }]), "{kinds:?}");
         assert_eq!(mended.left, []);
         for (read, run) in mended.runs.iter().zip(&true_runs) {
             let apart = |(a, b): (&f64, &f64)| (a - b).abs();
             assert!(read.time.iter().zip(&run.time).map(apart).fold(0.0, f64::max) < 1e-9);
-            assert_eq!(read.joints, run.joints);
+            assert_eq!(read.joints[0].position, run.joints[0].position);
+            assert_eq!(read.joints[0].effort, run.joints[0].effort);
         }
     }
 
