@@ -22,9 +22,10 @@ pub(crate) struct Inspected {
 /// No cause is sought where others spoil what it would be sought in.
 pub(crate) fn inspected(robot: &Robot, runs: &[Run]) -> Inspected {
     let Mended { runs: read, mended, left: mut seen } = mended(robot, runs);
+    let runs = read.as_deref().unwrap_or(runs);
     // A drive at its limit gives the torque of the limit, and what it was asked for beyond is a cause.
     seen.retain(|o| !matches!(o.kind, ObservationKind::AtLimit { .. }));
-    let said = |o: &Observation| o.sentence(robot, &read);
+    let said = |o: &Observation| o.sentence(robot, runs);
     let reason = |j: usize| {
         let spoils = |o: &&Observation| match o.spoils {
             Spoils::Everything => true,
@@ -36,8 +37,7 @@ pub(crate) fn inspected(robot: &Robot, runs: &[Run]) -> Inspected {
     let spoilt = (0..robot.joint_count()).map(reason).collect();
     let put_right = |o: &Observation| format!("{} Until then the logs are read so.", said(o));
     let warnings = mended.iter().map(put_right).chain(seen.iter().map(said)).collect();
-    let runs = without_spoilt_seconds(&read, &seen);
-    Inspected { runs, read: (!mended.is_empty()).then_some(read), spoilt, warnings }
+    Inspected { runs: without_spoilt_seconds(runs, &seen), read, spoilt, warnings }
 }
 
 /// The runs without spoilt seconds; a run of which too little is left is left out, unless that is so

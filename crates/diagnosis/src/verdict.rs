@@ -16,8 +16,9 @@ const DROWNED: f64 = 0.15;
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
 const DEPENDS: f64 = 0.15;
 
-/// Share of a joint's effort RMS below which dry friction that goes unseen does not matter: what arms have is
-/// most of the effort of a joint that carries no load.
+/// Share of a joint's effort RMS below which dry friction that goes unseen does not matter. Of 78 arms of the panel
+/// that were called consistent or explained, 33 wrongly, a quarter leaves 15 wrong and 38 right ones, a tenth 13
+/// and 33; the palm of a clean WAM, which needs 1.3 mN m, hides .12.
 const UNSEEN: f64 = 0.25;
 
 /// Whether dry friction that goes unseen may matter: the logs say nothing of a joint then, however little is left.
@@ -129,7 +130,7 @@ impl Situation {
     }
 
     fn of_unseen(&self) -> String {
-        if self.unseen > self.torque_rms {
+        if !self.unseen.is_finite() {
             return "these logs show no friction of this joint, however large".to_owned();
         }
         let percent = 100.0 * self.unseen / self.torque_rms;
