@@ -192,6 +192,11 @@ impl Selection<'_> {
         fit.evidence_of(&self.problem.info, &columns, &self.problem.design.prior)
     }
 
+    /// Whether `h` has a name only beside its plainer rivals, and adds too little to a model with them.
+    fn is_no_more(&self, model: &Model, h: usize) -> bool {
+        self.is_beside_the_plain(h) && self.beyond_the_plain(model, h) <= self.least_evidence(h)
+    }
+
     fn is_beside_the_plain(&self, g: usize) -> bool {
         let nature = self.problem.design.groups[g].hypothesis.nature();
         nature.is_some_and(Nature::adds_to_the_plain)
@@ -276,7 +281,7 @@ impl Selection<'_> {
             for h in self.neighbours(g) {
                 let mut other = model.clone();
                 other.remove(&g);
-                if other.contains(&h) || self.is_excluded(&other, h) {
+                if other.contains(&h) || self.is_excluded(&other, h) || self.is_no_more(model, h) {
                     continue;
                 }
                 let other = self.joined(&other, h);
