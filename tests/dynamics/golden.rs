@@ -84,6 +84,41 @@ fn the_wam_agrees_with_pinocchio() {
     agrees(&with_golden_inertias(robot, &golden), &golden);
 }
 
+/// Rows of the derivatives of one state.
+#[derive(serde::Deserialize)]
+struct Derivatives {
+    dq: Vec<Vec<f64>>,
+    dqd: Vec<Vec<f64>>,
+    dqdd: Vec<Vec<f64>>,
+}
+
+#[derive(serde::Deserialize)]
+struct AllDerivatives {
+    states: Vec<Derivatives>,
+}
+
+#[test]
+fn the_derivatives_of_the_wam_agree_with_pinocchio() {
+    let states = golden("wam7").states;
+    let path = workspace_root().join("tests/golden/derivatives_wam7.json");
+    let expected: AllDerivatives =
+        serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    assert!(states.len() == expected.states.len() && states.len() >= 20);
+    let urdf = workspace_root().join("robots/wam7/robot.urdf");
+    let dynamics = Dynamics::new(&Robot::load(&urdf).unwrap().robot);
+    for (State { q, qd, qdd, .. }, expected) in states.iter().zip(&expected.states) {
+        let found = dynamics.inverse_dynamics_derivatives(q, qd, qdd).unwrap();
+        let pairs = [
+            ("dq", found.dq, &expected.dq),
+            ("dqd", found.dqd, &expected.dqd),
+            ("dqdd", found.dqdd, &expected.dqdd),
+        ];
+        for (what, found, rows) in pairs {
+            assert_close(what, found.transpose().as_slice(), &rows.concat());
+        }
+    }
+}
+
 #[test]
 fn the_kinova_gen3_agrees_with_pinocchio() {
     let golden = golden("kinova_gen3");

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Times inverse dynamics of the WAM here and in Pinocchio's C++, turn by turn in one run,
+# Times inverse dynamics of the WAM and its derivatives here and in Pinocchio's C++, turn by turn in one run,
 # and prints the ratios. Needs: pip install pin cmeel-eigen cmeel-urdfdom-headers; g++.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
@@ -22,21 +22,23 @@ cargo bench -q -p dynamics --bench rnea_time >/dev/null
 
 urdf=robots/wam7/robot.urdf
 for turn in 1 2 3 4 5 6 7; do
-  ours=$(cargo bench -q -p dynamics --bench rnea_time)
-  headers=$("$build/headers" "$urdf")
-  library=$("$build/library" "$urdf")
-  printf 'ours %s\nheaders %s\nlibrary %s\n' "$ours" "$headers" "$library"
+  cargo bench -q -p dynamics --bench rnea_time | sed 's/^/ours /'
+  "$build/headers" "$urdf" | sed 's/^/headers /'
+  "$build/library" "$urdf" | sed 's/^/library /'
 done >"$build/times"
 
 # The fastest turn of each: what disturbs a turn only adds to it.
 awk -v version="$version" '
-  !($1 in best) || $2 < best[$1] { best[$1] = $2 }
-  { sum[$1] = $3 }
-  function row(name, key) {
-    printf "%-44s %7.0f ns   checksum %s   ratio %.2f\n", name, best[key], sum[key], best["ours"] / best[key]
+  { key = $1 " " $2 }
+  !(key in best) || $3 < best[key] { best[key] = $3 }
+  { sum[key] = $4 }
+  function row(what, name, by,  key, own) {
+    key = by " " what; own = "ours " what
+    printf "%-12s %-44s %7.0f ns   checksum %s   ratio %.2f\n", what, name, best[key], sum[key], best[own] / best[key]
   }
-  END {
-    row("this crate", "ours")
-    row("pinocchio " version ", headers compiled -O3 -DNDEBUG", "headers")
-    row("pinocchio " version ", the code in its wheel", "library")
-  }' "$build/times"
+  function rows(what) {
+    row(what, "this crate", "ours")
+    row(what, "pinocchio " version ", headers compiled -O3 -DNDEBUG", "headers")
+    row(what, "pinocchio " version ", the code in its wheel", "library")
+  }
+  END { rows("rnea"); rows("derivatives") }' "$build/times"

@@ -1,5 +1,6 @@
-// Prints the time of one pinocchio::rnea of a URDF (ns) and a checksum: the same work on
-// the same states as rnea_time.rs.
+// Prints the time of one pinocchio::rnea of a URDF (ns) and a checksum, and the same of its
+// derivatives: the same work on the same states as rnea_time.rs.
+#include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 #include <pinocchio/parsers/urdf.hpp>
 
@@ -28,16 +29,23 @@ int main(int argc, char** argv) {
       for (int i = 0; i < n; ++i) (*vector)[i] = draw();
     }
 
-  double fastest = std::numeric_limits<double>::infinity(), checksum = 0;
-  for (int round = 0; round < rounds; ++round) {
-    checksum = 0;
-    const auto start = std::chrono::steady_clock::now();
-    for (int s = 0; s < states; ++s) {
-      pinocchio::rnea(model, data, q[s], v[s], a[s]);
-      checksum += data.tau[0] + data.tau[n - 1];
+  auto time = [&](const char* what, auto evaluate) {
+    double fastest = std::numeric_limits<double>::infinity(), checksum = 0;
+    for (int round = 0; round < rounds; ++round) {
+      checksum = 0;
+      const auto start = std::chrono::steady_clock::now();
+      for (int s = 0; s < states; ++s) checksum += evaluate(q[s], v[s], a[s]);
+      const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+      fastest = std::min(fastest, taken.count() / states);
     }
-    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
-    fastest = std::min(fastest, taken.count() / states);
-  }
-  std::printf("%.1f %.6f\n", fastest, checksum);
+    std::printf("%s %.1f %.6f\n", what, fastest, checksum);
+  };
+  time("rnea", [&](const auto& q, const auto& v, const auto& a) {
+    pinocchio::rnea(model, data, q, v, a);
+    return data.tau[0] + data.tau[n - 1];
+  });
+  time("derivatives", [&](const auto& q, const auto& v, const auto& a) {
+    pinocchio::computeRNEADerivatives(model, data, q, v, a);
+    return data.dtau_dq(0, n - 1) + data.dtau_dv(0, n - 1) + data.M(0, n - 1);
+  });
 }

@@ -1,5 +1,5 @@
-//! Prints the time of one inverse dynamics of a URDF (ns) and a checksum, for the
-//! comparison with Pinocchio: `pinocchio.cpp` does the same with the same states.
+//! Prints the time of one inverse dynamics of the WAM (ns) and a checksum, and the same of its
+//! derivatives, for the comparison with Pinocchio: `pinocchio.cpp` does the same with the same states.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot build its input has failed")]
 
@@ -24,17 +24,32 @@ fn main() {
     };
     let states: Vec<Vec<f64>> = (0..STATES).map(|_| (0..3 * n).map(|_| draw()).collect()).collect();
     let mut tau = vec![0.0; n];
+    let mut inverse_dynamics = |[q, qd, qdd]: [&[f64]; 3]| {
+        dynamics.inverse_dynamics_into(&mut ws, q, qd, qdd, &mut tau);
+        tau[0] + tau[n - 1]
+    };
+    time("rnea", &states, &mut inverse_dynamics);
+    let (mut ws, mut matrices) = (dynamics.workspace(), [(); 3].map(|()| vec![0.0; n * n]));
+    let mut derivatives = |state: [&[f64]; 3]| {
+        let [dq, dqd, dqdd] = &mut matrices;
+        dynamics.inverse_dynamics_derivatives_into(&mut ws, state, [dq, dqd, dqdd]);
+        dq[n - 1] + dqd[n - 1] + dqdd[n - 1]
+    };
+    time("derivatives", &states, &mut derivatives);
+}
+
+/// Prints the least time of one `evaluate` over all rounds, and the sum of what it returns.
+fn time(what: &str, states: &[Vec<f64>], evaluate: &mut dyn FnMut([&[f64]; 3]) -> f64) {
     let (mut fastest, mut checksum) = (f64::INFINITY, 0.0);
     for _ in 0..ROUNDS {
         checksum = 0.0;
         let start = Instant::now();
-        for state in &states {
-            let (q, rates) = state.split_at(n);
-            let (qd, qdd) = rates.split_at(n);
-            dynamics.inverse_dynamics_into(&mut ws, q, qd, qdd, &mut tau);
-            checksum += tau[0] + tau[n - 1];
+        for state in states {
+            let (q, rates) = state.split_at(state.len() / 3);
+            let (qd, qdd) = rates.split_at(q.len());
+            checksum += evaluate([q, qd, qdd]);
         }
         fastest = fastest.min(start.elapsed().as_nanos() as f64 / STATES as f64);
     }
-    println!("{fastest:.1} {checksum:.6}");
+    println!("{what} {fastest:.1} {checksum:.6}");
 }

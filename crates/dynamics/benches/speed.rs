@@ -48,6 +48,18 @@ fn loops(c: &mut Criterion) {
             BatchSize::SmallInput,
         );
     });
+    let mut derivatives = [(); 3].map(|()| vec![0.0; n * n]);
+    group.bench_function("inverse_dynamics_derivatives", |b| {
+        b.iter_batched(
+            &mut next,
+            |s| {
+                let [dq, dqd, dqdd] = &mut derivatives;
+                let state = [s.q.as_slice(), &s.qd, &s.qdd];
+                dynamics.inverse_dynamics_derivatives_into(&mut ws, state, [dq, dqd, dqdd]);
+            },
+            BatchSize::SmallInput,
+        );
+    });
     group.bench_function("mass_matrix", |b| {
         b.iter_batched(
             &mut next,

@@ -1,6 +1,7 @@
 use nalgebra::{DVector, Matrix3, Vector3};
 use robot::Robot;
 
+use crate::derivatives::InBase;
 use crate::spatial::{Force, Motion, Pose, RigidInertia};
 
 /// A robot prepared for dynamics: constant transforms, axes and inertias of its tree.
@@ -41,6 +42,8 @@ pub struct Workspace {
     pub(crate) axes: Vec<Motion>,
     /// Inertia of each link with everything it carries, base first.
     pub(crate) composite: Vec<RigidInertia>,
+    /// The links in the base frame, base first.
+    pub(crate) in_base: Vec<InBase>,
     /// Row-major n x n.
     pub(crate) matrix: Vec<f64>,
 }
@@ -90,6 +93,7 @@ impl Dynamics {
             links: vec![at_rest; n + 1],
             axes: vec![Motion::zero(); n * n],
             composite: vec![nothing; n + 1],
+            in_base: vec![InBase::at_rest(); n + 1],
             matrix: vec![0.0; n * n],
         }
     }

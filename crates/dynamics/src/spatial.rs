@@ -58,6 +58,35 @@ impl Motion {
         Self { angular: Vector3::zeros(), linear: Vector3::zeros() }
     }
 
+    #[inline(always)]
+    pub fn add(&mut self, other: &Motion) {
+        self.angular += other.angular;
+        self.linear += other.linear;
+    }
+
+    #[inline(always)]
+    pub fn scaled(&self, by: f64) -> Self {
+        Self { angular: self.angular * by, linear: self.linear * by }
+    }
+
+    /// Rate of a motion `m` that is fixed in a frame that moves as this one says, `v x m`.
+    #[inline(always)]
+    pub fn cross(&self, m: &Motion) -> Motion {
+        Motion {
+            angular: self.angular.cross(&m.angular),
+            linear: self.angular.cross(&m.linear) + self.linear.cross(&m.angular),
+        }
+    }
+
+    /// The same of a wrench, `v x* f`.
+    #[inline(always)]
+    pub fn cross_force(&self, f: &Force) -> Force {
+        Force {
+            angular: self.angular.cross(&f.angular) + self.linear.cross(&f.linear),
+            linear: self.angular.cross(&f.linear),
+        }
+    }
+
     /// Power of a unit of this motion against the wrench `f`, both in one frame.
     #[inline(always)]
     pub fn dot(&self, f: &Force) -> f64 {
@@ -91,6 +120,23 @@ impl Pose {
                 &self.rotation,
                 &(m.linear + m.angular.cross(&self.origin)),
             ),
+        }
+    }
+
+    /// A motion written in the link's frame, written in the parent's.
+    #[inline(always)]
+    pub fn motion_to_parent(&self, m: &Motion) -> Motion {
+        let angular = multiply(&self.rotation, &m.angular);
+        let linear = multiply(&self.rotation, &m.linear) + self.origin.cross(&angular);
+        Motion { angular, linear }
+    }
+
+    /// Pose of a link in this frame's parent, whose pose in this frame is `link`.
+    #[inline(always)]
+    pub fn then(&self, link: &Pose) -> Pose {
+        Pose {
+            rotation: self.rotation * link.rotation,
+            origin: self.origin + multiply(&self.rotation, &link.origin),
         }
     }
 

@@ -53,14 +53,14 @@ impl Explain for Backlash {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
-        let carried = Carried::beyond(motion.tight_load(j), &motion.slopes(j).of[j]);
+        let carried = Carried::beyond(motion.tight_load(j), &motion.slopes(j)[j]);
         vec![motion.twisted(j, &play_per_gap(motion, j, carried))]
     }
 
     fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Joint(j) = place else { return Vec::new() };
         let ratio = motion.drives[j].transmission_ratio;
-        let play = play_per_gap(motion, j, Carried::here(&motion.load[j], &motion.slopes(j).of[j]));
+        let play = play_per_gap(motion, j, Carried::here(&motion.load[j], &motion.slopes(j)[j]));
         vec![at_joint(j, play.into_iter().map(|x| x / ratio))]
     }
 

@@ -35,7 +35,7 @@ fn per_compliance(
     let mut twist = motion.load[j].clone();
     if drive.backlash > 0.0 {
         let gap = Gap::of(drive, drive.backlash);
-        let carried = carried(play_load, &motion.slopes(j).of[j]);
+        let carried = carried(play_load, &motion.slopes(j)[j]);
         let softer = Gap { compliance: gap.compliance + STEP, ..gap };
         let [now, then] = [gap, softer].map(|gap| play(carried, gap, motion.period_s));
         let changes = now.iter().zip(then).map(|(now, then)| (then - now) / STEP);

@@ -51,9 +51,8 @@ pub struct Motion {
     pub(crate) regressor: Vec<Vec<Vec<Vec<f64>>>>,
     /// `[joint][tilt]`: torque per radian of tilt about the two horizontal axes.
     pub(crate) tilt: Vec<[Vec<f64>; 2]>,
-    /// What moving the link of each joint changes, once it has been asked for: most fits ask for
-    /// few, and each costs six inverse dynamics a sample.
-    slopes: Vec<OnceLock<Slopes>>,
+    /// What moving the links changes, once it has been asked for.
+    slopes: OnceLock<Slopes>,
     /// The nominal robot.
     robot: Robot,
     /// The drives of the nominal robot.
@@ -171,7 +170,7 @@ impl Motion {
             link,
             regressor: Vec::new(),
             tilt: Vec::new(),
-            slopes: vec![OnceLock::new(); joints],
+            slopes: OnceLock::new(),
             robot: robot.clone(),
             drives,
             tight_load,
@@ -198,9 +197,10 @@ impl Motion {
         self.qd_reported[j].iter().map(|v| v.abs() < self.rest_speed[j]).collect()
     }
 
-    /// What moving the link of joint `j` changes.
-    pub(crate) fn slopes(&self, j: usize) -> &Slopes {
-        self.slopes[j].get_or_init(|| Slopes::new(&self.robot, &self.link, j))
+    /// What moving the link of joint `j` changes in the load of every joint: its derivatives by position,
+    /// velocity and acceleration.
+    pub(crate) fn slopes(&self, j: usize) -> &[[Vec<f64>; 3]] {
+        self.slopes.get_or_init(|| Slopes::new(&self.robot, &self.link)).by(j)
     }
 
     /// Fills the regressor, the tilt signals and the rigid-body part of the load.
@@ -331,7 +331,7 @@ impl Motion {
         let drive = &self.drives[j];
         let compliance = drive.elasticity.map_or(0.0, f64::recip);
         let gap = Gap::of(drive, drive.backlash);
-        let carried = Carried::here(&self.load[j], &self.slopes(j).of[j]);
+        let carried = Carried::here(&self.load[j], &self.slopes(j)[j]);
         let play = play(carried, gap, self.period_s);
         let signals = self.link[0][j].iter().zip(&self.load[j]).zip(play);
         let twist = |((q, load), x): ((&f64, &f64), f64)| {
@@ -367,7 +367,7 @@ impl Motion {
     pub(crate) fn displaced(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
         let dragged = Loop::of(&self.drives[j], &self.link[0][j]).map(|h| h.displaced(s));
         let part = |i: usize| {
-            let [dq, dqd, dqdd] = &self.slopes(j).of[i];
+            let [dq, dqd, dqdd] = &self.slopes(j)[i];
             let own = dragged.as_ref().filter(|_| i == j);
             let load = |t: usize| {
                 dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t] + own.map_or(0.0, |h| h[t])

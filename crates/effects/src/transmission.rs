@@ -63,13 +63,13 @@ impl Parted {
             return Self { motor, link, tight_load: None, gives };
         }
         let load = loads(robot, &link);
+        let slopes = LazyCell::new(|| Slopes::new(robot, &link));
         let mut of_motor = Vec::new();
         for i in parting {
             let drive = &robot.links()[i].actuator;
-            let slopes = LazyCell::new(|| Slopes::new(robot, &link, i));
             let twist = match drive.backlash > 0.0 {
                 true => {
-                    let carried = Carried::beyond(&load[i], &slopes.of[i]);
+                    let carried = Carried::beyond(&load[i], &slopes.by(i)[i]);
                     play(carried, Gap::of(drive, drive.backlash), period_s)
                 }
                 false => vec![0.0; load[i].len()],
@@ -83,7 +83,7 @@ impl Parted {
             }
             gives[i] = drive
                 .elasticity
-                .map(|stiffness| Give::new(stiffness.recip(), &slopes.of[i], period_s));
+                .map(|stiffness| Give::new(stiffness.recip(), &slopes.by(i)[i], period_s));
             of_motor.push((i, twist));
         }
         let link = behind_motors(robot, link, (of_motor, &gives), period_s);
