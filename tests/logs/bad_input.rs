@@ -82,8 +82,10 @@ fn damaged_parquet_never_panics() {
 }
 
 #[test]
-fn parquet_in_name_only() {
+fn a_name_says_nothing_of_the_kind() {
     let message = Scratch::new("run.parquet", "time,j1.position\n").message(&two_joints());
+    assert!(message.starts_with("run.parquet: there is no column j1.effort,"), "{message}");
+    let message = Scratch::new("run.parquet", "\0\0\0\0").message(&two_joints());
     assert_eq!(
         message,
         "run.parquet: not a whole Parquet file (it does not begin with PAR1); \

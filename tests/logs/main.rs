@@ -2,11 +2,13 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 mod bad_input;
+mod dialects;
 mod estimators;
 mod files;
 mod filter;
 mod growing;
 mod info;
+mod kinds;
 mod link_lag;
 mod noise;
 mod preparation;

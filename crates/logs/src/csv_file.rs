@@ -1,41 +1,162 @@
 use std::{
-    collections::{BTreeMap, BTreeSet},
-    fs::{self, File},
-    io::{self, Read, Seek, SeekFrom},
-    path::Path,
+    fs::File,
+    io::{self, Read, Seek, SeekFrom, Take},
+    path::{Path, PathBuf},
 };
 
-use crate::LogError;
+use crate::{
+    LogError,
+    dialect::{Dialect, Header, Numerals},
+    table::{Cell, Needed, Rows, Table},
+};
 
-fn reader(path: &Path) -> Result<csv::Reader<io::Take<File>>, LogError> {
-    let end = torn_from(path)?.unwrap_or(u64::MAX);
-    let file = File::open(path).map_err(|e| unreadable(path, &e))?.take(end);
-    // Rows of another length are let through here and refused by `load` with their number.
-    Ok(csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(file))
+/// Bytes in which the dialect is seen.
+const PREVIEW: u64 = 1 << 18;
+/// Bytes at the end of a file in which a torn row is looked for.
+const TAIL: u64 = 1 << 22;
+
+/// A log as text: rows of numbers below a line of names, or without one.
+pub(crate) struct CsvFile {
+    path: PathBuf,
+    file: File,
+    dialect: Dialect,
+    names: Vec<String>,
+    /// Where a last row begins that was torn while it was written.
+    torn_from: Option<u64>,
+}
+
+impl CsvFile {
+    /// Looks at the dialect, the names and the last row.
+    pub(crate) fn open(path: &Path, file: File) -> Result<Self, LogError> {
+        let told = |e: io::Error| unreadable(path, &e);
+        let mut preview = Vec::new();
+        rewound(&file, 0)
+            .and_then(|file| file.take(PREVIEW).read_to_end(&mut preview))
+            .map_err(told)?;
+        let dialect = Dialect::of(&preview);
+        let torn_from = torn_from(&file).map_err(told)?;
+        let path = path.to_owned();
+        let mut csv = Self { path, file, dialect, names: Vec::new(), torn_from };
+        csv.names = csv.first_names()?;
+        Ok(csv)
+    }
+
+    /// Names of the columns, in the order of the file; `column_1` and so on where it has none.
+    pub(crate) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Whether the file has no line of names.
+    pub(crate) fn is_unnamed(&self) -> bool {
+        self.dialect.header == Header::Numbers
+    }
+
+    /// Whether the last row was torn while it was written.
+    pub(crate) fn is_torn(&self) -> bool {
+        self.torn_from.is_some()
+    }
+
+    fn first_names(&self) -> Result<Vec<String>, LogError> {
+        let mut first = csv::ByteRecord::new();
+        self.records()?.read_byte_record(&mut first).map_err(|e| unreadable(&self.path, &e))?;
+        let fields = self.dialect.fields(&first);
+        Ok(match self.dialect.header {
+            Header::Names => fields.map(|f| String::from_utf8_lossy(f).into_owned()).collect(),
+            Header::Numbers => (1..=fields.count()).map(|k| format!("column_{k}")).collect(),
+        })
+    }
+
+    /// Every record from the line of names on.
+    fn records(&self) -> Result<csv::Reader<Take<&File>>, LogError> {
+        let start = self.dialect.start as u64;
+        let end = self.torn_from.unwrap_or(u64::MAX);
+        let text = rewound(&self.file, start).map_err(|e| unreadable(&self.path, &e))?;
+        Ok(self.dialect.records(text.take(end.saturating_sub(start))))
+    }
+
+    /// Columns by name: those that are needed, where every field must be a number, and of the
+    /// rest those in which every field is one.
+    pub(crate) fn load(&self, needed: &Needed) -> Result<Table, LogError> {
+        let mut rows = Rows::new(&self.names, needed);
+        let mut numerals = vec![Numerals::between(self.dialect.separator); self.names.len()];
+        let mut reader = self.records()?;
+        let mut record = csv::ByteRecord::new();
+        let mut read = |record: &mut csv::ByteRecord| {
+            reader.read_byte_record(record).map_err(|e| unreadable(&self.path, &e))
+        };
+        if self.dialect.header == Header::Names {
+            read(&mut record)?;
+        }
+        let mut row = 0;
+        let mut cells = Vec::with_capacity(self.names.len());
+        while read(&mut record)? {
+            row += 1;
+            if self.dialect.fields(&record).all(<[u8]>::is_empty) {
+                continue;
+            }
+            self.check_length(row, &record)?;
+            cells.clear();
+            let fields = self.dialect.fields(&record).zip(&mut numerals);
+            cells.extend(fields.map(|(field, numerals)| numerals.cell(field)));
+            rows.push(row, &cells)
+                .map_err(|column| self.not_a_number(row, column, &record, &cells))?;
+        }
+        Ok(rows.finish())
+    }
+
+    /// A row may end in one more separator than the names do.
+    fn check_length(&self, row: usize, record: &csv::ByteRecord) -> Result<(), LogError> {
+        let (found, expected) = (self.dialect.fields(record).count(), self.names.len());
+        let ends_empty = self.dialect.fields(record).last().is_some_and(<[u8]>::is_empty);
+        if found == expected || (found == expected + 1 && ends_empty) {
+            return Ok(());
+        }
+        Err(LogError::WrongFieldCount { path: self.path.clone(), row, found, expected })
+    }
+
+    fn not_a_number(
+        &self,
+        row: usize,
+        column: usize,
+        record: &csv::ByteRecord,
+        cells: &[Cell],
+    ) -> LogError {
+        let (path, name) = (self.path.clone(), self.names[column].clone());
+        if cells[column] == Cell::Empty {
+            return LogError::MissingValue { path, row, column: name };
+        }
+        let found = self.dialect.fields(record).nth(column).unwrap_or_default();
+        // A message stays one line, whatever the file holds.
+        let found = String::from_utf8_lossy(found).chars().take(40).collect();
+        LogError::NotANumber { path, row, column: name, found }
+    }
+}
+
+fn rewound(file: &File, start: u64) -> io::Result<&File> {
+    let mut from = file;
+    from.seek(SeekFrom::Start(start))?;
+    Ok(file)
 }
 
 /// Where a last row begins that was torn while it was written; none when the file is whole.
 ///
 /// A row without its newline is torn when the line before it ends in a number in quotes, as
 /// every row of a [`crate::LogWriter`] does, and it does not.
-pub(crate) fn torn_from(path: &Path) -> Result<Option<u64>, LogError> {
-    let ends_well = || -> io::Result<bool> {
-        let mut file = File::open(path)?;
-        let mut last = [b'\n'];
-        if file.seek(SeekFrom::End(0))? > 0 {
-            file.seek(SeekFrom::End(-1))?;
-            file.read_exact(&mut last)?;
-        }
-        Ok(last == [b'\n'])
-    };
-    if ends_well().map_err(|e| unreadable(path, &e))? {
+fn torn_from(mut file: &File) -> io::Result<Option<u64>> {
+    let length = file.seek(SeekFrom::End(0))?;
+    let start = length.saturating_sub(TAIL);
+    let last_byte = length.saturating_sub(1);
+    let mut tail = Vec::new();
+    rewound(file, last_byte)?.read_to_end(&mut tail)?;
+    if tail == b"\n" || tail.is_empty() {
         return Ok(None);
     }
-    let bytes = fs::read(path).map_err(|e| unreadable(path, &e))?;
-    let mut lines = bytes.rsplitn(3, |&byte| byte == b'\n');
+    tail.clear();
+    rewound(file, start)?.read_to_end(&mut tail)?;
+    let mut lines = tail.rsplitn(3, |&byte| byte == b'\n');
     let (last, before) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
     let is_torn = ends_in_quoted_number(before) && !ends_in_quoted_number(last);
-    Ok(is_torn.then(|| (bytes.len() - last.len()) as u64))
+    Ok(is_torn.then(|| length - last.len() as u64))
 }
 
 fn ends_in_quoted_number(line: &[u8]) -> bool {
@@ -48,53 +169,4 @@ fn ends_in_quoted_number(line: &[u8]) -> bool {
 
 fn unreadable(path: &Path, error: &impl ToString) -> LogError {
     LogError::Unreadable { path: path.to_owned(), reason: error.to_string() }
-}
-
-/// Names of the columns, in the order of the file.
-pub(crate) fn names(path: &Path) -> Result<Vec<String>, LogError> {
-    let mut reader = reader(path)?;
-    let header = reader.headers().map_err(|e| unreadable(path, &e))?;
-    Ok(header.iter().map(|n| n.trim_start_matches('\u{feff}').to_owned()).collect())
-}
-
-/// Columns by name: those in `required`, where every field must be a number, and of the
-/// rest those in which every field is one.
-pub(crate) fn load(
-    path: &Path,
-    required: &BTreeSet<&str>,
-) -> Result<BTreeMap<String, Vec<f64>>, LogError> {
-    let names = names(path)?;
-    let mut columns: Vec<Option<Vec<f64>>> = vec![Some(Vec::new()); names.len()];
-    let mut reader = reader(path)?;
-    let mut record = csv::StringRecord::new();
-    let mut row = 0;
-    while reader.read_record(&mut record).map_err(|e| unreadable(path, &e))? {
-        row += 1;
-        if record.len() != names.len() {
-            let (found, expected) = (record.len(), names.len());
-            return Err(LogError::WrongFieldCount { path: path.to_owned(), row, found, expected });
-        }
-        for ((field, name), column) in record.iter().zip(&names).zip(&mut columns) {
-            let Some(samples) = column else { continue };
-            match field.parse() {
-                Ok(value) => samples.push(value),
-                Err(_) if required.contains(name.as_str()) => {
-                    return Err(not_a_number(path, row, name, field));
-                }
-                Err(_) => *column = None,
-            }
-        }
-    }
-    let named = names.into_iter().zip(columns);
-    Ok(named.filter_map(|(name, column)| Some((name, column?))).collect())
-}
-
-fn not_a_number(path: &Path, row: usize, column: &str, found: &str) -> LogError {
-    let (path, column) = (path.to_owned(), column.to_owned());
-    if found.is_empty() {
-        return LogError::MissingValue { path, row, column };
-    }
-    // A message stays one line, whatever the file holds.
-    let found = found.chars().take(40).collect();
-    LogError::NotANumber { path, row, column, found }
 }

@@ -20,6 +20,16 @@ pub enum LogError {
         /// What it is.
         found: &'static str,
     },
+    /// The file is of a kind that is not read, by its first bytes.
+    #[error("{}: this is {found}; {advice}", path.display())]
+    OtherKind {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        found: &'static str,
+        /// What to do about it.
+        advice: &'static str,
+    },
     /// The file has no bytes.
     #[error("{}: the file is empty, a CSV or Parquet log was expected", path.display())]
     Empty {
@@ -57,6 +67,15 @@ pub enum LogError {
         path: PathBuf,
         /// The name.
         column: String,
+    },
+    /// A file has no line of names, and none was given to its columns.
+    #[error("{}: it has no line of names above its numbers; its {columns} columns are called column_1 to column_{columns}, \
+        a column map that says which is which was expected", path.display())]
+    NoNames {
+        /// The file.
+        path: PathBuf,
+        /// Number of columns.
+        columns: usize,
     },
     /// A column that is needed is not there.
     #[error("{}: there is no column {column}, {purpose}{}", path.display(), hint(nearest.as_deref()))]

@@ -1,8 +1,8 @@
 use std::{
-    collections::{BTreeMap, BTreeSet},
+    collections::BTreeMap,
     fs::File,
-    panic::{UnwindSafe, catch_unwind},
-    path::Path,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
 };
 
 use arrow_array::{
@@ -19,88 +19,103 @@ use parquet::arrow::{
     arrow_reader::{ArrowReaderOptions, ParquetRecordBatchReaderBuilder},
 };
 
-use crate::LogError;
+use crate::{
+    LogError,
+    table::{Needed, Table},
+};
 
 /// Rows decoded at once: what is held besides the columns themselves stays small.
 const BATCH_ROWS: usize = 4096;
 
 type Builder = ParquetRecordBatchReaderBuilder<File>;
 
-fn open(path: &Path) -> Result<Builder, LogError> {
-    let unreadable =
-        |e: std::io::Error| LogError::Unreadable { path: path.to_owned(), reason: e.to_string() };
-    let file = File::open(path).map_err(unreadable)?;
-    // The columns' own types are enough; the Arrow schema that a writer may have added
-    // is one more thing that can be damaged.
-    let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
-    Builder::try_new_with_options(file, options).map_err(|e| broken(path, &e))
+/// A log as a Parquet file.
+pub(crate) struct ParquetFile {
+    path: PathBuf,
+    file: File,
+}
+
+impl ParquetFile {
+    pub(crate) fn open(path: &Path, file: File) -> Self {
+        Self { path: path.to_owned(), file }
+    }
+
+    /// Names of the columns, in the order of the file.
+    pub(crate) fn names(&self) -> Result<Vec<String>, LogError> {
+        guarded(&self.path, || {
+            Ok(self.builder()?.schema().fields().iter().map(|f| f.name().clone()).collect())
+        })
+    }
+
+    /// Columns by name: those that are needed, which must be numeric and without nulls, and of
+    /// the rest those that are.
+    pub(crate) fn load(&self, needed: &Needed) -> Result<Table, LogError> {
+        guarded(&self.path, || self.decode(needed))
+    }
+
+    fn builder(&self) -> Result<Builder, LogError> {
+        let unreadable = |e: std::io::Error| LogError::Unreadable {
+            path: self.path.clone(),
+            reason: e.to_string(),
+        };
+        let file = self.file.try_clone().map_err(unreadable)?;
+        // The columns' own types are enough; the Arrow schema that a writer may have added
+        // is one more thing that can be damaged.
+        let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
+        Builder::try_new_with_options(file, options).map_err(|e| broken(&self.path, &e))
+    }
+
+    fn decode(&self, needed: &Needed) -> Result<Table, LogError> {
+        let (path, builder) = (&self.path, self.builder()?);
+        let wanted = wanted(path, builder.schema(), needed)?;
+        let mask = ProjectionMask::roots(builder.parquet_schema(), wanted);
+        let batches = builder
+            .with_projection(mask)
+            .with_batch_size(BATCH_ROWS)
+            .build()
+            .map_err(|e| broken(path, &e))?;
+        let mut columns: BTreeMap<String, Option<Vec<f64>>> = BTreeMap::new();
+        let mut rows = 0;
+        for batch in batches {
+            let batch = batch.map_err(|e| broken(path, &e))?;
+            for (field, array) in batch.schema().fields().iter().zip(batch.columns()) {
+                let column =
+                    columns.entry(field.name().clone()).or_insert_with(|| Some(Vec::new()));
+                if let Some(index) = first_null(array) {
+                    if needed.contains(field.name()) {
+                        let (row, column) = (rows + index + 1, field.name().clone());
+                        return Err(LogError::MissingValue { path: path.clone(), row, column });
+                    }
+                    *column = None;
+                }
+                if let Some(samples) = column {
+                    append(array, samples);
+                }
+            }
+            rows += batch.num_rows();
+        }
+        let whole = columns.into_iter().filter_map(|(name, column)| Some((name, column?)));
+        Ok(Table { columns: whole.collect(), ..Table::default() })
+    }
 }
 
 /// Runs the decoder, which panics at some damaged files instead of refusing them.
-fn guarded<T>(
-    path: &Path,
-    decode: impl FnOnce() -> Result<T, LogError> + UnwindSafe,
-) -> Result<T, LogError> {
-    catch_unwind(decode).unwrap_or_else(|_| Err(broken(path, &"the decoder gave up")))
+fn guarded<T>(path: &Path, decode: impl FnOnce() -> Result<T, LogError>) -> Result<T, LogError> {
+    catch_unwind(AssertUnwindSafe(decode))
+        .unwrap_or_else(|_| Err(broken(path, &"the decoder gave up")))
 }
 
 fn broken(path: &Path, error: &dyn std::fmt::Display) -> LogError {
     LogError::BrokenParquet { path: path.to_owned(), reason: error.to_string() }
 }
 
-/// Names of the columns, in the order of the file.
-pub(crate) fn names(path: &Path) -> Result<Vec<String>, LogError> {
-    let names = || Ok(open(path)?.schema().fields().iter().map(|f| f.name().clone()).collect());
-    guarded(path, names)
-}
-
-/// Columns by name: those in `required`, which must be numeric and without nulls, and of
-/// the rest those that are.
-pub(crate) fn load(
-    path: &Path,
-    required: &BTreeSet<&str>,
-) -> Result<BTreeMap<String, Vec<f64>>, LogError> {
-    guarded(path, || decode(path, required))
-}
-
-fn decode(path: &Path, required: &BTreeSet<&str>) -> Result<BTreeMap<String, Vec<f64>>, LogError> {
-    let builder = open(path)?;
-    let wanted = wanted(path, builder.schema(), required)?;
-    let mask = ProjectionMask::roots(builder.parquet_schema(), wanted);
-    let batches = builder
-        .with_projection(mask)
-        .with_batch_size(BATCH_ROWS)
-        .build()
-        .map_err(|e| broken(path, &e))?;
-    let mut columns: BTreeMap<String, Option<Vec<f64>>> = BTreeMap::new();
-    let mut rows = 0;
-    for batch in batches {
-        let batch = batch.map_err(|e| broken(path, &e))?;
-        for (field, array) in batch.schema().fields().iter().zip(batch.columns()) {
-            let column = columns.entry(field.name().clone()).or_insert_with(|| Some(Vec::new()));
-            if let Some(index) = first_null(array) {
-                if required.contains(field.name().as_str()) {
-                    let (row, column) = (rows + index + 1, field.name().clone());
-                    return Err(LogError::MissingValue { path: path.to_owned(), row, column });
-                }
-                *column = None;
-            }
-            if let Some(samples) = column {
-                append(array, samples);
-            }
-        }
-        rows += batch.num_rows();
-    }
-    Ok(columns.into_iter().filter_map(|(name, column)| Some((name, column?))).collect())
-}
-
-/// Indices of the numeric columns; a required one that is not numeric is an error.
-fn wanted(path: &Path, schema: &Schema, required: &BTreeSet<&str>) -> Result<Vec<usize>, LogError> {
+/// Indices of the numeric columns; a needed one that is not numeric is an error.
+fn wanted(path: &Path, schema: &Schema, needed: &Needed) -> Result<Vec<usize>, LogError> {
     let mut wanted = Vec::new();
     for (index, field) in schema.fields().iter().enumerate() {
         if field.data_type().is_integer() || is_float(field.data_type()) {
             wanted.push(index);
-        } else if required.contains(field.name().as_str()) {
+        } else if needed.contains(field.name()) {
             return Err(LogError::ColumnType {
                 path: path.to_owned(),
                 column: field.name().clone(),

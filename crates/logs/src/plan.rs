@@ -1,12 +1,15 @@
 use std::{
-    collections::{BTreeMap, BTreeSet},
+    collections::BTreeMap,
     path::{Path, PathBuf},
 };
 
 use robot::{Joint, Robot};
 
 use crate::{
-    Channel, Channels, ColumnMap, LogError, MappedColumn, ReadOptions, degrees, error::nearest,
+    Channel, Channels, ColumnMap, LogError, MappedColumn, ReadOptions, degrees,
+    error::nearest,
+    log_file::LogFile,
+    table::{Needed, Table},
 };
 
 /// Where one signal comes from.
@@ -35,11 +38,12 @@ pub(crate) struct Plan<'a> {
 impl<'a> Plan<'a> {
     pub(crate) fn new(
         path: &Path,
-        names: &[String],
+        file: &LogFile,
         robot: &Robot,
         options: &ReadOptions<'a>,
     ) -> Result<Self, LogError> {
-        let finder = Finder { path, names, options };
+        let names = &file.names(path)?;
+        let finder = Finder { path, names, is_unnamed: file.is_unnamed(), options };
         let mapped = options.map.and_then(ColumnMap::time);
         let column = mapped.map_or("time", |m| &m.column).to_owned();
         if !names.contains(&column) {
@@ -55,23 +59,25 @@ impl<'a> Plan<'a> {
         std::iter::once(&self.time).chain(joints)
     }
 
-    pub(crate) fn required(&self) -> BTreeSet<&str> {
-        self.sources().map(|s| s.column.as_str()).collect()
+    /// The columns that become signals.
+    pub(crate) fn needed(&self) -> Needed<'_> {
+        let signals = self.joints.iter().flatten().map(|(_, source)| source.column.as_str());
+        Needed { time: &self.time.column, signals: signals.collect() }
     }
 
     /// Two rows or more, finite numbers, time that increases.
-    pub(crate) fn check(&self, columns: &BTreeMap<String, Vec<f64>>) -> Result<(), LogError> {
+    pub(crate) fn check(&self, table: &Table) -> Result<(), LogError> {
         const FEWEST_ROWS: usize = 2;
         let path = || self.path.clone();
-        let time = self.time.take(columns);
+        let time = self.time.take(&table.columns);
         if time.len() < FEWEST_ROWS {
             let (found, expected) = (time.len(), FEWEST_ROWS);
             return Err(LogError::TooFewRows { path: path(), found, expected });
         }
         for source in self.sources() {
-            let samples = source.take(columns);
+            let samples = source.take(&table.columns);
             if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
-                let (row, column) = (index + 1, source.column.clone());
+                let (row, column) = (table.row(index), source.column.clone());
                 let found = samples[index].to_string();
                 return Err(LogError::NotFinite { path: path(), row, column, found });
             }
@@ -79,7 +85,7 @@ impl<'a> Plan<'a> {
         match time.windows(2).position(|t| t[1] <= t[0]) {
             Some(index) => Err(LogError::TimeNotIncreasing {
                 path: path(),
-                row: index + 2,
+                row: table.row(index + 1),
                 column: self.time.column.clone(),
                 previous: time[index],
                 found: time[index + 1],
@@ -93,7 +99,7 @@ impl<'a> Plan<'a> {
         &self,
         joint: &Joint,
         sources: &[(Channel, Source)],
-        time: &[f64],
+        (time, table): (&[f64], &Table),
         channels: &Channels,
     ) -> Result<(), LogError> {
         let unstated = |channel: Channel| {
@@ -105,7 +111,7 @@ impl<'a> Plan<'a> {
             LogError::LooksLikeDegrees {
                 path: self.path.clone(),
                 column: source.column.clone(),
-                row: index + 1,
+                row: table.row(index),
                 found,
                 joint: joint.name.clone(),
                 expectation,
@@ -130,6 +136,7 @@ impl<'a> Plan<'a> {
 struct Finder<'f, 'a> {
     path: &'f Path,
     names: &'f [String],
+    is_unnamed: bool,
     options: &'f ReadOptions<'a>,
 }
 
@@ -166,6 +173,9 @@ impl<'a> Finder<'_, 'a> {
     }
 
     fn absent(&self, joint: &str, channel: Channel, column: String, robot: &Robot) -> LogError {
+        if self.is_unnamed {
+            return self.unnamed();
+        }
         let prefix = format!("{joint}.");
         let own = |name: &&String| name.starts_with(&prefix);
         if channel != Channel::Position || self.names.iter().any(|n| own(&n)) {
@@ -191,7 +201,14 @@ impl<'a> Finder<'_, 'a> {
         }
     }
 
+    fn unnamed(&self) -> LogError {
+        LogError::NoNames { path: self.path.to_owned(), columns: self.names.len() }
+    }
+
     fn no_column(&self, column: &str, purpose: &str) -> LogError {
+        if self.is_unnamed {
+            return self.unnamed();
+        }
         LogError::NoColumn {
             path: self.path.to_owned(),
             column: column.to_owned(),

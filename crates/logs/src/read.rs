@@ -4,7 +4,7 @@ use robot::Robot;
 
 use crate::{
     Channels, ColumnMap, LogError, Run,
-    format::{Format, sha256},
+    log_file::{LogFile, sha256},
     plan::Plan,
     turns::on_the_turn_of,
 };
@@ -46,29 +46,28 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
     if let Some(map) = options.map {
         map.check(robot)?;
     }
-    let format = Format::of(path)?;
-    let names = format.names(path)?;
-    let plan = Plan::new(path, &names, robot, options)?;
-    let mut columns = format.load(path, &plan.required())?;
-    plan.check(&columns)?;
+    let file = LogFile::open(path)?;
+    let plan = Plan::new(path, &file, robot, options)?;
+    let mut table = file.load(&plan.needed())?;
+    plan.check(&table)?;
 
-    let time = plan.time.take(&columns);
+    let time = plan.time.take(&table.columns);
     let mut joints = Vec::new();
     for (joint, sources) in robot.links().iter().map(|l| &l.joint).zip(&plan.joints) {
         let mut channels = Channels { name: joint.name.clone(), ..Channels::default() };
         for (channel, source) in sources {
-            channels.set(*channel, source.take(&columns));
+            channels.set(*channel, source.take(&table.columns));
         }
-        plan.check_degrees(joint, sources, &time, &channels)?;
+        plan.check_degrees(joint, sources, (&time, &table), &channels)?;
         if joint.kind.is_rotation() {
             let link = channels.link_position.take();
             channels.link_position = link.map(|link| on_the_turn_of(&channels.position, link));
         }
         joints.push(channels);
     }
-    let used: Vec<String> = plan.required().into_iter().map(str::to_owned).collect();
-    columns.retain(|name, _| !used.contains(name));
+    let needed = plan.needed();
+    table.columns.retain(|name, _| !needed.contains(name));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let (sha256, is_torn) = (sha256(path)?, format.is_torn(path)?);
-    Ok(Run { name, source: path.to_owned(), sha256, is_torn, time, joints, extra: columns })
+    let (sha256, is_torn) = (sha256(path)?, file.is_torn());
+    Ok(Run { name, source: path.to_owned(), sha256, is_torn, time, joints, extra: table.columns })
 }

@@ -1,0 +1,122 @@
+/// The kinds of file that a log may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Csv,
+    Parquet,
+}
+
+/// A kind of file that is no log, or none that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Stranger {
+    /// What it is, as the end of `this is ...`.
+    pub found: &'static str,
+    /// What to do about it.
+    pub advice: &'static str,
+}
+
+/// Bytes of a file that [`Kind::of`] looks at.
+pub(crate) const FIRST_BYTES: u64 = 4096;
+
+impl Kind {
+    /// The kind of a file with these first bytes, whatever its name.
+    pub(crate) fn of(first: &[u8]) -> Result<Self, Stranger> {
+        let begins = |(at, magic): (usize, &[u8])| {
+            first.get(at..).is_some_and(|rest| rest.starts_with(magic))
+        };
+        if let Some((_, kind)) = READ.iter().find(|(magic, _)| begins((0, magic))) {
+            return Ok(*kind);
+        }
+        let stranger = STRANGERS.iter().find(|(at, magic, ..)| begins((*at, magic)));
+        if let Some(&(_, _, found, advice)) = stranger {
+            return Err(Stranger { found, advice });
+        }
+        if is_text(first) { Ok(Self::Csv) } else { Err(UNKNOWN) }
+    }
+}
+
+/// Kinds that are read, by their first bytes.
+const READ: [(&[u8], Kind); 1] = [(b"PAR1", Kind::Parquet)];
+
+/// A binary file that begins as nothing here does.
+pub(crate) const UNKNOWN: Stranger = Stranger {
+    found: "a binary file of no kind that is known here",
+    advice: "write the log as CSV or Parquet",
+};
+
+const BAG_2: &str = "ros2 bag convert writes it as MCAP (storage_id: mcap)";
+const HDF5: &str = "write its arrays with numpy.savez, or as CSV or Parquet";
+const MATLAB: &str = "write its arrays with writetable as CSV, or with numpy.savez";
+const PACKED: &str = "unpack it first";
+const TABLE: &str = "write its first sheet as CSV";
+const ARROW: &str = "write the table as Parquet";
+const TEXT: &str = "save it as UTF-8";
+const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for every moment";
+
+/// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
+#[rustfmt::skip]
+const STRANGERS: [(usize, &[u8], &str, &str); 31] = [
+    (0, b"SQLite format 3\0", "a SQLite database, as rosbag2 writes it (.db3)", BAG_2),
+    (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the file beside it that holds the messages"),
+    (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
+    (0, b"\x89MCAP0\r\n", "an MCAP file, as rosbag2 writes it", "write its joint states as CSV or Parquet"),
+    (0, b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", MATLAB),
+    (0, b"MATLAB 7.3 MAT-file", "a MAT-file of MATLAB 7.3", MATLAB),
+    (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
+    (512, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
+    (0, b"\x93NUMPY", "an array of NumPy (.npy)", "write its columns as CSV or Parquet"),
+    (0, b"PK\x03\x04", "a zip archive", PACKED),
+    (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
+    (0, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an Excel workbook", TABLE),
+    (0, b"\x1f\x8b", "packed with gzip", PACKED),
+    (0, b"\x28\xb5\x2f\xfd", "packed with zstd", PACKED),
+    (0, b"BZh", "packed with bzip2", PACKED),
+    (0, b"\xfd7zXZ\0", "packed with xz", PACKED),
+    (0, b"\x04\x22\x4d\x18", "packed with lz4", PACKED),
+    (0, b"7z\xbc\xaf\x27\x1c", "a 7z archive", PACKED),
+    (257, b"ustar", "a tar archive", PACKED),
+    (0, b"ARROW1", "an Arrow or Feather file", ARROW),
+    (0, b"ORC", "an ORC file", ARROW),
+    (0, b"ULog\x01\x12\x35", "a ULog of PX4", "ulog2csv writes it as CSV"),
+    (0, b"RRF2", "a recording of rerun", "give the log that it shows"),
+    (0, b"\x80\x04\x95", "a Python pickle, which can run a program when it is opened", HDF5),
+    (0, b"\x80\x05\x95", "a Python pickle, which can run a program when it is opened", HDF5),
+    (0, b"\xff\xfe", "text in UTF-16", TEXT),
+    (0, b"\xfe\xff", "text in UTF-16", TEXT),
+    (0, b"version https://git-lfs", "a pointer of Git LFS, not the file itself", "git lfs pull brings it"),
+    (0, b"<", "XML or HTML, as a robot's description or a web page is", NOT_A_TABLE),
+    (0, b"{", "JSON", NOT_A_TABLE),
+    (0, b"%PDF-", "a PDF document", NOT_A_TABLE),
+];
+
+/// Whether the bytes hold no control characters but those of text.
+fn is_text(bytes: &[u8]) -> bool {
+    bytes.iter().all(|byte| !matches!(byte, 0..=8 | 11 | 14..=26 | 28..=31 | 127))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kind_is_told_by_its_bytes() {
+        assert_eq!(Kind::of(b"PAR1\x15\x04"), Ok(Kind::Parquet));
+        assert_eq!(Kind::of(b"time,j1.position\n0,1\n"), Ok(Kind::Csv));
+        assert_eq!(Kind::of("\u{feff}zeit;gr\u{f6}\u{df}e\n".as_bytes()), Ok(Kind::Csv));
+        assert_eq!(Kind::of(b"time;gr\xf6\xdfe\n"), Ok(Kind::Csv), "Latin-1");
+        let found = |bytes: &[u8]| Kind::of(bytes).unwrap_err().found;
+        assert_eq!(found(b"\x00\x01\x02"), UNKNOWN.found);
+        assert_eq!(found(b"MATLAB 7.3 MAT-file, Platform"), "a MAT-file of MATLAB 7.3");
+        assert_eq!(found(&[&[0; 512][..], b"\x89HDF\r\n\x1a\n"].concat()), "an HDF5 file");
+        assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[28].2);
+    }
+
+    #[test]
+    fn every_stranger_is_found_behind_its_bytes_and_told_in_one_sentence() {
+        for (at, magic, found, advice) in STRANGERS {
+            let bytes = [&vec![b'x'; at][..], magic].concat();
+            assert_eq!(Kind::of(&bytes).unwrap_err(), Stranger { found, advice });
+            assert!(!found.contains(". ") && !advice.ends_with('.'), "{found}: {advice}");
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Files of all kinds under any name: read, or refused with what they are and what to do.
+
+use std::fs;
+use std::path::PathBuf;
+
+use checks::recorded;
+use logs::{ReadOptions, read_run};
+
+use crate::support::{Scratch, two_joints};
+
+/// The message for a file with these bytes, whatever its name.
+fn told(bytes: &[u8]) -> String {
+    let messages = ["run.csv", "run.parquet", "run"]
+        .map(|name| Scratch::new(name, bytes).message(&two_joints()).replacen(name, "FILE", 1));
+    assert!(messages.iter().all(|message| *message == messages[0]), "{messages:?}");
+    messages[0].clone()
+}
+
+#[test]
+fn a_kind_that_is_not_read_is_told_with_what_to_do() {
+    let cases: [(&[u8], &str); 6] = [
+        (
+            b"SQLite format 3\0\x10\0",
+            "FILE: this is a SQLite database, as rosbag2 writes it (.db3); \
+             ros2 bag convert writes it as MCAP (storage_id: mcap)",
+        ),
+        (
+            b"\x89HDF\r\n\x1a\n\0",
+            "FILE: this is an HDF5 file; \
+             write its arrays with numpy.savez, or as CSV or Parquet",
+        ),
+        (
+            b"MATLAB 7.3 MAT-file, Platform: GLNXA64",
+            "FILE: this is a MAT-file of MATLAB 7.3; \
+             write its arrays with writetable as CSV, or with numpy.savez",
+        ),
+        (b"BZh91AY&SY", "FILE: this is packed with bzip2; unpack it first"),
+        (
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
+            "FILE: this is a pointer of Git LFS, not the file itself; git lfs pull brings it",
+        ),
+        (b"\xff\xfet\0i\0m\0e\0", "FILE: this is text in UTF-16; save it as UTF-8"),
+    ];
+    for (bytes, expected) in cases {
+        assert_eq!(told(bytes), expected);
+    }
+}
+
+/// A file of `formats` beside the recorded logs.
+pub fn given(name: &str) -> Option<PathBuf> {
+    Some(recorded::folder()?.join("formats").join(name)).filter(|path| {
+        let there = path.exists();
+        if !there {
+            println!("skipped: there is no {}", path.display());
+        }
+        there
+    })
+}
+
+#[test]
+fn given_files_that_are_not_read_are_told_with_what_to_do() {
+    for (name, expected) in [
+        ("bag_sqlite3/bag_sqlite3.db3", "this is a SQLite database"),
+        ("bag_sqlite3/metadata.yaml", "this is the description of a rosbag2"),
+        ("log.mat", "this is a MAT-file of MATLAB"),
+        ("ur5_robot.urdf", "this is XML"),
+    ] {
+        let Some(path) = given(name) else { continue };
+        for copied in ["run", "run.csv", "run.parquet"] {
+            let file = Scratch::new(copied, fs::read(&path).unwrap());
+            let error = read_run(&file.path, &two_joints(), &ReadOptions::default()).unwrap_err();
+            assert!(error.to_string().contains(expected), "{error}");
+        }
+    }
+}
