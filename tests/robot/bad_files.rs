@@ -78,7 +78,8 @@ fn malformed_xml_is_refused_with_its_line() {
 fn a_xacro_file_is_sent_to_xacro() {
     assert_eq!(
         refused(&arm_with("<xacro:tool/>")),
-        "robot.urdf: line 7: <xacro:tool> was found, expand the file with xacro first"
+        "robot.urdf: line 7: <xacro:tool> was found, expand the file with xacro first: \
+         xacro FILE > robot.urdf"
     );
 }
 

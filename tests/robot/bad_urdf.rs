@@ -68,7 +68,12 @@ fn joints_that_are_not_modelled_are_refused() {
             refused(&urdf),
             format!(
                 "robot.urdf: joint elbow: its type is {kind}, revolute, continuous, prismatic or \
-                 fixed was expected"
+                 fixed was expected{}",
+                if kind == "spherical" {
+                    String::new()
+                } else {
+                    format!("; only a base may be {kind}, which is then held fixed")
+                }
             )
         );
     }
@@ -77,12 +82,22 @@ fn joints_that_are_not_modelled_are_refused() {
 }
 
 #[test]
-fn a_mimic_joint_is_refused() {
-    let urdf =
-        arm_with("").replace("<origin", "<mimic joint=\"shoulder\" multiplier=\"2\"/><origin");
+fn mimics_of_nothing_and_in_rings_are_refused() {
+    let mimic = |attributes: &str| {
+        arm_with("").replace("<origin", &format!("<mimic {attributes}/><origin"))
+    };
     assert_eq!(
-        refused(&urdf),
-        "robot.urdf: joint elbow: it mimics joint shoulder, an independent joint was expected"
+        refused(&mimic("joint=\"sholder\"")),
+        "robot.urdf: joint elbow: <mimic>: there is no joint sholder, did you mean shoulder?"
+    );
+    assert_eq!(
+        refused(&mimic("joint=\"elbow\"")),
+        "robot.urdf: joint elbow: it mimics itself, directly or through others, a joint that moves \
+         by itself was expected in the end"
+    );
+    assert_eq!(
+        refused(&mimic("joint=\"shoulder\" offset=\"inf\"")),
+        "robot.urdf: joint elbow: mimic offset is inf, a finite number was expected"
     );
 }
 
@@ -129,13 +144,15 @@ fn a_loop_is_refused_by_the_name_of_its_link() {
         r#"<joint name="rod" type="revolute"><parent link="base"/><child link="lower"/></joint>"#;
     assert_eq!(
         refused(&arm_with(closing)),
-        "robot.urdf: link lower: it is the child of joints elbow and rod, one was expected"
+        "robot.urdf: link lower: it is the child of joints elbow and rod, one was expected: remove one of \
+         the two to cut the closed chain open; the force that joint carries is then left out"
     );
     let ring = r#"<link name="a"/><link name="b"/><link name="c"/>
   <joint name="ab" type="fixed"><parent link="a"/><child link="b"/></joint>
   <joint name="ba" type="fixed"><parent link="b"/><child link="a"/></joint>
   <joint name="bc" type="fixed"><parent link="b"/><child link="c"/></joint>"#;
-    let looped = "it is its own ancestor, a tree without loops was expected";
+    let looped =
+        "it is its own ancestor, a tree without loops was expected: remove a joint of the loop";
     assert_eq!(refused(&arm_with(ring)), format!("robot.urdf: link a: {looped}"));
     // No root at all, and the file starts with a link that only hangs on the ring.
     let only = format!(

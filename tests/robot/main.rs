@@ -3,9 +3,11 @@
 #![allow(clippy::panic, reason = "helper functions of a test may fail loudly")]
 #![allow(clippy::float_cmp, reason = "numbers that pass through a file unchanged are equal")]
 
+mod as_published;
 mod bad_files;
 mod bad_urdf;
 mod merging;
+mod part;
 mod public_robots;
 mod toml_keys;
 mod wam;

@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -147,6 +148,28 @@ impl From<EvaluationError> for CliError {
 const KINDS_OF_FILES: &str =
     "a robot is a .urdf or a .toml file (--robot), a log is a .csv or a .parquet file (--log)";
 
+const LEFT_OUT: &str =
+    "takes the joints that the log has, the others are locked at zero or as a robot.toml says";
+
+const MAP: &str = "a column map (--map) says where a file with other names has its signals, --effort picks the effort column";
+
+/// What to do about a log.
+fn of_log(log: &LogError) -> Option<&'static str> {
+    match log {
+        LogError::NoColumn { path, .. } if has_extension(path, &["urdf", "xml", "toml"]) => {
+            Some(KINDS_OF_FILES)
+        }
+        LogError::JointAbsent { .. } | LogError::NoColumn { .. } => Some(MAP),
+        LogError::LooksLikeDegrees { .. } => {
+            Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
+        }
+        LogError::CutoffOutOfRange { .. } => {
+            Some("leave --cutoff-hz out and the cut-off is chosen from the data")
+        }
+        _ => None,
+    }
+}
+
 fn has_extension(path: &Path, extensions: &[&str]) -> bool {
     let own = path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
     own.is_some_and(|own| extensions.contains(&own.as_str()))
@@ -205,48 +228,51 @@ impl CliError {
     }
 
     /// What to do about it, where that can be said.
-    fn help(&self) -> Option<&'static str> {
-        let log = match self {
-            Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => log,
+    fn help(&self) -> Option<Cow<'static, str>> {
+        match self.log() {
+            Some(LogError::JointAbsent { shared, .. }) if !shared.is_empty() => {
+                Some(Cow::Owned(format!("--joints {} {LEFT_OUT}; {MAP}", shared.join(","))))
+            }
+            _ => self.advice().map(Cow::Borrowed),
+        }
+    }
+
+    /// The mistake in a log.
+    fn log(&self) -> Option<&LogError> {
+        match self {
+            Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => Some(log),
+            _ => None,
+        }
+    }
+
+    /// What to do about a kind of mistake.
+    fn advice(&self) -> Option<&'static str> {
+        if let Some(log) = self.log() {
+            return of_log(log);
+        }
+        match self {
             Self::Learner(LearnerError::Missing { model, .. }) if model.starts_with("named") => {
-                return Some("plumbline diagnose writes extended.toml; give it with --named");
+                Some("plumbline diagnose writes extended.toml; give it with --named")
             }
             Self::Learner(LearnerError::Memory { .. }) => {
-                return Some("--points N, or a model -inducing, which takes all samples");
+                Some("--points N, or a model -inducing, which takes all samples")
             }
-            Self::NoViewer { .. } => return Some(INSTALLATION),
-            Self::Submit(error) => return error.help(),
-            Self::NotOpened { .. } => return Some("plumbline view --print names the files"),
+            Self::NoViewer { .. } => Some(INSTALLATION),
+            Self::Submit(error) => error.help(),
+            Self::NotOpened { .. } => Some("plumbline view --print names the files"),
             Self::Evaluation(error) => {
                 let lacks = matches!(**error, EvaluationError::NoModel { .. });
-                return lacks.then_some(
+                lacks.then_some(
                     "plumbline learn and track write models; without --learned they are learned",
-                );
+                )
             }
-            Self::UnknownEffect { .. } => return Some("plumbline effects lists every effect"),
+            Self::UnknownEffect { .. } => Some("plumbline effects lists every effect"),
             Self::NoJoints { .. } => {
-                return Some(
-                    "give the robot with --robot, and --map if the columns have other names",
-                );
+                Some("give the robot with --robot, and --map if the columns have other names")
             }
-            Self::Report(ReportError::NotAFolder { .. }) => return Some("give --out another name"),
+            Self::Report(ReportError::NotAFolder { .. }) => Some("give --out another name"),
             Self::Robot(RobotError::InFile { path, .. } | RobotError::Unreadable { path, .. }) => {
-                return (!has_extension(path, &["urdf", "xml", "toml"])).then_some(KINDS_OF_FILES);
-            }
-            _ => return None,
-        };
-        match log {
-            LogError::NoColumn { path, .. } if has_extension(path, &["urdf", "xml", "toml"]) => {
-                Some(KINDS_OF_FILES)
-            }
-            LogError::JointAbsent { .. } | LogError::NoColumn { .. } => Some(
-                "a column map (--map) says where a file with other names has its signals, --effort picks the effort column",
-            ),
-            LogError::LooksLikeDegrees { .. } => {
-                Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
-            }
-            LogError::CutoffOutOfRange { .. } => {
-                Some("leave --cutoff-hz out and the cut-off is chosen from the data")
+                (!has_extension(path, &["urdf", "xml", "toml"])).then_some(KINDS_OF_FILES)
             }
             _ => None,
         }

@@ -4,7 +4,7 @@ use catalogue::EffectKind;
 use diagnosis::Settings;
 use logs::{ColumnMap, ReadOptions, Run};
 use report::{FileHash, Provenance, ReportError};
-use robot::{Loaded, Robot};
+use robot::{LoadOptions, Loaded, Packages, Robot, RobotError};
 
 use crate::commands::explain;
 use crate::error::CliError;
@@ -29,6 +29,31 @@ impl ColumnArguments {
         let runs: Result<Vec<Run>, _> =
             paths.iter().map(|path| logs::read_run(path, robot, &options)).collect();
         Ok(runs?)
+    }
+}
+
+/// Which part of a robot is meant, and where its meshes are.
+#[derive(Debug, clap::Args)]
+pub struct PartArguments {
+    /// The joints that move, with commas between them; the others are locked at zero, or where
+    /// `locked` in the robot.toml says
+    #[arg(long, value_name = "JOINT", value_delimiter = ',')]
+    pub joints: Vec<String>,
+    /// Folder of a package that meshes of the URDF are in; may be said again. ROS_PACKAGE_PATH and
+    /// AMENT_PREFIX_PATH are looked through as well
+    #[arg(long, value_name = "NAME=DIR", value_parser = package)]
+    pub package: Vec<(String, PathBuf)>,
+}
+
+impl PartArguments {
+    /// The robot that a file describes, or the part of it that is meant.
+    pub fn load(&self, path: &Path) -> Result<Loaded, RobotError> {
+        let variable = |name| std::env::var_os(name);
+        let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
+        let mut packages = Packages::from_paths(ros.as_deref(), ament.as_deref());
+        packages.named.extend(self.package.iter().cloned());
+        let joints = (!self.joints.is_empty()).then(|| self.joints.clone());
+        Robot::load_with(path, &LoadOptions { joints, packages })
     }
 }
 
@@ -101,6 +126,13 @@ pub fn hashes_of(runs: &[Run]) -> impl Iterator<Item = FileHash> {
 /// An effect of an option, by name or code.
 fn effect(name: &str) -> Result<EffectKind, String> {
     explain::find(name).map_err(|error| error.to_string())
+}
+
+/// A package of an option.
+fn package(text: &str) -> Result<(String, PathBuf), String> {
+    let pair = text.split_once('=').filter(|(name, folder)| !name.is_empty() && !folder.is_empty());
+    let (name, folder) = pair.ok_or("NAME=DIR was expected")?;
+    Ok((name.to_owned(), PathBuf::from(folder)))
 }
 
 /// A positive number of an option.

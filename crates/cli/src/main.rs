@@ -2,6 +2,7 @@
 
 mod arguments;
 mod commands;
+mod doubts;
 mod error;
 mod input;
 mod output;

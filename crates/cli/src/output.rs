@@ -1,6 +1,8 @@
+use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
+use anstyle::AnsiColor;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
@@ -49,6 +51,12 @@ pub fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> St
     });
     let lines = table.lines().map(|line| format!(" {}\n", line.trim_end()));
     lines.collect()
+}
+
+/// Prints a warning on the standard error.
+pub fn warn(what: &dyn Display) {
+    let yellow = AnsiColor::Yellow.on_default();
+    anstream::eprintln!("{yellow}warning:{yellow:#} {what}");
 }
 
 /// The file as it was given, for messages and provenance.

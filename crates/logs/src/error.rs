@@ -101,6 +101,8 @@ pub enum LogError {
         column: String,
         /// The joints of the log.
         found: Vec<String>,
+        /// The joints of the robot that the log has.
+        shared: Vec<String>,
         /// The joint of the log with the most similar name that the robot does not have.
         nearest: Option<String>,
     },

@@ -192,10 +192,14 @@ impl<'a> Finder<'_, 'a> {
             .collect();
         let strange = found.iter().map(String::as_str).filter(|n| robot.joint_index(n).is_none());
         let nearest = nearest(joint, strange);
+        let position = |joint: &str| self.source(joint, Channel::Position).column;
+        let has = |joint: &&str| self.names.iter().any(|n| *n == position(joint));
+        let shared = robot.joint_names().filter(has).map(str::to_owned).collect();
         LogError::JointAbsent {
             path: self.path.to_owned(),
             joint: joint.to_owned(),
             column,
+            shared,
             found,
             nearest,
         }

@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::joint_entry::{JointEntry, gain};
+use crate::part::Part;
 use crate::range::{Range, in_range};
-use crate::{Inertia, Loaded, Robot, RobotError, RobotWarning, SensingSide, TorqueSource};
+use crate::{Inertia, Loaded, RobotError, RobotWarning, SensingSide, TorqueSource};
 
 /// The keys of `robot.toml`: what a URDF cannot say.
 ///
@@ -15,6 +16,9 @@ use crate::{Inertia, Loaded, Robot, RobotError, RobotWarning, SensingSide, Torqu
 pub(crate) struct Description {
     /// Path of the URDF, relative to this file.
     pub urdf: String,
+    /// The joints that move; the others are locked, and the file describes what that leaves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joints: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity_m_per_s2: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,6 +32,9 @@ pub(crate) struct Description {
     /// Pairs of joints that two motors drive together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub differentials: Vec<[String; 2]>,
+    /// Where joints are locked (rad or m), zero where it is not said.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub locked: BTreeMap<String, f64>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joint: BTreeMap<String, JointEntry>,
     /// Named sets of gains.
@@ -82,7 +89,13 @@ impl Description {
         })
     }
 
-    /// Puts everything the file says into the robot.
+    /// The joints that the file lets move and where it locks the others.
+    pub(crate) fn part(&self) -> Part {
+        Part { joints: self.joints.clone(), locked: self.locked.clone() }
+    }
+
+    /// Puts everything the file says into the robot, whose locked joints are locked already. What
+    /// it says of a locked joint has no effect.
     pub(crate) fn apply(&self, loaded: &mut Loaded) -> Result<(), RobotError> {
         if let Some(gravity) = self.gravity_m_per_s2 {
             for value in gravity {
@@ -100,20 +113,26 @@ impl Description {
                 link.actuator.torque_source = self.torque_source.unwrap_or_default();
             }
         }
-        self.joint.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))?;
+        for (name, entry) in &self.joint {
+            if loaded.lock(name).is_none() {
+                entry.apply(name, loaded)?;
+            }
+        }
         self.link.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))?;
-        loaded.control.differentials = self.pairs(&loaded.robot)?;
+        loaded.control.differentials = self.pairs(loaded)?;
         self.gains.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))
     }
 
-    /// The pairs of joints by index; no joint stands in them twice.
-    fn pairs(&self, robot: &Robot) -> Result<Vec<[usize; 2]>, RobotError> {
+    /// The pairs of joints by index; no joint stands in them twice. A pair with a locked joint is
+    /// none: both motors drive the other.
+    fn pairs(&self, loaded: &Loaded) -> Result<Vec<[usize; 2]>, RobotError> {
         let refuse = |name: &str, found, expected| {
             Err(RobotError::KeysDisagree { thing: format!("joint {name}"), found, expected })
         };
-        let index = |name: &str| joint_index("differentials", name, robot);
+        let index = |name: &str| loaded.joint_index("differentials", name);
         let mut pairs: Vec<[usize; 2]> = Vec::new();
-        for [first, second] in &self.differentials {
+        let is_locked = |pair: &&[String; 2]| pair.iter().any(|name| loaded.lock(name).is_some());
+        for [first, second] in self.differentials.iter().filter(|pair| !is_locked(pair)) {
             let pair = [index(first)?, index(second)?];
             if pair[0] == pair[1] {
                 return refuse(first, "differentials pairs it with itself", "another joint");
@@ -179,14 +198,6 @@ impl LinkEntry {
         link.inertia = inertia;
         Ok(())
     }
-}
-
-/// The joint called `name` at `place`.
-pub(crate) fn joint_index(place: &str, name: &str, robot: &Robot) -> Result<usize, RobotError> {
-    robot.joint_index(name).ok_or_else(|| {
-        let known: Vec<&str> = robot.joint_names().collect();
-        RobotError::unknown_name(place, "joint", name, &known)
-    })
 }
 
 fn moving_link(name: &str, loaded: &Loaded) -> Result<usize, RobotError> {

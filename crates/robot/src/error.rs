@@ -12,7 +12,7 @@ pub enum RobotError {
         /// What the operating system said.
         reason: String,
     },
-    /// A link's mass is zero or negative.
+    /// The mass of a link that moves is zero, or that of any link negative.
     #[error("link {link}: mass is {mass} kg, a positive number was expected")]
     MassNotPositive {
         /// Name of the link.
@@ -101,7 +101,9 @@ pub enum RobotError {
     },
     /// A joint moves in a way that is not modelled.
     #[error(
-        "joint {joint}: its type is {kind}, revolute, continuous, prismatic or fixed was expected"
+        "joint {joint}: its type is {kind}, revolute, continuous, prismatic or fixed was \
+         expected{}",
+        of_base(kind)
     )]
     UnsupportedJoint {
         /// Name of the joint.
@@ -109,13 +111,25 @@ pub enum RobotError {
         /// The type found.
         kind: &'static str,
     },
-    /// A joint copies another one.
-    #[error("joint {joint}: it mimics joint {of}, an independent joint was expected")]
+    /// A joint that should move by itself copies another one.
+    #[error(
+        "joint {joint}: it mimics joint {of} and is held where that one has it, an independent \
+         joint was expected among those that move"
+    )]
     MimicJoint {
         /// Name of the joint.
         joint: String,
         /// Name of the joint it copies.
         of: String,
+    },
+    /// Joints copy one another in a ring.
+    #[error(
+        "joint {joint}: it mimics itself, directly or through others, a joint that moves by itself \
+         was expected in the end"
+    )]
+    MimicLoop {
+        /// Name of a joint of the ring.
+        joint: String,
     },
     /// The axis of a moving joint has no direction.
     #[error("joint {joint}: its axis is (0, 0, 0), a direction was expected")]
@@ -146,7 +160,10 @@ pub enum RobotError {
         upper: f64,
     },
     /// A link hangs on two joints: the URDF describes a loop.
-    #[error("link {link}: it is the child of joints {first} and {second}, one was expected")]
+    #[error(
+        "link {link}: it is the child of joints {first} and {second}, one was expected: remove one of \
+         the two to cut the closed chain open; the force that joint carries is then left out"
+    )]
     TwoParents {
         /// Name of the link.
         link: String,
@@ -156,7 +173,9 @@ pub enum RobotError {
         second: String,
     },
     /// A link is its own ancestor.
-    #[error("link {link}: it is its own ancestor, a tree without loops was expected")]
+    #[error(
+        "link {link}: it is its own ancestor, a tree without loops was expected: remove a joint of the loop"
+    )]
     Loop {
         /// Name of a link in the loop.
         link: String,
@@ -217,6 +236,14 @@ pub enum RobotError {
         /// What the writer said.
         reason: String,
     },
+}
+
+/// What to know of a type that only a base may have.
+fn of_base(kind: &str) -> String {
+    match kind {
+        "floating" | "planar" => format!("; only a base may be {kind}, which is then held fixed"),
+        _ => String::new(),
+    }
 }
 
 impl RobotError {

@@ -111,6 +111,11 @@ impl Inertia {
         }
     }
 
+    /// Adds a part that is fixed to this body; the first is taken as it is, without rounding.
+    pub(crate) fn add(&mut self, part: &Self) {
+        *self = if *self == Self::zero() { part.clone() } else { self.merged_with(part) };
+    }
+
     /// The pseudo-inertia about the link origin, positive definite exactly when the
     /// inertia is physical (Wensing, Kim & Slotine 2018):
     ///

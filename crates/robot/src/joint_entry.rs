@@ -1,10 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use crate::description::joint_index;
 use crate::range::{Range, in_range};
 use crate::{
-    Actuator, Coupling, Gain, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck,
-    TorqueSource, Wave,
+    Actuator, Coupling, Gain, Loaded, Ripple, RobotError, SensingSide, Stribeck, TorqueSource, Wave,
 };
 
 /// `[joint.<name>]`
@@ -132,12 +130,12 @@ pub(crate) struct RippleEntry {
 impl JointEntry {
     /// Puts what the entry of joint `name` says into the robot.
     pub(crate) fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), RobotError> {
-        let index = joint_index("[joint]", name, &loaded.robot)?;
+        let index = loaded.joint_index("[joint]", name)?;
         let thing = format!("joint {name}");
         if let Some(gain) = self.gain(&thing)? {
             loaded.control.gains[index] = Some(gain);
         }
-        let coupling = self.coupling(&thing, index, &loaded.robot)?;
+        let coupling = self.coupling(&thing, index, loaded)?;
         let Some(link) = loaded.robot.link_mut(index) else { return Ok(()) };
         self.actuate(&thing, &mut link.actuator)?;
         link.actuator.coupling = coupling.or(link.actuator.coupling);
@@ -312,10 +310,10 @@ impl JointEntry {
         &self,
         thing: &str,
         index: usize,
-        robot: &Robot,
+        loaded: &Loaded,
     ) -> Result<Option<Coupling>, RobotError> {
         let Some(entry) = &self.coupling else { return Ok(None) };
-        let other = joint_index("coupling.with", &entry.with, robot)?;
+        let other = loaded.joint_index("coupling.with", &entry.with)?;
         if other == index {
             return lonely(thing, "coupling.with names the joint itself", "another joint");
         }

@@ -3,18 +3,31 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::description::Description;
+use crate::lumping::Lumping;
+use crate::part::{self, LockedJoint, Part};
 use crate::urdf::{self, UrdfModel};
-use crate::{ControlSettings, Looks, Robot, RobotError, RobotWarning};
+use crate::{ControlSettings, Looks, Packages, Robot, RobotError, RobotWarning};
 
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
 
+/// What a robot is loaded with beside its files.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LoadOptions {
+    /// Names of the joints that move, the others are locked at zero; `None` for all that the
+    /// files let move.
+    pub joints: Option<Vec<String>>,
+    /// Where meshes are looked for.
+    pub packages: Packages,
+}
+
 /// A robot as its files describe it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loaded {
-    /// The robot, with everything that `robot.toml` says.
+    /// The robot, with everything that `robot.toml` says. Joints that are locked are no joints of
+    /// it: the links they carry are merged into what they hang on.
     pub robot: Robot,
-    /// The robot as the URDF alone describes it.
+    /// The robot as the URDF alone describes it, with the same joints locked.
     pub robot_in_urdf: Robot,
     /// What the robot looks like, as the URDF says.
     pub looks: Looks,
@@ -24,6 +37,10 @@ pub struct Loaded {
     pub base_link: String,
     /// Names of the links fixed to the base; they have no part in the dynamics.
     pub fixed_to_base: Vec<String>,
+    /// Which joints were asked for and which locked, in the words of `robot.toml`.
+    pub part: Part,
+    /// The joints of the URDF that are locked, in its order.
+    pub locked: Vec<LockedJoint>,
     /// How the real robot is controlled; nothing is known without a `robot.toml`.
     pub control: ControlSettings,
     /// What the owner of the files should know.
@@ -42,22 +59,45 @@ impl Robot {
     /// [`RobotError::Unreadable`], or [`RobotError::InFile`] around what is wrong
     /// with the URDF or the `robot.toml`.
     pub fn load(path: &Path) -> Result<Loaded, RobotError> {
+        Self::load_with(path, &LoadOptions::default())
+    }
+
+    /// The robot described by `path`, as [`Robot::load`] reads it, or a part of it.
+    ///
+    /// With `joints` of its own, a `robot.toml` describes the part that they leave: its bodies and
+    /// its joints. The joints of `options` then leave a part of what the file describes.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Robot::load`], and [`RobotError::UnknownName`] for a joint of `options` that
+    /// does not move.
+    pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Loaded, RobotError> {
         let text = read(path)?;
         let is_toml = match path.extension().and_then(|e| e.to_str()) {
             Some("toml") => true,
             Some("urdf" | "xml") => false,
             _ => !text.trim_start().starts_with('<'),
         };
-        if !is_toml {
-            let model = urdf::parse(&text).map_err(|e| e.in_file(path))?;
-            return Ok(Loaded::from_urdf(model, path));
-        }
-        let description = Description::parse(&text).map_err(|e| e.in_file(path))?;
-        let urdf_path = path.parent().unwrap_or(Path::new("")).join(&description.urdf);
-        let text = read(&urdf_path).map_err(|e| e.in_file(path))?;
+        let (description, urdf_path, text) = if is_toml {
+            let description = Description::parse(&text).map_err(|e| e.in_file(path))?;
+            let urdf_path = path.parent().unwrap_or(Path::new("")).join(&description.urdf);
+            let text = read(&urdf_path).map_err(|e| e.in_file(path))?;
+            (Some(description), urdf_path, text)
+        } else {
+            (None, path.to_owned(), text)
+        };
         let model = urdf::parse(&text).map_err(|e| e.in_file(&urdf_path))?;
-        let mut loaded = Loaded::from_urdf(model, &urdf_path);
-        description.apply(&mut loaded).map_err(|e| e.in_file(path))?;
+        let part = description.as_ref().map(Description::part).unwrap_or_default();
+        let mut loaded =
+            Loaded::from_urdf(&model, part, &urdf_path).map_err(|e| e.in_file(path))?;
+        if let Some(description) = &description {
+            description.apply(&mut loaded).map_err(|e| e.in_file(path))?;
+        }
+        if let Some(joints) = &options.joints {
+            loaded = loaded.narrowed(&model, joints)?;
+        }
+        loaded.warnings.extend(loaded.looks.find_meshes(&urdf_path, &options.packages));
+        loaded.judge(&model).map_err(|e| e.in_file(&urdf_path))?;
         Ok(loaded)
     }
 
@@ -67,26 +107,125 @@ impl Robot {
     ///
     /// What is wrong with the URDF, without the name of a file.
     pub fn from_urdf(text: &str) -> Result<Self, RobotError> {
-        urdf::parse(text).map(|model| model.robot)
+        let model = urdf::parse(text)?;
+        let mut loaded = Loaded::from_urdf(&model, Part::default(), Path::new(""))?;
+        loaded.judge(&model)?;
+        Ok(loaded.robot)
     }
 }
 
 impl Loaded {
-    fn from_urdf(mut model: UrdfModel, path: &Path) -> Self {
-        model.warnings.extend(model.looks.find_meshes(path));
-        let control =
-            ControlSettings { gains: vec![None; model.robot.joint_count()], ..Default::default() };
-        Self {
-            robot_in_urdf: model.robot.clone(),
-            robot: model.robot,
-            looks: model.looks,
+    fn from_urdf(model: &UrdfModel, part: Part, path: &Path) -> Result<Self, RobotError> {
+        let whole = &model.robot;
+        let locked = part.locks(whole, &model.mimics)?;
+        let lumping = Lumping::new(whole, &part::positions(&locked));
+        let robot = lumping.robot(whole)?;
+        let fixed = model.fixed_to_base.iter().cloned();
+        Ok(Self {
+            robot_in_urdf: robot.clone(),
+            looks: lumping.looks(model.looks.clone()),
             urdf_path: path.to_owned(),
-            base_link: model.base_link,
-            fixed_to_base: model.fixed_to_base,
-            control,
-            warnings: model.warnings,
-        }
+            base_link: model.base_link.clone(),
+            fixed_to_base: fixed.chain(lumping.fixed_to_base(whole)).collect(),
+            part,
+            locked,
+            control: ControlSettings {
+                gains: vec![None; robot.joint_count()],
+                ..Default::default()
+            },
+            warnings: model.warnings.clone(),
+            robot,
+        })
     }
+
+    /// The part of this robot whose joints are `joints`, the others locked at zero.
+    ///
+    /// What the files say of a body goes on holding where that body still is one, and is lumped
+    /// into another where it is not.
+    fn narrowed(self, model: &UrdfModel, joints: &[String]) -> Result<Self, RobotError> {
+        for name in joints {
+            self.joint_index("joints to keep", name)?;
+        }
+        let kept = |name: &&str| joints.iter().any(|joint| joint == name);
+        let names = || self.robot.joint_names();
+        let part = Part {
+            joints: Some(names().filter(kept).map(str::to_owned).collect()),
+            locked: self.part.locked.clone(),
+        };
+        let gone = names().filter(|name| !kept(name)).map(|name| (name.to_owned(), 0.0)).collect();
+        let lumping = Lumping::new(&self.robot, &gone);
+        let [new, old] = [lumping.robot(&self.robot)?, lumping.robot(&self.robot_in_urdf)?];
+        let mut smaller = Self::from_urdf(model, part, &self.urdf_path)?;
+        smaller.control = lumping.control(&self.control);
+        smaller.warnings = self.warnings;
+        smaller.robot = smaller.robot.with_gravity(new.gravity_in_base());
+        for (index, (new, old)) in new.links().iter().zip(old.links()).enumerate() {
+            let Some(link) = smaller.robot.link_mut(index) else { continue };
+            link.actuator = new.actuator.clone();
+            link.joint.limits = new.joint.limits;
+            if new.inertia != old.inertia {
+                link.inertia = new.inertia.clone();
+            }
+        }
+        Ok(smaller)
+    }
+
+    /// Refuses a body that is said to have no mass and moves, and adds what to know of the joints
+    /// that are held.
+    fn judge(&mut self, model: &UrdfModel) -> Result<(), RobotError> {
+        for link in self.robot.links().iter().filter(|link| link.inertia.mass <= 0.0) {
+            let (link, mass) = (link.name.clone(), link.inertia.mass);
+            if model.without_mass.contains(&link) {
+                return Err(RobotError::MassNotPositive { link, mass });
+            }
+            self.warnings.push(RobotWarning::Massless { link });
+        }
+        for lock in &self.locked {
+            let (joint, position) = (lock.joint.clone(), lock.position);
+            let limits = whole_limits(&model.robot, &joint);
+            let master = lock.mimics.as_ref().and_then(|_| {
+                self.part.moving_master(&joint, &model.robot, &model.mimics).map(str::to_owned)
+            });
+            if let Some(of) = master {
+                self.warnings.push(RobotWarning::MimicLocked { joint, of, position });
+            } else if let Some(limits) =
+                limits.filter(|&(low, high)| position < low || position > high)
+            {
+                self.warnings.push(RobotWarning::LockedOutside { joint, position, limits });
+            }
+        }
+        let limbs = self.robot.links().iter().filter(|link| link.parent.is_none()).count();
+        if limbs > 1 && model.base_has_mass {
+            self.warnings.push(RobotWarning::LimbsOnBase { link: self.base_link.clone(), limbs });
+        }
+        Ok(())
+    }
+
+    /// The joint called `name` at `place`.
+    pub(crate) fn joint_index(&self, place: &str, name: &str) -> Result<usize, RobotError> {
+        self.robot.joint_index(name).ok_or_else(|| match self.lock(name) {
+            Some(lock) => RobotError::UnknownName {
+                place: place.to_owned(),
+                what: "moving joint",
+                name: name.to_owned(),
+                hint: format!("it is locked at {}", lock.position),
+            },
+            None => {
+                let known: Vec<&str> = self.robot.joint_names().collect();
+                RobotError::unknown_name(place, "joint", name, &known)
+            }
+        })
+    }
+
+    /// How the joint called `name` is locked, if it is.
+    pub(crate) fn lock(&self, name: &str) -> Option<&LockedJoint> {
+        self.locked.iter().find(|lock| lock.joint == name)
+    }
+}
+
+/// Lowest and highest position of a joint (rad or m).
+fn whole_limits(whole: &Robot, joint: &str) -> Option<(f64, f64)> {
+    whole.joint_index(joint).and_then(|i| whole.links()[i].joint.limits.position)
 }
 
 /// The text of a file, without a byte-order mark.

@@ -1,6 +1,6 @@
 use std::path::{Component, Path, PathBuf};
 
-use crate::{Looks, RobotWarning, Shape, Visual};
+use crate::{Looks, Packages, RobotWarning, Shape, Visual};
 
 /// Folders, from that of the URDF upwards, beside which a package is looked for.
 const FOLDERS: usize = 5;
@@ -9,11 +9,11 @@ const LARGEST_MESH: u64 = 64 << 20;
 
 impl Looks {
     /// Finds the files of the meshes; a mesh without one is left out.
-    pub(crate) fn find_meshes(&mut self, urdf: &Path) -> Option<RobotWarning> {
+    pub(crate) fn find_meshes(&mut self, urdf: &Path, packages: &Packages) -> Option<RobotWarning> {
         let mut missing = vec![];
         let mut has_file = |visual: &mut Visual| {
             let Shape::Mesh { file, .. } = &mut visual.shape else { return true };
-            let found = candidates(file, urdf).into_iter().find(|path| usable(path));
+            let found = candidates(file, urdf, packages).into_iter().find(|path| usable(path));
             match found {
                 Some(path) => *file = path,
                 None => {
@@ -34,8 +34,9 @@ impl Looks {
 /// Where a file that a URDF names may lie: where the name says, read from the URDF's folder.
 ///
 /// A package is a folder of that name, which holds the URDF or lies beside it or beside a
-/// folder above it. Nothing outside of a package is reached through its name.
-fn candidates(name: &Path, urdf: &Path) -> Vec<PathBuf> {
+/// folder above it, or else one of `packages`. Nothing outside of a package is reached through
+/// its name.
+fn candidates(name: &Path, urdf: &Path, packages: &Packages) -> Vec<PathBuf> {
     let name = name.to_string_lossy();
     let folder = urdf.parent().unwrap_or(Path::new(""));
     let Some(rest) = name.strip_prefix("package://") else {
@@ -45,9 +46,14 @@ fn candidates(name: &Path, urdf: &Path) -> Vec<PathBuf> {
     if !Path::new(rest).components().all(inside) {
         return vec![];
     }
+    let (package, file) = rest.split_once('/').unwrap_or((rest, ""));
+    let known = packages.candidates(package, Path::new(file.trim_start_matches('/')));
     // An empty path has no parent: it is the working folder.
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    folder.ancestors().take(FOLDERS).map(|f| f.join(rest)).collect()
+    let near = folder.ancestors().take(FOLDERS).map(|f| f.join(rest));
+    // A folder that is given by name counts before one that happens to lie near.
+    let (first, then) = known.split_at(usize::from(packages.named.contains_key(package)));
+    first.iter().cloned().chain(near).chain(then.iter().cloned()).collect()
 }
 
 fn usable(path: &Path) -> bool {
@@ -61,11 +67,31 @@ mod tests {
     #[test]
     fn a_package_is_looked_for_above_the_urdf_and_never_left() {
         let urdf = Path::new("/ws/arm_description/urdf/arm.urdf");
-        let at = |name: &str| candidates(Path::new(name), urdf);
+        let at = |name: &str| candidates(Path::new(name), urdf, &Packages::default());
         let of_package = at("package://arm_description/meshes/a.stl");
         assert!(of_package.contains(&"/ws/arm_description/meshes/a.stl".into()));
         assert_eq!(at("package://arm_description/../../etc/a.stl"), Vec::<PathBuf>::new());
         assert_eq!(at("../meshes/a.stl"), [Path::new("/ws/arm_description/urdf/../meshes/a.stl")]);
         assert_eq!(at("file:///m/a.stl"), [Path::new("/m/a.stl")]);
+    }
+
+    #[test]
+    fn a_package_is_looked_for_by_name_then_near_then_on_the_ros_and_ament_paths() {
+        let ros = Some("/ros/arm:/ros/more:".as_ref());
+        let mut packages = Packages::from_paths(ros, Some("/opt/jazzy".as_ref()));
+        let urdf = Path::new("/ws/a.urdf");
+        let at =
+            |packages: &Packages| candidates(Path::new("package://arm/m/a.stl"), urdf, packages);
+        let near = ["/ws/arm/m/a.stl", "/arm/m/a.stl"];
+        let ros = ["/ros/arm/m/a.stl", "/ros/arm/arm/m/a.stl", "/ros/more/arm/m/a.stl"];
+        let ament = ["/opt/jazzy/share/arm/m/a.stl"];
+        let all: Vec<PathBuf> =
+            near.iter().chain(&ros).chain(&ament).map(|path| PathBuf::from(*path)).collect();
+        assert_eq!(at(&packages), all);
+        packages.named.insert("arm".to_owned(), "/here".into());
+        assert_eq!(at(&packages)[0], Path::new("/here/m/a.stl"));
+        assert_eq!(at(&packages)[1..], all);
+        let outside = candidates(Path::new("package://arm/../../etc/a"), urdf, &packages);
+        assert_eq!(outside, Vec::<PathBuf>::new());
     }
 }

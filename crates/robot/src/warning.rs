@@ -18,6 +18,38 @@ pub enum RobotWarning {
         /// What is wrong with it.
         defect: InertiaDefect,
     },
+    /// A joint that mimics one that moves is held fixed.
+    MimicLocked {
+        /// The joint.
+        joint: String,
+        /// The joint that moves and that it follows.
+        of: String,
+        /// Where it is held (rad or m).
+        position: f64,
+    },
+    /// A joint of the base that is not measured is held fixed.
+    BaseHeld {
+        /// The joint.
+        joint: String,
+        /// Its type, such as `floating`.
+        kind: &'static str,
+    },
+    /// Several limbs hang on a base that has mass, and it is held fixed.
+    LimbsOnBase {
+        /// The link that is the base.
+        link: String,
+        /// Number of limbs.
+        limbs: usize,
+    },
+    /// A joint is locked where it cannot be.
+    LockedOutside {
+        /// The joint.
+        joint: String,
+        /// Where it is locked (rad or m).
+        position: f64,
+        /// Its limits (rad or m).
+        limits: (f64, f64),
+    },
     /// A link or joint has the same child element twice; the first counts.
     Repeated {
         /// The link or joint, such as `joint elbow`.
@@ -44,13 +76,24 @@ pub enum RobotWarning {
 }
 
 impl RobotWarning {
+    /// Whether the model of the motion leaves something out that the robot may have; the others
+    /// are about numbers, words and pictures of the file.
+    pub fn is_about_motion(&self) -> bool {
+        matches!(
+            self,
+            Self::Massless { .. }
+                | Self::MimicLocked { .. }
+                | Self::BaseHeld { .. }
+                | Self::LimbsOnBase { .. }
+                | Self::LockedOutside { .. }
+        )
+    }
+
     /// The link whose inertia the warning is about.
     pub fn link(&self) -> Option<&str> {
         match self {
             Self::Massless { link } | Self::Inertia { link, .. } => Some(link),
-            Self::Repeated { .. } | Self::VisualLeftOut { .. } | Self::MeshesNotFound { .. } => {
-                None
-            }
+            _ => None,
         }
     }
 }
@@ -59,8 +102,32 @@ impl fmt::Display for RobotWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Massless { link } => {
-                write!(f, "link {link}: it moves but has no <inertial>, its mass is taken as zero")
+                write!(
+                    f,
+                    "link {link}: it moves but has no <inertial>, its mass is taken as zero: its \
+                     weight and inertia are missing from the torque of every joint that carries it, \
+                     and the arm can be simulated only if its joint has a rotor_inertia_kg_m2"
+                )
             }
+            Self::MimicLocked { joint, of, position } => write!(
+                f,
+                "joint {joint}: it mimics {of}, which moves, but is held at {position}: what its \
+                 motion adds to the torque of {of} is left out"
+            ),
+            Self::BaseHeld { joint, kind } => write!(
+                f,
+                "joint {joint}: its type is {kind} and logs do not tell it: the base is held fixed"
+            ),
+            Self::LimbsOnBase { link, limbs } => write!(
+                f,
+                "link {link}: it is the base of {limbs} limbs and held fixed: of a robot whose base \
+                 moves (it walks, drives or flies) torques are right only while it stands still"
+            ),
+            Self::LockedOutside { joint, position, limits: (lower, upper) } => write!(
+                f,
+                "joint {joint}: it is locked at {position}, outside its limits {lower} to {upper}; \
+                 locked = {{ {joint} = ... }} in a robot.toml gives another position"
+            ),
             Self::Repeated { element, child, line } => {
                 write!(f, "{element}: line {line} holds a second <{child}>, the first counts")
             }
@@ -69,7 +136,13 @@ impl fmt::Display for RobotWarning {
             }
             Self::MeshesNotFound { first, count } => write!(
                 f,
-                "{count} mesh files are not there or too large, {first} is one: pictures do without"
+                "{count} mesh files are not there or too large, {first} is one: pictures do \
+                 without{}",
+                if first.starts_with("package://") {
+                    "; --package NAME=DIR says where one is"
+                } else {
+                    ""
+                }
             ),
             Self::Inertia { link, defect } => write!(f, "link {link}: {defect}"),
         }

@@ -9,7 +9,9 @@ impl Loaded {
     ///
     /// Holds what differs from the URDF, and the control settings. Loading it gives
     /// `robot` again, every number to the last bit; only a time that no number of
-    /// milliseconds is comes back rounded. `urdf` is the path of the URDF as seen from the folder the text is written to.
+    /// milliseconds is comes back rounded. Of a part of a robot it says which joints move and
+    /// where the others are locked: the URDF has them all. `urdf` is its path as seen from the
+    /// folder the text is written to.
     ///
     /// # Errors
     ///
@@ -30,6 +32,8 @@ impl Loaded {
         let joint_name = |i: usize| robot.joint_names().nth(i).unwrap_or_default().to_owned();
         let mut description = Description {
             urdf: urdf.to_owned(),
+            joints: self.part.joints.clone(),
+            locked: self.part.locked.clone(),
             gravity_m_per_s2: gravity(robot, old),
             control_rate_hz: control.rate_hz,
             differentials: control.differentials.iter().map(|p| p.map(joint_name)).collect(),

@@ -3,13 +3,14 @@ use std::path::{Path, PathBuf};
 use diagnosis::{Comparison, Finding, Progress, Silent};
 use logs::Run;
 use report::{Report, ReportError};
-use robot::{Loaded, Robot};
+use robot::Loaded;
 
 use super::diagnose;
 use crate::Outcome;
+use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{print, shown};
+use crate::input::{ColumnArguments, PartArguments, SearchArguments, hashes_of, provenance};
+use crate::output::{print, shown, warn};
 use crate::progress::Bar;
 
 /// Columns of the text.
@@ -21,6 +22,8 @@ pub struct Arguments {
     /// The robot: a robot.urdf, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    #[command(flatten)]
+    part: PartArguments,
     /// The first logs, CSV or Parquet files, one run each
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     before: Vec<PathBuf>,
@@ -45,9 +48,12 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if out.exists() && !out.is_dir() {
         return Err(ReportError::NotAFolder { path: out.clone() }.into());
     }
-    let loaded = Robot::load(&arguments.robot)?;
+    let loaded = arguments.part.load(&arguments.robot)?;
     let read = |paths| arguments.columns.read_runs(paths, &loaded.robot);
     let runs = [read(&arguments.before)?, read(&arguments.after)?];
+    if !arguments.quiet {
+        doubts(&loaded, runs.iter().flatten()).iter().for_each(|doubt| warn(doubt));
+    }
     let settings = arguments.search.settings(&loaded);
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };

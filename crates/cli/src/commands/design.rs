@@ -14,7 +14,7 @@ use self::diagnosis_file::DiagnosisFile;
 pub use self::error::DesignError;
 use crate::Outcome;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, positive};
+use crate::input::{ColumnArguments, PartArguments, positive};
 use crate::output::print;
 use crate::progress::Line;
 
@@ -27,6 +27,8 @@ pub struct Arguments {
     /// The robot that was diagnosed: a robot.urdf, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    #[command(flatten)]
+    part: PartArguments,
     /// The diagnosis: its folder or its diagnosis.json
     #[arg(long, value_name = "DIR", required_unless_present = "separate")]
     diagnosis: Option<PathBuf>,
@@ -61,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if arguments.out.exists() && !arguments.out.is_dir() {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
-    let loaded = Robot::load(&arguments.robot)?;
+    let loaded = arguments.part.load(&arguments.robot)?;
     let robot = &next_motion::sown(&loaded.robot);
     let asked = asked(arguments, robot)?;
     let (question, logs) = match &arguments.diagnosis {

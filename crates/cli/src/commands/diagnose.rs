@@ -2,7 +2,6 @@ mod residual;
 
 use std::path::{Path, PathBuf};
 
-use anstyle::AnsiColor;
 use diagnosis::{Diagnosis, Progress, Silent, Verdict};
 use evaluation::{Diagnosed, ForwardGap};
 use logs::Run;
@@ -12,9 +11,10 @@ use robot::{Loaded, Robot};
 use residual::Learned;
 
 use crate::Outcome;
+use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{print, shown};
+use crate::input::{ColumnArguments, PartArguments, SearchArguments, hashes_of, provenance};
+use crate::output::{print, shown, warn};
 use crate::progress::{Bar, Line};
 
 /// Columns of a comment in `extended.toml`.
@@ -29,6 +29,8 @@ pub struct Arguments {
     /// The robot: a robot.urdf, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    #[command(flatten)]
+    part: PartArguments,
     /// CSV or Parquet files, one run each, of the same robot
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
@@ -66,8 +68,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if arguments.out.exists() && !arguments.out.is_dir() {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
-    let loaded = Robot::load(&arguments.robot)?;
+    let loaded = arguments.part.load(&arguments.robot)?;
     let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
+    if !arguments.quiet {
+        doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
+    }
     let settings = arguments.search.settings(&loaded);
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
@@ -121,11 +126,6 @@ fn forward(
     let gap = evaluation::forward_gap_of_logs(robots, runs, data.cutoff_hz, progress);
     bar.finish();
     gap.inspect_err(|error| warn(error)).ok()
-}
-
-fn warn(error: &dyn std::error::Error) {
-    let yellow = AnsiColor::Yellow.on_default();
-    anstream::eprintln!("{yellow}warning:{yellow:#} {error}");
 }
 
 /// Writes an output folder, all but the recording.
@@ -184,6 +184,9 @@ fn extended_toml(
     diagnosis: &Diagnosis,
 ) -> Result<String, CliError> {
     let mut text = format!("# {} with the findings of diagnosis.json\n", extended.name());
+    if !loaded.part.is_whole() {
+        text.push_str("# robot.urdf has more joints: those that are not named here are locked\n");
+    }
     for finding in &diagnosis.findings {
         let mut sizes = report::sizes(finding);
         if let Some(first) = sizes.first_mut() {

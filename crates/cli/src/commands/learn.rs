@@ -16,7 +16,7 @@ use robot::Robot;
 
 use crate::Outcome;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, positive};
+use crate::input::{ColumnArguments, PartArguments, positive};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -37,6 +37,8 @@ pub struct Arguments {
     /// The robot: a robot.urdf, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    #[command(flatten)]
+    part: PartArguments,
     /// CSV or Parquet files to learn from, one run each
     #[arg(long, value_name = "LOG", num_args = 1.., required_unless_present = "benchmark")]
     train: Vec<PathBuf>,
@@ -114,7 +116,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if let Some(out) = arguments.out.as_deref().filter(|out| out.exists() && !out.is_dir()) {
         return Err(ReportError::NotAFolder { path: out.to_owned() }.into());
     }
-    let loaded = Robot::load(&arguments.robot)?;
+    let loaded = arguments.part.load(&arguments.robot)?;
     let watch = Watch::new((!arguments.quiet).then(Line::new))?;
     if arguments.benchmark {
         benchmark::run(arguments, &loaded, &watch)

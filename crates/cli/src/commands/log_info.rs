@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::Outcome;
 use crate::error::CliError;
+use crate::input::PartArguments;
 use crate::output::{print, print_json, shown, table};
 
 /// Arguments of `log info`.
@@ -17,6 +18,8 @@ pub struct Arguments {
     /// The robot, for names, order, types and limits of the joints
     #[arg(long)]
     robot: Option<PathBuf>,
+    #[command(flatten)]
+    part: PartArguments,
     /// Names and units of columns that are called otherwise (TOML)
     #[arg(long, requires = "robot")]
     map: Option<PathBuf>,
@@ -32,13 +35,15 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let map = arguments.map.as_deref().map(ColumnMap::load).transpose()?;
     let options = ReadOptions { map: map.as_ref(), effort: &arguments.effort };
-    let described = arguments.robot.as_deref().map(Robot::load).transpose()?;
+    let described = arguments.robot.as_deref().map(|path| arguments.part.load(path));
+    let described = described.transpose()?;
     let mut runs: Vec<Run> = Vec::new();
     let mut infos = Vec::new();
     for path in &arguments.files {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
-            None => robot_from_columns(path, &options)?,
+            None if arguments.part.joints.is_empty() => robot_from_columns(path, &options)?,
+            None => robot_of(&arguments.part.joints)?,
         };
         let run = logs::read_run(path, &robot, &options)?;
         let info = logs::log_info(&run, &robot);

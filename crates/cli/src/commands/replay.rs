@@ -5,9 +5,10 @@ use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
+use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, positive};
-use crate::output::{create_folder, print, shown, table};
+use crate::input::{ColumnArguments, PartArguments, positive};
+use crate::output::{create_folder, print, shown, table, warn};
 
 /// Arguments of `replay`.
 #[derive(Debug, clap::Args)]
@@ -15,6 +16,8 @@ pub struct Arguments {
     /// The robot whose simulation is looked at: a robot.urdf, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
     robot: PathBuf,
+    #[command(flatten)]
+    part: PartArguments,
     /// CSV or Parquet files, one run each
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
@@ -31,8 +34,9 @@ pub struct Arguments {
 /// Rolls the simulation forward under recorded torque, lets it follow the recorded motion, and
 /// says how far both are from the record.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let loaded = Robot::load(&arguments.robot)?;
+    let loaded = arguments.part.load(&arguments.robot)?;
     let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
+    doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
     let prepared = logs::prepare(&runs, &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =

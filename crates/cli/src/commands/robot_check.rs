@@ -1,18 +1,24 @@
 use std::path::PathBuf;
 
 use dynamics::{ColumnSet, base_parameters};
-use robot::{Actuator, JointKind, Link, Loaded, Robot, RobotWarning};
+use robot::{Actuator, JointKind, Link, Loaded, LockedJoint, RobotWarning};
 use serde::Serialize;
 
 use crate::Outcome;
 use crate::error::CliError;
+use crate::input::PartArguments;
 use crate::output::{print, print_json, shown, table};
+
+/// Columns of the text.
+const WIDTH: usize = 100;
 
 /// Arguments of `robot check`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// A robot.urdf, or a robot.toml that names one
     file: PathBuf,
+    #[command(flatten)]
+    part: PartArguments,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -20,7 +26,7 @@ pub struct Arguments {
 
 /// Prints what a robot description says and whether its inertias are possible.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let loaded = Robot::load(&arguments.file)?;
+    let loaded = arguments.part.load(&arguments.file)?;
     let check = Check::new(&loaded, shown(&arguments.file));
     if arguments.json {
         print_json(&check)?;
@@ -42,6 +48,7 @@ struct Check {
     base_link: String,
     gravity_m_per_s2: [f64; 3],
     joints: Vec<JointCheck>,
+    locked: Vec<LockCheck>,
     base_parameters: BaseCounts,
     warnings: Vec<String>,
 }
@@ -62,6 +69,14 @@ struct JointCheck {
     mass_kg: f64,
     merged: Vec<String>,
     link_defects: Vec<String>,
+}
+
+/// A joint that is held where it is.
+#[derive(Serialize)]
+struct LockCheck {
+    name: String,
+    position: f64,
+    mimics: Option<String>,
 }
 
 /// How many combinations of parameters any motion can reveal.
@@ -87,6 +102,7 @@ impl Check {
             base_link: loaded.base_link.clone(),
             gravity_m_per_s2: robot.gravity_in_base().into(),
             joints: robot.links().iter().map(JointCheck::new).collect(),
+            locked: loaded.locked.iter().map(LockCheck::new).collect(),
             base_parameters: BaseCounts {
                 inertial: count(ColumnSet::INERTIAL),
                 with_rotors: count(rotors),
@@ -95,6 +111,17 @@ impl Check {
             },
             warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
         }
+    }
+}
+
+impl LockCheck {
+    fn new(lock: &LockedJoint) -> Self {
+        Self { name: lock.joint.clone(), position: lock.position, mimics: lock.mimics.clone() }
+    }
+
+    fn words(&self) -> String {
+        let mimics = self.mimics.as_ref().map(|of| format!(" (mimics {of})")).unwrap_or_default();
+        format!("{} at {}{mimics}", self.name, short(self.position))
     }
 }
 
@@ -122,6 +149,16 @@ impl JointCheck {
             merged: link.merged.clone(),
             link_defects: inertia.defects().iter().map(ToString::to_string).collect(),
         }
+    }
+}
+
+/// The first names of a list, and how many more there are.
+fn some_of(names: &[String]) -> String {
+    const LISTED: usize = 4;
+    let listed = names[..names.len().min(LISTED)].join(", ");
+    match names.len().saturating_sub(LISTED) {
+        0 => listed,
+        more => format!("{listed} and {more} more"),
     }
 }
 
@@ -155,9 +192,14 @@ fn text(check: &Check) -> String {
             [] => "consistent".to_owned(),
             defects => defects.join("; "),
         };
-        vec![j.link.clone(), format!("{} kg", short(j.mass_kg)), j.merged.join(", "), verdict]
+        vec![j.link.clone(), format!("{} kg", short(j.mass_kg)), some_of(&j.merged), verdict]
     });
     text.push_str(&table(&["link", ">mass", "fixed to it", "inertia"], links));
+    if !check.locked.is_empty() {
+        let locked: Vec<String> = check.locked.iter().map(LockCheck::words).collect();
+        let lines = report::packed(locked.iter().map(String::as_str), ", ", WIDTH);
+        text.push_str(&format!("\nlocked: {}\n", lines.join("\n  ")));
+    }
     let base = &check.base_parameters;
     text.push_str(&format!(
         "\nbase parameters: {} inertial, {} with rotors, {} with friction, {} with both and offsets\n",

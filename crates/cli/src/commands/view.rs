@@ -3,11 +3,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use anstyle::AnsiColor;
-
 use crate::Outcome;
 use crate::error::CliError;
-use crate::output::{print, shown};
+use crate::output::{print, shown, warn};
 
 /// The viewer of recordings, and the version that they are written for.
 const VIEWER: &str = "rerun";
@@ -112,8 +110,7 @@ fn view(recordings: &[PathBuf]) -> Result<(), CliError> {
     let answer = Command::new(VIEWER).arg("--version").output().map_err(failed)?;
     let answer = String::from_utf8_lossy(&answer.stdout).into_owned();
     if let Some(doubt) = doubt(&answer) {
-        let yellow = AnsiColor::Yellow.on_default();
-        anstream::eprintln!("{yellow}warning:{yellow:#} {doubt}");
+        warn(&doubt);
     }
     let mut viewer = Command::new(VIEWER);
     viewer.args(recordings).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());

@@ -1,6 +1,7 @@
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 use urdf_rs::JointType;
 
+use crate::part::Mimic;
 use crate::{Inertia, Joint, JointKind, Limits, RobotError};
 
 /// Pose of the joint in its parent link at position zero.
@@ -22,10 +23,11 @@ pub(super) fn pose(origin: &urdf_rs::Pose) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::new(x, y, z), rotation)
 }
 
-/// The inertia that a link declares, in the link frame.
+/// The inertia that a link declares, in the link frame. A mass of zero makes it a frame, which is
+/// for the caller to judge: it may be fixed to a body that has mass.
 pub(super) fn inertia(link: &urdf_rs::Link) -> Result<Inertia, RobotError> {
     let (mass, i) = (link.inertial.mass.value, &link.inertial.inertia);
-    if mass.is_nan() || mass <= 0.0 {
+    if mass.is_nan() || mass < 0.0 {
         return Err(RobotError::MassNotPositive { link: link.name.clone(), mass });
     }
     let origin = &link.inertial.origin;
@@ -48,10 +50,6 @@ pub(super) fn joint(
     joint: &urdf_rs::Joint,
     body_from_parent: &Isometry3<f64>,
 ) -> Result<Joint, RobotError> {
-    if let Some(mimic) = &joint.mimic {
-        let (joint, of) = (joint.name.clone(), mimic.joint.clone());
-        return Err(RobotError::MimicJoint { joint, of });
-    }
     let kind = kind(joint)?;
     finite(|| format!("joint {}", joint.name), "axis", &joint.axis.xyz.0)?;
     let axis = Vector3::from(joint.axis.xyz.0);
@@ -66,6 +64,26 @@ pub(super) fn joint(
         axis_in_joint,
         limits: limits(joint, kind)?,
     })
+}
+
+/// How a joint that moves follows another one, if it does.
+pub(super) fn mimic(joint: &urdf_rs::Joint) -> Result<Option<Mimic>, RobotError> {
+    let moves = joint.joint_type != JointType::Fixed;
+    let Some(mimic) = joint.mimic.as_ref().filter(|_| moves) else { return Ok(None) };
+    let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+    let thing = || format!("joint {}", joint.name);
+    finite(thing, "mimic multiplier", &[multiplier])?;
+    finite(thing, "mimic offset", &[offset])?;
+    Ok(Some(Mimic { master: mimic.joint.clone(), multiplier, offset }))
+}
+
+/// The type of a joint between the world and a base that moves freely; it is held.
+pub(super) fn of_free_base(joint: &urdf_rs::Joint) -> Option<&'static str> {
+    match joint.joint_type {
+        JointType::Floating => Some("floating"),
+        JointType::Planar => Some("planar"),
+        _ => None,
+    }
 }
 
 fn kind(joint: &urdf_rs::Joint) -> Result<JointKind, RobotError> {

@@ -1,6 +1,7 @@
 //! A URDF read into a [`Robot`] and its [`Looks`].
 
 mod convert;
+mod followers;
 mod outline;
 mod tree;
 mod visual;
@@ -11,6 +12,7 @@ use urdf_rs::JointType;
 use self::outline::{Element, Outline};
 use self::tree::Tree;
 use self::visual::Visuals;
+use crate::part::Mimics;
 use crate::{Actuator, Inertia, Link, Looks, Robot, RobotError, RobotWarning};
 
 /// Free fall in a base frame whose z axis points up (m/s²).
@@ -18,11 +20,17 @@ const UPRIGHT_GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
 
 /// What a URDF says.
 pub(crate) struct UrdfModel {
+    /// Every joint moves by itself, those of `mimics` as well.
     pub robot: Robot,
     /// Its meshes are named as in the file.
     pub looks: Looks,
     pub base_link: String,
     pub fixed_to_base: Vec<String>,
+    /// Whether the base has mass.
+    pub base_has_mass: bool,
+    /// Links whose mass is said to be zero: frames, unless they move by themselves.
+    pub without_mass: Vec<String>,
+    pub mimics: Mimics,
     pub warnings: Vec<RobotWarning>,
 }
 
@@ -30,10 +38,15 @@ pub(crate) struct UrdfModel {
 pub(crate) fn parse(text: &str) -> Result<UrdfModel, RobotError> {
     let mut outline = outline::outline(text)?;
     let mut warnings = std::mem::take(&mut outline.warnings);
-    let (mut links, mut inertias) = (vec![], vec![]);
+    let (mut links, mut inertias, mut without_mass) = (vec![], vec![], vec![]);
     for element in &outline.links {
         let link = read(&outline, element, |robot| robot.links)?;
         let inertia = if element.has_inertial() { Some(convert::inertia(&link)?) } else { None };
+        if inertia.as_ref().is_some_and(|i| i.mass <= 0.0) {
+            without_mass.push(link.name.clone());
+        }
+        // A frame: neither mass nor inertia.
+        let inertia = inertia.filter(|i| i.mass > 0.0 || i.about_com.amax() > 0.0);
         let defects = inertia.iter().flat_map(Inertia::defects);
         let name = &link.name;
         warnings.extend(defects.map(|d| RobotWarning::Inertia { link: name.clone(), defect: d }));
@@ -45,22 +58,33 @@ pub(crate) fn parse(text: &str) -> Result<UrdfModel, RobotError> {
         joints.push(read(&outline, element, |robot| robot.joints)?);
     }
     let tree = Tree::new(&links, &joints)?;
+    let mimics = followers::mimics(&joints)?;
     let walk = Walk { links: &links, joints: &joints, inertias: &inertias, tree: &tree };
     let (moving, parts) = walk.moving_links()?;
-    let massless = moving.iter().filter(|l| l.inertia.mass <= 0.0);
-    warnings.extend(massless.map(|l| RobotWarning::Massless { link: l.name.clone() }));
+    warnings.extend(held(&joints));
     let robot = Robot::new(name(&outline)?, UPRIGHT_GRAVITY, moving)?;
     let mut visuals = Visuals::read(text);
     let looks = looks(&mut visuals, &parts, robot.joint_count());
     warnings.append(&mut visuals.warnings);
-    let base = parts.iter().filter(|part| part.body.is_none()).map(|part| part.link.clone());
-    let fixed_to_base = base.skip(1).collect();
+    let base = || parts.iter().filter(|part| part.body.is_none());
+    let has_mass = |part: &Part| inertias[part.index].as_ref().is_some_and(|i| i.mass > 0.0);
     Ok(UrdfModel {
         robot,
         looks,
         base_link: links[tree.root].name.clone(),
-        fixed_to_base,
+        fixed_to_base: base().skip(1).map(|part| part.link.clone()).collect(),
+        base_has_mass: base().any(has_mass),
+        without_mass,
+        mimics,
         warnings,
+    })
+}
+
+/// The joints of a base that moves freely; the walk found them where they can be held.
+fn held(joints: &[urdf_rs::Joint]) -> impl Iterator<Item = RobotWarning> {
+    joints.iter().filter_map(|joint| {
+        let kind = convert::of_free_base(joint)?;
+        Some(RobotWarning::BaseHeld { joint: joint.name.clone(), kind })
     })
 }
 
@@ -102,6 +126,8 @@ struct Walk<'a> {
 /// A link of the URDF where the walk found it.
 struct Part {
     link: String,
+    /// Its index in the file.
+    index: usize,
     /// The moving link it belongs to, `None` for the base.
     body: Option<usize>,
     /// Its pose in that moving link or in the base.
@@ -141,7 +167,7 @@ impl Walk<'_> {
             let name = self.links[visit.link].name.clone();
             let (body, body_from_link) = match visit.joint.map(|j| &self.joints[j]) {
                 None => (None, Isometry3::identity()),
-                Some(fixed) if fixed.joint_type == JointType::Fixed => {
+                Some(fixed) if is_fixed(fixed, visit.body) => {
                     visit.body.iter().for_each(|&b| moving[b].merged.push(name.clone()));
                     (visit.body, visit.body_from_parent * convert::origin(fixed)?)
                 }
@@ -151,9 +177,9 @@ impl Walk<'_> {
                 }
             };
             if let (Some(b), Some(own)) = (body, &self.inertias[visit.link]) {
-                add(&mut moving[b].inertia, &own.seen_from(&body_from_link));
+                moving[b].inertia.add(&own.seen_from(&body_from_link));
             }
-            parts.push(Part { link: name, body, body_from_link });
+            parts.push(Part { link: name, index: visit.link, body, body_from_link });
             stack.extend(self.tree.joints_of[visit.link].iter().rev().map(|&j| Visit {
                 link: self.tree.child[j],
                 joint: Some(j),
@@ -187,7 +213,8 @@ impl Walk<'_> {
     }
 }
 
-/// Merges a part into a body; the first part is taken as it is, without rounding.
-fn add(body: &mut Inertia, part: &Inertia) {
-    *body = if body.mass > 0.0 { body.merged_with(part) } else { part.clone() };
+/// Whether a joint does not move: it is fixed, or carries the base of a robot that is free.
+fn is_fixed(joint: &urdf_rs::Joint, body: Option<usize>) -> bool {
+    let free_base = body.is_none() && convert::of_free_base(joint).is_some();
+    joint.joint_type == JointType::Fixed || free_base
 }

@@ -118,7 +118,9 @@ impl Scan {
             return Err(self.malformed(format!("a tag has more than {LONGEST_TAG} bytes")));
         }
         if name.starts_with("xacro:") {
-            let reason = format!("<{name}> was found, expand the file with xacro first");
+            let reason = format!(
+                "<{name}> was found, expand the file with xacro first: xacro FILE > robot.urdf"
+            );
             return Err(self.malformed(reason));
         }
         let kept = self.skipped_from.is_none() && self.keep(depth, &name, tag)?;

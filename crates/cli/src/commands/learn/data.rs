@@ -6,6 +6,7 @@ use report::{DataSet, FileHash};
 use robot::Loaded;
 
 use super::Arguments;
+use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::hashes_of;
 use crate::output::shown;
@@ -69,13 +70,15 @@ impl Data {
             samples: Samples::new(&parts[which]),
         };
         let (test, train, regression) = (set(0), set(1), set(2));
+        let mut warnings = doubts(loaded, &runs);
+        warnings.extend(prepared.warnings.iter().map(ToString::to_string));
         Ok(Self {
             rest_speeds: rest_speeds(&parts[1]),
             train,
             regression: (counts[2] > 0).then_some(regression),
             test,
             cutoff_hz: prepared.cutoff_hz,
-            warnings: prepared.warnings.iter().map(ToString::to_string).collect(),
+            warnings,
         })
     }
 

@@ -1,0 +1,77 @@
+use logs::Run;
+use robot::{Loaded, LockedJoint, RobotWarning};
+
+/// Distance from the place of a locked joint within which a log confirms it (rad or m).
+const NEAR: f64 = 0.01;
+
+/// What the description of a robot leaves out of its motion, and locked joints that a log has
+/// somewhere else.
+pub fn doubts<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Run>) -> Vec<String> {
+    let of_motion = loaded.warnings.iter().filter(|warning| warning.is_about_motion());
+    let mut doubts: Vec<String> = of_motion.map(RobotWarning::to_string).collect();
+    for run in runs {
+        doubts.extend(loaded.locked.iter().filter_map(|lock| elsewhere(lock, run)));
+    }
+    doubts
+}
+
+/// Says where a log has a joint that is locked at another place.
+fn elsewhere(lock: &LockedJoint, run: &Run) -> Option<String> {
+    let LockedJoint { joint, position, .. } = lock;
+    let logged = run.extra.get(&format!("{joint}.position"))?;
+    let known = || logged.iter().copied().filter(|q| q.is_finite());
+    let (low, high) = (known().reduce(f64::min)?, known().reduce(f64::max)?);
+    if low > position - NEAR && high < position + NEAR {
+        return None;
+    }
+    let [at, low_said, high_said] = [*position, low, high].map(short);
+    let advice = if high - low < 2.0 * NEAR {
+        let middle = short(0.5 * (low + high));
+        format!("locked = {{ {joint} = {middle} }} in a robot.toml locks it there")
+    } else {
+        "what its motion does to the torque of the others is left out".to_owned()
+    };
+    Some(format!(
+        "{}: joint {joint} is locked at {at}, the log has it from {low_said} to {high_said}: {advice}",
+        run.name
+    ))
+}
+
+fn short(value: f64) -> String {
+    report::significant(value, 3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(logged: &[f64]) -> Option<String> {
+        let lock = LockedJoint { joint: "grip".to_owned(), position: 0.2, mimics: None };
+        let run = Run {
+            name: "run_1".to_owned(),
+            source: "run_1.csv".into(),
+            sha256: String::new(),
+            is_torn: false,
+            time: vec![0.0; logged.len()],
+            joints: vec![],
+            extra: [("grip.position".to_owned(), logged.to_vec())].into(),
+        };
+        elsewhere(&lock, &run)
+    }
+
+    #[test]
+    fn a_log_that_has_a_locked_joint_elsewhere_or_moving_is_told() {
+        assert_eq!(said(&[]), None);
+        assert_eq!(said(&[f64::NAN, 0.2001, 0.1999]), None);
+        assert_eq!(
+            said(&[0.3, 0.302]).unwrap(),
+            "run_1: joint grip is locked at 0.2, the log has it from 0.3 to 0.302: \
+             locked = { grip = 0.301 } in a robot.toml locks it there"
+        );
+        assert_eq!(
+            said(&[0.2, 0.5]).unwrap(),
+            "run_1: joint grip is locked at 0.2, the log has it from 0.2 to 0.5: \
+             what its motion does to the torque of the others is left out"
+        );
+    }
+}

@@ -1,0 +1,158 @@
+use std::collections::BTreeMap;
+
+use crate::{Robot, RobotError};
+
+/// The joints of a robot that move; the others are locked, and what they carry is fixed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Part {
+    /// Names of the joints that move; `None` for all that are not locked.
+    pub joints: Option<Vec<String>>,
+    /// Where joints are locked (rad or m); one that neither names is locked at zero.
+    pub locked: BTreeMap<String, f64>,
+}
+
+/// A joint that is held where it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LockedJoint {
+    /// Name of the joint.
+    pub joint: String,
+    /// Where it is held (rad or m).
+    pub position: f64,
+    /// The joint it mimics, where the URDF says so and no other position is given.
+    pub mimics: Option<String>,
+}
+
+/// `<mimic>`: how a joint follows its master.
+///
+/// ```text
+/// q = multiplier q_master + offset
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Mimic {
+    pub master: String,
+    pub multiplier: f64,
+    /// Position with the master at zero (rad or m).
+    pub offset: f64,
+}
+
+/// What each joint with `<mimic>` follows.
+pub(crate) type Mimics = BTreeMap<String, Mimic>;
+
+impl Part {
+    /// Whether nothing is said: every joint moves that can.
+    pub fn is_whole(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The joints of `whole` that are locked, in its order.
+    ///
+    /// A joint that mimics another is held where that one has it: at the place of its locked
+    /// master, or at that of the master's zero.
+    ///
+    /// # Errors
+    ///
+    /// [`RobotError::UnknownName`], [`RobotError::NotFinite`], [`RobotError::KeysDisagree`] and
+    /// [`RobotError::MimicJoint`] for a name or a position that cannot be meant.
+    pub(crate) fn locks(
+        &self,
+        whole: &Robot,
+        mimics: &Mimics,
+    ) -> Result<Vec<LockedJoint>, RobotError> {
+        self.check(whole, mimics)?;
+        let mut locks = vec![];
+        for joint in whole.joint_names() {
+            let lock = |position, mimics| LockedJoint { joint: joint.into(), position, mimics };
+            if let Some(position) = self.given(joint, mimics) {
+                locks.push(lock(position, None));
+            } else if let Some(mimic) = mimics.get(joint) {
+                let position = self.followed(joint, mimics);
+                finite(joint, "position as a mimic", position)?;
+                locks.push(lock(position, Some(mimic.master.clone())));
+            }
+        }
+        Ok(locks)
+    }
+
+    /// The joint that moves and that `joint` follows, directly or through others.
+    pub(crate) fn moving_master<'a>(
+        &self,
+        joint: &str,
+        whole: &'a Robot,
+        mimics: &Mimics,
+    ) -> Option<&'a str> {
+        let (_, _, last) = self.followed_to(joint, mimics);
+        let moves = self.given(last, mimics).is_none();
+        let index = whole.joint_index(last).filter(|_| moves)?;
+        whole.joint_names().nth(index)
+    }
+
+    fn check(&self, whole: &Robot, mimics: &Mimics) -> Result<(), RobotError> {
+        let kept = self.joints.iter().flatten();
+        for (place, name) in
+            kept.clone().map(|n| ("joints", n)).chain(self.locked.keys().map(|n| ("locked", n)))
+        {
+            known(place, name, whole)?;
+        }
+        for name in kept {
+            if let Some(mimic) = mimics.get(name) {
+                let (joint, of) = (name.clone(), mimic.master.clone());
+                return Err(RobotError::MimicJoint { joint, of });
+            }
+            if self.locked.contains_key(name) {
+                return Err(RobotError::KeysDisagree {
+                    thing: format!("joint {name}"),
+                    found: "it is in joints and in locked",
+                    expected: "one of the two",
+                });
+            }
+        }
+        self.locked.iter().try_for_each(|(name, &position)| finite(name, "locked", position))
+    }
+
+    /// The position at which the keys lock a joint (rad or m).
+    fn given(&self, joint: &str, mimics: &Mimics) -> Option<f64> {
+        let left_out = self.joints.as_ref().is_some_and(|kept| !kept.iter().any(|k| k == joint));
+        let at_zero = (left_out && !mimics.contains_key(joint)).then_some(0.0);
+        self.locked.get(joint).copied().or(at_zero)
+    }
+
+    /// Where a joint that mimics another is held (rad or m).
+    fn followed(&self, joint: &str, mimics: &Mimics) -> f64 {
+        let (multiplier, offset, last) = self.followed_to(joint, mimics);
+        multiplier * self.given(last, mimics).unwrap_or(0.0) + offset
+    }
+
+    /// The first joint up the chain of masters that has a place of its own, and how `joint`
+    /// follows it. The chain ends: the URDF was checked for that.
+    fn followed_to<'a>(&self, joint: &'a str, mimics: &'a Mimics) -> (f64, f64, &'a str) {
+        let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
+        for _ in 0..mimics.len() {
+            let Some(mimic) = mimics.get(at).filter(|_| self.given(at, mimics).is_none()) else {
+                break;
+            };
+            offset += multiplier * mimic.offset;
+            multiplier *= mimic.multiplier;
+            at = &mimic.master;
+        }
+        (multiplier, offset, at)
+    }
+}
+
+/// The positions by the names of the joints.
+pub(crate) fn positions(locks: &[LockedJoint]) -> BTreeMap<String, f64> {
+    locks.iter().map(|lock| (lock.joint.clone(), lock.position)).collect()
+}
+
+/// Refuses a name that no joint has.
+fn known(place: &str, name: &str, whole: &Robot) -> Result<(), RobotError> {
+    if whole.joint_index(name).is_some() {
+        return Ok(());
+    }
+    let names: Vec<&str> = whole.joint_names().collect();
+    Err(RobotError::unknown_name(place, "moving joint", name, &names))
+}
+
+fn finite(joint: &str, quantity: &'static str, value: f64) -> Result<(), RobotError> {
+    let thing = format!("joint {joint}");
+    if value.is_finite() { Ok(()) } else { Err(RobotError::NotFinite { thing, quantity, value }) }
+}
