@@ -10,10 +10,9 @@ const NO_MASS: &str = r#"<inertial><mass value="0"/><inertia ixx="0" ixy="0" ixz
 
 #[test]
 fn a_link_of_mass_zero_that_is_fixed_or_is_the_base_is_a_frame() {
-    let bare = format!(
-        r#"<link name="tool"/>
+    let bare = r#"<link name="tool"/>
   <joint name="mount" type="fixed"><parent link="lower"/><child link="tool"/></joint>"#
-    );
+        .to_owned();
     let heavy =
         bare.replace(r#"<link name="tool"/>"#, &format!(r#"<link name="tool">{NO_MASS}</link>"#));
     let [bare, heavy] = [bare, heavy].map(|extra| {

@@ -98,11 +98,11 @@ pub enum LogError {
         /// The robot's joint.
         joint: String,
         /// The column that was expected.
-        column: String,
+        column: Box<str>,
         /// The joints of the log.
-        found: Vec<String>,
+        found: Box<[String]>,
         /// The joints of the robot that the log has.
-        shared: Vec<String>,
+        shared: Box<[String]>,
         /// The joint of the log with the most similar name that the robot does not have.
         nearest: Option<String>,
     },

@@ -184,7 +184,7 @@ impl<'a> Finder<'_, 'a> {
             let nearest = nearest(&column, self.names.iter().filter(own).map(String::as_str));
             return LogError::NoColumn { path: self.path.to_owned(), column, purpose, nearest };
         }
-        let found: Vec<String> = self
+        let found: Box<[String]> = self
             .names
             .iter()
             .filter_map(|n| n.strip_suffix(".position"))
@@ -198,7 +198,7 @@ impl<'a> Finder<'_, 'a> {
         LogError::JointAbsent {
             path: self.path.to_owned(),
             joint: joint.to_owned(),
-            column,
+            column: column.into(),
             shared,
             found,
             nearest,

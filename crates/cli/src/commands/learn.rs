@@ -12,7 +12,6 @@ use std::str::FromStr;
 use dynamics::ColumnSet;
 use learner::{ModelKind, PriorSpread, TrainSettings};
 use report::ReportError;
-use robot::Robot;
 
 use crate::Outcome;
 use crate::error::CliError;

@@ -74,7 +74,7 @@ fn robot_from_columns(path: &Path, options: &ReadOptions) -> Result<Robot, CliEr
     // The log is asked for a joint that no log has; the answer lists those it has.
     let asked = robot_of(&["\u{0}".to_owned()])?;
     let joints = match logs::read_run(path, &asked, options) {
-        Err(LogError::JointAbsent { found, .. }) => found,
+        Err(LogError::JointAbsent { found, .. }) => found.into_vec(),
         Err(other) => return Err(other.into()),
         Ok(_) => Vec::new(),
     };

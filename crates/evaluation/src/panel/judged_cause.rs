@@ -3,6 +3,7 @@ use population::{Cause, Role, Strength};
 use serde::{Deserialize, Serialize};
 
 use super::BaselineClaim;
+use super::dry_friction::DryFriction;
 use crate::trials::{Size, stored};
 
 /// A cause that is in the data, and who names it.
@@ -23,12 +24,17 @@ pub struct JudgedCause {
     pub two_questions: bool,
     /// Whether plain least squares names it.
     pub least_squares: bool,
-    /// Its parameters.
+    /// Its parameters, levels of dry friction with all that is at the joint.
     pub sizes: Vec<Size>,
 }
 
 impl JudgedCause {
-    pub(super) fn new(cause: &Cause, findings: &[&Finding], claims: [&[BaselineClaim]; 2]) -> Self {
+    /// One of `all` causes, beside what is found and what the baselines claim.
+    pub(super) fn new(
+        (cause, all): (&Cause, &[Cause]),
+        findings: &[&Finding],
+        claims: [&[BaselineClaim]; 2],
+    ) -> Self {
         let at = place(cause);
         let finding = findings.iter().position(|f| f.at == at);
         let says = |f: &&Finding| f.at == at || f.not_separable_from.contains(&at);
@@ -43,7 +49,10 @@ impl JudgedCause {
             one_of,
             two_questions,
             least_squares,
-            sizes: Size::all(&cause.truth, estimates),
+            sizes: Size::all(
+                &DryFriction::beside(cause, all).with(&cause.truth, estimates),
+                estimates,
+            ),
             at,
         }
     }

@@ -48,7 +48,7 @@ impl Judgement {
         let two_questions = BaselineClaim::all(&answers.two_questions, &causes);
         let least_squares = BaselineClaim::all(&answers.least_squares, &causes);
         let claims = [&two_questions[..], &least_squares[..]];
-        let judged = |cause| JudgedCause::new(cause, &findings, claims);
+        let judged = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
         let stranger =
             |other: &Unnamed| Unnamed { strength: finite(other.strength), ..other.clone() };
         Self {

@@ -4,6 +4,7 @@
 mod answers;
 mod comparison;
 mod comparison_text;
+mod dry_friction;
 mod judged_cause;
 mod judged_finding;
 mod judgement;

@@ -87,6 +87,8 @@ fn stated(effect: EffectKind, parameter: &str) -> Stated {
         (E::ViscousFriction, "viscous")
         | (E::CoulombFriction, "level")
         | (E::AsymmetricFriction, "forward" | "backward")
+        | (E::StribeckFriction, "coulomb" | "breakaway")
+        | (E::PreslidingFriction | E::PositionDependentFriction, "level")
         | (E::RotorInertia, "inertia")
         | (E::TorqueOffset, "offset")
         | (E::CableSpring, "stiffness")
