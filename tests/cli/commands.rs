@@ -25,7 +25,7 @@ fn help_names_every_command_and_every_exit_code() {
         "--out",
         "--map",
         "--effort",
-        "--seed",
+        "--cutoff-hz",
         "figure.svg",
         "Examples:",
         "Exit codes:",
@@ -39,11 +39,10 @@ fn wrong_usage_exits_with_two() {
     let folder = arm::folder(Gap::None);
     let base = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "--out", "out"];
     let with = |more: &[&str]| run(folder.path(), &[&base, more].concat());
-    let cases: [(Answer, &str); 8] = [
+    let cases: [(Answer, &str); 7] = [
         (run(folder.path(), &[]), "Usage"),
         (run(folder.path(), &["diagnoze"]), "diagnose"),
         (run(folder.path(), &["diagnose", "--robot", "arm.urdf"]), "--log"),
-        (with(&["--fdr", "1.5"]), "between 0 and 1"),
         (with(&["--cutoff-hz", "-3"]), "--cutoff-hz"),
         (with(&["--cutoff-hz", "abc"]), "a positive number was expected"),
         (with(&["--cutoff-hz", "5000"]), "half the sampling rate"),

@@ -65,12 +65,12 @@ mod tests {
         assert_eq!(said(&[f64::NAN, 0.2001, 0.1999]), None);
         assert_eq!(
             said(&[0.3, 0.302]).unwrap(),
-            "run_1: joint grip is locked at 0.2, the log has it from 0.3 to 0.302: \
+            "run_1: joint grip is locked at 0.200, the log has it from 0.300 to 0.302: \
              locked = { grip = 0.301 } in a robot.toml locks it there"
         );
         assert_eq!(
             said(&[0.2, 0.5]).unwrap(),
-            "run_1: joint grip is locked at 0.2, the log has it from 0.2 to 0.5: \
+            "run_1: joint grip is locked at 0.200, the log has it from 0.200 to 0.500: \
              what its motion does to the torque of the others is left out"
         );
     }

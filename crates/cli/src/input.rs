@@ -63,12 +63,6 @@ pub struct SearchArguments {
     /// Cut-off of the low-pass filter; chosen from the data when it is left out
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub cutoff_hz: Option<f64>,
-    /// Share of false causes that is accepted among the findings
-    #[arg(long, value_name = "SHARE", default_value_t = Settings::default().false_discovery_rate, value_parser = share, allow_negative_numbers = true)]
-    pub fdr: f64,
-    /// Seed of every random draw
-    #[arg(long, default_value_t = Settings::default().seed)]
-    pub seed: u64,
     /// An effect that the robot is known not to have and is not looked for; may be said again
     #[arg(long, value_name = "EFFECT", value_parser = effect)]
     pub without: Vec<EffectKind>,
@@ -80,8 +74,6 @@ impl SearchArguments {
         Settings {
             cutoff_hz: self.cutoff_hz,
             control_rate_hz: loaded.control.rate_hz,
-            false_discovery_rate: self.fdr,
-            seed: self.seed,
             without: self.without.clone(),
             ..Settings::default()
         }
@@ -138,11 +130,6 @@ fn package(text: &str) -> Result<(String, PathBuf), String> {
 /// A positive number of an option.
 pub fn positive(text: &str) -> Result<f64, String> {
     number(text, |v| v > 0.0 && v.is_finite(), "a positive number was expected")
-}
-
-/// A number of an option between 0 and 1.
-pub fn share(text: &str) -> Result<f64, String> {
-    number(text, |v| v > 0.0 && v < 1.0, "a number between 0 and 1 was expected")
 }
 
 fn number(text: &str, fits: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {

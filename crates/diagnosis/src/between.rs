@@ -13,7 +13,7 @@ use crate::study::{Study, Told};
 pub(crate) struct Between {
     pub found: Vec<Finding>,
     pub ruled_out: Vec<RuledOut>,
-    /// Number of hypotheses tested.
+    /// Number of hypotheses that were looked for.
     pub hypotheses: usize,
     /// The robot with what was found.
     pub robot: Robot,
@@ -65,7 +65,7 @@ pub(crate) fn between(
         Ok(Some(Between {
             found: found.into_iter().map(|f| f.finding).collect(),
             ruled_out,
-            hypotheses: conclusion.significance.count(),
+            hypotheses: conclusion.problem.design.groups.len(),
             robot: conclusion.solution.robot,
         }))
     })?

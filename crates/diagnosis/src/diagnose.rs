@@ -56,12 +56,11 @@ pub struct Outcome {
 /// 2. Residuals of a model of everything give each joint's noise and its autocorrelation
 ///    time; `n` samples count as `n / time`.
 /// 3. Hypotheses enter by evidence, physics and held-out gain, are exchanged and dropped.
-/// 4. A sign-flip test over blocks gives p-values, Benjamini & Hochberg the q-values. What no one
-///    size of it explains has no name.
+/// 4. What no one size of it explains has no name.
 /// 5. The search is repeated without each held-out part, which gives the gain.
 /// 6. A flexible predictor tells whether structure remains and what it follows.
 ///
-/// The same input and seed give the same answer, whatever the number of threads.
+/// The same input gives the same answer, whatever the number of threads.
 ///
 /// # Errors
 ///

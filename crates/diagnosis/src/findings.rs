@@ -12,8 +12,6 @@ use crate::result::{EffectAt, Finding};
 use crate::rivals::rivals;
 use crate::select::Selection;
 use crate::settled::Withheld;
-use crate::significance::Significance;
-use crate::stability::stability;
 use crate::uncertainty::{Fitted, Uncertainty};
 
 /// What two encoders cannot say of their difference.
@@ -32,14 +30,12 @@ pub(crate) struct Found {
 pub(crate) struct Evidence<'a> {
     pub selection: &'a Selection<'a>,
     pub model: &'a Model,
-    pub significance: &'a Significance,
     /// Findings and those that do worse in their place once the robot has either.
     pub apart: &'a Apart,
     /// What has no name because its size would have to vary, and how.
     pub withheld: &'a Withheld,
     /// What predicts worse than the description.
     pub failed: &'a Failed,
-    pub seed: u64,
 }
 
 impl Evidence<'_> {
@@ -52,11 +48,12 @@ impl Evidence<'_> {
         let with = problem.held_out(self.model);
         let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
         let nominal = problem.held_out(&Model::new());
-        let stable = stability(problem, self.model, self.seed);
-        let mut found: Vec<Found> = stable
-            .into_iter()
-            .filter(|(g, _)| self.bearer(*g).is_none())
-            .map(|(g, stability)| {
+        let mut found: Vec<Found> = self
+            .model
+            .iter()
+            .copied()
+            .filter(|g| self.bearer(*g).is_none())
+            .map(|g| {
                 let mut without = self.model.clone();
                 without.remove(&g);
                 without.retain(|&level| self.bearer(level) != Some(g));
@@ -65,9 +62,9 @@ impl Evidence<'_> {
                 let fall: Vec<f64> =
                     bare.mean_square.iter().zip(&with.mean_square).map(|(b, w)| b - w).collect();
                 let mut finding = self.finding(g, (&uncertainty, fitted), [&nominal, &bare, with]);
-                finding.stability = stability;
-                let loss = problem.fit(&without).map_or(0.0, |f| fit.evidence - f.evidence);
-                finding.evidence = self.evidence(g, loss, &bare, with);
+                finding.log_evidence =
+                    problem.fit(&without).map_or(0.0, |f| fit.evidence - f.evidence);
+                finding.evidence = self.evidence(g, finding.log_evidence, &bare, with);
                 Found { finding, fall }
             })
             .collect();
@@ -166,9 +163,8 @@ impl Evidence<'_> {
             at: effect_at(robot, group.hypothesis),
             parameters: uncertainty.estimates(fitted, group.hypothesis, &level),
             share_explained: share(before),
-            q_value: self.significance.q[g].unwrap_or(1.0),
             held_out_gain: share(without),
-            stability: 0.0,
+            log_evidence: 0.0,
             told_apart_by: told_apart_by(problem, g, &rivals),
             not_separable_from: rivals
                 .iter()
@@ -206,12 +202,6 @@ impl Evidence<'_> {
             });
         }
         evidence.push(format!("log evidence {loss:.0} higher with it than without"));
-        if let Some(p) = self.significance.p[g] {
-            let stretches = problem.independent().len();
-            evidence.push(format!(
-                "p = {p:.4} in the sign-flip test over {stretches} independent stretches"
-            ));
-        }
         evidence
     }
 }

@@ -53,7 +53,13 @@ fn described_limits(robot: &Robot) -> Vec<Limit> {
         // A URDF that knows no limit often states one of zero.
         let limit = link.joint.limits.effort.filter(|limit| *limit > 0.0)?;
         let is_command = link.actuator.torque_source != TorqueSource::Measured;
-        is_command.then_some(Limit { joint, limit, ci95: [limit; 2], share: 0.0 })
+        is_command.then_some(Limit {
+            joint,
+            limit,
+            ci95: [limit; 2],
+            share: 0.0,
+            log_evidence: 0.0,
+        })
     };
     robot.links().iter().enumerate().filter_map(limit).collect()
 }

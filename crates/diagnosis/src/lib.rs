@@ -10,8 +10,6 @@
 mod at_limits;
 mod between;
 mod blocks;
-#[cfg(test)]
-mod calibration;
 mod compare;
 mod constancy;
 mod contest;
@@ -25,7 +23,6 @@ mod extent;
 mod failed;
 mod findings;
 mod fit;
-mod flip_test;
 mod gain;
 mod gram;
 mod heard;
@@ -50,9 +47,7 @@ mod settings;
 mod settle;
 mod settled;
 mod shapes;
-mod significance;
 mod spectrum;
-mod stability;
 mod structure;
 mod study;
 mod tone;

@@ -44,6 +44,9 @@ pub(crate) struct Limit {
     pub ci95: [f64; 2],
     /// Share of what all other effects leave.
     pub share: f64,
+    /// Logarithm of how much more likely the logs are with it, `n` correlated samples counting as
+    /// `n / time`.
+    pub log_evidence: f64,
 }
 
 impl Limit {
@@ -79,9 +82,8 @@ impl Limit {
                 determined: true,
             }],
             share_explained: self.share,
-            q_value: 0.0,
+            log_evidence: self.log_evidence,
             held_out_gain: self.share,
-            stability: 1.0,
             not_separable_from: Vec::new(),
             told_apart_by: None,
             evidence: vec![format!(
@@ -166,7 +168,8 @@ fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogE
         let share = LOWEST_QUANTILE + (1.0 - LOWEST_QUANTILE) * k as f64 / TRIALS as f64;
         efforts.get((share * efforts.len() as f64) as usize).copied().unwrap_or(0.0)
     };
-    let at = |limit: f64| Limit { joint: j, limit, ci95: [limit; 2], share: 0.0 };
+    let at =
+        |limit: f64| Limit { joint: j, limit, ci95: [limit; 2], share: 0.0, log_evidence: 0.0 };
     let deviance = |limit: f64| trial(runs, left, &at(limit)).map(|t| t.deviance);
     let mut curve: Vec<(f64, f64)> = Vec::new();
     for k in 0..TRIALS {
@@ -197,7 +200,8 @@ fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogE
         return Ok(None);
     }
     let samples = found.rest.iter().map(Vec::len).sum::<usize>() as f64;
-    let rise = CHI_SQUARE * found.deviance / samples * integrated_time(&found.rest);
+    let independent = samples / integrated_time(&found.rest);
+    let rise = CHI_SQUARE * found.deviance / independent;
     let mut ci95 = [limit.limit; 2];
     for (end, way) in ci95.iter_mut().zip([-1.0, 1.0]) {
         let mut step = 1e-4 * limit.limit;
@@ -206,5 +210,7 @@ fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogE
             step *= 1.5;
         }
     }
-    Ok(Some(Limit { ci95, share: (1.0 - found.deviance / unlimited).clamp(0.0, 1.0), ..limit }))
+    let left = (found.deviance / unlimited).clamp(f64::MIN_POSITIVE, 1.0);
+    let log_evidence = -0.5 * independent * left.ln();
+    Ok(Some(Limit { ci95, share: 1.0 - left, log_evidence, ..limit }))
 }

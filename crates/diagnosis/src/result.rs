@@ -196,12 +196,10 @@ pub struct Finding {
     pub parameters: Vec<Estimate>,
     /// Share of the nominal residual's power that goes with it, over the joints it acts on.
     pub share_explained: f64,
-    /// False-discovery rate at which it would just be reported.
-    pub q_value: f64,
+    /// Logarithm of how much more likely the logs are with it than without it.
+    pub log_evidence: f64,
     /// Relative fall of the held-out residual's power when it is added to the other findings.
     pub held_out_gain: f64,
-    /// Share of half-samples of the log in which it earns its place.
-    pub stability: f64,
     /// Effects that explain the held-out data as well in its stead.
     pub not_separable_from: Vec<EffectAt>,
     /// The motion that would separate them, if there are rivals.
@@ -353,7 +351,7 @@ pub struct DataSummary {
     pub block_s: f64,
     /// Number of blocks.
     pub blocks: usize,
-    /// Number of hypotheses tested.
+    /// Number of hypotheses that were looked for.
     pub hypotheses: usize,
 }
 

@@ -92,7 +92,6 @@ impl Evidence<'_> {
         let mut larger = self.model.clone();
         larger.insert(g);
         let gain = fit.evidence_of(&problem.info, &columns, &problem.design.prior);
-        let p = self.significance.p[g].map_or_else(String::new, |p| format!(", p = {p:.3}"));
         let because = if let Some(variation) = self.withheld.get(&g) {
             self.words(variation)
         } else if self.failed.drops(problem.design, g) && gain > 0.0 {
@@ -103,9 +102,9 @@ impl Evidence<'_> {
         } else if !self.selection.is_possible(&larger, g) {
             "its best size is not physically possible".to_owned()
         } else if gain < 3.0 {
-            format!("it adds {gain:.1} to the log evidence, 3 are needed{p}")
+            format!("it adds {gain:.1} to the log evidence, 3 are needed")
         } else {
-            format!("it adds nothing on held-out data that counts{p}")
+            "it adds nothing on held-out data that counts".to_owned()
         };
         (Some(sharpest), because)
     }

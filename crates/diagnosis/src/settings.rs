@@ -9,12 +9,6 @@ pub struct Settings {
     pub cutoff_hz: Option<f64>,
     /// Rate at which commanded efforts are renewed (Hz); the log's own where none is given.
     pub control_rate_hz: Option<f64>,
-    /// Expected share of false causes among the findings.
-    pub false_discovery_rate: f64,
-    /// Seed of every random draw.
-    pub seed: u64,
-    /// Number of random sign patterns behind a p-value.
-    pub sign_flips: usize,
     /// Least held-out fall of a joint's RMS error that counts, as a share of its effort RMS.
     pub practical_share: f64,
     /// Share of a joint's effort RMS below which what is left beyond the noise is not open.
@@ -28,10 +22,6 @@ impl Default for Settings {
         Self {
             cutoff_hz: None,
             control_rate_hz: None,
-            false_discovery_rate: 0.05,
-            seed: 0,
-            // The least p-value, 1e-4, times a hundred and some hypotheses is still below 0.05.
-            sign_flips: 9999,
             practical_share: 0.005,
             open_share: 0.02,
             without: Vec::new(),
@@ -52,13 +42,6 @@ impl Settings {
                 return refuse("cut-off", hz, "a positive number of hertz");
             }
             _ => {}
-        }
-        let fdr = self.false_discovery_rate;
-        if !(fdr > 0.0 && fdr < 1.0) {
-            return refuse("false discovery rate", fdr, "a number between 0 and 1");
-        }
-        if self.sign_flips < 99 {
-            return refuse("number of sign flips", self.sign_flips as f64, "at least 99");
         }
         for (name, share) in
             [("practical share", self.practical_share), ("open share", self.open_share)]

@@ -9,7 +9,6 @@ use crate::extend::{Solved, solved};
 use crate::problem::{Model, Problem};
 use crate::search::Record;
 use crate::select::Selection;
-use crate::significance::{Significance, Tested, tested};
 use crate::study::Study;
 use crate::uncertainty::untenable;
 
@@ -19,11 +18,10 @@ const EXCHANGES: usize = 4;
 /// Effects without a name because their sizes would have to vary.
 pub(crate) type Withheld = BTreeMap<usize, Variation>;
 
-/// A model that is significant and of a size that is decided and constant, and the robot with it.
+/// A model of sizes that are decided and constant, and the robot with it.
 #[derive(Debug)]
 pub(crate) struct Settled {
     pub model: Model,
-    pub significance: Significance,
     pub solution: Solved,
     pub withheld: Withheld,
 }
@@ -51,8 +49,8 @@ impl Study<'_> {
         }
     }
 
-    /// What is significant, stable and of a size that is decided and constant of a model. What falls
-    /// leaves its place to what says less.
+    /// What is of a size that is decided and constant of a model. What falls leaves its place to what
+    /// says less.
     fn settled(
         &self,
         selection: &Selection,
@@ -61,25 +59,16 @@ impl Study<'_> {
     ) -> Result<Settled, DiagnosisError> {
         let problem = selection.problem;
         loop {
-            let (significant, tested) = tested(problem, model, self.settings);
-            let significance = match tested {
-                Tested::Falls(g) => {
-                    model = selection.without(&significant, g);
-                    continue;
-                }
-                Tested::Stands(significance) => significance,
-            };
-            let solution = solved(self.robot, &self.log, problem, &significant)?;
-            let first = self.fitted(problem, &significant, &solution);
-            if let Some(g) = solution.tell(&first, |f| untenable(problem, &significant, f)) {
-                model = selection.without(&significant, g);
+            let solution = solved(self.robot, &self.log, problem, &model)?;
+            let first = self.fitted(problem, &model, &solution);
+            if let Some(g) = solution.tell(&first, |f| untenable(problem, &model, f)) {
+                model = selection.without(&model, g);
                 continue;
             }
-            let varying = self.varying(problem, &significant, &withheld, &solution)?;
+            let varying = self.varying(problem, &model, &withheld, &solution)?;
             if varying.is_empty() {
-                return Ok(Settled { model: significant, significance, solution, withheld });
+                return Ok(Settled { model, solution, withheld });
             }
-            model = significant;
             model.retain(|g| !varying.contains_key(g));
             withheld.extend(varying);
         }

@@ -22,7 +22,6 @@ use crate::result::{Diagnosis, RuledOut};
 use crate::search::Record;
 use crate::settings::Settings;
 use crate::settled::{Settled, Withheld};
-use crate::significance::Significance;
 use crate::traces::{RunTraces, traces};
 use crate::uncertainty::Fitted;
 
@@ -49,7 +48,7 @@ pub(crate) struct Answer<'a> {
     pub ruled_out: Vec<RuledOut>,
     /// The smallest level of dry friction that would have been found at every joint (N·m or N).
     pub unseen_friction: Vec<f64>,
-    /// Number of hypotheses tested.
+    /// Number of hypotheses that were looked for.
     pub hypotheses: usize,
     pub gain: HeldOutGain,
     pub failed: Failed,
@@ -64,7 +63,6 @@ pub(crate) struct Answer<'a> {
 pub(crate) struct Conclusion<'a> {
     pub problem: Problem<'a>,
     pub model: Model,
-    pub significance: Significance,
     pub solution: Solved,
     pub apart: Apart,
     pub withheld: Withheld,
@@ -166,7 +164,7 @@ impl Study<'_> {
             .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
         let Told { found, ruled_out, unseen_friction } = self.told(record, &conclusion);
         let extended = self.finished(conclusion.solution.robot.clone());
-        let hypotheses = conclusion.significance.count();
+        let hypotheses = conclusion.problem.design.groups.len();
         let between = self.between(&extended)?;
         let extended = between.as_ref().map_or(extended, |b| b.robot.clone());
         Ok(Answer {
@@ -195,8 +193,7 @@ impl Study<'_> {
         answer.by_run.folds.iter().zip(&answer.gain.folds).map(part).collect()
     }
 
-    /// What a search over the whole record comes to: significant, stable and of a size that is
-    /// decided.
+    /// What a search over the whole record comes to, of sizes that are decided and constant.
     pub fn conclusion<'b>(
         &self,
         record: &Record<'b>,
@@ -205,11 +202,11 @@ impl Study<'_> {
         let all: Vec<usize> = (0..record.blocks.len()).collect();
         let Searched { problem, model, .. } = self.searched(record, &all)?;
         progress.step();
-        let (Settled { model, significance, solution, withheld }, apart) =
+        let (Settled { model, solution, withheld }, apart) =
             self.contested(record, &problem, model)?;
         progress.step();
         let failed = Failed::default();
-        Ok(Conclusion { problem, model, significance, solution, apart, withheld, failed })
+        Ok(Conclusion { problem, model, solution, apart, withheld, failed })
     }
 
     /// What a search on the blocks `of` comes to. It goes on without every effect that does less than
@@ -289,17 +286,9 @@ impl Study<'_> {
 
     /// The findings of a conclusion, and what they leave out.
     pub fn told(&self, record: &Record, conclusion: &Conclusion) -> Told {
-        let Conclusion { problem, model, significance, solution, apart, withheld, failed } =
-            conclusion;
-        let evidence = Evidence {
-            selection: &record.selection(problem),
-            model,
-            significance,
-            apart,
-            withheld,
-            failed,
-            seed: self.settings.seed,
-        };
+        let Conclusion { problem, model, solution, apart, withheld, failed } = conclusion;
+        let evidence =
+            Evidence { selection: &record.selection(problem), model, apart, withheld, failed };
         let first = self.fitted(problem, model, solution);
         let found = solution.tell(&first, |fitted| evidence.findings(fitted));
         let unseen_friction = evidence.unseen_friction();

@@ -39,9 +39,8 @@ pub(crate) fn tone_finding(robot: &Robot, tone: &Tone) -> Finding {
         parameters: parameters(robot, tone),
         share_explained: tone.share,
         // One false line in exp(ratio) looked at, in every run.
-        q_value: (-tone.stands_out).exp(),
+        log_evidence: tone.stands_out,
         held_out_gain: tone.share,
-        stability: 1.0,
         not_separable_from: Vec::new(),
         told_apart_by: None,
         evidence,

@@ -5,7 +5,7 @@
 //! effort - nominal effort = sum over hypotheses of columns(motion) weights + noise
 //! ```
 //!
-//! One file an effect, under the name it has in `catalogue` (delay and lag are `late_torque`);
+//! The README of this crate says how an effect is added. One file an effect, under the name it has in `catalogue` (delay and lag are `late_torque`);
 //! [`model`] finds it, or says what an effect without one would need. [`Compensation`] asks the
 //! motors for what undoes the effects that a robot's description holds, and [`remedy`] says
 //! which those are.

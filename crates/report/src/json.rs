@@ -71,9 +71,8 @@ struct FindingByName<'a> {
     #[serde(serialize_with = "by_name")]
     parameters: &'a [Estimate],
     share_explained: f64,
-    q_value: f64,
+    log_evidence: f64,
     held_out_gain: f64,
-    stability: f64,
     not_separable_from: &'a [EffectAt],
     #[serde(skip_serializing_if = "Option::is_none")]
     told_apart_by: Option<&'a str>,
@@ -107,9 +106,8 @@ impl<'a> FindingByName<'a> {
             at: &finding.at,
             parameters: &finding.parameters,
             share_explained: finding.share_explained,
-            q_value: finding.q_value,
+            log_evidence: finding.log_evidence,
             held_out_gain: finding.held_out_gain,
-            stability: finding.stability,
             not_separable_from: &finding.not_separable_from,
             told_apart_by: finding.told_apart_by,
             evidence: &finding.evidence,
@@ -142,7 +140,7 @@ mod tests {
     #[test]
     fn parameters_stand_under_their_names_and_not_a_number_is_null() {
         let mut sample = sample::arm();
-        sample.diagnosis.findings[0].q_value = f64::NAN;
+        sample.diagnosis.findings[0].log_evidence = f64::NAN;
         let text = super::json(&sample.report()).unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["schema"], "plumbline.diagnosis/1");
@@ -153,7 +151,7 @@ mod tests {
         assert_eq!(codes.map(|at| &at["code"]), ["FR02", "FR01", "EN02"]);
         assert_eq!(finding["parameters"]["level"]["unit"], "N m");
         assert_eq!(finding["parameters"]["level"]["ci95"][1], 2.2);
-        assert!(finding["q_value"].is_null());
+        assert!(finding["log_evidence"].is_null());
         assert!(value["provenance"]["files"][0]["sha256"].is_string());
     }
 }

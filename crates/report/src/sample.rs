@@ -182,9 +182,8 @@ fn coulomb(joint: &str) -> Finding {
         at: EffectAt { effect: EffectKind::CoulombFriction, joint: Some(joint.into()), link: None },
         parameters: vec![estimate("level", 2.0, [1.8, 2.2], "N m")],
         share_explained: 0.71,
-        q_value: 0.005,
+        log_evidence: 214.0,
         held_out_gain: 0.62,
-        stability: 1.0,
         not_separable_from: vec![EffectAt {
             effect: EffectKind::ViscousFriction,
             joint: Some(joint.into()),

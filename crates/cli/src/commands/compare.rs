@@ -82,7 +82,6 @@ fn write(
         let map = arguments.columns.map.as_deref();
         let mut provenance = provenance(&arguments.robot, loaded, map)?;
         provenance.files.extend(hashes_of(runs));
-        provenance.seed = Some(arguments.search.seed);
         let report = Report::new(outcome, &loaded.robot, &provenance);
         let json = report::json(&report)?;
         diagnose::write(&arguments.out.join(name), loaded, outcome, (&report, &json), None)?;

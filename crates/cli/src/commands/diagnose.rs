@@ -90,7 +90,6 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
 
     let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map.as_deref())?;
     provenance.files.extend(hashes_of(&runs));
-    provenance.seed = Some(arguments.search.seed);
     let report = Report {
         residual: residual.as_ref().map(|learned| &learned.said),
         forward: forward.as_ref(),

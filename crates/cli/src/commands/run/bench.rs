@@ -112,7 +112,6 @@ impl Bench<'_> {
         let outcome = diagnosis::diagnose(&loaded.robot, runs, &settings, self.watch)?;
         let mut provenance = provenance(robot_file, loaded, None)?;
         provenance.files.extend(hashes_of(runs));
-        provenance.seed = Some(settings.seed);
         let report = Report::new(&outcome, &loaded.robot, &provenance);
         let json = report::json(&report)?;
         diagnose::write(&self.out.join(folder), loaded, &outcome, (&report, &json), None)?;
