@@ -37,14 +37,14 @@ fn directory() {
     let folder = file.folder.path().join("logs");
     fs::create_dir(&folder).unwrap();
     let result = read_run(&folder, &two_joints(), &ReadOptions::default());
-    let expected = "logs: this is a directory, a CSV or Parquet file was expected";
+    let expected = "logs: this is a directory, the file of a log was expected";
     assert_eq!(file.told(result), expected);
 }
 
 #[test]
 fn empty_file() {
     let message = Scratch::new("run.csv", "").message(&two_joints());
-    assert_eq!(message, "run.csv: the file is empty, a CSV or Parquet log was expected");
+    assert_eq!(message, "run.csv: the file is empty, a log was expected");
 }
 
 #[test]

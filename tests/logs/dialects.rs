@@ -73,7 +73,7 @@ fn a_log_without_names_asks_for_a_map_and_is_read_with_one() {
     let arm = robot(&[("j1", JointKind::Revolute)]);
     assert_eq!(
         file.message(&arm),
-        "run.txt: it has no line of names above its numbers; its 3 columns are called column_1 to \
+        "run.txt: its columns have no names; they are called column_1 to \
          column_3, a column map that says which is which was expected"
     );
     let map = Scratch::new(

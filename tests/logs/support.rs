@@ -99,3 +99,18 @@ pub fn clock(count: usize, rate_hz: f64) -> Vec<f64> {
 pub fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
+
+/// A file of `tests/golden/logs`.
+pub fn golden(name: &str) -> Vec<u8> {
+    fs::read(root().join("tests/golden/logs").join(name)).unwrap()
+}
+
+/// The numbers that the scripts of `tests/golden/logs` put into their files.
+pub fn assert_golden(run: &Run) {
+    let of = |f: &dyn Fn(f64) -> f64| (0..5).map(|k| f(f64::from(k))).collect::<Vec<_>>();
+    assert_eq!(run.time, of(&|k| 0.125 * k));
+    for (j, joint) in [0.0, 1.0].into_iter().zip(&run.joints) {
+        assert_eq!(joint.position, of(&|k| 0.25 * k + j));
+        assert_eq!(joint.effort, of(&|k| k - 2.0 * j));
+    }
+}

@@ -28,7 +28,7 @@ pub(crate) struct CsvFile {
 impl CsvFile {
     /// Looks at the dialect, the names and the last row.
     pub(crate) fn open(path: &Path, file: File) -> Result<Self, LogError> {
-        let told = |e: io::Error| unreadable(path, &e);
+        let told = |e: io::Error| LogError::unreadable(path, &e);
         let mut preview = Vec::new();
         rewound(&file, 0)
             .and_then(|file| file.take(PREVIEW).read_to_end(&mut preview))
@@ -58,7 +58,9 @@ impl CsvFile {
 
     fn first_names(&self) -> Result<Vec<String>, LogError> {
         let mut first = csv::ByteRecord::new();
-        self.records()?.read_byte_record(&mut first).map_err(|e| unreadable(&self.path, &e))?;
+        self.records()?
+            .read_byte_record(&mut first)
+            .map_err(|e| LogError::unreadable(&self.path, &e))?;
         let fields = self.dialect.fields(&first);
         Ok(match self.dialect.header {
             Header::Names => fields.map(|f| String::from_utf8_lossy(f).into_owned()).collect(),
@@ -70,7 +72,7 @@ impl CsvFile {
     fn records(&self) -> Result<csv::Reader<Take<&File>>, LogError> {
         let start = self.dialect.start as u64;
         let end = self.torn_from.unwrap_or(u64::MAX);
-        let text = rewound(&self.file, start).map_err(|e| unreadable(&self.path, &e))?;
+        let text = rewound(&self.file, start).map_err(|e| LogError::unreadable(&self.path, &e))?;
         Ok(self.dialect.records(text.take(end.saturating_sub(start))))
     }
 
@@ -82,7 +84,7 @@ impl CsvFile {
         let mut reader = self.records()?;
         let mut record = csv::ByteRecord::new();
         let mut read = |record: &mut csv::ByteRecord| {
-            reader.read_byte_record(record).map_err(|e| unreadable(&self.path, &e))
+            reader.read_byte_record(record).map_err(|e| LogError::unreadable(&self.path, &e))
         };
         if self.dialect.header == Header::Names {
             read(&mut record)?;
@@ -165,8 +167,4 @@ fn ends_in_quoted_number(line: &[u8]) -> bool {
         std::str::from_utf8(&line[start + 1..]).ok()
     });
     field.is_some_and(|field| field.parse::<f64>().is_ok())
-}
-
-fn unreadable(path: &Path, error: &impl ToString) -> LogError {
-    LogError::Unreadable { path: path.to_owned(), reason: error.to_string() }
 }

@@ -1,4 +1,6 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use crate::{allowance::Exceeded, kind::Stranger};
 
 /// Why a log cannot be used.
 ///
@@ -13,7 +15,7 @@ pub enum LogError {
         path: PathBuf,
     },
     /// The path is a directory, or another thing that is not a file.
-    #[error("{}: this is {found}, a CSV or Parquet file was expected", path.display())]
+    #[error("{}: this is {found}, the file of a log was expected", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
@@ -31,7 +33,7 @@ pub enum LogError {
         advice: &'static str,
     },
     /// The file has no bytes.
-    #[error("{}: the file is empty, a CSV or Parquet log was expected", path.display())]
+    #[error("{}: the file is empty, a log was expected", path.display())]
     Empty {
         /// The file.
         path: PathBuf,
@@ -44,13 +46,37 @@ pub enum LogError {
         /// What the operating system or the decoder said.
         reason: String,
     },
-    /// The file says that it is Parquet, but it is not whole.
-    #[error("{}: not a whole Parquet file ({reason}); was it cut off while being copied?", path.display())]
-    BrokenParquet {
+    /// The file says that it is of a kind, but it is not whole.
+    #[error("{}: not a whole {kind} file ({reason}); was it cut off while being copied?", path.display())]
+    Broken {
         /// The file.
         path: PathBuf,
+        /// The kind.
+        kind: &'static str,
         /// What the decoder said.
         reason: String,
+    },
+    /// A packed file holds more than one of its size can be expected to.
+    #[error("{}: unpacked it takes more than the {} MB that are allowed of a packed file of this size", path.display(), allowed >> 20)]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Bytes that are allowed.
+        allowed: u64,
+    },
+    /// A column is not as long as that of time.
+    #[error("{}: column {column} has {found} values, {expected} were expected as in {time}", path.display())]
+    ColumnLength {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// Values found.
+        found: u64,
+        /// The column of time.
+        time: String,
+        /// Values of it.
+        expected: u64,
     },
     /// The file cannot be written.
     #[error("{}: it cannot be written: {reason}", path.display())]
@@ -68,8 +94,8 @@ pub enum LogError {
         /// The name.
         column: String,
     },
-    /// A file has no line of names, and none was given to its columns.
-    #[error("{}: it has no line of names above its numbers; its {columns} columns are called column_1 to column_{columns}, \
+    /// The columns of a file have no names, and none were given to them.
+    #[error("{}: its columns have no names; they are called column_1 to column_{columns}, \
         a column map that says which is which was expected", path.display())]
     NoNames {
         /// The file.
@@ -299,6 +325,26 @@ pub enum LogError {
         /// The cut-off (Hz).
         cutoff_hz: f64,
     },
+}
+
+impl LogError {
+    pub(crate) fn unreadable(path: &Path, error: &impl ToString) -> Self {
+        Self::Unreadable { path: path.to_owned(), reason: error.to_string() }
+    }
+
+    pub(crate) fn other_kind(path: &Path, Stranger { found, advice }: Stranger) -> Self {
+        Self::OtherKind { path: path.to_owned(), found, advice }
+    }
+
+    pub(crate) fn broken(path: &Path, kind: &'static str, error: &dyn std::fmt::Display) -> Self {
+        // A message stays one line, whatever the file holds.
+        let reason = error.to_string().replace(char::is_control, " ");
+        Self::Broken { path: path.to_owned(), kind, reason }
+    }
+
+    pub(crate) fn too_large(path: &Path, Exceeded { allowed }: Exceeded) -> Self {
+        Self::TooLarge { path: path.to_owned(), allowed }
+    }
 }
 
 fn hint(nearest: Option<&str>) -> String {

@@ -1,8 +1,14 @@
+use crate::npy_header;
+
 /// The kinds of file that a log may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     Csv,
     Parquet,
+    /// An array of NumPy.
+    Npy,
+    /// A zip archive, in which arrays of NumPy are looked for.
+    Zip,
 }
 
 /// A kind of file that is no log, or none that is read.
@@ -35,7 +41,8 @@ impl Kind {
 }
 
 /// Kinds that are read, by their first bytes.
-const READ: [(&[u8], Kind); 1] = [(b"PAR1", Kind::Parquet)];
+const READ: [(&[u8], Kind); 3] =
+    [(b"PAR1", Kind::Parquet), (npy_header::MAGIC, Kind::Npy), (b"PK\x03\x04", Kind::Zip)];
 
 /// A binary file that begins as nothing here does.
 pub(crate) const UNKNOWN: Stranger = Stranger {
@@ -54,7 +61,7 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 31] = [
+const STRANGERS: [(usize, &[u8], &str, &str); 29] = [
     (0, b"SQLite format 3\0", "a SQLite database, as rosbag2 writes it (.db3)", BAG_2),
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the file beside it that holds the messages"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
@@ -63,8 +70,6 @@ const STRANGERS: [(usize, &[u8], &str, &str); 31] = [
     (0, b"MATLAB 7.3 MAT-file", "a MAT-file of MATLAB 7.3", MATLAB),
     (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (512, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
-    (0, b"\x93NUMPY", "an array of NumPy (.npy)", "write its columns as CSV or Parquet"),
-    (0, b"PK\x03\x04", "a zip archive", PACKED),
     (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
     (0, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an Excel workbook", TABLE),
     (0, b"\x1f\x8b", "packed with gzip", PACKED),
@@ -88,6 +93,31 @@ const STRANGERS: [(usize, &[u8], &str, &str); 31] = [
     (0, b"%PDF-", "a PDF document", NOT_A_TABLE),
 ];
 
+/// What a zip archive is that holds no array of NumPy, by the names of its entries.
+pub(crate) fn of_archive(names: &[String]) -> Stranger {
+    let known = |(ends, ..): &&(&str, &str, &str)| names.iter().any(|name| name.ends_with(ends));
+    let (found, advice) = match ARCHIVES.iter().find(known) {
+        Some(&(_, found, advice)) => (found, advice),
+        None => ("a zip archive without an array of NumPy in it", PACKED),
+    };
+    Stranger { found, advice }
+}
+
+/// Zip archives by an entry that they hold: the end of its name, what it is, what to do.
+#[rustfmt::skip]
+const ARCHIVES: [(&str, &str, &str); 4] = [
+    ("xl/workbook.xml", "an Excel workbook", TABLE),
+    ("xl/workbook.bin", "an Excel workbook", TABLE),
+    ("content.xml", "an OpenDocument file", TABLE),
+    ("data.pkl", "a file of PyTorch, which can run a program when it is opened", HDF5),
+];
+
+/// An array of NumPy that is no table.
+pub(crate) const NO_TABLE: Stranger = Stranger {
+    found: "an array of NumPy that is no table of numbers",
+    advice: "an array of samples x columns was expected",
+};
+
 /// Whether the bytes hold no control characters but those of text.
 fn is_text(bytes: &[u8]) -> bool {
     bytes.iter().all(|byte| !matches!(byte, 0..=8 | 11 | 14..=26 | 28..=31 | 127))
@@ -105,10 +135,13 @@ mod tests {
         assert_eq!(Kind::of(b"time;gr\xf6\xdfe\n"), Ok(Kind::Csv), "Latin-1");
         let found = |bytes: &[u8]| Kind::of(bytes).unwrap_err().found;
         assert_eq!(found(b"\x00\x01\x02"), UNKNOWN.found);
+        let of = |name: &str| of_archive(&["mimetype".to_owned(), name.to_owned()]).found;
+        assert_eq!(of("xl/workbook.xml"), "an Excel workbook");
+        assert_eq!(of("run.csv"), "a zip archive without an array of NumPy in it");
         assert_eq!(found(b"MATLAB 7.3 MAT-file, Platform"), "a MAT-file of MATLAB 7.3");
         assert_eq!(found(&[&[0; 512][..], b"\x89HDF\r\n\x1a\n"].concat()), "an HDF5 file");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[28].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[26].2);
     }
 
     #[test]

@@ -17,6 +17,7 @@
 //! column alike.
 
 mod agreement;
+mod allowance;
 mod choice;
 mod clock;
 mod column_map;
@@ -29,14 +30,20 @@ mod duplicate;
 mod error;
 mod filter;
 mod filtered;
+mod guarded;
 mod held;
 mod info;
 mod kind;
 mod lattice;
 mod link_lag;
+mod literal;
 mod log_file;
 mod motion_band;
 mod noise;
+mod npy_header;
+mod numeral;
+mod numpy_array;
+mod numpy_file;
 mod parquet_file;
 mod plan;
 mod prepare;

@@ -10,8 +10,9 @@ use sha2::{Digest, Sha256};
 use crate::{
     LogError,
     csv_file::CsvFile,
-    kind::{FIRST_BYTES, Kind, Stranger, UNKNOWN},
-    parquet_file::ParquetFile,
+    kind::{FIRST_BYTES, Kind, UNKNOWN},
+    numpy_file::NumpyFile,
+    parquet_file::{self, ParquetFile},
     table::{Needed, Table},
 };
 
@@ -19,15 +20,17 @@ use crate::{
 pub(crate) enum LogFile {
     Csv(CsvFile),
     Parquet(ParquetFile),
+    Numpy(NumpyFile),
 }
 
 impl LogFile {
-    /// Opens a file; its kind is seen from its first bytes.
-    pub(crate) fn open(path: &Path) -> Result<Self, LogError> {
+    /// Opens a file; its kind is seen from its first bytes. `time` is the name of the column that
+    /// tells how long the others are.
+    pub(crate) fn open(path: &Path, time: &str) -> Result<Self, LogError> {
         let path_buf = || path.to_owned();
         let data = fs::metadata(path).map_err(|e| match e.kind() {
             io::ErrorKind::NotFound => LogError::Missing { path: path_buf() },
-            _ => unreadable(path, &e),
+            _ => LogError::unreadable(path, &e),
         })?;
         if data.is_dir() {
             return Err(LogError::NotAFile { path: path_buf(), found: "a directory" });
@@ -35,10 +38,12 @@ impl LogFile {
         if !data.is_file() {
             return Err(LogError::NotAFile { path: path_buf(), found: "not a regular file" });
         }
-        let file = File::open(path).map_err(|e| unreadable(path, &e))?;
+        let file = File::open(path).map_err(|e| LogError::unreadable(path, &e))?;
         match kind(path, &file)? {
             Kind::Csv => Ok(Self::Csv(CsvFile::open(path, file)?)),
             Kind::Parquet => Ok(Self::Parquet(ParquetFile::open(path, file))),
+            Kind::Npy => Ok(Self::Numpy(NumpyFile::open_npy(path, file)?)),
+            Kind::Zip => Ok(Self::Numpy(NumpyFile::open_npz(path, file, time)?)),
         }
     }
 
@@ -47,6 +52,7 @@ impl LogFile {
         let names = match self {
             Self::Csv(csv) => csv.names().to_vec(),
             Self::Parquet(parquet) => parquet.names()?,
+            Self::Numpy(numpy) => numpy.names(),
         };
         let mut seen = BTreeSet::new();
         match names.iter().find(|n| !n.is_empty() && !seen.insert(n.as_str())) {
@@ -59,7 +65,11 @@ impl LogFile {
 
     /// Whether the names of the columns are not the file's own.
     pub(crate) fn is_unnamed(&self) -> bool {
-        matches!(self, Self::Csv(csv) if csv.is_unnamed())
+        match self {
+            Self::Csv(csv) => csv.is_unnamed(),
+            Self::Numpy(numpy) => numpy.is_unnamed(),
+            Self::Parquet(_) => false,
+        }
     }
 
     /// Whether the file ends in the middle of a row.
@@ -72,6 +82,7 @@ impl LogFile {
         match self {
             Self::Csv(csv) => csv.load(needed),
             Self::Parquet(parquet) => parquet.load(needed),
+            Self::Numpy(numpy) => numpy.load(needed),
         }
     }
 }
@@ -79,35 +90,29 @@ impl LogFile {
 fn kind(path: &Path, file: &File) -> Result<Kind, LogError> {
     let path_buf = || path.to_owned();
     let mut first = Vec::new();
-    file.take(FIRST_BYTES).read_to_end(&mut first).map_err(|e| unreadable(path, &e))?;
+    file.take(FIRST_BYTES).read_to_end(&mut first).map_err(|e| LogError::unreadable(path, &e))?;
     if first.is_empty() {
         return Err(LogError::Empty { path: path_buf() });
     }
     let called_parquet = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"));
     Kind::of(&first).map_err(|stranger| {
         if stranger == UNKNOWN && called_parquet {
-            let reason = "it does not begin with PAR1".to_owned();
-            return LogError::BrokenParquet { path: path_buf(), reason };
+            return LogError::broken(path, parquet_file::KIND, &"it does not begin with PAR1");
         }
-        let Stranger { found, advice } = stranger;
-        LogError::OtherKind { path: path_buf(), found, advice }
+        LogError::other_kind(path, stranger)
     })
 }
 
 /// SHA-256 of a file, in hexadecimal.
 pub(crate) fn sha256(path: &Path) -> Result<String, LogError> {
-    let mut file = File::open(path).map_err(|e| unreadable(path, &e))?;
+    let mut file = File::open(path).map_err(|e| LogError::unreadable(path, &e))?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     loop {
-        match file.read(&mut buffer).map_err(|e| unreadable(path, &e))? {
+        match file.read(&mut buffer).map_err(|e| LogError::unreadable(path, &e))? {
             0 => break,
             count => hasher.update(&buffer[..count]),
         }
     }
     Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-fn unreadable(path: &Path, error: &io::Error) -> LogError {
-    LogError::Unreadable { path: path.to_owned(), reason: error.to_string() }
 }

@@ -1,7 +1,6 @@
 use std::{
     collections::BTreeMap,
     fs::File,
-    panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
 };
 
@@ -21,11 +20,15 @@ use parquet::arrow::{
 
 use crate::{
     LogError,
+    guarded::guarded,
     table::{Needed, Table},
 };
 
 /// Rows decoded at once: what is held besides the columns themselves stays small.
 const BATCH_ROWS: usize = 4096;
+
+/// What a damaged file is called.
+pub(crate) const KIND: &str = "Parquet";
 
 type Builder = ParquetRecordBatchReaderBuilder<File>;
 
@@ -42,7 +45,7 @@ impl ParquetFile {
 
     /// Names of the columns, in the order of the file.
     pub(crate) fn names(&self) -> Result<Vec<String>, LogError> {
-        guarded(&self.path, || {
+        guarded(&self.path, KIND, || {
             Ok(self.builder()?.schema().fields().iter().map(|f| f.name().clone()).collect())
         })
     }
@@ -50,15 +53,11 @@ impl ParquetFile {
     /// Columns by name: those that are needed, which must be numeric and without nulls, and of
     /// the rest those that are.
     pub(crate) fn load(&self, needed: &Needed) -> Result<Table, LogError> {
-        guarded(&self.path, || self.decode(needed))
+        guarded(&self.path, KIND, || self.decode(needed))
     }
 
     fn builder(&self) -> Result<Builder, LogError> {
-        let unreadable = |e: std::io::Error| LogError::Unreadable {
-            path: self.path.clone(),
-            reason: e.to_string(),
-        };
-        let file = self.file.try_clone().map_err(unreadable)?;
+        let file = self.file.try_clone().map_err(|e| LogError::unreadable(&self.path, &e))?;
         // The columns' own types are enough; the Arrow schema that a writer may have added
         // is one more thing that can be damaged.
         let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
@@ -99,14 +98,8 @@ impl ParquetFile {
     }
 }
 
-/// Runs the decoder, which panics at some damaged files instead of refusing them.
-fn guarded<T>(path: &Path, decode: impl FnOnce() -> Result<T, LogError>) -> Result<T, LogError> {
-    catch_unwind(AssertUnwindSafe(decode))
-        .unwrap_or_else(|_| Err(broken(path, &"the decoder gave up")))
-}
-
 fn broken(path: &Path, error: &dyn std::fmt::Display) -> LogError {
-    LogError::BrokenParquet { path: path.to_owned(), reason: error.to_string() }
+    LogError::broken(path, KIND, error)
 }
 
 /// Indices of the numeric columns; a needed one that is not numeric is an error.

@@ -45,7 +45,7 @@ impl<'a> Plan<'a> {
         let names = &file.names(path)?;
         let finder = Finder { path, names, is_unnamed: file.is_unnamed(), options };
         let mapped = options.map.and_then(ColumnMap::time);
-        let column = mapped.map_or("time", |m| &m.column).to_owned();
+        let column = options.time().to_owned();
         if !names.contains(&column) {
             return Err(finder.no_column(&column, "the time of every row (s) was expected"));
         }

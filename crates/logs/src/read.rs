@@ -26,12 +26,23 @@ impl Default for ReadOptions<'_> {
     }
 }
 
-/// Reads one run from a CSV or Parquet file and checks it.
+impl<'a> ReadOptions<'a> {
+    /// Name of the column of time.
+    pub(crate) fn time(&self) -> &'a str {
+        self.map.and_then(ColumnMap::time).map_or("time", |mapped| &mapped.column)
+    }
+}
+
+/// Reads one run from a file and checks it.
 ///
 /// Columns are matched to the robot's joints by name. A joint of the log that the robot
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// The position of a rotation's link is brought to the turn of the motor's.
-/// Which of the two formats a file has is seen from its first bytes.
+/// A file is CSV, Parquet or NumPy's npz or npy, which is seen from its first bytes.
+///
+/// Of an npz file an array of one dimension is a column by its name, such as `tau`; one of samples
+/// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
+/// as long as time. Other arrays are left out.
 ///
 /// A CSV file may lack its last newline. Its last row was torn, and is left out, when it does
 /// not end in a number in quotes as the row before it does: such are the files of a
@@ -46,7 +57,7 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
     if let Some(map) = options.map {
         map.check(robot)?;
     }
-    let file = LogFile::open(path)?;
+    let file = LogFile::open(path, options.time())?;
     let plan = Plan::new(path, &file, robot, options)?;
     let mut table = file.load(&plan.needed())?;
     plan.check(&table)?;

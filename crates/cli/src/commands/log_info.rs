@@ -12,7 +12,7 @@ use crate::output::{print, print_json, shown, table};
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// CSV or Parquet files, one run each
+    /// Logs (CSV, Parquet, NumPy), one run each
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// The robot, for names, order, types and limits of the joints

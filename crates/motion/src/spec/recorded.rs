@@ -15,7 +15,7 @@ use crate::{MotionError, curve::Curve, knots::Knots, motion::Part, site::Site, s
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Recorded {
-    /// The log, CSV or Parquet.
+    /// The log, of any kind that is read.
     pub file: PathBuf,
     /// Column map of a log with names or units of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]

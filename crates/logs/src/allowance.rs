@@ -1,0 +1,50 @@
+/// Bytes that a packed log may take when it is unpacked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Allowance {
+    all: u64,
+    left: u64,
+}
+
+/// Allowed whatever the size of the file (bytes).
+const ALWAYS: u64 = 1 << 26;
+/// Allowed for every byte of the file: numbers that are measured shrink to a fifth or so, and
+/// what shrinks to less than this was made to be large.
+const PER_BYTE: u64 = 200;
+/// Never allowed (bytes).
+const NEVER: u64 = 1 << 33;
+
+/// More than is allowed was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Exceeded {
+    /// Bytes that are allowed.
+    pub allowed: u64,
+}
+
+impl Allowance {
+    /// That of a file of this length (bytes).
+    pub(crate) fn of(length: u64) -> Self {
+        let all = length.saturating_mul(PER_BYTE).saturating_add(ALWAYS).min(NEVER);
+        Self { all, left: all }
+    }
+
+    /// Takes some bytes.
+    pub(crate) fn take(&mut self, bytes: u64) -> Result<(), Exceeded> {
+        let exceeded = Exceeded { allowed: self.all };
+        self.left = self.left.checked_sub(bytes).ok_or(exceeded)?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_file_may_grow_and_a_large_one_not_without_end() {
+        let mut small = Allowance::of(1000);
+        assert_eq!(small.take(ALWAYS), Ok(()));
+        assert_eq!(small.take(PER_BYTE * 1000), Ok(()));
+        assert_eq!(small.take(1), Err(Exceeded { allowed: ALWAYS + PER_BYTE * 1000 }));
+        assert_eq!(Allowance::of(u64::MAX).take(NEVER + 1), Err(Exceeded { allowed: NEVER }));
+    }
+}
