@@ -13,6 +13,7 @@ mod link_lag;
 mod mutated;
 mod noise;
 mod numpy;
+mod packed;
 mod preparation;
 mod recorded;
 mod smoother;

@@ -1,4 +1,4 @@
-use crate::npy_header;
+use crate::{npy_header, unpacked::Packing};
 
 /// The kinds of file that a log may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,6 +9,8 @@ pub(crate) enum Kind {
     Npy,
     /// A zip archive, in which arrays of NumPy are looked for.
     Zip,
+    /// Any of the others, packed.
+    Packed(Packing),
 }
 
 /// A kind of file that is no log, or none that is read.
@@ -41,8 +43,13 @@ impl Kind {
 }
 
 /// Kinds that are read, by their first bytes.
-const READ: [(&[u8], Kind); 3] =
-    [(b"PAR1", Kind::Parquet), (npy_header::MAGIC, Kind::Npy), (b"PK\x03\x04", Kind::Zip)];
+const READ: [(&[u8], Kind); 5] = [
+    (b"PAR1", Kind::Parquet),
+    (npy_header::MAGIC, Kind::Npy),
+    (b"PK\x03\x04", Kind::Zip),
+    (b"\x1f\x8b", Kind::Packed(Packing::Gzip)),
+    (b"\x28\xb5\x2f\xfd", Kind::Packed(Packing::Zstd)),
+];
 
 /// A binary file that begins as nothing here does.
 pub(crate) const UNKNOWN: Stranger = Stranger {
@@ -61,7 +68,7 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 29] = [
+const STRANGERS: [(usize, &[u8], &str, &str); 27] = [
     (0, b"SQLite format 3\0", "a SQLite database, as rosbag2 writes it (.db3)", BAG_2),
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the file beside it that holds the messages"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
@@ -72,8 +79,6 @@ const STRANGERS: [(usize, &[u8], &str, &str); 29] = [
     (512, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
     (0, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an Excel workbook", TABLE),
-    (0, b"\x1f\x8b", "packed with gzip", PACKED),
-    (0, b"\x28\xb5\x2f\xfd", "packed with zstd", PACKED),
     (0, b"BZh", "packed with bzip2", PACKED),
     (0, b"\xfd7zXZ\0", "packed with xz", PACKED),
     (0, b"\x04\x22\x4d\x18", "packed with lz4", PACKED),
@@ -92,6 +97,9 @@ const STRANGERS: [(usize, &[u8], &str, &str); 29] = [
     (0, b"{", "JSON", NOT_A_TABLE),
     (0, b"%PDF-", "a PDF document", NOT_A_TABLE),
 ];
+
+/// A packed file in a packed file.
+pub(crate) const TWICE: Stranger = Stranger { found: "packed twice", advice: PACKED };
 
 /// What a zip archive is that holds no array of NumPy, by the names of its entries.
 pub(crate) fn of_archive(names: &[String]) -> Stranger {
@@ -141,7 +149,7 @@ mod tests {
         assert_eq!(found(b"MATLAB 7.3 MAT-file, Platform"), "a MAT-file of MATLAB 7.3");
         assert_eq!(found(&[&[0; 512][..], b"\x89HDF\r\n\x1a\n"].concat()), "an HDF5 file");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[26].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[24].2);
     }
 
     #[test]

@@ -58,6 +58,7 @@ mod table;
 mod turns;
 mod uniform;
 mod unit;
+mod unpacked;
 mod warning;
 mod write;
 mod writer;

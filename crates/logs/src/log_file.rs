@@ -10,10 +10,11 @@ use sha2::{Digest, Sha256};
 use crate::{
     LogError,
     csv_file::CsvFile,
-    kind::{FIRST_BYTES, Kind, UNKNOWN},
+    kind::{FIRST_BYTES, Kind, TWICE, UNKNOWN},
     numpy_file::NumpyFile,
     parquet_file::{self, ParquetFile},
     table::{Needed, Table},
+    unpacked::unpacked,
 };
 
 /// A log that is opened, by its kind.
@@ -39,11 +40,13 @@ impl LogFile {
             return Err(LogError::NotAFile { path: path_buf(), found: "not a regular file" });
         }
         let file = File::open(path).map_err(|e| LogError::unreadable(path, &e))?;
-        match kind(path, &file)? {
+        let (kind, file) = content(path, file)?;
+        match kind {
             Kind::Csv => Ok(Self::Csv(CsvFile::open(path, file)?)),
             Kind::Parquet => Ok(Self::Parquet(ParquetFile::open(path, file))),
             Kind::Npy => Ok(Self::Numpy(NumpyFile::open_npy(path, file)?)),
             Kind::Zip => Ok(Self::Numpy(NumpyFile::open_npz(path, file, time)?)),
+            Kind::Packed(_) => Err(LogError::other_kind(path, TWICE)),
         }
     }
 
@@ -87,15 +90,26 @@ impl LogFile {
     }
 }
 
-fn kind(path: &Path, file: &File) -> Result<Kind, LogError> {
-    let path_buf = || path.to_owned();
+/// What is in a file: itself, or what was packed.
+fn content(path: &Path, file: File) -> Result<(Kind, File), LogError> {
     let mut first = Vec::new();
-    file.take(FIRST_BYTES).read_to_end(&mut first).map_err(|e| LogError::unreadable(path, &e))?;
+    (&file)
+        .take(FIRST_BYTES)
+        .read_to_end(&mut first)
+        .map_err(|e| LogError::unreadable(path, &e))?;
+    match kind(path, &first)? {
+        Kind::Packed(packing) => unpacked(path, file, packing, |first| kind(path, first)),
+        kind => Ok((kind, file)),
+    }
+}
+
+/// The kind of a file that begins with these bytes.
+fn kind(path: &Path, first: &[u8]) -> Result<Kind, LogError> {
     if first.is_empty() {
-        return Err(LogError::Empty { path: path_buf() });
+        return Err(LogError::Empty { path: path.to_owned() });
     }
     let called_parquet = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"));
-    Kind::of(&first).map_err(|stranger| {
+    Kind::of(first).map_err(|stranger| {
         if stranger == UNKNOWN && called_parquet {
             return LogError::broken(path, parquet_file::KIND, &"it does not begin with PAR1");
         }

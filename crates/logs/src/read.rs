@@ -38,7 +38,8 @@ impl<'a> ReadOptions<'a> {
 /// Columns are matched to the robot's joints by name. A joint of the log that the robot
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// The position of a rotation's link is brought to the turn of the motor's.
-/// A file is CSV, Parquet or NumPy's npz or npy, which is seen from its first bytes.
+/// A file is CSV, Parquet or NumPy's npz or npy, or one of them packed with gzip or zstd, which is
+/// seen from its first bytes.
 ///
 /// Of an npz file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
