@@ -146,7 +146,7 @@ impl From<EvaluationError> for CliError {
 }
 
 const KINDS_OF_FILES: &str =
-    "a robot is a .urdf or a .toml file (--robot), a log is a .csv or a .parquet file (--log)";
+    "a robot is a .urdf or a .toml file (--robot), a log is a table of numbers over time (--log)";
 
 const LEFT_OUT: &str =
     "takes the joints that the log has, the others are locked at zero or as a robot.toml says";
@@ -156,10 +156,14 @@ const MAP: &str = "a column map (--map) says where a file with other names has i
 /// What to do about a log.
 fn of_log(log: &LogError) -> Option<&'static str> {
     match log {
-        LogError::NoColumn { path, .. } if has_extension(path, &["urdf", "xml", "toml"]) => {
+        LogError::NoColumn { path, .. } | LogError::OtherKind { path, .. }
+            if has_extension(path, &["urdf", "xml", "toml"]) =>
+        {
             Some(KINDS_OF_FILES)
         }
-        LogError::JointAbsent { .. } | LogError::NoColumn { .. } => Some(MAP),
+        LogError::JointAbsent { .. } | LogError::NoColumn { .. } | LogError::NoNames { .. } => {
+            Some(MAP)
+        }
         LogError::LooksLikeDegrees { .. } => {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
         }
