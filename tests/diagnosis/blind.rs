@@ -34,7 +34,7 @@ pub fn simulate_runs(folder: &Path, settings: &[&str]) {
 
 /// The logs of [`simulate`].
 pub fn read(folder: &Path) -> [Run; 2] {
-    let options = ReadOptions { map: None, effort: "effort" };
+    let options = ReadOptions::default();
     let read = |name: &str| logs::read_run(&folder.join(name), &wam(), &options).unwrap();
     [read("a.parquet"), read("b.parquet")]
 }

@@ -19,7 +19,7 @@ fn diagnosis(folder: &Path, runs: &[&str]) -> Diagnosis {
     let robot =
         ["robot.toml", "robot.urdf"].map(|f| folder.join(f)).into_iter().find(|f| f.exists());
     let robot = Robot::load(&robot.unwrap()).unwrap().robot;
-    let options = ReadOptions { map: None, effort: "effort" };
+    let options = ReadOptions::default();
     let read = |run: &&str| read_run(&folder.join(format!("{run}.parquet")), &robot, &options);
     let runs: Vec<Run> = runs.iter().map(read).collect::<Result<_, _>>().unwrap();
     diagnose(&robot, &runs, &Settings::default(), &Silent).unwrap().diagnosis

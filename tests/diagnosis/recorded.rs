@@ -28,7 +28,7 @@ fn diagnosis(robot: &Robot, folder: &Path, runs: &[&str], effort: &str) -> Diagn
 }
 
 fn read(robot: &Robot, folder: &Path, runs: &[&str], effort: &str) -> Vec<Run> {
-    let options = ReadOptions { map: None, effort };
+    let options = ReadOptions { effort, ..ReadOptions::default() };
     let read = |run: &&str| read_run(&folder.join(format!("{run}.parquet")), robot, &options);
     runs.iter().map(read).collect::<Result<_, _>>().unwrap()
 }

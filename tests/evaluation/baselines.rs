@@ -20,7 +20,7 @@ const CONTROL_RATE_HZ: Option<f64> = Some(500.0);
 /// The logs of a case, and the effects and places that its truth states.
 fn case(folder: &Path, name: &str) -> (Vec<Run>, Vec<EffectAt>) {
     let folder = folder.join("mujoco_wam").join(name);
-    let options = ReadOptions { map: None, effort: "effort" };
+    let options = ReadOptions::default();
     let path = |k: usize| folder.join(format!("run_{k}.parquet"));
     let runs = (0..4).map(|k| read_run(&path(k), &wam(), &options).unwrap()).collect();
     let text = fs::read_to_string(folder.join("truth.json")).unwrap();

@@ -12,7 +12,7 @@ use robot::Robot;
 const NO_ROTOR: ColumnSet = ColumnSet { rotor: false, ..ColumnSet::ALL };
 
 fn samples(robot: &Robot, folder: &Path, runs: &[&str]) -> Samples {
-    let options = ReadOptions { map: None, effort: "effort" };
+    let options = ReadOptions::default();
     let read = |run: &&str| read_run(&folder.join(run), robot, &options).unwrap();
     let runs: Vec<_> = runs.iter().map(read).collect();
     Samples::new(&prepare(&runs, &PrepareSettings::default()).unwrap())

@@ -164,6 +164,9 @@ fn of_log(log: &LogError) -> Option<&'static str> {
         LogError::JointAbsent { .. } | LogError::NoColumn { .. } | LogError::NoNames { .. } => {
             Some(MAP)
         }
+        LogError::NoTopic { .. } | LogError::SeveralTopics { .. } => {
+            Some("--topic NAME picks the topic whose joint states are read")
+        }
         LogError::LooksLikeDegrees { .. } => {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
         }

@@ -19,13 +19,17 @@ pub struct ColumnArguments {
     /// The effort is read from the columns `<joint>.COLUMN`
     #[arg(long, value_name = "COLUMN", default_value = "effort")]
     pub effort: String,
+    /// The topic of a bag whose joint states are read [default: /joint_states, or the only one]
+    #[arg(long, value_name = "NAME")]
+    pub topic: Option<String>,
 }
 
 impl ColumnArguments {
     /// The runs of some files.
     pub fn read_runs(&self, paths: &[PathBuf], robot: &Robot) -> Result<Vec<Run>, CliError> {
         let map = self.map.as_deref().map(ColumnMap::load).transpose()?;
-        let options = ReadOptions { map: map.as_ref(), effort: &self.effort };
+        let (effort, topic) = (&self.effort, self.topic.as_deref());
+        let options = ReadOptions { map: map.as_ref(), effort, topic };
         let runs: Result<Vec<Run>, _> =
             paths.iter().map(|path| logs::read_run(path, robot, &options)).collect();
         Ok(runs?)

@@ -78,6 +78,50 @@ pub enum LogError {
         /// Values of it.
         expected: u64,
     },
+    /// A bag has no joint states on a topic.
+    #[error("{}: there are no messages sensor_msgs/msg/JointState{}; it has {}",
+        path.display(), topic.as_ref().map(|t| format!(" on the topic {t}")).unwrap_or_default(), few(found))]
+    NoTopic {
+        /// The file.
+        path: PathBuf,
+        /// The topic that was asked for.
+        topic: Option<String>,
+        /// The topics of the bag, with type and encoding.
+        found: Vec<String>,
+    },
+    /// A bag has joint states on several topics, none of them the usual one.
+    #[error("{}: it has joint states on {} and none on /joint_states; the topic of the robot must be given",
+        path.display(), few(found))]
+    SeveralTopics {
+        /// The file.
+        path: PathBuf,
+        /// The topics.
+        found: Vec<String>,
+    },
+    /// A message of a bag cannot be read.
+    #[error("{}: message {message} of {topic} cannot be read: {reason}", path.display())]
+    BadMessage {
+        /// The file.
+        path: PathBuf,
+        /// The topic.
+        topic: String,
+        /// Number of the message, from 1.
+        message: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A message of a bag holds some of the joints of the robot and not all.
+    #[error("{}: message {message} of {topic} holds joints of the robot, but no {column}", path.display())]
+    NotInMessage {
+        /// The file.
+        path: PathBuf,
+        /// The topic.
+        topic: String,
+        /// Number of the message, from 1.
+        message: usize,
+        /// The column that is missing.
+        column: String,
+    },
     /// The file cannot be written.
     #[error("{}: it cannot be written: {reason}", path.display())]
     Unwritable {
@@ -349,6 +393,14 @@ impl LogError {
 
 fn hint(nearest: Option<&str>) -> String {
     nearest.map(|name| format!("; did you mean {name}?")).unwrap_or_default()
+}
+
+/// The first of them.
+fn few(names: &[String]) -> String {
+    const MOST: usize = 8;
+    let more = names.len().saturating_sub(MOST);
+    let first = list(&names[..names.len() - more]);
+    if more == 0 { first } else { format!("{first} and {more} more") }
 }
 
 fn list(names: &[String]) -> String {

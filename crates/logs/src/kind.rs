@@ -9,6 +9,8 @@ pub(crate) enum Kind {
     Npy,
     /// A zip archive, in which arrays of NumPy are looked for.
     Zip,
+    /// Messages, as ROS 2 records them.
+    Mcap,
     /// Any of the others, packed.
     Packed(Packing),
 }
@@ -43,10 +45,11 @@ impl Kind {
 }
 
 /// Kinds that are read, by their first bytes.
-const READ: [(&[u8], Kind); 5] = [
+const READ: [(&[u8], Kind); 6] = [
     (b"PAR1", Kind::Parquet),
     (npy_header::MAGIC, Kind::Npy),
     (b"PK\x03\x04", Kind::Zip),
+    (b"\x89MCAP0\r\n", Kind::Mcap),
     (b"\x1f\x8b", Kind::Packed(Packing::Gzip)),
     (b"\x28\xb5\x2f\xfd", Kind::Packed(Packing::Zstd)),
 ];
@@ -68,11 +71,10 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 27] = [
+const STRANGERS: [(usize, &[u8], &str, &str); 26] = [
     (0, b"SQLite format 3\0", "a SQLite database, as rosbag2 writes it (.db3)", BAG_2),
-    (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the file beside it that holds the messages"),
+    (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
-    (0, b"\x89MCAP0\r\n", "an MCAP file, as rosbag2 writes it", "write its joint states as CSV or Parquet"),
     (0, b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", MATLAB),
     (0, b"MATLAB 7.3 MAT-file", "a MAT-file of MATLAB 7.3", MATLAB),
     (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
@@ -100,6 +102,14 @@ const STRANGERS: [(usize, &[u8], &str, &str); 27] = [
 
 /// A packed file in a packed file.
 pub(crate) const TWICE: Stranger = Stranger { found: "packed twice", advice: PACKED };
+
+/// A bag whose messages are not in MCAP.
+pub(crate) const NO_MCAP: Stranger =
+    Stranger { found: "a bag without an MCAP file", advice: BAG_2 };
+
+/// What stands in a bag under the name of an MCAP file.
+pub(crate) const NOT_MCAP: Stranger =
+    Stranger { found: "CSV or another kind of log", advice: "in a bag MCAP was expected" };
 
 /// What a zip archive is that holds no array of NumPy, by the names of its entries.
 pub(crate) fn of_archive(names: &[String]) -> Stranger {
@@ -149,7 +159,7 @@ mod tests {
         assert_eq!(found(b"MATLAB 7.3 MAT-file, Platform"), "a MAT-file of MATLAB 7.3");
         assert_eq!(found(&[&[0; 512][..], b"\x89HDF\r\n\x1a\n"].concat()), "an HDF5 file");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[24].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[23].2);
     }
 
     #[test]

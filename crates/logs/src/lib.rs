@@ -4,7 +4,7 @@
 //! file -> read_run -> Run -> prepare -> q, qd, qdd, effort on a uniform clock
 //! ```
 //!
-//! A run is one file with the columns `time` (s) and, per joint,
+//! A run is one file, or a bag of ROS 2, with the columns `time` (s) and, per joint,
 //! `<joint>.position`, `.velocity`, `.acceleration`, `.effort`, `.desired_position`,
 //! `.desired_velocity`, `.desired_acceleration`, `.commanded_effort` and, from a second
 //! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` have to
@@ -18,6 +18,8 @@
 
 mod agreement;
 mod allowance;
+mod bag;
+mod cdr;
 mod choice;
 mod clock;
 mod column_map;
@@ -33,11 +35,15 @@ mod filtered;
 mod guarded;
 mod held;
 mod info;
+mod joint_state;
+mod joint_states;
 mod kind;
 mod lattice;
 mod link_lag;
 mod literal;
 mod log_file;
+mod mcap_file;
+mod mcap_record;
 mod motion_band;
 mod noise;
 mod npy_header;

@@ -8,9 +8,10 @@ use std::{
 use sha2::{Digest, Sha256};
 
 use crate::{
-    LogError,
+    LogError, ReadOptions,
+    bag::{self, Bag},
     csv_file::CsvFile,
-    kind::{FIRST_BYTES, Kind, TWICE, UNKNOWN},
+    kind::{FIRST_BYTES, Kind, NOT_MCAP, TWICE, UNKNOWN},
     numpy_file::NumpyFile,
     parquet_file::{self, ParquetFile},
     table::{Needed, Table},
@@ -22,32 +23,43 @@ pub(crate) enum LogFile {
     Csv(CsvFile),
     Parquet(ParquetFile),
     Numpy(NumpyFile),
+    Bag(Bag),
 }
 
 impl LogFile {
-    /// Opens a file; its kind is seen from its first bytes. `time` is the name of the column that
-    /// tells how long the others are.
-    pub(crate) fn open(path: &Path, time: &str) -> Result<Self, LogError> {
-        let path_buf = || path.to_owned();
+    /// Opens a file, or the folder of a bag; a kind is seen from the first bytes.
+    pub(crate) fn open(path: &Path, options: &ReadOptions) -> Result<Self, LogError> {
         let data = fs::metadata(path).map_err(|e| match e.kind() {
-            io::ErrorKind::NotFound => LogError::Missing { path: path_buf() },
+            io::ErrorKind::NotFound => LogError::Missing { path: path.to_owned() },
             _ => LogError::unreadable(path, &e),
         })?;
         if data.is_dir() {
-            return Err(LogError::NotAFile { path: path_buf(), found: "a directory" });
+            return Self::open_folder(path, options);
         }
         if !data.is_file() {
-            return Err(LogError::NotAFile { path: path_buf(), found: "not a regular file" });
+            let found = "not a regular file";
+            return Err(LogError::NotAFile { path: path.to_owned(), found });
         }
-        let file = File::open(path).map_err(|e| LogError::unreadable(path, &e))?;
-        let (kind, file) = content(path, file)?;
-        match kind {
-            Kind::Csv => Ok(Self::Csv(CsvFile::open(path, file)?)),
-            Kind::Parquet => Ok(Self::Parquet(ParquetFile::open(path, file))),
-            Kind::Npy => Ok(Self::Numpy(NumpyFile::open_npy(path, file)?)),
-            Kind::Zip => Ok(Self::Numpy(NumpyFile::open_npz(path, file, time)?)),
-            Kind::Packed(_) => Err(LogError::other_kind(path, TWICE)),
+        let (kind, file) = content(path)?;
+        Ok(match kind {
+            Kind::Csv => Self::Csv(CsvFile::open(path, file)?),
+            Kind::Parquet => Self::Parquet(ParquetFile::open(path, file)),
+            Kind::Npy => Self::Numpy(NumpyFile::open_npy(path, file)?),
+            Kind::Zip => Self::Numpy(NumpyFile::open_npz(path, file, options.time())?),
+            Kind::Mcap => Self::Bag(Bag::open(path, &[(path.to_owned(), file)], options.topic)?),
+            Kind::Packed(_) => return Err(LogError::other_kind(path, TWICE)),
+        })
+    }
+
+    fn open_folder(path: &Path, options: &ReadOptions) -> Result<Self, LogError> {
+        let mut files = Vec::new();
+        for path in bag::files_of(path)? {
+            match content(&path)? {
+                (Kind::Mcap, file) => files.push((path, file)),
+                _ => return Err(LogError::other_kind(&path, NOT_MCAP)),
+            }
         }
+        Ok(Self::Bag(Bag::open(path, &files, options.topic)?))
     }
 
     /// Names of the columns, each one once.
@@ -56,6 +68,7 @@ impl LogFile {
             Self::Csv(csv) => csv.names().to_vec(),
             Self::Parquet(parquet) => parquet.names()?,
             Self::Numpy(numpy) => numpy.names(),
+            Self::Bag(bag) => bag.names().to_vec(),
         };
         let mut seen = BTreeSet::new();
         match names.iter().find(|n| !n.is_empty() && !seen.insert(n.as_str())) {
@@ -71,7 +84,7 @@ impl LogFile {
         match self {
             Self::Csv(csv) => csv.is_unnamed(),
             Self::Numpy(numpy) => numpy.is_unnamed(),
-            Self::Parquet(_) => false,
+            Self::Parquet(_) | Self::Bag(_) => false,
         }
     }
 
@@ -86,12 +99,14 @@ impl LogFile {
             Self::Csv(csv) => csv.load(needed),
             Self::Parquet(parquet) => parquet.load(needed),
             Self::Numpy(numpy) => numpy.load(needed),
+            Self::Bag(bag) => bag.load(needed),
         }
     }
 }
 
 /// What is in a file: itself, or what was packed.
-fn content(path: &Path, file: File) -> Result<(Kind, File), LogError> {
+fn content(path: &Path) -> Result<(Kind, File), LogError> {
+    let file = File::open(path).map_err(|e| LogError::unreadable(path, &e))?;
     let mut first = Vec::new();
     (&file)
         .take(FIRST_BYTES)
@@ -117,15 +132,18 @@ fn kind(path: &Path, first: &[u8]) -> Result<Kind, LogError> {
     })
 }
 
-/// SHA-256 of a file, in hexadecimal.
+/// SHA-256 of a file, or of the files of a bag one after the other, in hexadecimal.
 pub(crate) fn sha256(path: &Path) -> Result<String, LogError> {
-    let mut file = File::open(path).map_err(|e| LogError::unreadable(path, &e))?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
-    loop {
-        match file.read(&mut buffer).map_err(|e| LogError::unreadable(path, &e))? {
-            0 => break,
-            count => hasher.update(&buffer[..count]),
+    let files = if path.is_dir() { bag::files_of(path)? } else { vec![path.to_owned()] };
+    for path in files {
+        let mut file = File::open(&path).map_err(|e| LogError::unreadable(&path, &e))?;
+        loop {
+            match file.read(&mut buffer).map_err(|e| LogError::unreadable(&path, &e))? {
+                0 => break,
+                count => hasher.update(&buffer[..count]),
+            }
         }
     }
     Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())

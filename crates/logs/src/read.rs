@@ -18,11 +18,14 @@ pub struct ReadOptions<'a> {
     /// columns `<joint>.effort` then stay among the further ones. With another value the
     /// column map's `effort` entries are not used.
     pub effort: &'a str,
+    /// The topic of a bag whose joint states are read; `/joint_states` or the only one of the type
+    /// where it is left out.
+    pub topic: Option<&'a str>,
 }
 
 impl Default for ReadOptions<'_> {
     fn default() -> Self {
-        Self { map: None, effort: "effort" }
+        Self { map: None, effort: "effort", topic: None }
     }
 }
 
@@ -38,12 +41,17 @@ impl<'a> ReadOptions<'a> {
 /// Columns are matched to the robot's joints by name. A joint of the log that the robot
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// The position of a rotation's link is brought to the turn of the motor's.
-/// A file is CSV, Parquet or NumPy's npz or npy, or one of them packed with gzip or zstd, which is
-/// seen from its first bytes.
+/// A file is CSV, Parquet, NumPy's npz or npy, or MCAP, or one of them packed with gzip or zstd,
+/// which is seen from its first bytes.
 ///
 /// Of an npz file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
 /// as long as time. Other arrays are left out.
+///
+/// Of a bag of ROS 2, an MCAP file or a folder with `metadata.yaml` and such files, the messages
+/// `sensor_msgs/msg/JointState` of one topic are read, joints by the names in each message; one that
+/// is about none of the robot's joints is left out. Time is that of the stamps, counted from the
+/// first one. In errors a row is a message of the topic.
 ///
 /// A CSV file may lack its last newline. Its last row was torn, and is left out, when it does
 /// not end in a number in quotes as the row before it does: such are the files of a
@@ -58,7 +66,7 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
     if let Some(map) = options.map {
         map.check(robot)?;
     }
-    let file = LogFile::open(path, options.time())?;
+    let file = LogFile::open(path, options)?;
     let plan = Plan::new(path, &file, robot, options)?;
     let mut table = file.load(&plan.needed())?;
     plan.check(&table)?;

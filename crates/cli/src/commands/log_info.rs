@@ -12,7 +12,7 @@ use crate::output::{print, print_json, shown, table};
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Logs (CSV, Parquet, NumPy), one run each
+    /// Logs (CSV, Parquet, NumPy, bags of ROS 2), one run each
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// The robot, for names, order, types and limits of the joints
@@ -26,6 +26,9 @@ pub struct Arguments {
     /// The effort is read from the columns `<joint>.COLUMN`
     #[arg(long, value_name = "COLUMN", default_value = "effort")]
     effort: String,
+    /// The topic of a bag whose joint states are read [default: /joint_states, or the only one]
+    #[arg(long, value_name = "NAME")]
+    topic: Option<String>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -34,7 +37,8 @@ pub struct Arguments {
 /// Prints what there is to know about each log before it is used.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let map = arguments.map.as_deref().map(ColumnMap::load).transpose()?;
-    let options = ReadOptions { map: map.as_ref(), effort: &arguments.effort };
+    let (effort, topic) = (&arguments.effort, arguments.topic.as_deref());
+    let options = ReadOptions { map: map.as_ref(), effort, topic };
     let described = arguments.robot.as_deref().map(|path| arguments.part.load(path));
     let described = described.transpose()?;
     let mut runs: Vec<Run> = Vec::new();

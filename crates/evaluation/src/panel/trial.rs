@@ -143,7 +143,7 @@ fn nominal(folder: &Path) -> Result<Loaded, EvaluationError> {
 }
 
 fn runs(folder: &Path, robot: &Robot) -> Result<Vec<Run>, EvaluationError> {
-    let options = ReadOptions { map: None, effort: "effort" };
+    let options = ReadOptions::default();
     let read = |path: &PathBuf| Ok(logs::read_run(path, robot, &options)?);
     crate::trials::logs_of(folder)?.iter().map(read).collect()
 }

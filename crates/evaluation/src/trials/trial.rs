@@ -141,7 +141,7 @@ fn scored(
 }
 
 fn runs_of(folder: &Path, robot: &Robot) -> Result<Vec<Run>, EvaluationError> {
-    let options = ReadOptions { map: None, effort: "effort" };
+    let options = ReadOptions::default();
     let read = |path: &PathBuf| Ok(logs::read_run(path, robot, &options)?);
     logs_of(folder)?.iter().map(read).collect()
 }

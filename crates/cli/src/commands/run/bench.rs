@@ -95,7 +95,7 @@ impl Bench<'_> {
 
     /// Logs of the folder `logs` of the run, read from their files.
     pub fn runs(&self, logs: &Path, names: &[&str], robot: &Robot) -> Result<Vec<Run>, CliError> {
-        let options = ReadOptions { map: None, effort: "effort" };
+        let options = ReadOptions::default();
         let read =
             |name: &&str| logs::read_run(&self.out.join(log_file(logs, name)), robot, &options);
         Ok(names.iter().map(read).collect::<Result<_, _>>()?)

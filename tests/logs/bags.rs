@@ -1,0 +1,140 @@
+//! Bags of ROS 2 in MCAP.
+
+use std::fs;
+use std::path::Path;
+
+use logs::{ReadOptions, Run, read_run};
+use robot::JointKind;
+use tempfile::TempDir;
+
+use crate::kinds::given;
+use crate::mutated;
+use crate::support::{Scratch, assert_golden, golden, robot, two_joints};
+
+const BAGS: [&str; 4] =
+    ["mcap_zstd.mcap", "mcap_lz4.mcap", "mcap_none.mcap", "mcap_big_endian.mcap"];
+
+fn of_topic(name: &str, topic: Option<&str>) -> Result<Run, String> {
+    let file = Scratch::new("run", golden(name));
+    let options = ReadOptions { topic, ..ReadOptions::default() };
+    read_run(&file.path, &two_joints(), &options).map_err(|error| file.told::<Run>(Err(error)))
+}
+
+#[test]
+fn joint_states_are_read_by_the_names_in_every_message() {
+    for name in BAGS {
+        let run = of_topic(name, None).unwrap();
+        assert_golden(&run);
+        assert_eq!(run.joints[1].velocity.as_deref(), Some(&[2.0; 5][..]), "{name}");
+        assert!(run.extra.is_empty());
+    }
+}
+
+#[test]
+fn the_only_topic_is_read_and_one_of_several_is_asked_for() {
+    assert_golden(&of_topic("mcap_one_topic.mcap", None).unwrap());
+    assert_golden(&of_topic("mcap_two_topics.mcap", Some("/right/states")).unwrap());
+    assert_eq!(
+        of_topic("mcap_two_topics.mcap", None).unwrap_err(),
+        "run: it has joint states on /left/states, /right/states and none on /joint_states; \
+         the topic of the robot must be given"
+    );
+    assert_eq!(
+        of_topic("mcap_one_topic.mcap", Some("/arm")).unwrap_err(),
+        "run: there are no messages sensor_msgs/msg/JointState on the topic /arm; it has \
+         /arm/joint_states (sensor_msgs/msg/JointState, cdr), /note (std_msgs/msg/String, cdr)"
+    );
+}
+
+#[test]
+fn joints_that_no_message_holds_are_told() {
+    let arm = robot(&[("j1", JointKind::Revolute), ("finger", JointKind::Revolute)]);
+    assert_eq!(
+        Scratch::new("run", golden("mcap_none.mcap")).message(&arm),
+        "run: there is no column finger.effort, the effort of joint finger was expected there"
+    );
+    let names = ["j1", "j3"].map(|name| (name, JointKind::Revolute));
+    let told = Scratch::new("run", golden("mcap_none.mcap")).message(&robot(&names));
+    assert!(told.ends_with("the log has j1, j2, finger"), "{told}");
+}
+
+#[test]
+fn a_message_that_cannot_be_used_is_told_with_its_number() {
+    assert_eq!(
+        of_topic("mcap_apart.mcap", None).unwrap_err(),
+        "run: message 1 of /joint_states holds joints of the robot, but no j2.position"
+    );
+    assert_eq!(
+        of_topic("mcap_short_message.mcap", None).unwrap_err(),
+        "run: message 2 of /joint_states cannot be read: it is cut off, or of another type"
+    );
+}
+
+fn bag(files: &[(&str, &str)]) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("metadata.yaml"), "rosbag2_bagfile_information:\n").unwrap();
+    for (name, content) in files {
+        fs::write(folder.path().join(name), golden(content)).unwrap();
+    }
+    folder
+}
+
+fn read(path: &Path) -> Result<Run, String> {
+    let told = |e: logs::LogError| e.to_string().replace(&path.display().to_string(), "bag");
+    read_run(path, &two_joints(), &ReadOptions::default()).map_err(told)
+}
+
+#[test]
+fn a_folder_is_a_run_of_its_files_in_their_order() {
+    let folder = bag(&[("arm_10.mcap", "mcap_3_to_4.mcap"), ("arm_9.mcap", "mcap_0_to_2.mcap")]);
+    let run = read(folder.path()).unwrap();
+    assert_golden(&run);
+    assert_eq!(run.name, folder.path().file_stem().unwrap().to_str().unwrap());
+    let turned = bag(&[("arm_9.mcap", "mcap_3_to_4.mcap"), ("arm_10.mcap", "mcap_0_to_2.mcap")]);
+    let told = read(turned.path()).unwrap_err();
+    assert!(told.contains("it must increase from row to row"), "{told}");
+    let of = |folder: &TempDir| read(folder.path()).unwrap_err();
+    let expected = "bag: this is a bag without an MCAP file; ros2 bag convert writes it as MCAP (storage_id: mcap)";
+    assert_eq!(of(&bag(&[])), expected);
+    let other = bag(&[("arm_0.mcap", "packed_log.csv.gz")]);
+    let expected = "bag/arm_0.mcap: this is CSV or another kind of log; in a bag MCAP was expected";
+    assert_eq!(of(&other), expected);
+}
+
+#[test]
+fn a_cut_file_is_told() {
+    for name in BAGS {
+        let bytes = golden(name);
+        for cut in (8..bytes.len()).step_by(3) {
+            let told = Scratch::new("run", &bytes[..cut]).message(&two_joints());
+            assert!(told.contains("not a whole MCAP file"), "{name} cut at {cut}: {told}");
+        }
+    }
+}
+
+#[test]
+fn a_bag_that_was_made_to_be_large_is_refused() {
+    let told = of_topic("mcap_bomb.mcap", None).unwrap_err();
+    assert!(told.starts_with("run: unpacked it takes more than the"), "{told}");
+}
+
+#[test]
+fn damaged_files_are_read_or_refused_in_one_sentence() {
+    for name in BAGS {
+        mutated::read_all(&golden(name), &ReadOptions::default(), 3000);
+    }
+}
+
+#[test]
+fn a_given_bag_is_read() {
+    let joints = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
+        .map(|name| (format!("{name}_joint"), JointKind::Revolute));
+    let arm = robot(&joints.each_ref().map(|(name, kind)| (name.as_str(), *kind)));
+    for name in ["bag_mcap", "bag_mcap/bag_mcap.mcap"] {
+        let Some(path) = given(name) else { return };
+        let run = read_run(&path, &arm, &ReadOptions::default()).unwrap();
+        assert_eq!(run.time.len(), 300);
+        assert!((run.joints[0].position[1] - 1.449495).abs() < 1e-6);
+        assert!((run.time[1] - 0.008).abs() < 1e-12);
+    }
+}
