@@ -59,7 +59,8 @@ pub(crate) struct RunDesign {
     pub joints: Vec<JointDesign>,
 }
 
-/// One joint of a [`RunDesign`], all signals low-passed alike.
+/// One joint of a [`RunDesign`], all signals low-passed alike; efforts, columns and what is known of
+/// efforts are those of the joint while it moves, and none while it stands.
 #[derive(Debug, Clone)]
 pub(crate) struct JointDesign {
     /// Samples by local columns.
@@ -74,11 +75,11 @@ pub(crate) struct JointDesign {
     pub nominal: Vec<f64>,
     /// Position, velocity and acceleration.
     pub state: [Vec<f64>; 3],
-    /// Whether a sample tells of the effort: not where the joint stands, held by any part of its dry
-    /// friction.
+    /// Whether a sample tells of the effort: two thirds of what the low-pass takes into it, or more, are of
+    /// the joint while it moves. One that stands is held by any part of its dry friction.
     pub tells: Vec<bool>,
-    /// Whether the joint slides: where it turns or stands, dry friction is anything up to its level,
-    /// and what is left there is nobody's fault.
+    /// Whether the joint slides: where it turns, dry friction is anything up to its level, and what is
+    /// left there is nobody's fault.
     pub slides: Vec<bool>,
 }
 
@@ -96,6 +97,14 @@ impl RunDesign {
 }
 
 impl JointDesign {
+    /// Of a signal of the joint, the samples that tell of its effort.
+    pub fn told<'a, T: Copy>(
+        &'a self,
+        signal: impl IntoIterator<Item = T> + 'a,
+    ) -> impl Iterator<Item = T> + 'a {
+        signal.into_iter().zip(&self.tells).filter(|(_, tells)| **tells).map(|(value, _)| value)
+    }
+
     /// Measured minus nominal effort (N·m or N).
     pub fn gap(&self) -> impl Iterator<Item = f64> + '_ {
         self.measured.iter().zip(&self.nominal).map(|(m, n)| m - n)

@@ -21,8 +21,16 @@ pub(crate) const REGRESSION_RATE: f64 = 2.5;
 /// Order of the low-pass filter, before it runs forward and backward.
 const ORDER: usize = 4;
 
-/// How far beyond a stand the low-pass carries what holds the joint there, in periods of the cut-off.
+/// How far beyond a stand a low-pass carries what holds the joint there, in periods of its cut-off.
 const CARRIED: f64 = 0.35;
+
+/// Cut-off of the filter before the signals of a log are thinned, in cut-offs of the regression.
+const THINNING: f64 = 4.0;
+
+/// Least share of what the low-pass takes into a sample that comes from where the joint moves, for the
+/// sample to tell of the effort: of a smaller one less is left than of its noise, whose power falls
+/// with the share and not with its square.
+const TELLS: f64 = 2.0 / 3.0;
 
 /// Noise of readings of the efforts, as a share of them, above which the start of a run takes no part:
 /// the low-pass begins in the first reading, with all of its noise.
@@ -46,6 +54,9 @@ pub(crate) struct Along<'a> {
     /// The motion about a robot.
     pub motion: Motion,
     run: &'a PreparedRun,
+    /// `[joint][sample]`: one where the signals of a joint count and zero elsewhere; empty where they
+    /// count everywhere.
+    counts: Vec<Vec<f64>>,
     /// `[joint][_][sample]`: an orthonormal basis of the tones there may be in the effort.
     heard: Vec<Vec<Vec<f64>>>,
     limits: &'a [Limit],
@@ -60,13 +71,13 @@ pub(crate) struct Along<'a> {
 }
 
 impl<'a> Along<'a> {
-    /// Evaluates `robot` along a run, whose efforts have tones in them and go beyond limits.
+    /// Evaluates `robot` along a run, whose efforts go beyond limits.
     pub fn new(
         robot: &Robot,
         frame: &Frame,
         run: &'a PreparedRun,
         cutoff_hz: f64,
-        (tones, limits): (&[Tone], &'a [Limit]),
+        limits: &'a [Limit],
     ) -> Result<Self, LogError> {
         let first = stride(run.rate_hz, EVALUATION_RATE * cutoff_hz);
         let rate = run.rate_hz / first as f64;
@@ -85,14 +96,50 @@ impl<'a> Along<'a> {
         let motion = Motion::seen(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
-        let heard = vec![Vec::new(); run.joints.len()];
+        let (counts, heard) = (Vec::new(), vec![Vec::new(); run.joints.len()]);
         let noisy = is_noisy(run);
-        let mut along =
-            Self { motion, run, heard, limits, noisy, cutoff_hz, low_pass, strides, rate_hz };
+        Ok(Self {
+            motion,
+            run,
+            counts,
+            heard,
+            limits,
+            noisy,
+            cutoff_hz,
+            low_pass,
+            strides,
+            rate_hz,
+        })
+    }
+
+    /// The same of the joints while they move: what holds one that stands is any part of its dry
+    /// friction. Efforts and columns are set to zero there before the low-pass, which carries
+    /// nothing of it elsewhere then, and leaves `effort = columns weights + noise` as true as it was:
+    ///
+    /// ```text
+    /// L(m effort) = L(m columns) weights + L(m noise),   m = 1 while the joint moves, else 0
+    /// ```
+    pub fn while_moving(mut self) -> Self {
+        self.counts = (0..self.run.joints.len()).map(|j| self.moving(j)).collect();
+        self
+    }
+
+    /// The same with tones in its efforts.
+    pub fn hearing(mut self, tones: &[Tone]) -> Result<Self, LogError> {
         for tone in tones {
-            along.hear(tone)?;
+            self.hear(tone)?;
         }
-        Ok(along)
+        Ok(self)
+    }
+
+    /// One where joint `j` moves, and as far from where it stands as thinning carries what holds it
+    /// there; zero elsewhere, at the end of the run, beyond which a late torque looks, and at the
+    /// start of a noisy one.
+    fn moving(&self, j: usize) -> Vec<f64> {
+        let thins = self.strides[0] > 1;
+        let margin = if thins { self.carried(THINNING * self.cutoff_hz) } else { 0 };
+        let away = self.away(&self.motion.stands(j), margin);
+        away.into_iter().map(|away| f64::from(u8::from(away))).collect()
     }
 
     /// Takes a tone into the basis of what is heard at its joint, if the band has any of it.
@@ -104,7 +151,7 @@ impl<'a> Along<'a> {
         let phase = || beat.iter().map(|b| tone.beat.rate() * b);
         for sine in [phase().map(f64::cos).collect(), phase().map(f64::sin).collect()] {
             // The second time what the first leaves by rounding.
-            let sine = self.without_heard(tone.joint, self.thinned(sine)?);
+            let sine = self.without_heard(tone.joint, self.thinned(tone.joint, sine)?);
             let mut sine = self.without_heard(tone.joint, sine);
             let norm = sine.iter().map(|x| x * x).sum::<f64>().sqrt();
             if norm > IN_BAND * (sine.len() as f64).sqrt() {
@@ -125,25 +172,53 @@ impl<'a> Along<'a> {
         x
     }
 
-    /// A signal of the motion, low-passed, at the rate of the regression.
-    fn finish(&self, mut x: Vec<f64>) -> Vec<f64> {
+    /// A signal of joint `j` where it counts, low-passed, at the rate of the regression.
+    fn finish(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
+        if let Some(counts) = self.counts.get(j) {
+            x.iter_mut().zip(counts).for_each(|(x, counts)| *x *= counts);
+        }
         self.low_pass.apply(&mut x);
         decimate(&x, self.strides[1])
     }
 
-    /// Whether a sample at the rate of the regression is as far from where a joint `rests`, and from
-    /// the end of the run, beyond which a late torque looks, as the low-pass carries what is there; and
-    /// as far from the start where the run is `noisy`.
-    fn away(&self, rests: &[bool]) -> Vec<bool> {
-        let margin = (CARRIED / (self.cutoff_hz * self.motion.period_s)).round() as usize;
+    /// How far a low-pass carries what is somewhere (samples of the motion).
+    fn carried(&self, cutoff_hz: f64) -> usize {
+        (CARRIED / (cutoff_hz * self.motion.period_s)).round() as usize
+    }
+
+    /// Whether a sample of the motion is more than `margin` from where a joint `rests`, and as far from
+    /// the end of the run, beyond which a late torque looks, and from the start of a noisy one, as the
+    /// low-pass carries what is there.
+    fn away(&self, rests: &[bool], margin: usize) -> Vec<bool> {
+        let end = self.carried(self.cutoff_hz).min(rests.len());
         let mut away = vec![true; rests.len()];
-        away[rests.len().saturating_sub(margin)..].fill(false);
-        away[..if self.noisy { margin.min(rests.len()) } else { 0 }].fill(false);
+        away[rests.len() - end..].fill(false);
+        away[..if self.noisy { end } else { 0 }].fill(false);
         for (t, _) in rests.iter().enumerate().filter(|(_, rests)| **rests) {
             let end = (t + margin + 1).min(away.len());
             away[t.saturating_sub(margin)..end].fill(false);
         }
+        away
+    }
+
+    /// Whether a sample at the rate of the regression is as far from where a joint `rests` as the
+    /// low-pass carries what is there.
+    fn clear(&self, rests: &[bool]) -> Vec<bool> {
+        let away = self.away(rests, self.carried(self.cutoff_hz));
         away.into_iter().step_by(self.strides[1]).collect()
+    }
+
+    /// Whether a sample at the rate of the regression tells of the effort of joint `j`.
+    fn tells(&self, j: usize) -> Vec<bool> {
+        let moving = self.finish(j, vec![1.0; self.motion.samples()]);
+        moving.into_iter().map(|share| share > TELLS).collect()
+    }
+
+    /// Whether joint `j` slides at a sample at the rate of the regression: does not turn there.
+    fn slides(&self, j: usize) -> Vec<bool> {
+        let (rests, stands) = (self.motion.rests(j), self.motion.stands(j));
+        let turns: Vec<bool> = rests.iter().zip(stands).map(|(rests, s)| *rests && !s).collect();
+        self.clear(&turns)
     }
 
     /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
@@ -151,7 +226,7 @@ impl<'a> Along<'a> {
     pub fn finished(&self, columns: Vec<Column>) -> Vec<Column> {
         let filtered = |mut column: Column| {
             for part in &mut column {
-                let values = self.finish(std::mem::take(&mut part.values));
+                let values = self.finish(part.joint, std::mem::take(&mut part.values));
                 part.values = self.without_heard(part.joint, values);
             }
             column
@@ -160,7 +235,7 @@ impl<'a> Along<'a> {
     }
 
     /// The efforts of the log.
-    fn measured(&self) -> Result<Vec<Vec<f64>>, LogError> {
+    pub fn measured(&self) -> Result<Vec<Vec<f64>>, LogError> {
         self.all_thinned(self.run.joints.iter().map(|j| j.effort.clone()).collect())
     }
 
@@ -182,7 +257,7 @@ impl<'a> Along<'a> {
     /// The part of the effort at the joint of `limit` that became no torque.
     pub fn beyond(&self, limit: &Limit) -> Result<Vec<f64>, LogError> {
         let beyond = self.effort(limit.joint).map(|effort| limit.beyond(effort)).collect();
-        self.thinned(beyond)
+        self.thinned(limit.joint, beyond)
     }
 
     /// What of them became no torque; nothing where all did.
@@ -195,7 +270,7 @@ impl<'a> Along<'a> {
     }
 
     /// The same with the tones there may be in what a robot leaves of the efforts.
-    fn known(&self, left: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LogError> {
+    pub fn known(&self, left: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LogError> {
         let mut known = self.beyond_limits()?;
         for (j, known) in known.iter_mut().enumerate().filter(|(j, _)| !self.heard[*j].is_empty()) {
             known.resize(left[j].len(), 0.0);
@@ -219,7 +294,8 @@ impl<'a> Along<'a> {
             slopes.push(value * (b - origin));
         }
         let finish = |z: Vec<Complex<f64>>| -> Vec<Complex<f64>> {
-            let part = |part: fn(&Complex<f64>) -> f64| self.finish(z.iter().map(part).collect());
+            let part =
+                |part: fn(&Complex<f64>) -> f64| self.finish(j, z.iter().map(part).collect());
             let parts = part(|z| z.re).into_iter().zip(part(|z| z.im));
             parts.map(|(re, im)| Complex::new(re, im)).collect()
         };
@@ -247,7 +323,7 @@ impl<'a> Along<'a> {
             qd: thin(&self.motion.qd),
             left: self.left(&self.measured()?),
             stands: (0..self.run.joints.len())
-                .map(|j| self.away(&self.motion.stands(j)).iter().map(|away| !away).collect())
+                .map(|j| self.clear(&self.motion.stands(j)).iter().map(|clear| !clear).collect())
                 .collect(),
             along: self,
         })
@@ -255,23 +331,29 @@ impl<'a> Along<'a> {
 
     /// `measured` less the efforts of the robot.
     fn left(&self, measured: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let expected = self.motion.effort.iter().map(|e| self.finish(e.clone()));
-        less(measured, &expected.collect::<Vec<_>>())
+        less(measured, &self.expected())
+    }
+
+    /// The efforts of the robot.
+    pub fn expected(&self) -> Vec<Vec<f64>> {
+        let efforts = self.motion.effort.iter().enumerate();
+        efforts.map(|(j, effort)| self.finish(j, effort.clone())).collect()
     }
 
     /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects
     /// are evaluated at a lower rate than the log's, noise is kept from folding into the band by
     /// a filter that leaves the band itself alone (1e-5 at the cut-off).
     fn all_thinned(&self, efforts: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, LogError> {
-        efforts.into_par_iter().map(|e| self.thinned(e)).collect()
+        let thinned = |(j, effort)| self.thinned(j, effort);
+        efforts.into_par_iter().enumerate().map(thinned).collect()
     }
 
-    fn thinned(&self, mut x: Vec<f64>) -> Result<Vec<f64>, LogError> {
+    fn thinned(&self, j: usize, mut x: Vec<f64>) -> Result<Vec<f64>, LogError> {
         if self.strides[0] > 1 {
-            LowPass::new(ORDER, 4.0 * self.cutoff_hz, self.run.rate_hz)?.apply(&mut x);
+            LowPass::new(ORDER, THINNING * self.cutoff_hz, self.run.rate_hz)?.apply(&mut x);
             x = decimate(&x, self.strides[0]);
         }
-        Ok(self.finish(x))
+        Ok(self.finish(j, x))
     }
 }
 
@@ -304,11 +386,10 @@ impl Evaluated {
             Look::Effort => along.finished(h.columns(motion)),
             Look::Twist => along.finished(h.twist(motion)),
         };
-        let nominal = |j: usize| match look {
-            Look::Effort => along.finish(motion.effort[j].clone()),
-            Look::Twist => along.finish(motion.twist(j)),
+        let nominal: Vec<Vec<f64>> = match look {
+            Look::Effort => along.expected(),
+            Look::Twist => (0..joints).map(|j| along.finish(j, motion.twist(j))).collect(),
         };
-        let nominal: Vec<Vec<f64>> = (0..joints).map(nominal).collect();
         let (measured, known) = match look {
             Look::Effort => {
                 let measured = along.measured()?;
@@ -319,10 +400,9 @@ impl Evaluated {
         };
         let time = decimate(&decimate(&along.run.time, first), second);
         let tells = |j: usize| match look {
-            Look::Effort => along.away(&along.motion.stands(j)),
+            Look::Effort => along.tells(j),
             Look::Twist => vec![true; time.len()],
         };
-        let slides = |j: usize| along.away(&along.motion.rests(j));
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
             rate_hz: along.rate_hz,
@@ -333,7 +413,7 @@ impl Evaluated {
             state: [&motion.q, &motion.qd, &motion.qdd]
                 .map(|s| s.iter().map(|x| decimate(x, second)).collect()),
             tells: (0..joints).map(tells).collect(),
-            slides: (0..joints).map(slides).collect(),
+            slides: (0..joints).map(|j| along.slides(j)).collect(),
             time,
         })
     }
@@ -342,7 +422,7 @@ impl Evaluated {
     /// itself differs is known.
     pub fn measure_from(&mut self, described: &Along) {
         for (j, effort) in described.motion.effort.iter().enumerate() {
-            let effort = described.finish(effort.clone());
+            let effort = described.finish(j, effort.clone());
             self.known[j].resize(effort.len(), 0.0);
             let own = self.known[j].iter_mut().zip(&self.nominal[j]);
             own.zip(&effort).for_each(|((known, own), effort)| *known += own - effort);
@@ -386,7 +466,7 @@ fn is_noisy(run: &PreparedRun) -> bool {
 }
 
 /// The signals of all joints less others.
-fn less(from: &[Vec<f64>], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
+pub(crate) fn less(from: &[Vec<f64>], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let less = |(x, y): (&Vec<f64>, &Vec<f64>)| x.iter().zip(y).map(|(x, y)| x - y).collect();
     from.iter().zip(others).map(less).collect()
 }

@@ -1,4 +1,5 @@
 use crate::blocks::{Block, Fold};
+use crate::design::JointDesign;
 use crate::extend::Solved;
 use crate::problem::Problem;
 use crate::result::{FoldGain, InverseGain};
@@ -46,7 +47,11 @@ fn inverse(record: &Record, whole: &Problem, solved: &[Solved]) -> InverseGain {
     let rms_after: Vec<f64> = (0..joints).map(|j| rms(all(j))).collect();
     let rms_before = before(&whole.of);
     let nmse = |rms: &[f64]| {
-        (0..joints).map(|j| rms[j].powi(2) / measured(record, &whole.of, j).1).collect()
+        let of = |j: usize| {
+            let variance = measured(record, &whole.of, j).1;
+            if variance > 0.0 { rms[j].powi(2) / variance } else { 0.0 }
+        };
+        (0..joints).map(of).collect()
     };
     InverseGain {
         nmse_before: nmse(&rms_before),
@@ -58,16 +63,19 @@ fn inverse(record: &Record, whole: &Problem, solved: &[Solved]) -> InverseGain {
     }
 }
 
-/// Sum of squares, and number, of what is left of the effort of joint `j` in the test of a fold.
+/// Sum of squares, and number, of what is left of the effort of joint `j` in the test of a fold, where
+/// that tells.
 fn squares(whole: &Problem, fold: &Fold, solved: &Solved, j: usize) -> (f64, usize) {
     let in_run = |run: usize| {
         let blocks = fold.test.iter().map(|&b| &whole.blocks[b]).filter(move |b| b.run == run);
         let mut blocks = blocks.peekable();
         blocks.peek()?;
         let left = solved.remaining(whole.design, run, j);
+        let tells = &whole.design.runs[run].joints[j].tells;
         let sum = |(sum, n): (f64, usize), block: &Block| {
-            let of = &left[block.samples.clone()];
-            (sum + of.iter().map(|x| x * x).sum::<f64>(), n + of.len())
+            let of = left[block.samples.clone()].iter().zip(&tells[block.samples.clone()]);
+            let told = of.filter(|(_, tells)| **tells);
+            told.fold((sum, n), |(sum, n), (x, _)| (sum + x * x, n + 1))
         };
         Some(blocks.fold((0.0, 0), sum))
     };
@@ -109,30 +117,37 @@ fn held_out(whole: &Problem) -> String {
     }
 }
 
-/// RMS of measured minus nominal effort of joint `j` over some blocks.
+/// RMS of measured minus nominal effort of joint `j` over some blocks, where that tells.
 fn gap(record: &Record, blocks: &[usize], j: usize) -> f64 {
-    let joint =
-        |b: &usize| (&record.blocks[*b], &record.design.runs[record.blocks[*b].run].joints[j]);
-    let gaps = blocks
-        .iter()
-        .map(joint)
-        .flat_map(|(block, joint)| joint.gap().skip(block.samples.start).take(block.samples.len()));
-    let (n, sum) = gaps.fold((0_usize, 0.0), |(n, sum), gap| (n + 1, sum + gap * gap));
+    let gaps = told(record, blocks, j, |joint| joint.gap().collect());
+    let (n, sum) = gaps.iter().fold((0_usize, 0.0), |(n, sum), gap| (n + 1, sum + gap * gap));
     (sum / n.max(1) as f64).sqrt()
 }
 
-/// RMS and variance of the measured effort of joint `j` over some blocks.
+/// RMS and variance of the measured effort of joint `j` over some blocks, where that tells.
 pub(crate) fn measured(record: &Record, blocks: &[usize], j: usize) -> (f64, f64) {
-    let (mut n, mut sum, mut squares) = (0.0, 0.0, 0.0);
-    for &b in blocks {
-        let block = &record.blocks[b];
-        for v in &record.design.runs[block.run].joints[j].measured[block.samples.clone()] {
-            n += 1.0;
-            sum += v;
-            squares += v * v;
-        }
-    }
-    let count = f64::max(n, 1.0);
-    let mean = sum / count;
-    ((squares / count).sqrt(), (squares / count - mean * mean).max(0.0))
+    let efforts = told(record, blocks, j, |joint| joint.measured.clone());
+    let count = efforts.len().max(1) as f64;
+    let mean = efforts.iter().sum::<f64>() / count;
+    let square = efforts.iter().map(|v| v * v).sum::<f64>() / count;
+    (square.sqrt(), (square - mean * mean).max(0.0))
+}
+
+/// A signal of joint `j` over some blocks, where that tells of its effort.
+fn told(
+    record: &Record,
+    blocks: &[usize],
+    j: usize,
+    signal: impl Fn(&JointDesign) -> Vec<f64>,
+) -> Vec<f64> {
+    let joints = record.design.runs.iter().map(|run| &run.joints[j]);
+    let signals: Vec<(Vec<f64>, &[bool])> =
+        joints.map(|joint| (signal(joint), joint.tells.as_slice())).collect();
+    let of_block = |b: &usize| {
+        let Block { run, samples } = &record.blocks[*b];
+        let (signal, tells) = &signals[*run];
+        let all = signal[samples.clone()].iter().zip(&tells[samples.clone()]);
+        all.filter(|(_, tells)| **tells).map(|(value, _)| *value)
+    };
+    blocks.iter().flat_map(of_block).collect()
 }

@@ -41,7 +41,7 @@ pub fn left_over(
     let limits = described_limits(robot);
     let frame = Frame { rest_speed: rest_speed.to_vec(), ..Frame::of_logs(logs) };
     let of = |run| {
-        let along = Along::new(robot, &frame, run, logs.cutoff_hz, (&[], &limits))?;
+        let along = Along::new(robot, &frame, run, logs.cutoff_hz, &limits)?;
         along.left_over()
     };
     logs.runs.iter().map(of).collect()

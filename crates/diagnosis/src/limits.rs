@@ -125,9 +125,9 @@ pub(crate) fn limits(robot: &Robot, log: &Log) -> Result<Vec<Limit>, LogError> {
 struct Trial {
     /// Sum of squares over all samples.
     deviance: f64,
-    /// `[run][sample]`.
+    /// `[run][sample]`, of the samples that tell.
     rest: Vec<Vec<f64>>,
-    /// The effort beyond the limit, low-passed.
+    /// The effort beyond the limit, low-passed; none where a sample does not tell.
     beyond: DVector<f64>,
 }
 
@@ -135,12 +135,16 @@ fn trial(runs: &[Along], left: &Left, limit: &Limit) -> Result<Trial, LogError> 
     let beyond: Vec<Vec<f64>> =
         runs.iter().map(|run| run.beyond(limit)).collect::<Result<_, _>>()?;
     let lengths: Vec<usize> = beyond.iter().map(Vec::len).collect();
-    let beyond = DVector::from_vec(beyond.concat());
+    let beyond = DVector::from_vec(beyond.concat()).component_mul(&left.tells);
     let clamped = &left.y - &beyond;
     let rest = &clamped - &left.x * left.normal.solve(&left.x.tr_mul(&clamped));
     let deviance = rest.norm_squared();
-    let mut samples = rest.iter().copied();
-    let rest = lengths.iter().map(|&n| samples.by_ref().take(n).collect()).collect();
+    let mut samples = rest.iter().zip(&left.tells);
+    let mut told = |n: usize| {
+        let of_run = samples.by_ref().take(n);
+        of_run.filter(|(_, tells)| **tells > 0.0).map(|(rest, _)| *rest).collect()
+    };
+    let rest = lengths.iter().map(|&n| told(n)).collect();
     Ok(Trial { deviance, rest, beyond })
 }
 
@@ -148,8 +152,8 @@ fn trial(runs: &[Along], left: &Left, limit: &Limit) -> Result<Trial, LogError> 
 /// effects predicts the clamped effort above it, and not the effort.
 fn moves_nothing(left: &Left, beyond: &DVector<f64>) -> bool {
     let touched = TOUCHED * beyond.amax();
-    let (above, below): (Vec<usize>, Vec<usize>) =
-        (0..beyond.len()).partition(|&t| beyond[t].abs() > touched);
+    let told = (0..beyond.len()).filter(|&t| left.tells[t] > 0.0);
+    let (above, below): (Vec<usize>, Vec<usize>) = told.partition(|&t| beyond[t].abs() > touched);
     let (x, y) = (left.x.select_rows(&below), left.y.select_rows(&below));
     let normal = x.tr_mul(&x) + DMatrix::from_diagonal(&left.ridge);
     let Some(normal) = normal.cholesky() else { return false };

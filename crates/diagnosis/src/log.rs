@@ -64,12 +64,21 @@ impl<'a> Log<'a> {
         wanted && moved && shown == (self.look == Look::Twist)
     }
 
-    /// Evaluates `robot` along every run.
+    /// Evaluates `robot` along every run; its efforts while its joints move.
     pub fn along(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
-        let runs = self.prepared.runs.iter();
-        runs.map(|run| {
-            Along::new(robot, frame, run, self.prepared.cutoff_hz, (self.tones, self.limits))
-        })
-        .collect()
+        let evaluated = |run| {
+            let along = Along::new(robot, frame, run, self.prepared.cutoff_hz, self.limits)?;
+            let along = if self.look == Look::Effort { along.while_moving() } else { along };
+            along.hearing(self.tones)
+        };
+        self.prepared.runs.iter().map(evaluated).collect()
+    }
+
+    /// The same of whole runs.
+    pub fn along_all(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
+        let cutoff_hz = self.prepared.cutoff_hz;
+        let evaluated =
+            |run| Along::new(robot, frame, run, cutoff_hz, self.limits)?.hearing(self.tones);
+        self.prepared.runs.iter().map(evaluated).collect()
     }
 }

@@ -142,6 +142,17 @@ impl<'a> Problem<'a> {
         HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
     }
 
+    /// A signal of run `run` of which each block is taken from what its fold has; a block of no fold, from
+    /// the first.
+    pub fn put_together(&self, run: usize, folds: &[&[f64]]) -> Vec<f64> {
+        let of_run = self.blocks.iter().enumerate().filter(|(_, block)| block.run == run);
+        let part = |(b, block): (usize, &Block)| {
+            let fold = self.folds.iter().position(|f| f.test.contains(&b)).unwrap_or(0);
+            folds.get(fold).map_or(&[][..], |of| &of[block.samples.clone()]).to_vec()
+        };
+        of_run.flat_map(part).collect()
+    }
+
     /// Held-out residuals, `[joint][run][sample]`, of what `left` says that each fold, by its
     /// index, leaves of a run at a joint; runs that take no part are left out.
     pub fn held_out_residuals(

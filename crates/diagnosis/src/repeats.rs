@@ -17,23 +17,32 @@ pub(crate) fn motions(design: &Design) -> Vec<usize> {
 }
 
 /// `sqrt(mean((r_a - r_b)^2) / 2)` over all pairs of runs that repeat a motion, `r` the
-/// residual of the nominal model, so that small differences of the motion cancel.
+/// residual of the nominal model where it tells in both, so that small differences of the motion
+/// cancel.
 pub(crate) fn repeats(design: &Design) -> Option<Vec<f64>> {
     let joints = design.joints();
-    let (mut sum, mut count) = (vec![0.0; joints], 0_usize);
+    let (mut sum, mut count) = (vec![0.0; joints], vec![0_usize; joints]);
+    let mut repeat = false;
     for (a, first) in design.runs.iter().enumerate() {
         for second in &design.runs[a + 1..] {
             let Some(shift) = repeat_shift(design, first, second) else { continue };
             let pairs = overlap(first.time.len(), second.time.len(), shift);
-            count += pairs.len();
-            for (j, total) in sum.iter_mut().enumerate() {
+            repeat |= !pairs.is_empty();
+            for j in 0..joints {
                 let of = |run: &RunDesign| run.joints[j].residual().collect::<Vec<_>>();
                 let (x, y) = (of(first), of(second));
-                *total += pairs.iter().map(|&(s, t)| (x[s] - y[t]).powi(2)).sum::<f64>();
+                let tell = |(s, t): &&(usize, usize)| {
+                    first.joints[j].tells[*s] && second.joints[j].tells[*t]
+                };
+                for &(s, t) in pairs.iter().filter(tell) {
+                    sum[j] += (x[s] - y[t]).powi(2);
+                    count[j] += 1;
+                }
             }
         }
     }
-    (count > 0).then(|| sum.iter().map(|s| (0.5 * s / count as f64).sqrt()).collect())
+    let rms = |(sum, count): (&f64, &usize)| (0.5 * sum / (*count).max(1) as f64).sqrt();
+    repeat.then(|| sum.iter().zip(&count).map(rms).collect())
 }
 
 /// The shift (samples) at which the second run repeats the first, if it does.

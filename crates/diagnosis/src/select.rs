@@ -83,8 +83,8 @@ impl Selection<'_> {
 
     /// Names a disputed cause by its plainer rival, where that has as much evidence: rotor inertia
     /// for the inertia of the link behind the same joint, a torque constant for a gear ratio,
-    /// Coulomb friction for one that grows with the load, friction of each joint for that of
-    /// motors they share.
+    /// Coulomb friction for one that grows with the load or differs with the direction, friction of each
+    /// joint for that of motors they share.
     fn plainer(&self, model: &mut Model) {
         for g in model.clone() {
             let plain = self.plainer_than(g);

@@ -78,7 +78,7 @@ pub(crate) struct Left {
     /// One over the mean square of the residual.
     weight: f64,
     /// One where a sample tells of the effort, else zero: rows of all the others are none.
-    tells: DVector<f64>,
+    pub tells: DVector<f64>,
 }
 
 impl Left {

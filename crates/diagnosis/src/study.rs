@@ -95,7 +95,7 @@ impl Study<'_> {
             progress.step();
             let answer = self.answer(record, progress)?;
             let diagnosis = self.report(record, &answer);
-            let traces = traces(self.design, &answer.left);
+            let traces = traces(self, &answer)?;
             let held_out = self.held_out(record, &answer);
             Ok((diagnosis, traces, answer.extended, held_out))
         })?
@@ -144,7 +144,8 @@ impl Study<'_> {
     /// Least fall of each joint's held-out RMS error that counts (N·m or N).
     fn practical(&self) -> Vec<f64> {
         let rms = |j: usize| {
-            let efforts = self.design.runs.iter().flat_map(|r| &r.joints[j].measured);
+            let joints = self.design.runs.iter().map(|run| &run.joints[j]);
+            let efforts = joints.flat_map(|joint| joint.told(joint.measured.iter().copied()));
             let (n, sum) = efforts.fold((0, 0.0), |(n, s), e| (n + 1, s + e * e));
             (sum / f64::from(n.max(1))).sqrt()
         };

@@ -101,7 +101,7 @@ pub(crate) fn tones(
     frame: &Frame,
     (log, slowest_hz): (&Log, f64),
 ) -> Result<Heard, LogError> {
-    let rest = |run| Along::new(robot, frame, run, wide.cutoff_hz, (&[], log.limits))?.rest();
+    let rest = |run| Along::new(robot, frame, run, wide.cutoff_hz, log.limits)?.rest();
     let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
     let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
     let at = |j: usize| {

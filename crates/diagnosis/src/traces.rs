@@ -1,4 +1,9 @@
-use crate::design::{Design, JointDesign, RunDesign};
+use logs::LogError;
+use rayon::prelude::*;
+use robot::Robot;
+
+use crate::evaluate::{Along, less};
+use crate::study::{Answer, Study};
 
 /// Signals behind a diagnosis, for figures: one run, on the regression's clock.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,26 +31,38 @@ pub struct JointTraces {
     pub extended: Vec<f64>,
 }
 
-/// The signals of every run; `residuals` are what is left by what was found without each,
-/// `[joint][run][sample]`.
-pub(crate) fn traces(design: &Design, residuals: &[Vec<Vec<f64>>]) -> Vec<RunTraces> {
-    let run = |(r, run): (usize, &RunDesign)| RunTraces {
-        name: run.name.clone(),
-        time: run.time.clone(),
-        joints: run.joints.iter().zip(residuals).map(|(j, left)| joint(j, left.get(r))).collect(),
+/// The signals of every run, whole: also where joints stand, of which the fit knows nothing.
+///
+/// ```text
+/// extended = effort of the robot that was found without the part + tones + what became no torque
+/// ```
+pub(crate) fn traces(study: &Study, answer: &Answer) -> Result<Vec<RunTraces>, LogError> {
+    let expected = |robot: &Robot| -> Result<Vec<Vec<Vec<f64>>>, LogError> {
+        let along = study.log.along_all(robot, &study.design.frame)?;
+        Ok(along.iter().map(Along::expected).collect())
     };
-    design.runs.iter().enumerate().map(run).collect()
-}
-
-fn joint(design: &JointDesign, left: Option<&Vec<f64>>) -> JointTraces {
-    let [position, velocity, _] = design.state.clone();
-    let left = left.into_iter().flatten();
-    let extended = design.measured.iter().zip(left).map(|(m, l)| m - l).collect();
-    JointTraces {
-        position,
-        velocity,
-        measured: design.measured.clone(),
-        nominal: design.nominal.clone(),
-        extended,
-    }
+    let about = study.log.along_all(study.robot, &study.design.frame)?;
+    let nominal = expected(study.log.described.unwrap_or(study.robot))?;
+    let found: Vec<Vec<Vec<Vec<f64>>>> = answer
+        .gain
+        .folds
+        .par_iter()
+        .map(|solved| expected(&solved.robot))
+        .collect::<Result<_, LogError>>()?;
+    let run = |(r, along): (usize, &Along)| {
+        let design = &study.design.runs[r];
+        let measured = along.measured()?;
+        let known = along.known(&less(&measured, &along.expected()))?;
+        let joint = |(j, measured): (usize, Vec<f64>)| {
+            let [position, velocity, _] = design.joints[j].state.clone();
+            let folds: Vec<&[f64]> = found.iter().map(|of| of[r][j].as_slice()).collect();
+            let known = known[j].iter().copied().chain(std::iter::repeat(0.0));
+            let extended = answer.by_run.put_together(r, &folds);
+            let extended = extended.into_iter().zip(known).map(|(x, known)| x + known).collect();
+            JointTraces { position, velocity, measured, nominal: nominal[r][j].clone(), extended }
+        };
+        let joints = measured.into_iter().enumerate().map(joint).collect();
+        Ok(RunTraces { name: design.name.clone(), time: design.time.clone(), joints })
+    };
+    about.iter().enumerate().map(run).collect()
 }

@@ -21,8 +21,10 @@ impl Explain for AsymmetricFriction {
     }
 
     fn nature(&self) -> Nature {
-        const RELATIONS: &[Relation] =
-            &[Relation::Together(&[EffectKind::CoulombFriction, EffectKind::TorqueOffset])];
+        const RELATIONS: &[Relation] = &[
+            Relation::Together(&[EffectKind::CoulombFriction, EffectKind::TorqueOffset]),
+            Relation::PlainerHere(EffectKind::CoulombFriction),
+        ];
         Nature::new(Linearity::Exact, Law::Rough, Seat::Elsewhere, Weights::Direct, RELATIONS)
     }
 
