@@ -62,11 +62,13 @@ impl Study<'_> {
         let (gap, rest) = (self.told_of(&answer.gap[j], j), self.told_of(left, j));
         let structure = self.structure(answer, left, j);
         let spectrum = Spectrum::of(left, self.design.rate_hz);
-        let lowered = |f: &&Found| f.fall[j] > least[j].powi(2);
+        let lowered = || answer.found.iter().filter(|f| f.fall[j] > least[j].powi(2));
         let name = &self.robot.links()[j].joint.name;
+        let is_own = |f: &&Found| f.finding.at.joint.as_ref() == Some(name);
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
-            findings: answer.found.iter().filter(lowered).count() + heard,
+            findings: lowered().count() + heard,
+            own: lowered().filter(is_own).count() + heard,
             between: answer.between.as_ref().map_or(0, |b| b.at(name)),
             unseen: answer.unseen_friction[j],
             torque_rms: self.torque_rms(j),

@@ -9,8 +9,8 @@ const OF_COMMANDED_NOISE: f64 = 1.6;
 /// Standard errors of an RMS, `1 / sqrt(2 n)` of it for `n` independent samples, that it may be besides.
 const ERRORS: f64 = 3.0;
 
-/// Share of the effort's RMS above which only the effort's own noise closes a joint, and nothing one of
-/// which something is named: more room than that measures up to what matters.
+/// Share of the effort's RMS above which only the effort's own noise closes a joint, and nothing one that
+/// has a cause of its own: more room than that measures up to what matters.
 const DROWNED: f64 = 0.15;
 
 /// Share of what is left that a flexible predictor must find for it to depend on the motion.
@@ -33,6 +33,8 @@ pub(crate) struct Situation {
     pub inadequate: Option<String>,
     /// Number of findings that lower its held-out error.
     pub findings: usize,
+    /// Number of those that are causes of the joint alone.
+    pub own: usize,
     /// Number of findings between its two encoders.
     pub between: usize,
     /// Whether what was fitted predicts worse than the description.
@@ -85,16 +87,13 @@ impl Situation {
         self.is_within(most, self.floor())
     }
 
-    /// Whether it may be noise and is so large that what matters fits in: of a joint of which nothing is
-    /// named, for no better reason than that a command or a turning joint is given more room.
+    /// Whether it may be noise and is so large that what matters fits in. Without a cause of the joint's
+    /// own, which these logs alone would have to show, for no better reason than that a command or a
+    /// turning joint is given more room.
     fn is_drowned(&self) -> bool {
         self.is_noise()
             && self.remaining_rms > DROWNED * self.torque_rms
-            && (self.is_named() || !self.is_within(OF_NOISE, self.noise.0))
-    }
-
-    fn is_named(&self) -> bool {
-        self.findings + self.between > 0
+            && (self.own > 0 || !self.is_within(OF_NOISE, self.noise.0))
     }
 
     /// Whether what is left beyond the noise does not matter.
@@ -106,7 +105,7 @@ impl Situation {
     ///
     /// Nothing is open where what is left is within noise that has a source, or a share of the effort
     /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone, and explains nothing. Where a fit failed nothing is
+    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone, beside no cause of the joint's own. Where a fit failed nothing is
     /// consistent.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
@@ -116,7 +115,7 @@ impl Situation {
         let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
         let is_sane = fell && self.remaining_rms < self.torque_rms;
         let blind = hides(self.unseen, self.torque_rms);
-        let verdict = match (self.is_named(), closed) {
+        let verdict = match (self.findings + self.between > 0, closed) {
             // Something was there to fit, though no two parts of the logs agree on it.
             (false, true) if self.failed || blind => Verdict::DataInadequate,
             (false, true) => Verdict::Consistent,
@@ -233,6 +232,7 @@ mod tests {
         Situation {
             inadequate: None,
             findings,
+            own: findings,
             between: 0,
             failed: false,
             unseen: 0.0,
@@ -273,6 +273,8 @@ mod tests {
         let own = |findings, left| joint(findings, left, left).verdict().0;
         assert_eq!([own(0, 1.6), own(1, 1.4)], [Verdict::Consistent, Verdict::Explained]);
         assert_eq!(own(1, 1.6), Verdict::PartlyExplained);
+        let of_the_arm = Situation { own: 0, ..joint(1, 1.6, 1.6) };
+        assert_eq!(of_the_arm.verdict().0, Verdict::Explained);
         // Nor does the friction of a joint that often turns.
         let turning = |left| Situation { near_rest: 1.5, ..joint(0, left, 0.1) }.verdict().0;
         assert_eq!(turning(1.4), Verdict::Consistent);
