@@ -14,8 +14,8 @@ const LOGS: u64 = 40;
 /// Time after which the noise has forgotten all but 1/e of itself (s).
 const MEMORY_S: f64 = 0.3;
 
-/// Logs with any finding: the false-discovery rate of 5 % allows two, and with that
-/// probability more than four are seen once in a hundred times.
+/// Logs with any finding: two were expected at a probability of 5 %, and more than four are seen once in
+/// a hundred times then.
 const MOST: usize = 4;
 
 /// Adds to the effort of every joint noise of the same RMS as the white noise of

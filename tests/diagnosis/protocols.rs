@@ -90,11 +90,7 @@ fn recorded_pendulum_has_friction_and_no_play_though_its_encoder_is_coarse() {
 /// One log, in which the joints of an arm move one after the other, out and back, in 3 s each; what holds them
 /// at rest is balance and friction within its level, of which the log shows nothing.
 fn one_after_the_other(level: f64) -> Run {
-    const RATE_HZ: f64 = 250.0;
-    let robot = wam();
-    let joints = robot.joint_count();
-    let samples = (3.0 * RATE_HZ) as usize * joints;
-    let time: Vec<f64> = (0..samples).map(|k| k as f64 / RATE_HZ).collect();
+    let joints = wam().joint_count();
     // q = A / 2 (1 - cos x) sin(2 x), one turn of x in 2.4 s, after .3 s of rest.
     let state = |j: usize, t: f64| -> [f64; 3] {
         let (s, w) = ((t - 3.0 * j as f64 - 0.3) / 2.4, TAU / 2.4);
@@ -107,6 +103,21 @@ fn one_after_the_other(level: f64) -> Run {
         let bend = one.1 * two.0 + 4.0 * one.0 * two.1 - 4.0 * swell * two.0;
         [0.3 + half * swell * two.0, half * w * slope, half * w * w * bend]
     };
+    logged("one after the other", 3.0 * joints as f64, state, |_, qd| level * sign(qd))
+}
+
+/// A log of the WAM in which joint `j` is in `state(j, t)` at time `t` (s), and is held by a torque of
+/// `friction(t, qd)`.
+fn logged(
+    name: &str,
+    seconds: f64,
+    state: impl Fn(usize, f64) -> [f64; 3],
+    friction: impl Fn(f64, f64) -> f64,
+) -> Run {
+    const RATE_HZ: f64 = 250.0;
+    let robot = wam();
+    let joints = robot.joint_count();
+    let time: Vec<f64> = (0..(seconds * RATE_HZ) as usize).map(|k| k as f64 / RATE_HZ).collect();
     let dynamics = Dynamics::new(&robot);
     let mut noise = ChaCha8Rng::seed_from_u64(5);
     let mut efforts = vec![Vec::new(); joints];
@@ -116,7 +127,7 @@ fn one_after_the_other(level: f64) -> Run {
         let torque = dynamics.inverse_dynamics(&of(0), &of(1), &of(2)).unwrap();
         for (j, effort) in efforts.iter_mut().enumerate() {
             let [_, qd, qdd] = states[j];
-            let drive = robot.links()[j].actuator.rotor_inertia * qdd + level * sign(qd);
+            let drive = robot.links()[j].actuator.rotor_inertia * qdd + friction(*t, qd);
             effort.push(torque[j] + drive + noise.random_range(-0.02..0.02));
         }
     }
@@ -127,7 +138,7 @@ fn one_after_the_other(level: f64) -> Run {
         ..Channels::default()
     };
     Run {
-        name: "one after the other".to_owned(),
+        name: name.to_owned(),
         source: Default::default(),
         sha256: String::new(),
         is_torn: false,
@@ -145,4 +156,38 @@ fn joints_that_move_one_after_the_other_in_one_log_are_each_found_to_rub() {
         .diagnosis;
     println!("{:?}", named(&answer));
     within(&levels(&answer), &[0.6; 7], 0.25);
+}
+
+/// The elbow moves for a quarter of every second and stands for the rest, held by anything between its level one
+/// way and the other: of 40 s it tells of friction in strokes alone, each as long as the low-pass carries
+/// from the stands beside it.
+#[test]
+fn short_strokes_between_stands_tell_of_friction() {
+    const LEVEL: f64 = 0.8;
+    const STROKE_S: f64 = 0.25;
+    // q = A (x - sin x) / 2 pi, there and back, x one turn in a stroke.
+    let state = |j: usize, t: f64| -> [f64; 3] {
+        let (stroke, s) = (t.floor(), (t.fract() / STROKE_S).min(1.0));
+        let way = if stroke % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        if j != 3 {
+            return [0.3, 0.0, 0.0];
+        }
+        let (x, w) = (TAU * s, TAU / STROKE_S);
+        let (from, along) = (if way > 0.0 { 0.5 } else { 1.1 }, 0.6 * way / TAU);
+        let moves = f64::from(u8::from(s < 1.0));
+        [
+            from + along * (x - x.sin()),
+            moves * along * w * (1.0 - x.cos()),
+            moves * along * w * w * x.sin(),
+        ]
+    };
+    // The golden ratio fills -1 to 1 evenly, stand by stand.
+    let held = |t: f64| 2.0 * (t.floor() * 0.618_034).fract() - 1.0;
+    let friction = |t: f64, qd: f64| LEVEL * if qd == 0.0 { held(t) } else { sign(qd) };
+    let run = logged("strokes", 40.0, state, friction);
+    let settings = Settings { cutoff_hz: Some(3.0), ..Settings::default() };
+    let answer = diagnose(&wam(), &[run], &settings, &Silent).unwrap().diagnosis;
+    println!("{:?} {:?}", named(&answer), levels(&answer));
+    within(&levels(&answer)[3..4], &[LEVEL], 0.1);
+    assert_eq!(named(&answer), ["FR02 Coulomb friction at j4_elbow_pitch"]);
 }

@@ -3,7 +3,8 @@ use std::ops::Range;
 
 use crate::design::Design;
 
-/// Fewest blocks that a test can work with: `2^15` different sign patterns.
+/// Fewest blocks of a record: three for each of the folds, and one more; scores of as many give the errors
+/// of sizes.
 pub(crate) const FEWEST_BLOCKS: usize = 16;
 
 /// Fewest samples of a block.

@@ -156,8 +156,7 @@ impl Study<'_> {
     /// What is left of joint `j`, `[run][sample]`, at the samples that tell of its effort.
     fn told_of(&self, left: &[Vec<f64>], j: usize) -> Vec<Vec<f64>> {
         let of_run = |(left, run): (&Vec<f64>, &RunDesign)| {
-            let all = left.iter().zip(&run.joints[j].tells);
-            all.filter(|(_, tells)| **tells).map(|(left, _)| *left).collect()
+            run.joints[j].told(left.iter().copied()).collect()
         };
         left.iter().zip(&self.design.runs).map(of_run).collect()
     }
