@@ -188,6 +188,6 @@ fn short_strokes_between_stands_tell_of_friction() {
     let settings = Settings { cutoff_hz: Some(3.0), ..Settings::default() };
     let answer = diagnose(&wam(), &[run], &settings, &Silent).unwrap().diagnosis;
     println!("{:?} {:?}", named(&answer), levels(&answer));
-    within(&levels(&answer)[3..4], &[LEVEL], 0.1);
+    within(&levels(&answer)[3..4], &[LEVEL], 0.04);
     assert_eq!(named(&answer), ["FR02 Coulomb friction at j4_elbow_pitch"]);
 }
