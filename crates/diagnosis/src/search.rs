@@ -51,19 +51,8 @@ impl<'a> Record<'a> {
 
     /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by the noise
     /// that they leave.
-    ///
-    /// A search begins at too little noise, and what it lets in there may keep out what earns its
-    /// place at the noise it comes to. So a second one begins there with nothing, and has the word
-    /// where it has more evidence and predicts better, at the noise of either.
     pub fn search(&self, of: &[usize]) -> (Problem<'a>, Model) {
-        let first = self.search_on(self.problem(of), Model::new());
-        let second = self.search_on(first.0.clone(), Model::new());
-        let is_better = |at: &Problem| {
-            let evidence = |m: &Model| at.fit(m).map(|f| f.evidence);
-            evidence(&second.1) > evidence(&first.1)
-                && at.held_out(&second.1).total() < at.held_out(&first.1).total()
-        };
-        if is_better(&first.0) && is_better(&second.0) { second } else { first }
+        self.search_on(self.problem(of), Model::new())
     }
 
     /// The same from a model on.

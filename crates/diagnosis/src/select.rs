@@ -24,10 +24,14 @@ const SHARE_OF_REST: f64 = 0.25;
 /// Rounds of entering, exchanging and leaving before the search is called settled.
 const ROUNDS: usize = 4;
 
+/// Partners that are tried, the most evident ones, with a hypothesis that predicts no better alone.
+const PARTNERS: usize = 3;
+
 /// Finds the hypotheses that earn their place.
 ///
 /// Forward by evidence, each entrant gated by physics and by what it buys on held-out
-/// blocks; then exchange with hypotheses outside, then backward; until nothing changes.
+/// blocks, alone or with another one; then exchange with hypotheses outside, then backward; until nothing
+/// changes.
 #[derive(Debug)]
 pub(crate) struct Selection<'a> {
     pub problem: &'a Problem<'a>,
@@ -156,9 +160,55 @@ impl Selection<'_> {
                 let larger = self.joined(model, g);
                 self.is_possible(&larger, g) && self.pays(&held_out, &larger, g)
             });
-            let Some(entrant) = entrant else { break };
-            *model = self.joined(model, entrant);
+            let next = match entrant {
+                Some(g) => Some(self.joined(model, g)),
+                None => self.pair(model, &fit, &held_out),
+            };
+            let Some(next) = next else { break };
+            *model = next;
         }
+    }
+
+    /// The model with two hypotheses of one joint that predict better together, though the first does not
+    /// alone, where that takes back what is described: of damping that a description has too much of and
+    /// friction that it lacks, which work against each other, a fit of one takes what the other
+    /// leaves of it.
+    fn pair(&self, model: &Model, fit: &Fit, before: &HeldOut) -> Option<Model> {
+        let ranked = self.ranked(model, fit).into_iter();
+        ranked.filter(|g| self.takes_back(model, *g)).find_map(|g| self.paired(model, g, before))
+    }
+
+    /// Whether `g`, at a joint, makes less of what is described there.
+    fn takes_back(&self, model: &Model, g: usize) -> bool {
+        let design = self.problem.design;
+        let group = &design.groups[g];
+        let Some(fit) = self.problem.fit(&self.joined(model, g)) else { return false };
+        let weights = fit.expand(design.width);
+        let is_less = |&k: &usize| weights[k] < 0.0 && design.bounds[k].0.is_finite();
+        group.hypothesis.joint().is_some() && group.columns.iter().any(is_less)
+    }
+
+    /// See [`Selection::pair`]: with `g` as the first.
+    fn paired(&self, model: &Model, g: usize, before: &HeldOut) -> Option<Model> {
+        let groups = &self.problem.design.groups;
+        let one = self.joined(model, g);
+        let fit = self.problem.fit(&one)?;
+        let is_near = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
+        let earns = |two: &Model, h: usize| {
+            let is_possible = |g| self.is_possible(two, g);
+            let other = self.joined(model, h);
+            two.contains(&g)
+                && is_possible(g)
+                && is_possible(h)
+                && self.pays(before, two, g)
+                && self.pays(&self.problem.held_out(&one), two, h)
+                && self.pays(&self.problem.held_out(&other), two, g)
+        };
+        let partners = self.ranked(&one, &fit).into_iter().filter(is_near).take(PARTNERS);
+        partners
+            .map(|h| (self.joined(&one, h), h))
+            .find(|(two, h)| earns(two, *h))
+            .map(|(two, _)| two)
     }
 
     /// Hypotheses outside the model with enough evidence, the most evident first.
