@@ -63,9 +63,8 @@ impl<'a> ReadOptions<'a> {
 /// column or joint, a field that is not a finite number, time that does not increase,
 /// fewer than two rows, positions in degrees, a column map that does not fit.
 pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run, LogError> {
-    if let Some(map) = options.map {
-        map.check(robot)?;
-    }
+    let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
+    let options = &ReadOptions { map: map.as_ref(), ..*options };
     let file = LogFile::open(path, options)?;
     let plan = Plan::new(path, &file, robot, options)?;
     let mut table = file.load(&plan.needed())?;
