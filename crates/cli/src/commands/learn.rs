@@ -14,8 +14,9 @@ use learner::{ModelKind, PriorSpread, TrainSettings};
 use report::ReportError;
 
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, PartArguments, positive};
+use crate::input::{PartArguments, positive};
 use crate::progress::Line;
 use crate::watch::Watch;
 

@@ -5,9 +5,10 @@ use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, PartArguments, positive};
+use crate::input::{PartArguments, positive};
 use crate::output::{create_folder, print, shown, table, warn};
 
 /// Arguments of `replay`.
