@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod bags;
+mod damage;
 mod dialects;
 mod estimators;
 mod files;
@@ -13,6 +14,7 @@ mod info;
 mod kinds;
 mod link_lag;
 mod maps;
+mod matlab;
 mod mutated;
 mod noise;
 mod numpy;

@@ -2,6 +2,7 @@ use std::path::Path;
 
 use robot::Robot;
 
+use crate::damage::Damage;
 use crate::{Channel, ColumnMap, LogError, ReadOptions, log_file::LogFile};
 
 /// A column map by name.
@@ -16,7 +17,7 @@ struct Preset {
 }
 
 /// Files that other programs write, the fuller map of a name first.
-const PRESETS: [Preset; 7] = [
+const PRESETS: [Preset; 9] = [
     Preset {
         name: "ur",
         words: "RTDE of Universal Robots, efforts in N m",
@@ -62,6 +63,19 @@ const PRESETS: [Preset; 7] = [
     },
     Preset {
         name: "numpy",
+        words: "arrays q, qd and tau over time",
+        text: "position = \"q[{i}]\"\nvelocity = \"qd[{i}]\"\neffort = \"tau[{i}]\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "numpy",
+        words: "arrays q, qd and tau over t",
+        text: "time = \"t\"\nposition = \"q[{i}]\"\nvelocity = \"qd[{i}]\"\n\
+               effort = \"tau[{i}]\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "numpy",
         words: "arrays qpos, qvel and qfrc over time",
         text: "position = \"qpos[{i}]\"\nvelocity = \"qvel[{i}]\"\neffort = \"qfrc[{i}]\"\n",
         is_certain: true,
@@ -102,11 +116,11 @@ pub fn recognised(
     name: Option<&str>,
     topic: Option<&str>,
 ) -> Result<Option<Recognised>, LogError> {
-    let mut first = None;
+    let (mut first, mut without_velocity) = (None, None);
     for preset in PRESETS.iter().filter(|p| name.map_or(p.is_certain, |name| p.name == name)) {
         let map = ColumnMap::from_text(preset.name, preset.text)?;
         let options = ReadOptions { map: Some(&map), topic, ..ReadOptions::default() };
-        let file = match LogFile::open(path, &options) {
+        let file = match LogFile::open(path, &options, &mut Damage::default()) {
             Ok(file) => file,
             // Reading says the same of a file that is none.
             Err(_) if name.is_none() => return Ok(None),
@@ -116,19 +130,20 @@ pub fn recognised(
         if name.is_none() && is_usual(&names, robot) {
             return Ok(None);
         }
-        let has = |map: &ColumnMap, channel| has_all(&names, map, robot, channel);
         let whole = map.for_robot(robot)?;
-        let fits = names.iter().any(|n| n == options.time())
-            && has(&whole, Channel::Position)
-            && has(&whole, Channel::Effort);
-        let map = if has(&whole, Channel::Velocity) { map } else { map.without(Channel::Velocity) };
+        let has = |channel| has_all(&names, &whole, robot, channel);
+        let has_time = names.iter().any(|n| n == options.time());
+        let fits = has_time && has(Channel::Position) && has(Channel::Effort);
+        let has_velocity = has(Channel::Velocity);
+        let map = if has_velocity { map } else { map.without(Channel::Velocity) };
         let found = Recognised { name: preset.name, words: preset.words, map };
-        if fits {
-            return Ok(Some(found));
+        match (fits, has_velocity) {
+            (true, true) => return Ok(Some(found)),
+            (true, false) => without_velocity = without_velocity.or(Some(found)),
+            (false, _) => first = first.or(Some(found)),
         }
-        first = first.or(Some(found));
     }
-    Ok(first.filter(|_| name.is_some()))
+    Ok(without_velocity.or(first.filter(|_| name.is_some())))
 }
 
 /// Whether a file has positions under their usual names.
