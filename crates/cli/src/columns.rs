@@ -6,6 +6,7 @@ use logs::{ColumnMap, LogError, ReadOptions, Recognised, Run};
 use robot::Robot;
 
 use crate::error::CliError;
+use crate::output::warn;
 
 /// How the columns of logs are called.
 #[derive(Debug, clap::Args)]
@@ -20,6 +21,9 @@ pub struct ColumnArguments {
     /// The topic of a bag whose joint states are read [default: /joint_states, or the only one]
     #[arg(long, value_name = "NAME")]
     pub topic: Option<String>,
+    /// Read a damaged log up to where it is damaged, and say where; without it, it is refused
+    #[arg(long)]
+    pub until_damage: bool,
 }
 
 impl ColumnArguments {
@@ -70,11 +74,11 @@ impl Reader<'_> {
         let topic = self.arguments.topic.as_deref();
         if let Some(name) = self.arguments.preset() {
             let Some(found) = logs::recognised(path, robot, Some(name), topic)? else {
-                return Ok(logs::read_run(path, robot, &self.options())?);
+                return Ok(self.read_with(path, robot, &self.options())?);
             };
             return self.read_as(path, robot, &found);
         }
-        let error = match logs::read_run(path, robot, &self.options()) {
+        let error = match self.read_with(path, robot, &self.options()) {
             Ok(run) => return Ok(run),
             Err(error) => error,
         };
@@ -93,7 +97,24 @@ impl Reader<'_> {
 
     fn read_as(&self, path: &Path, robot: &Robot, found: &Recognised) -> Result<Run, CliError> {
         let options = ReadOptions { map: Some(&found.map), ..self.options() };
-        Ok(logs::read_run(path, robot, &options)?)
+        Ok(self.read_with(path, robot, &options)?)
+    }
+
+    /// The run, or what of it lies before the damage.
+    fn read_with(
+        &self,
+        path: &Path,
+        robot: &Robot,
+        options: &ReadOptions,
+    ) -> Result<Run, LogError> {
+        if !self.arguments.until_damage {
+            return logs::read_run(path, robot, options);
+        }
+        let (run, damage) = logs::read_run_until_damage(path, robot, options)?;
+        if let Some(damage) = damage {
+            warn(&format!("{damage}; {} rows before it are read", run.time.len()));
+        }
+        Ok(run)
     }
 
     fn tell(&self, found: &Recognised) {

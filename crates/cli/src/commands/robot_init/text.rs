@@ -8,9 +8,6 @@ use robot::{Link, Loaded, Robot};
 use super::excitation::{Excitation, SEEDS};
 use super::guess::Drive;
 
-/// Name of the first run.
-pub const FIRST: &str = "run_1";
-
 const OTHERS: &str = "\
 # More that a joint may say, each at its own place below ([joint.NAME]):
 #   viscous_nm_s_per_rad, coulomb_nm       friction, where a data sheet has it
@@ -46,6 +43,13 @@ pub fn robot_toml(loaded: &Loaded, model: &Path, drives: &[Drive], rate_hz: f64)
     for (link, drive) in robot.links().iter().zip(drives) {
         joint(&mut text, link, drive);
     }
+    text.push_str(
+        "\n# The gains above weakened at the same damping ratio, as run and track take them.\n",
+    );
+    let list = |values: Vec<String>| values.join(", ");
+    let kp = list(drives.iter().map(|drive| format!("{:?}", 0.25 * drive.gain.kp)).collect());
+    let kd = list(drives.iter().map(|drive| format!("{:?}", 0.5 * drive.gain.kd)).collect());
+    let _ = write!(text, "[gains.low-quarter]\nkp_nm_per_rad = [{kp}]\nkd_nm_s_per_rad = [{kd}]\n");
     text
 }
 
