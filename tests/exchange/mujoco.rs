@@ -3,7 +3,9 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
+use checks::arms::workspace_root;
 use exchange::{Format, export};
+use robot::{Loaded, Robot};
 
 use crate::rich::{DRIVES, State, states, torque, urdf, wam_with};
 
@@ -16,6 +18,8 @@ const SCRIPT: &str = "
 import json, sys, mujoco
 question = json.load(sys.stdin)
 model = mujoco.MjModel.from_xml_string(question['model'])
+# States are drawn without regard to limits, which would push.
+model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_LIMIT
 data = mujoco.MjData(model)
 joints = [model.joint(name) for name in question['joints']]
 places = [(j.qposadr[0], j.dofadr[0]) for j in joints]
@@ -52,9 +56,14 @@ fn difference(keys: &str, change: impl Fn(String) -> String) -> Option<f64> {
     let folder = tempfile::tempdir().unwrap();
     let loaded = wam_with(folder.path(), keys);
     let mjcf = change(export(&loaded, &urdf(), Format::Mjcf).unwrap().text);
+    difference_of(&loaded, &mjcf)
+}
+
+/// Largest difference of the torques of a robot and of an MJCF over the largest torque.
+fn difference_of(loaded: &Loaded, mjcf: &str) -> Option<f64> {
     let joints: Vec<&str> = loaded.robot.joint_names().collect();
     let states = states(joints.len(), 50);
-    let theirs = mujoco(&mjcf, &joints, &states)?;
+    let theirs = mujoco(mjcf, &joints, &states)?;
     let ours = states.iter().map(|state| torque(&loaded.robot, state));
     let pairs: Vec<(f64, f64)> = ours.flatten().zip(theirs.into_iter().flatten()).collect();
     let largest = pairs.iter().map(|(ours, _)| ours.abs()).fold(0.0, f64::max);
@@ -114,4 +123,31 @@ backlash_rad = 0.01
     // 900 N·m/rad over 0.01 rad, up to the weight that moves with it.
     let spring = torques[0][0] - torques[1][0];
     assert!((spring - 9.0).abs() < 0.5, "{spring}");
+}
+
+/// A body whose moments no body has, and one without mass: MuJoCo loads them, and it is told.
+#[test]
+fn impossible_inertias_load_and_are_told() {
+    let text = r#"<robot name="r"><link name="base"/><link name="a"/><link name="b"><inertial><mass value="1"/><inertia ixx="-0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.5"/></inertial></link><joint name="j" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/></joint><joint name="k" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>"#;
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("arm.urdf"), text).unwrap();
+    let loaded = Robot::load(&folder.path().join("arm.urdf")).unwrap();
+    let written = export(&loaded, text, Format::Mjcf).unwrap();
+    let told: Vec<&str> = written.fates.iter().map(|f| f.fate.word()).collect();
+    assert_eq!(told, ["approximated", "approximated"]);
+    let rest: State = [vec![0.0; 2], vec![0.0; 2], vec![0.0; 2]];
+    let Some(torques) = mujoco(&written.text, &["j", "k"], &[rest]) else { return };
+    assert!(torques[0].iter().all(|torque| torque.is_finite()));
+}
+
+#[test]
+fn oracle_mujoco_needs_the_torque_of_every_robot_of_this_project() {
+    for name in ["wam7", "ur5e", "panda", "so101"] {
+        let loaded =
+            Robot::load(&workspace_root().join(format!("robots/{name}/robot.toml"))).unwrap();
+        let source = std::fs::read_to_string(&loaded.urdf_path).unwrap();
+        let mjcf = export(&loaded, &source, Format::Mjcf).unwrap().text;
+        let Some(difference) = difference_of(&loaded, &mjcf) else { return };
+        assert!(difference < 1e-10, "{name}: {difference}");
+    }
 }

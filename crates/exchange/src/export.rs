@@ -84,7 +84,8 @@ fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
         fates.push(Fated { at: "robot".to_owned(), what, fate });
     }
     for (link, old) in robot.links().iter().zip(loaded.robot_in_urdf.links()) {
-        if link.inertia != old.inertia {
+        let is_impossible = format == Format::Mjcf && !link.inertia.defects().is_empty();
+        if link.inertia != old.inertia || is_impossible {
             fates.push(inertia(link, format));
         }
         for (quantity, what) in quantities(robot, link) {
@@ -113,7 +114,9 @@ fn inertia(link: &Link, format: Format) -> Fated {
         (Format::Urdf, _) if !link.merged.is_empty() => {
             Fate::exact("<inertial> of the link; links fixed to it keep theirs")
         }
-        (Format::Mjcf, false) => Fate::near("moments that no body has are evened out by MuJoCo"),
+        (Format::Mjcf, false) => {
+            Fate::near("no body has such moments: they are raised to what MuJoCo takes")
+        }
         _ => Fate::exact("<inertial>"),
     };
     let what = format!("mass {} kg, centre, moments", crate::numbers::size(link.inertia.mass));

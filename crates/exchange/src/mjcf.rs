@@ -1,6 +1,6 @@
 //! MuJoCo's format, one body a moving link.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Vector3};
 use robot::{Link, Loaded, Robot, Shape, Visual};
 
 use crate::export::unknown_friction;
@@ -12,6 +12,9 @@ use crate::sheet::Sheet;
 
 /// Mass (kg) and moment (kg m²) of a body that has none: MuJoCo refuses a moving body without.
 const LEAST: f64 = 1e-9;
+
+/// A principal moment below this (kg m²) is none to MuJoCo.
+const SMALLEST: f64 = 1e-14;
 
 /// Dry friction of the solver: the time in which it stops a joint (s) and its damping ratio, ...
 const FRICTION_REFERENCE: &str = "0.004 1";
@@ -91,13 +94,8 @@ fn bodies(sheet: &mut Sheet, loaded: &Loaded, robot: &Robot) {
 }
 
 fn inertial(sheet: &mut Sheet, link: &Link) {
-    let (inertia, i) = (&link.inertia, &link.inertia.about_com);
-    let has_moments = i.amax() > 0.0;
-    let moments = if has_moments {
-        [i.m11, i.m22, i.m33, i.m12, i.m13, i.m23]
-    } else {
-        [LEAST, LEAST, LEAST, 0.0, 0.0, 0.0]
-    };
+    let (inertia, i) = (&link.inertia, positive(&link.inertia.about_com));
+    let moments = [i.m11, i.m22, i.m33, i.m12, i.m13, i.m23];
     sheet.leaf(
         "inertial",
         &[
@@ -106,6 +104,17 @@ fn inertial(sheet: &mut Sheet, link: &Link) {
             ("fullinertia", numbers(&moments)),
         ],
     );
+}
+
+/// The moments with those that are not positive raised to the least.
+fn positive(moments: &Matrix3<f64>) -> Matrix3<f64> {
+    let SymmetricEigen { mut eigenvalues, eigenvectors } = SymmetricEigen::new(*moments);
+    if eigenvalues.min() > SMALLEST {
+        return *moments;
+    }
+    eigenvalues.iter_mut().for_each(|value| *value = value.max(LEAST));
+    let raised = eigenvectors * Matrix3::from_diagonal(&eigenvalues) * eigenvectors.transpose();
+    0.5 * (raised + raised.transpose())
 }
 
 /// `pos` and `quat` of a frame, as far as they are not those of the parent.

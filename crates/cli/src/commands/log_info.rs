@@ -13,7 +13,7 @@ use crate::output::{print, print_json, shown, table};
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Logs (CSV, Parquet, NumPy, bags of ROS 2), one run each
+    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// The robot, for names, order, types and limits of the joints
