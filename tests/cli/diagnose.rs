@@ -9,8 +9,8 @@ use serde_json::Value;
 use crate::arm::{self, Gap};
 use crate::program::{Answer, plumbline, run};
 
-const FILES: [&str; 5] =
-    ["diagnosis.json", "extended.toml", "figure.svg", "report.html", "robot.urdf"];
+const FILES: [&str; 6] =
+    ["diagnosis.json", "extended.toml", "extended.urdf", "figure.svg", "report.html", "robot.urdf"];
 
 fn diagnose(folder: &Path, more: &[&str]) -> Answer {
     let base = ["diagnose", "--log", "run_0.csv", "run_1.csv", "--log", "run_2.csv"];
@@ -19,7 +19,7 @@ fn diagnose(folder: &Path, more: &[&str]) -> Answer {
 
 /// The output folder, with its recording.
 fn all_files() -> Vec<&'static str> {
-    [&FILES[..3], &["recording.rrd"], &FILES[3..]].concat()
+    [&FILES[..4], &["recording.rrd"], &FILES[4..]].concat()
 }
 
 fn json(path: &Path) -> Value {

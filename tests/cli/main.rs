@@ -8,12 +8,14 @@ mod commands;
 mod compare;
 mod design;
 mod diagnose;
+mod export;
 mod figure;
 mod learn;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;
 mod program;
 mod replay;
+mod robot_init;
 mod run;
 mod simulate;
 #[cfg(target_os = "linux")]

@@ -318,7 +318,7 @@ fn runs_that_cannot_be_prepared_together() {
 /// The message of a column map used on the robot with joints `j1` and `j2`.
 fn map(text: &str) -> String {
     let map = Scratch::new("map.toml", text);
-    map.told(ColumnMap::load(&map.path).and_then(|m| m.check(&two_joints())))
+    map.told(ColumnMap::load(&map.path).and_then(|m| m.for_robot(&two_joints())))
 }
 
 #[test]
@@ -339,8 +339,8 @@ fn column_map_with_a_unit_of_another_quantity() {
 
 #[test]
 fn column_map_with_unknown_keys_units_or_numbers() {
-    assert!(map("tiem = { column = \"t\" }\n").contains("unknown field `tiem`"));
-    assert!(map("time = { column = \"t\", unit = \"h\" }\n").contains("unknown variant `h`"));
+    assert!(map("tiem = { column = \"t\" }\n").contains("unknown key `tiem`"));
+    assert!(map("time = { column = \"t\", unit = \"h\" }\n").contains("`h`"));
     assert!(map("time = { column = \"t\", scale = 0.0 }\n").contains("found scale 0 and offset 0"));
     assert!(map("time = { column = \"t\", offset = nan }\n").contains("offset NaN"));
 }

@@ -1,8 +1,10 @@
 //! Logs: files, checks, filters, preparation, and the recorded logs where they are at hand.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
+#![allow(clippy::float_cmp, reason = "numbers that pass through a file unchanged are equal")]
 
 mod bad_input;
 mod bags;
+mod damage;
 mod dialects;
 mod estimators;
 mod files;
@@ -11,6 +13,8 @@ mod growing;
 mod info;
 mod kinds;
 mod link_lag;
+mod maps;
+mod matlab;
 mod mutated;
 mod noise;
 mod numpy;

@@ -64,10 +64,7 @@ fn malformed_xml_is_refused_with_its_line() {
         refused("time,j1.position\n0,1\n"),
         "robot.urdf: line 3: no element was found, <robot> was expected"
     );
-    assert_eq!(
-        refused("<mujoco/>"),
-        "robot.urdf: line 1: the root is <mujoco>, <robot> was expected"
-    );
+    assert_eq!(refused("<sdf/>"), "robot.urdf: line 1: the root is <sdf>, <robot> was expected");
     assert_eq!(
         refused("<robot name=\"a\"/><robot name=\"b\"/>"),
         "robot.urdf: line 1: a second root <robot>, one was expected"

@@ -7,6 +7,7 @@ mod as_published;
 mod bad_files;
 mod bad_urdf;
 mod merging;
+mod mjcf;
 mod part;
 mod public_robots;
 mod toml_keys;

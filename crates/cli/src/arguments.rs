@@ -1,8 +1,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, demo, design, diagnose, effects, explain, learn, log_info, replay, robot_check, run,
-    schema, simulate, track, trials, view,
+    compare, demo, design, diagnose, effects, explain, export, learn, log_info, replay,
+    robot_check, robot_init, run, schema, simulate, track, trials, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -53,6 +53,7 @@ The output folder holds
   figure.svg      the answer in one figure
   diagnosis.json  the whole answer for programs
   extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it
+  extended.urdf   the given URDF with what of them it can hold: plumbline export out says what is left
   models/named-gp.parquet
                   the same with a process of what is left, for track --learned; with --residual";
 
@@ -72,6 +73,34 @@ should be alike; the motions need not be the same. The output folder holds
   before/  the diagnosis of the first logs
   after/   the diagnosis of the others, of the robot as the first logs found it: its findings are the
            changes, and was means before";
+
+const EXPORT_EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  2  usage: arguments, or an output folder that cannot be made
+  3  a robot that cannot be used, or a folder without one";
+
+const EXPORT_EXAMPLES: &str = "\
+Examples:
+  plumbline export out
+  plumbline export out --to mjcf --out models
+  plumbline export robot.toml --to urdf,sdf --out models
+
+The folder holds
+  extended.urdf  the user's own URDF with friction, inertias and origins as found
+  extended.xml   an MJCF for MuJoCo, with rotors, springs and the actuators' delays as well
+  extended.sdf   an SDF for Gazebo
+
+Every quantity is printed with its fate: exact, approximated (how), dropped (why).";
+
+const INIT_EXAMPLES: &str = "\
+Examples:
+  plumbline robot init robot.urdf --out robots/mine
+  plumbline robot init mobile.urdf --joints arm_1,arm_2,arm_3 --out robots/arm
+
+The folder holds
+  robot.toml     rotors, gains, rate, sensing: guesses that are called so, to be replaced
+  scenario.toml  three runs within the robot's limits, for simulate and run";
 
 const DESIGN_EXIT_CODES: &str = "\
 Exit codes:
@@ -187,8 +216,9 @@ const DEMO_EXAMPLES: &str = "\
 Examples:
   plumbline demo
   plumbline demo --seed 7 --out other
+  plumbline demo --robot ur5e
 
-The scenario is scenarios/demo.toml of the repository; it and the robot are in the program and are
+The scenario is scenarios/demo.toml of the repository, or that of the robot; it and the robot are in the program and are
 written to source/ in the output folder, which plumbline run --help describes.";
 
 const TRIALS_EXIT_CODES: &str = "\
@@ -248,6 +278,9 @@ pub enum Command {
     /// Searches the motion that tells apart what a diagnosis could not, within the robot's limits
     #[command(after_help = format!("{DESIGN_EXAMPLES}\n\n{DESIGN_EXIT_CODES}"))]
     Design(design::Arguments),
+    /// Writes the robot with its findings as URDF, MJCF and SDF, and says what each leaves out
+    #[command(after_help = format!("{EXPORT_EXAMPLES}\n\n{EXPORT_EXIT_CODES}"))]
+    Export(export::Arguments),
     /// Looks at a robot description: joints, limits, masses, consistency
     #[command(subcommand)]
     Robot(RobotCommand),
@@ -286,6 +319,9 @@ pub enum RobotCommand {
     /// Prints joints, limits, masses, consistency and the number of base parameters
     #[command(after_help = EXIT_CODES)]
     Check(robot_check::Arguments),
+    /// Writes a robot.toml with what a URDF cannot say, guessed, and a scenario that moves the robot
+    #[command(after_help = format!("{INIT_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
+    Init(robot_init::Arguments),
 }
 
 /// Commands on logs.

@@ -6,6 +6,7 @@ use anstyle::{AnsiColor, Style};
 use diagnosis::DiagnosisError;
 use document::{Coloring, DocumentError};
 use evaluation::EvaluationError;
+use exchange::ExchangeError;
 use learner::LearnerError;
 use logs::LogError;
 use report::ReportError;
@@ -114,6 +115,27 @@ pub enum CliError {
     /// The robot with the findings is none that can be described.
     #[error("the extended model cannot be written: {0}")]
     Extended(RobotError),
+    /// The robot cannot be written in another format.
+    #[error(transparent)]
+    Exchange(#[from] ExchangeError),
+    /// A folder holds no robot.
+    #[error("{}: an extended.toml was expected, as diagnose, run and demo write it", path.display())]
+    NothingToExport {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file that may have been worked on is there.
+    #[error("{}: it is there already", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file would be written over the one that it is made of.
+    #[error("{}: it is the URDF that the robot was read from, another folder was expected", path.display())]
+    OverSource {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file has no joints to look at.
     #[error("{}: there is no column <joint>.position, at least one was expected", path.display())]
     NoJoints {
@@ -193,6 +215,8 @@ impl CliError {
             | Self::NoViewer { .. }
             | Self::NotOpened { .. }
             | Self::Incomplete { .. }
+            | Self::OverSource { .. }
+            | Self::Exists { .. }
             | Self::Submit(_)
             | Self::Signal { .. } => 2,
             Self::Learner(error) => match error {
@@ -229,6 +253,8 @@ impl CliError {
             | Self::Diagnosis(_)
             | Self::NoJoints { .. }
             | Self::Unlisted { .. }
+            | Self::Exchange(_)
+            | Self::NothingToExport { .. }
             | Self::NothingToView { .. }
             | Self::OtherRobot { .. } => 3,
         }
@@ -277,7 +303,10 @@ impl CliError {
             Self::NoJoints { .. } => {
                 Some("give the robot with --robot, and --map if the columns have other names")
             }
-            Self::Report(ReportError::NotAFolder { .. }) => Some("give --out another name"),
+            Self::Exists { .. } => Some("--force writes over it"),
+            Self::Report(ReportError::NotAFolder { .. }) | Self::OverSource { .. } => {
+                Some("give --out another name")
+            }
             Self::Robot(RobotError::InFile { path, .. } | RobotError::Unreadable { path, .. }) => {
                 (!has_extension(path, &["urdf", "xml", "toml"])).then_some(KINDS_OF_FILES)
             }
@@ -290,6 +319,7 @@ impl CliError {
         use EvaluationError as E;
         match self {
             Self::Document(error) | Self::Simulator(SimulatorError::Scenario(error)) => Some(error),
+            Self::Log(LogError::Map { problem }) => Some(problem),
             Self::Evaluation(error) => match &**error {
                 E::Document(error) | E::Simulator(SimulatorError::Scenario(error)) => Some(error),
                 _ => None,

@@ -2,39 +2,12 @@ use std::path::{Path, PathBuf};
 
 use catalogue::EffectKind;
 use diagnosis::Settings;
-use logs::{ColumnMap, ReadOptions, Run};
+use logs::Run;
 use report::{FileHash, Provenance, ReportError};
 use robot::{LoadOptions, Loaded, Packages, Robot, RobotError};
 
 use crate::commands::explain;
-use crate::error::CliError;
 use crate::output::shown;
-
-/// How the columns of logs are called.
-#[derive(Debug, clap::Args)]
-pub struct ColumnArguments {
-    /// Names and units of columns that are called otherwise (TOML)
-    #[arg(long, value_name = "FILE")]
-    pub map: Option<PathBuf>,
-    /// The effort is read from the columns `<joint>.COLUMN`
-    #[arg(long, value_name = "COLUMN", default_value = "effort")]
-    pub effort: String,
-    /// The topic of a bag whose joint states are read [default: /joint_states, or the only one]
-    #[arg(long, value_name = "NAME")]
-    pub topic: Option<String>,
-}
-
-impl ColumnArguments {
-    /// The runs of some files.
-    pub fn read_runs(&self, paths: &[PathBuf], robot: &Robot) -> Result<Vec<Run>, CliError> {
-        let map = self.map.as_deref().map(ColumnMap::load).transpose()?;
-        let (effort, topic) = (&self.effort, self.topic.as_deref());
-        let options = ReadOptions { map: map.as_ref(), effort, topic };
-        let runs: Result<Vec<Run>, _> =
-            paths.iter().map(|path| logs::read_run(path, robot, &options)).collect();
-        Ok(runs?)
-    }
-}
 
 /// Which part of a robot is meant, and where its meshes are.
 #[derive(Debug, clap::Args)]

@@ -1,6 +1,7 @@
 //! The program `plumbline`.
 
 mod arguments;
+mod columns;
 mod commands;
 mod doubts;
 mod error;
@@ -15,8 +16,8 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
-    compare, demo, design, diagnose, effects, explain, learn, log_info, replay, robot_check,
-    run as run_scenario, schema, simulate, track, trials, view,
+    compare, demo, design, diagnose, effects, explain, export, learn, log_info, replay,
+    robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
 };
 use crate::error::CliError;
 
@@ -49,9 +50,11 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Compare(arguments) => compare::run(arguments),
         Command::Design(arguments) => design::run(arguments),
         Command::Robot(RobotCommand::Check(arguments)) => robot_check::run(arguments),
+        Command::Robot(RobotCommand::Init(arguments)) => robot_init::run(arguments),
         Command::Log(LogCommand::Info(arguments)) => log_info::run(arguments),
         Command::Effects(arguments) => effects::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
         Command::Learn(arguments) => learn::run(arguments),
         Command::Replay(arguments) => replay::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),

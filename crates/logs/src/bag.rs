@@ -6,6 +6,7 @@ use std::{
 
 use crate::{
     LogError,
+    damage::Damage,
     joint_state::{JointState, TYPE},
     joint_states::JointStates,
     kind::NO_MCAP,
@@ -31,11 +32,12 @@ impl Bag {
         path: &Path,
         files: &[(PathBuf, File)],
         topic: Option<&str>,
+        damage: &mut Damage,
     ) -> Result<Self, LogError> {
         let (states, others) = (BTreeMap::new(), BTreeSet::new());
         let mut collected = Collected { path, topic, states, others };
         for (path, file) in files {
-            mcap_file::read(path, file, &mut collected)?;
+            mcap_file::read(path, file, &mut collected, damage)?;
         }
         collected.choose()
     }

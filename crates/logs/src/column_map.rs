@@ -1,65 +1,67 @@
 use std::{
     collections::BTreeMap,
-    fs,
     path::{Path, PathBuf},
 };
 
+use document::{Document, DocumentError, KeyPath};
 use robot::Robot;
 use serde::Deserialize;
 
-use crate::{Channel, LogError, Unit, error::nearest, unit::Quantity};
+use crate::map_entry::{MappedColumn, Pattern};
+use crate::{Channel, LogError, error::nearest, unit::Quantity};
 
 /// Names and units of the columns of a file that has its own.
 ///
 /// ```toml
 /// time = { column = "t_ns", unit = "ns" }
+/// joints = ["shoulder", "elbow"]               # the robot's where it is left out
+/// position = "q_{i}"
+/// velocity = ["dq_a", "dq_b"]
+/// effort = { column = "i[0:2]", unit = "raw", scale = [0.12, 0.08] }   # N m per ampere
 ///
 /// [joint.shoulder]
 /// position = { column = "q0", unit = "deg" }
-/// effort = { column = "i0", unit = "raw", scale = 0.12 }   # N m per ampere
 /// ```
 ///
-/// Channels without an entry are looked for under their usual name.
-#[derive(Debug, Clone, PartialEq)]
+/// An entry of a joint counts more than a pattern. Channels without either are looked for under
+/// their usual name.
+#[derive(Debug, Clone)]
 pub struct ColumnMap {
     path: PathBuf,
+    document: Document,
     time: Option<MappedColumn>,
-    joint: BTreeMap<String, JointMap>,
+    joints: Option<Vec<String>>,
+    patterns: Vec<(Channel, Pattern)>,
+    joint: BTreeMap<String, BTreeMap<Channel, MappedColumn>>,
 }
 
-/// Where a signal is found in a file, and how it is converted:
-///
-/// ```text
-/// signal = scale * factor(unit) * value + offset
-/// ```
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MappedColumn {
-    /// Name of the column.
-    pub column: String,
-    /// Unit of the values in the file; SI and radians where it is left out.
-    pub unit: Option<Unit>,
-    /// Factor, such as a torque constant or the sign of an axis.
-    #[serde(default = "one")]
-    pub scale: f64,
-    /// Added last, in SI units and radians.
-    #[serde(default)]
-    pub offset: f64,
-}
-
-fn one() -> f64 {
-    1.0
+/// Two maps are equal when they say the same.
+impl PartialEq for ColumnMap {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.path, &self.time, &self.joints, &self.patterns, &self.joint)
+            == (&other.path, &other.time, &other.joints, &other.patterns, &other.joint)
+    }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MapFile {
     time: Option<MappedColumn>,
+    joints: Option<Vec<String>>,
+    position: Option<Pattern>,
+    velocity: Option<Pattern>,
+    acceleration: Option<Pattern>,
+    effort: Option<Pattern>,
+    desired_position: Option<Pattern>,
+    desired_velocity: Option<Pattern>,
+    desired_acceleration: Option<Pattern>,
+    commanded_effort: Option<Pattern>,
+    link_position: Option<Pattern>,
     #[serde(default)]
     joint: BTreeMap<String, JointMap>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct JointMap {
     position: Option<MappedColumn>,
@@ -73,27 +75,23 @@ struct JointMap {
     link_position: Option<MappedColumn>,
 }
 
-impl JointMap {
-    fn get(&self, channel: Channel) -> Option<&MappedColumn> {
-        match channel {
-            Channel::Position => self.position.as_ref(),
-            Channel::Velocity => self.velocity.as_ref(),
-            Channel::Acceleration => self.acceleration.as_ref(),
-            Channel::Effort => self.effort.as_ref(),
-            Channel::DesiredPosition => self.desired_position.as_ref(),
-            Channel::DesiredVelocity => self.desired_velocity.as_ref(),
-            Channel::DesiredAcceleration => self.desired_acceleration.as_ref(),
-            Channel::CommandedEffort => self.commanded_effort.as_ref(),
-            Channel::LinkPosition => self.link_position.as_ref(),
-        }
-    }
-}
-
-impl MappedColumn {
-    /// A value of the file as a signal (SI units, radians).
-    pub fn convert(&self, value: f64) -> f64 {
-        self.scale * self.unit.map_or(1.0, Unit::factor) * value + self.offset
-    }
+/// The entries that are there, by channel.
+macro_rules! by_channel {
+    ($file:expr) => {
+        [
+            (Channel::Position, $file.position),
+            (Channel::Velocity, $file.velocity),
+            (Channel::Acceleration, $file.acceleration),
+            (Channel::Effort, $file.effort),
+            (Channel::DesiredPosition, $file.desired_position),
+            (Channel::DesiredVelocity, $file.desired_velocity),
+            (Channel::DesiredAcceleration, $file.desired_acceleration),
+            (Channel::CommandedEffort, $file.commanded_effort),
+            (Channel::LinkPosition, $file.link_position),
+        ]
+        .into_iter()
+        .filter_map(|(channel, entry)| Some((channel, entry?)))
+    };
 }
 
 impl ColumnMap {
@@ -101,26 +99,69 @@ impl ColumnMap {
     ///
     /// # Errors
     ///
-    /// [`LogError::Missing`], [`LogError::Unreadable`] and [`LogError::BadMap`] for a
-    /// file that is not TOML, an unknown key or unit, a scale or offset that is not
-    /// finite, or a scale of zero.
+    /// [`LogError::Missing`], and [`LogError::Map`] for a file that is not TOML, an unknown key
+    /// or unit, a scale or offset that is not finite, or a scale of zero.
     pub fn load(path: &Path) -> Result<Self, LogError> {
-        let text = fs::read_to_string(path).map_err(|e| match e.kind() {
-            std::io::ErrorKind::NotFound => LogError::Missing { path: path.to_owned() },
-            _ => LogError::Unreadable { path: path.to_owned(), reason: e.to_string() },
-        })?;
-        let bad = |reason: String| LogError::BadMap { path: path.to_owned(), reason };
-        let file: MapFile = toml::from_str(&text).map_err(|e| bad(e.to_string()))?;
-        let map = Self { path: path.to_owned(), time: file.time, joint: file.joint };
-        for (key, column) in map.entries() {
-            if !(column.scale.is_finite() && column.scale.abs() > 0.0 && column.offset.is_finite())
-            {
-                return Err(bad(format!(
-                    "{key}: found scale {} and offset {}, a finite scale other than 0 and a finite offset were expected",
-                    column.scale, column.offset
-                )));
+        if !path.exists() {
+            return Err(LogError::Missing { path: path.to_owned() });
+        }
+        Self::new(path, Document::read(path).map_err(LogError::map)?)
+    }
+
+    /// A column map of the program's own, which `name` stands for in mistakes.
+    pub(crate) fn from_text(name: &str, text: &str) -> Result<Self, LogError> {
+        Self::new(Path::new(name), Document::from_text(name, text).map_err(LogError::map)?)
+    }
+
+    fn new(path: &Path, document: Document) -> Result<Self, LogError> {
+        let file: MapFile = document.parse().map_err(LogError::map)?;
+        let joint = file.joint.into_iter().map(|(name, map)| (name, by_channel!(map).collect()));
+        let map = Self {
+            path: path.to_owned(),
+            time: file.time,
+            joints: file.joints,
+            joint: joint.collect(),
+            patterns: by_channel!(file).collect(),
+            document,
+        };
+        map.entries().try_for_each(|(path, column)| map.usable(&path, column))?;
+        Ok(map)
+    }
+
+    /// Refuses numbers that no signal comes from.
+    fn usable(&self, path: &KeyPath, column: &MappedColumn) -> Result<(), LogError> {
+        let MappedColumn { scale, offset, .. } = column;
+        if scale.is_finite() && scale.abs() > 0.0 && offset.is_finite() {
+            return Ok(());
+        }
+        let message = format!(
+            "found scale {scale} and offset {offset}, a finite scale other than 0 and a finite offset were expected"
+        );
+        Err(LogError::map(self.document.mistake(path, message, None)))
+    }
+
+    /// The map with an entry a joint for every pattern, checked against the joints of this robot.
+    ///
+    /// # Errors
+    ///
+    /// [`LogError::MapUnknownJoint`], [`LogError::MapWrongUnit`], and [`LogError::Map`] for a
+    /// pattern that has not one column a joint.
+    pub fn for_robot(&self, robot: &Robot) -> Result<Self, LogError> {
+        let mut map = self.clone();
+        let joints = match &self.joints {
+            Some(joints) => joints.clone(),
+            None => robot.joint_names().map(str::to_owned).collect(),
+        };
+        for (channel, pattern) in &self.patterns {
+            let path = KeyPath::root().key(channel.suffix());
+            let mistake = |message| LogError::map(self.document.mistake(&path, message, None));
+            let columns = pattern.columns(&joints).map_err(mistake)?;
+            for (joint, column) in joints.iter().zip(columns) {
+                self.usable(&path, &column)?;
+                map.joint.entry(joint.clone()).or_default().entry(*channel).or_insert(column);
             }
         }
+        map.check(robot)?;
         Ok(map)
     }
 
@@ -131,7 +172,14 @@ impl ColumnMap {
 
     /// The entry for a channel of a joint.
     pub fn channel(&self, joint: &str, channel: Channel) -> Option<&MappedColumn> {
-        self.joint.get(joint)?.get(channel)
+        self.joint.get(joint)?.get(&channel)
+    }
+
+    /// The map without a pattern, as of a velocity that was not recorded.
+    pub(crate) fn without(&self, channel: Channel) -> Self {
+        let mut map = self.clone();
+        map.patterns.retain(|(own, _)| *own != channel);
+        map
     }
 
     /// Checks that the map speaks of the joints of this robot, in units that fit them.
@@ -151,9 +199,9 @@ impl ColumnMap {
                 });
             };
             let kind = robot.links()[index].joint.kind;
-            for channel in Channel::ALL {
+            for (channel, column) in map {
                 let key = format!("joint.{joint}.{}", channel.suffix());
-                self.check_unit(&key, map.get(channel), Quantity::of(channel, kind))?;
+                self.check_unit(&key, Some(column), Quantity::of(*channel, kind))?;
             }
         }
         Ok(())
@@ -178,13 +226,19 @@ impl ColumnMap {
         })
     }
 
-    fn entries(&self) -> impl Iterator<Item = (String, &MappedColumn)> {
-        let time = self.time.iter().map(|c| ("time".to_owned(), c));
+    fn entries(&self) -> impl Iterator<Item = (KeyPath, &MappedColumn)> {
+        let time = self.time.iter().map(|c| (KeyPath::root().key("time"), c));
         let joints = self.joint.iter().flat_map(|(joint, map)| {
-            Channel::ALL.into_iter().filter_map(move |channel| {
-                Some((format!("joint.{joint}.{}", channel.suffix()), map.get(channel)?))
-            })
+            let at = KeyPath::root().key("joint").key(joint.clone());
+            map.iter().map(move |(channel, column)| (at.key(channel.suffix()), column))
         });
         time.chain(joints)
+    }
+}
+
+impl LogError {
+    /// A mistake in a column map.
+    pub(crate) fn map(problem: DocumentError) -> Self {
+        Self::Map { problem: Box::new(problem) }
     }
 }

@@ -6,6 +6,7 @@ use std::{
 
 use crate::{
     LogError,
+    damage::Damage,
     dialect::{Dialect, Header, Numerals},
     table::{Cell, Needed, Rows, Table},
 };
@@ -78,7 +79,7 @@ impl CsvFile {
 
     /// Columns by name: those that are needed, where every field must be a number, and of the
     /// rest those in which every field is one.
-    pub(crate) fn load(&self, needed: &Needed) -> Result<Table, LogError> {
+    pub(crate) fn load(&self, needed: &Needed, damage: &mut Damage) -> Result<Table, LogError> {
         let mut rows = Rows::new(&self.names, needed);
         let mut numerals = vec![Numerals::between(self.dialect.separator); self.names.len()];
         let mut reader = self.records()?;
@@ -91,17 +92,29 @@ impl CsvFile {
         }
         let mut row = 0;
         let mut cells = Vec::with_capacity(self.names.len());
-        while read(&mut record)? {
-            row += 1;
+        loop {
+            match read(&mut record) {
+                Ok(true) => row += 1,
+                Ok(false) => break,
+                Err(error) => {
+                    damage.take(error)?;
+                    break;
+                }
+            }
             if self.dialect.fields(&record).all(<[u8]>::is_empty) {
                 continue;
             }
-            self.check_length(row, &record)?;
             cells.clear();
             let fields = self.dialect.fields(&record).zip(&mut numerals);
             cells.extend(fields.map(|(field, numerals)| numerals.cell(field)));
-            rows.push(row, &cells)
-                .map_err(|column| self.not_a_number(row, column, &record, &cells))?;
+            let pushed = self.check_length(row, &record).and_then(|()| {
+                let refused = |column| self.not_a_number(row, column, &record, &cells);
+                rows.push(row, &cells).map_err(refused)
+            });
+            if let Err(error) = pushed {
+                damage.take(error)?;
+                break;
+            }
         }
         Ok(rows.finish())
     }

@@ -273,13 +273,11 @@ pub enum LogError {
         /// What was expected, as the end of `joint j1 ...`.
         expectation: String,
     },
-    /// A column map cannot be used.
-    #[error("{}: {reason}", path.display())]
-    BadMap {
-        /// The map file.
-        path: PathBuf,
-        /// What is wrong and where.
-        reason: String,
+    /// Something in a column map is not what was expected.
+    #[error("{problem}")]
+    Map {
+        /// What, and where it stands.
+        problem: Box<document::DocumentError>,
     },
     /// A column map names a joint that the robot does not have.
     #[error("{}: [joint.{joint}]: the robot has no such joint, it has {}{}", path.display(), list(expected), hint(nearest.as_deref()))]

@@ -9,6 +9,8 @@ pub(crate) enum Kind {
     Npy,
     /// A zip archive, in which arrays of NumPy are looked for.
     Zip,
+    /// Arrays of MATLAB, version 5.
+    Matlab,
     /// Messages, as ROS 2 records them.
     Mcap,
     /// Any of the others, packed.
@@ -45,10 +47,11 @@ impl Kind {
 }
 
 /// Kinds that are read, by their first bytes.
-const READ: [(&[u8], Kind); 6] = [
+const READ: [(&[u8], Kind); 7] = [
     (b"PAR1", Kind::Parquet),
     (npy_header::MAGIC, Kind::Npy),
     (b"PK\x03\x04", Kind::Zip),
+    (b"MATLAB 5.0 MAT-file", Kind::Matlab),
     (b"\x89MCAP0\r\n", Kind::Mcap),
     (b"\x1f\x8b", Kind::Packed(Packing::Gzip)),
     (b"\x28\xb5\x2f\xfd", Kind::Packed(Packing::Zstd)),
@@ -62,7 +65,7 @@ pub(crate) const UNKNOWN: Stranger = Stranger {
 
 const BAG_2: &str = "ros2 bag convert writes it as MCAP (storage_id: mcap)";
 const HDF5: &str = "write its arrays with numpy.savez, or as CSV or Parquet";
-const MATLAB: &str = "write its arrays with writetable as CSV, or with numpy.savez";
+const MATLAB: &str = "save it with save('run.mat', '-v7'), or write its arrays with numpy.savez";
 const PACKED: &str = "unpack it first";
 const TABLE: &str = "write its first sheet as CSV";
 const ARROW: &str = "write the table as Parquet";
@@ -71,11 +74,10 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 26] = [
+const STRANGERS: [(usize, &[u8], &str, &str); 25] = [
     (0, b"SQLite format 3\0", "a SQLite database, as rosbag2 writes it (.db3)", BAG_2),
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
-    (0, b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", MATLAB),
     (0, b"MATLAB 7.3 MAT-file", "a MAT-file of MATLAB 7.3", MATLAB),
     (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (512, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
@@ -159,7 +161,7 @@ mod tests {
         assert_eq!(found(b"MATLAB 7.3 MAT-file, Platform"), "a MAT-file of MATLAB 7.3");
         assert_eq!(found(&[&[0; 512][..], b"\x89HDF\r\n\x1a\n"].concat()), "an HDF5 file");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[23].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[22].2);
     }
 
     #[test]

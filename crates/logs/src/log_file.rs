@@ -11,7 +11,9 @@ use crate::{
     LogError, ReadOptions,
     bag::{self, Bag},
     csv_file::CsvFile,
+    damage::Damage,
     kind::{FIRST_BYTES, Kind, NOT_MCAP, TWICE, UNKNOWN},
+    matlab_file::MatlabFile,
     numpy_file::NumpyFile,
     parquet_file::{self, ParquetFile},
     table::{Needed, Table},
@@ -23,18 +25,23 @@ pub(crate) enum LogFile {
     Csv(CsvFile),
     Parquet(ParquetFile),
     Numpy(NumpyFile),
+    Matlab(MatlabFile),
     Bag(Bag),
 }
 
 impl LogFile {
     /// Opens a file, or the folder of a bag; a kind is seen from the first bytes.
-    pub(crate) fn open(path: &Path, options: &ReadOptions) -> Result<Self, LogError> {
+    pub(crate) fn open(
+        path: &Path,
+        options: &ReadOptions,
+        damage: &mut Damage,
+    ) -> Result<Self, LogError> {
         let data = fs::metadata(path).map_err(|e| match e.kind() {
             io::ErrorKind::NotFound => LogError::Missing { path: path.to_owned() },
             _ => LogError::unreadable(path, &e),
         })?;
         if data.is_dir() {
-            return Self::open_folder(path, options);
+            return Self::open_folder(path, options, damage);
         }
         if !data.is_file() {
             let found = "not a regular file";
@@ -46,12 +53,20 @@ impl LogFile {
             Kind::Parquet => Self::Parquet(ParquetFile::open(path, file)),
             Kind::Npy => Self::Numpy(NumpyFile::open_npy(path, file)?),
             Kind::Zip => Self::Numpy(NumpyFile::open_npz(path, file, options.time())?),
-            Kind::Mcap => Self::Bag(Bag::open(path, &[(path.to_owned(), file)], options.topic)?),
+            Kind::Matlab => Self::Matlab(MatlabFile::open(path, file, options.time())?),
+            Kind::Mcap => {
+                let files = [(path.to_owned(), file)];
+                Self::Bag(Bag::open(path, &files, options.topic, damage)?)
+            }
             Kind::Packed(_) => return Err(LogError::other_kind(path, TWICE)),
         })
     }
 
-    fn open_folder(path: &Path, options: &ReadOptions) -> Result<Self, LogError> {
+    fn open_folder(
+        path: &Path,
+        options: &ReadOptions,
+        damage: &mut Damage,
+    ) -> Result<Self, LogError> {
         let mut files = Vec::new();
         for path in bag::files_of(path)? {
             match content(&path)? {
@@ -59,7 +74,7 @@ impl LogFile {
                 _ => return Err(LogError::other_kind(&path, NOT_MCAP)),
             }
         }
-        Ok(Self::Bag(Bag::open(path, &files, options.topic)?))
+        Ok(Self::Bag(Bag::open(path, &files, options.topic, damage)?))
     }
 
     /// Names of the columns, each one once.
@@ -68,6 +83,7 @@ impl LogFile {
             Self::Csv(csv) => csv.names().to_vec(),
             Self::Parquet(parquet) => parquet.names()?,
             Self::Numpy(numpy) => numpy.names(),
+            Self::Matlab(matlab) => matlab.names(),
             Self::Bag(bag) => bag.names().to_vec(),
         };
         let mut seen = BTreeSet::new();
@@ -84,7 +100,7 @@ impl LogFile {
         match self {
             Self::Csv(csv) => csv.is_unnamed(),
             Self::Numpy(numpy) => numpy.is_unnamed(),
-            Self::Parquet(_) | Self::Bag(_) => false,
+            Self::Parquet(_) | Self::Matlab(_) | Self::Bag(_) => false,
         }
     }
 
@@ -94,11 +110,12 @@ impl LogFile {
     }
 
     /// The numbers of the file, those in `needed` complete.
-    pub(crate) fn load(&self, needed: &Needed) -> Result<Table, LogError> {
+    pub(crate) fn load(&self, needed: &Needed, damage: &mut Damage) -> Result<Table, LogError> {
         match self {
-            Self::Csv(csv) => csv.load(needed),
+            Self::Csv(csv) => csv.load(needed, damage),
             Self::Parquet(parquet) => parquet.load(needed),
             Self::Numpy(numpy) => numpy.load(needed),
+            Self::Matlab(matlab) => matlab.load(needed),
             Self::Bag(bag) => bag.load(needed),
         }
     }

@@ -11,6 +11,7 @@ use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use crate::{
     LogError,
     allowance::Allowance,
+    damage::Damage,
     guarded::guarded,
     mcap_record::{Chunk, McapRecord},
 };
@@ -41,14 +42,20 @@ pub(crate) trait Listener {
     fn message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), LogError>;
 }
 
-/// Reads an MCAP file from its first byte to its last.
-pub(crate) fn read(path: &Path, file: &File, listener: &mut dyn Listener) -> Result<(), LogError> {
-    guarded(path, KIND, || {
+/// Reads an MCAP file from its first byte to its last, or to where it is damaged.
+pub(crate) fn read(
+    path: &Path,
+    file: &File,
+    listener: &mut dyn Listener,
+    damage: &mut Damage,
+) -> Result<(), LogError> {
+    let read = guarded(path, KIND, || {
         let length = file.metadata().map_err(|e| LogError::unreadable(path, &e))?.len();
         let (schemas, topics) = (BTreeMap::new(), BTreeMap::new());
         let allowance = Allowance::of(length);
         Reader { path, allowance, schemas, topics, listener }.read(file)
-    })
+    });
+    read.or_else(|error| damage.take(error))
 }
 
 struct Reader<'a> {

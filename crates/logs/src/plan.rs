@@ -6,7 +6,9 @@ use std::{
 use robot::{Joint, Robot};
 
 use crate::{
-    Channel, Channels, ColumnMap, LogError, MappedColumn, ReadOptions, degrees,
+    Channel, Channels, ColumnMap, LogError, MappedColumn, ReadOptions,
+    damage::Damage,
+    degrees,
     error::nearest,
     log_file::LogFile,
     table::{Needed, Table},
@@ -65,8 +67,15 @@ impl<'a> Plan<'a> {
         Needed { time: &self.time.column, signals: signals.collect() }
     }
 
-    /// Two rows or more, finite numbers, time that increases.
-    pub(crate) fn check(&self, table: &Table) -> Result<(), LogError> {
+    /// Two rows or more, finite numbers, time that increases; what is not is cut off with what
+    /// follows, where damage may be.
+    pub(crate) fn check(&self, table: &mut Table, damage: &mut Damage) -> Result<(), LogError> {
+        // Behind a number that is none, time may go back before it: at most once a signal.
+        for _ in 0..=self.sources().count() {
+            let Some((sample, error)) = self.damaged(table) else { break };
+            damage.take(error)?;
+            table.truncate(sample);
+        }
         const FEWEST_ROWS: usize = 2;
         let path = || self.path.clone();
         let time = self.time.take(&table.columns);
@@ -74,24 +83,30 @@ impl<'a> Plan<'a> {
             let (found, expected) = (time.len(), FEWEST_ROWS);
             return Err(LogError::TooFewRows { path: path(), found, expected });
         }
+        self.damaged(table).map_or(Ok(()), |(_, error)| Err(error))
+    }
+
+    /// The first sample that cannot be used, and why.
+    fn damaged(&self, table: &Table) -> Option<(usize, LogError)> {
+        let path = || self.path.clone();
+        let time = self.time.take(&table.columns);
         for source in self.sources() {
             let samples = source.take(&table.columns);
             if let Some(index) = samples.iter().position(|x| !x.is_finite()) {
                 let (row, column) = (table.row(index), source.column.clone());
                 let found = samples[index].to_string();
-                return Err(LogError::NotFinite { path: path(), row, column, found });
+                return Some((index, LogError::NotFinite { path: path(), row, column, found }));
             }
         }
-        match time.windows(2).position(|t| t[1] <= t[0]) {
-            Some(index) => Err(LogError::TimeNotIncreasing {
-                path: path(),
-                row: table.row(index + 1),
-                column: self.time.column.clone(),
-                previous: time[index],
-                found: time[index + 1],
-            }),
-            None => Ok(()),
-        }
+        let index = time.windows(2).position(|t| t[1] <= t[0])?;
+        let error = LogError::TimeNotIncreasing {
+            path: path(),
+            row: table.row(index + 1),
+            column: self.time.column.clone(),
+            previous: time[index],
+            found: time[index + 1],
+        };
+        Some((index + 1, error))
     }
 
     /// A unit that was stated is believed.

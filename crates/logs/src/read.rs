@@ -4,6 +4,7 @@ use robot::Robot;
 
 use crate::{
     Channels, ColumnMap, LogError, Run,
+    damage::Damage,
     log_file::{LogFile, sha256},
     plan::Plan,
     turns::on_the_turn_of,
@@ -41,12 +42,12 @@ impl<'a> ReadOptions<'a> {
 /// Columns are matched to the robot's joints by name. A joint of the log that the robot
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// The position of a rotation's link is brought to the turn of the motor's.
-/// A file is CSV, Parquet, NumPy's npz or npy, or MCAP, or one of them packed with gzip or zstd,
+/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5, or MCAP, or one of them packed with gzip or zstd,
 /// which is seen from its first bytes.
 ///
-/// Of an npz file an array of one dimension is a column by its name, such as `tau`; one of samples
+/// Of an npz or mat file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
-/// as long as time. Other arrays are left out.
+/// as long as time; fields of a structure of MATLAB are `log.q`. Other arrays are left out.
 ///
 /// Of a bag of ROS 2, an MCAP file or a folder with `metadata.yaml` and such files, the messages
 /// `sensor_msgs/msg/JointState` of one topic are read, joints by the names in each message; one that
@@ -63,13 +64,44 @@ impl<'a> ReadOptions<'a> {
 /// column or joint, a field that is not a finite number, time that does not increase,
 /// fewer than two rows, positions in degrees, a column map that does not fit.
 pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run, LogError> {
-    if let Some(map) = options.map {
-        map.check(robot)?;
-    }
-    let file = LogFile::open(path, options)?;
+    read(path, robot, options, &mut Damage::Refused)
+}
+
+/// Reads one run as [`read_run`] does, up to where it is damaged, and says what is there.
+///
+/// Of CSV that is the first row that cannot be read, of MCAP the first record, of any file the
+/// first sample that is no number or whose time does not increase. A file of another kind that is
+/// broken is refused.
+///
+/// # Errors
+///
+/// Those of [`read_run`] that have no place in the log, and fewer than two rows before it.
+pub fn read_run_until_damage(
+    path: &Path,
+    robot: &Robot,
+    options: &ReadOptions,
+) -> Result<(Run, Option<Box<LogError>>), LogError> {
+    let mut damage = Damage::CutOff(None);
+    let run = read(path, robot, options, &mut damage)?;
+    let found = match damage {
+        Damage::CutOff(found) => found,
+        Damage::Refused => None,
+    };
+    Ok((run, found))
+}
+
+fn read(
+    path: &Path,
+    robot: &Robot,
+    options: &ReadOptions,
+    damage: &mut Damage,
+) -> Result<Run, LogError> {
+    let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
+    let options = &ReadOptions { map: map.as_ref(), ..*options };
+    let file = LogFile::open(path, options, damage)?;
     let plan = Plan::new(path, &file, robot, options)?;
-    let mut table = file.load(&plan.needed())?;
-    plan.check(&table)?;
+    let mut table = file.load(&plan.needed(), damage)?;
+    plan.check(&mut table, damage)?;
 
     let time = plan.time.take(&table.columns);
     let mut joints = Vec::new();

@@ -24,6 +24,12 @@ pub(crate) struct Table {
 }
 
 impl Table {
+    /// Leaves the first samples alone.
+    pub(crate) fn truncate(&mut self, samples: usize) {
+        self.columns.values_mut().for_each(|column| column.truncate(samples));
+        self.rows.truncate(samples);
+    }
+
     /// The row of the file that a sample is from, counted from 1.
     pub(crate) fn row(&self, sample: usize) -> usize {
         self.rows.get(sample).copied().unwrap_or(sample + 1)

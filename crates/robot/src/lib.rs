@@ -7,7 +7,7 @@
 //!
 //! The terms of a rigid body come from [`Link`] and [`Joint`], what an actuator
 //! adds from [`Actuator`]. [`Robot::load`] reads them from `robot.urdf` and
-//! `robot.toml`. Data only: no dynamics is computed here. [`Machine`] is what a controller
+//! `robot.toml`, or from an MJCF. Data only: no dynamics is computed here. [`Machine`] is what a controller
 //! sees of an arm, simulated or real.
 
 mod actuator;
@@ -23,6 +23,7 @@ mod looks;
 mod lumping;
 mod machine;
 mod mesh;
+mod mjcf;
 mod model;
 mod packages;
 mod part;

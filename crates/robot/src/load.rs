@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::description::Description;
 use crate::lumping::Lumping;
+use crate::mjcf;
 use crate::part::{self, LockedJoint, Part};
 use crate::urdf::{self, UrdfModel};
-use crate::{ControlSettings, Looks, Packages, Robot, RobotError, RobotWarning};
+use crate::{ControlSettings, Gain, Looks, Packages, Robot, RobotError, RobotWarning};
 
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -31,8 +32,10 @@ pub struct Loaded {
     pub robot_in_urdf: Robot,
     /// What the robot looks like, as the URDF says.
     pub looks: Looks,
-    /// The URDF that was read.
+    /// The URDF or MJCF that was read.
     pub urdf_path: PathBuf,
+    /// Its text with all that it includes, where it includes other files.
+    pub expanded: Option<String>,
     /// Name of the link that does not move; its frame is the base frame.
     pub base_link: String,
     /// Names of the links fixed to the base; they have no part in the dynamics.
@@ -48,10 +51,11 @@ pub struct Loaded {
 }
 
 impl Robot {
-    /// The robot described by `path`, a `robot.urdf` or a `robot.toml`.
+    /// The robot described by `path`, a `robot.urdf`, an MJCF or a `robot.toml`.
     ///
-    /// The extension decides which of the two it is; with another extension, a
-    /// first character `<` makes it a URDF. A `robot.toml` beside a URDF is read
+    /// What an MJCF says of a rotor, of friction and of the gains of servos is kept, the rest of it
+    /// that may matter is told in warnings. The extension decides which of the two it is; with another extension, a
+    /// first character `<` makes it a URDF, or an MJCF if its root is `<mujoco>`. A `robot.toml` beside a URDF is read
     /// only when it is named.
     ///
     /// # Errors
@@ -86,7 +90,7 @@ impl Robot {
         } else {
             (None, path.to_owned(), text)
         };
-        let model = urdf::parse(&text).map_err(|e| e.in_file(&urdf_path))?;
+        let model = model(&text, &urdf_path).map_err(|e| e.in_file(&urdf_path))?;
         let part = description.as_ref().map(Description::part).unwrap_or_default();
         let mut loaded =
             Loaded::from_urdf(&model, part, &urdf_path).map_err(|e| e.in_file(path))?;
@@ -125,14 +129,13 @@ impl Loaded {
             robot_in_urdf: robot.clone(),
             looks: lumping.looks(model.looks.clone()),
             urdf_path: path.to_owned(),
+            expanded: model.expanded.clone(),
             base_link: model.base_link.clone(),
             fixed_to_base: fixed.chain(lumping.fixed_to_base(whole)).collect(),
             part,
             locked,
-            control: ControlSettings {
-                gains: vec![None; robot.joint_count()],
-                ..Default::default()
-            },
+            control: lumping
+                .control(&ControlSettings { gains: whole_gains(model), ..Default::default() }),
             warnings: model.warnings.clone(),
             robot,
         })
@@ -221,6 +224,22 @@ impl Loaded {
     pub(crate) fn lock(&self, name: &str) -> Option<&LockedJoint> {
         self.locked.iter().find(|lock| lock.joint == name)
     }
+}
+
+/// What the text of a URDF or an MJCF says.
+fn model(text: &str, path: &Path) -> Result<UrdfModel, RobotError> {
+    if mjcf::is_mjcf(text) {
+        mjcf::parse(text, path.parent().unwrap_or(Path::new("")), &read)
+    } else {
+        urdf::parse(text)
+    }
+}
+
+/// The gains that a file gives, one entry a joint.
+fn whole_gains(model: &UrdfModel) -> Vec<Option<Gain>> {
+    let mut gains = model.gains.clone();
+    gains.resize(model.robot.joint_count(), None);
+    gains
 }
 
 /// Lowest and highest position of a joint (rad or m).

@@ -66,6 +66,13 @@ pub enum RobotWarning {
         /// What is wrong with it.
         reason: String,
     },
+    /// Something of an MJCF is passed over.
+    NotUnderstood {
+        /// What it is, such as `<spatial> of <tendon>`.
+        what: String,
+        /// How many there are.
+        count: usize,
+    },
     /// Meshes that the URDF names are not there, or too large; pictures do without them.
     MeshesNotFound {
         /// One of them, as the URDF names it.
@@ -86,6 +93,7 @@ impl RobotWarning {
                 | Self::BaseHeld { .. }
                 | Self::LimbsOnBase { .. }
                 | Self::LockedOutside { .. }
+                | Self::NotUnderstood { .. }
         )
     }
 
@@ -143,6 +151,10 @@ impl fmt::Display for RobotWarning {
                 } else {
                     ""
                 }
+            ),
+            Self::NotUnderstood { what, count } => write!(
+                f,
+                "{what} ({count}): it is not read, and what it does to the motion is left out"
             ),
             Self::Inertia { link, defect } => write!(f, "link {link}: {defect}"),
         }

@@ -7,9 +7,10 @@ use robot::Loaded;
 
 use super::diagnose;
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, PartArguments, SearchArguments, hashes_of, provenance};
+use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
 use crate::output::{print, shown, warn};
 use crate::progress::Bar;
 
@@ -79,7 +80,7 @@ fn write(
     let about = Loaded { robot: comparison.before.extended.clone(), ..loaded.clone() };
     let sides = [("before", loaded, &comparison.before), ("after", &about, &comparison.after)];
     for ((name, loaded, outcome), runs) in sides.into_iter().zip(runs) {
-        let map = arguments.columns.map.as_deref();
+        let map = arguments.columns.map_file();
         let mut provenance = provenance(&arguments.robot, loaded, map)?;
         provenance.files.extend(hashes_of(runs));
         let report = Report::new(outcome, &loaded.robot, &provenance);

@@ -7,26 +7,79 @@ use crate::Outcome;
 use crate::commands::run::{Output, perform};
 use crate::error::CliError;
 
-/// The robot and the scenario, as the repository has them.
-const SOURCES: [(&str, &[u8]); 4] = [
-    ("robots/wam7/robot.urdf", include_bytes!("../../../../robots/wam7/robot.urdf")),
-    ("robots/wam7/robot.toml", include_bytes!("../../../../robots/wam7/robot.toml")),
-    ("scenarios/wam.toml", include_bytes!("../../../../scenarios/wam.toml")),
-    (SCENARIO, include_bytes!("../../../../scenarios/demo.toml")),
-];
+/// Files of the repository: where they are written, and what is in them.
+type Sources = [(&'static str, &'static [u8]); 4];
 
-const SCENARIO: &str = "scenarios/demo.toml";
+/// The files of an arm: description, scenario of the arm, scenario of the demo, which is the last.
+macro_rules! sources {
+    ($robot:literal, $demo:literal) => {
+        [
+            (
+                concat!("robots/", $robot, "/robot.urdf"),
+                include_bytes!(concat!("../../../../robots/", $robot, "/robot.urdf")),
+            ),
+            (
+                concat!("robots/", $robot, "/robot.toml"),
+                include_bytes!(concat!("../../../../robots/", $robot, "/robot.toml")),
+            ),
+            (
+                concat!("scenarios/", $robot, ".toml"),
+                include_bytes!(concat!("../../../../scenarios/", $robot, ".toml")),
+            ),
+            (
+                concat!("scenarios/", $demo, ".toml"),
+                include_bytes!(concat!("../../../../scenarios/", $demo, ".toml")),
+            ),
+        ]
+    };
+}
 
-const INTRODUCTION: &str = "\
-A Barrett WAM is simulated with two effects hidden in it. What is wrong with the model of it is found
-from the logs alone, and repaired; then the truth is opened.
-";
+/// An arm that the demo knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Arm {
+    /// Barrett WAM, seven joints
+    Wam7,
+    /// Universal Robots UR5e, six joints
+    Ur5e,
+    /// Franka Emika Panda, seven joints
+    Panda,
+    /// SO-101, five joints and a gripper
+    So101,
+}
+
+impl Arm {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Wam7 => "A Barrett WAM",
+            Self::Ur5e => "A UR5e",
+            Self::Panda => "A Franka Emika Panda",
+            Self::So101 => "An SO-101",
+        }
+    }
+
+    fn sources(self) -> Sources {
+        match self {
+            Self::Wam7 => [
+                ("robots/wam7/robot.urdf", include_bytes!("../../../../robots/wam7/robot.urdf")),
+                ("robots/wam7/robot.toml", include_bytes!("../../../../robots/wam7/robot.toml")),
+                ("scenarios/wam.toml", include_bytes!("../../../../scenarios/wam.toml")),
+                ("scenarios/demo.toml", include_bytes!("../../../../scenarios/demo.toml")),
+            ],
+            Self::Ur5e => sources!("ur5e", "demo_ur5e"),
+            Self::Panda => sources!("panda", "demo_panda"),
+            Self::So101 => sources!("so101", "demo_so101"),
+        }
+    }
+}
 
 /// Arguments of `demo`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     output: Output,
+    /// The arm
+    #[arg(long, value_enum, default_value = "wam7")]
+    robot: Arm,
     /// Seed that the two effects are drawn from, and the noise of the sensors
     #[arg(long, value_parser = clap::value_parser!(u64).range(0..=i64::MAX as u64))]
     seed: Option<u64>,
@@ -35,10 +88,19 @@ pub struct Arguments {
 /// Hides two effects in a simulated arm, finds them in its logs and measures what that gains.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let out = arguments.output.out.clone().unwrap_or_else(|| PathBuf::from("out/demo"));
-    let source = out.join("source");
-    report::write_folder(&source, &SOURCES)?;
-    let scenario = source.join(Path::new(SCENARIO));
+    let (source, sources) = (out.join("source"), arguments.robot.sources());
+    report::write_folder(&source, &sources)?;
+    let [.., (scenario, _)] = sources;
+    let scenario = source.join(Path::new(scenario));
     let experiment = Experiment::from_document(&Document::read(&scenario)?, arguments.seed)?;
-    arguments.output.leave(INTRODUCTION);
+    arguments.output.leave(&introduction(arguments.robot));
     perform(&experiment, &scenario, &out, &arguments.output)
+}
+
+fn introduction(arm: Arm) -> String {
+    format!(
+        "{} is simulated with two effects hidden in it. What is wrong with the model of it is found\n\
+         from the logs alone, and repaired; then the truth is opened.\n",
+        arm.words()
+    )
 }

@@ -13,8 +13,9 @@ use robot::{Loaded, Robot};
 use self::diagnosis_file::DiagnosisFile;
 pub use self::error::DesignError;
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, PartArguments, positive};
+use crate::input::{PartArguments, positive};
 use crate::output::print;
 use crate::progress::Line;
 

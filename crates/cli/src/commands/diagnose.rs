@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use diagnosis::{Diagnosis, Progress, Silent, Verdict};
 use evaluation::{Diagnosed, ForwardGap};
+use exchange::Format;
 use logs::Run;
 use report::{Report, ReportError};
 use robot::{Loaded, Robot};
@@ -11,9 +12,10 @@ use robot::{Loaded, Robot};
 use residual::Learned;
 
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, PartArguments, SearchArguments, hashes_of, provenance};
+use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
 use crate::output::{print, shown, warn};
 use crate::progress::{Bar, Line};
 
@@ -31,7 +33,7 @@ pub struct Arguments {
     robot: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// Logs (CSV, Parquet, NumPy, bags of ROS 2), one run each, of the same robot
+    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each, of the same robot
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
     /// Folder for report.html, recording.rrd, figure.svg, diagnosis.json and extended.toml
@@ -88,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     };
     let residual = arguments.residual.map(learn).transpose()?;
 
-    let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map.as_deref())?;
+    let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map_file())?;
     provenance.files.extend(hashes_of(&runs));
     let report = Report {
         residual: residual.as_ref().map(|learned| &learned.said),
@@ -137,12 +139,19 @@ pub(super) fn write(
 ) -> Result<(), CliError> {
     let extended = extended_toml(loaded, &outcome.extended, &outcome.diagnosis)?;
     let (html, figure) = (report::html(report)?, report::figure(report)?);
-    let urdf = read(&loaded.urdf_path)?;
+    // A description that includes others is written whole: they do not lie beside it.
+    let urdf = match &loaded.expanded {
+        Some(text) => text.clone().into_bytes(),
+        None => read(&loaded.urdf_path)?,
+    };
+    let robot = Loaded { robot: outcome.extended.clone(), ..loaded.clone() };
+    let extended_urdf = exchange::export(&robot, &String::from_utf8_lossy(&urdf), Format::Urdf)?;
     let mut files = vec![
         ("diagnosis.json", json.as_bytes()),
         ("report.html", html.as_bytes()),
         ("figure.svg", figure.as_bytes()),
         ("extended.toml", extended.as_bytes()),
+        ("extended.urdf", extended_urdf.text.as_bytes()),
         ("robot.urdf", &urdf),
     ];
     files.extend(residual.map(|learned| (residual::FILE, learned.bytes.as_slice())));

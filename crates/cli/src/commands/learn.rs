@@ -14,8 +14,9 @@ use learner::{ModelKind, PriorSpread, TrainSettings};
 use report::ReportError;
 
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, PartArguments, positive};
+use crate::input::{PartArguments, positive};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -38,7 +39,7 @@ pub struct Arguments {
     robot: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// Logs (CSV, Parquet, NumPy, bags of ROS 2) to learn from, one run each
+    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2) to learn from, one run each
     #[arg(long, value_name = "LOG", num_args = 1.., required_unless_present = "benchmark")]
     train: Vec<PathBuf>,
     /// Files to measure the errors on, none of which is learned from

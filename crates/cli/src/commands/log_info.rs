@@ -1,10 +1,11 @@
 use std::path::{Path, PathBuf};
 
-use logs::{Channel, ColumnMap, JointInfo, LogError, LogInfo, ReadOptions, Run};
+use logs::{Channel, JointInfo, LogError, LogInfo, ReadOptions, Run};
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 use serde::Serialize;
 
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::error::CliError;
 use crate::input::PartArguments;
 use crate::output::{print, print_json, shown, table};
@@ -12,7 +13,7 @@ use crate::output::{print, print_json, shown, table};
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Logs (CSV, Parquet, NumPy, bags of ROS 2), one run each
+    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// The robot, for names, order, types and limits of the joints
@@ -20,15 +21,8 @@ pub struct Arguments {
     robot: Option<PathBuf>,
     #[command(flatten)]
     part: PartArguments,
-    /// Names and units of columns that are called otherwise (TOML)
-    #[arg(long, requires = "robot")]
-    map: Option<PathBuf>,
-    /// The effort is read from the columns `<joint>.COLUMN`
-    #[arg(long, value_name = "COLUMN", default_value = "effort")]
-    effort: String,
-    /// The topic of a bag whose joint states are read [default: /joint_states, or the only one]
-    #[arg(long, value_name = "NAME")]
-    topic: Option<String>,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -36,9 +30,7 @@ pub struct Arguments {
 
 /// Prints what there is to know about each log before it is used.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let map = arguments.map.as_deref().map(ColumnMap::load).transpose()?;
-    let (effort, topic) = (&arguments.effort, arguments.topic.as_deref());
-    let options = ReadOptions { map: map.as_ref(), effort, topic };
+    let reader = arguments.columns.reader()?;
     let described = arguments.robot.as_deref().map(|path| arguments.part.load(path));
     let described = described.transpose()?;
     let mut runs: Vec<Run> = Vec::new();
@@ -46,10 +38,12 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     for path in &arguments.files {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
-            None if arguments.part.joints.is_empty() => robot_from_columns(path, &options)?,
+            None if arguments.part.joints.is_empty() => {
+                robot_from_columns(path, &reader.options())?
+            }
             None => robot_of(&arguments.part.joints)?,
         };
-        let run = logs::read_run(path, &robot, &options)?;
+        let run = reader.read(path, &robot)?;
         let info = logs::log_info(&run, &robot);
         runs.push(run);
         let repeats = logs::duplicate_of(&runs, runs.len() - 1).map(|i| shown(&runs[i].source));

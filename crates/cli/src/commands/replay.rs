@@ -5,9 +5,10 @@ use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
+use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{ColumnArguments, PartArguments, positive};
+use crate::input::{PartArguments, positive};
 use crate::output::{create_folder, print, shown, table, warn};
 
 /// Arguments of `replay`.
@@ -18,7 +19,7 @@ pub struct Arguments {
     robot: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// Logs (CSV, Parquet, NumPy, bags of ROS 2), one run each
+    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
     /// Folder for the simulated motion and torque of every run

@@ -13,12 +13,12 @@ use self::outline::{Element, Outline};
 use self::tree::Tree;
 use self::visual::Visuals;
 use crate::part::Mimics;
-use crate::{Actuator, Inertia, Link, Looks, Robot, RobotError, RobotWarning};
+use crate::{Actuator, Gain, Inertia, Link, Looks, Robot, RobotError, RobotWarning};
 
 /// Free fall in a base frame whose z axis points up (m/s²).
 const UPRIGHT_GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
 
-/// What a URDF says.
+/// What a URDF or an MJCF says.
 pub(crate) struct UrdfModel {
     /// Every joint moves by itself, those of `mimics` as well.
     pub robot: Robot,
@@ -31,6 +31,10 @@ pub(crate) struct UrdfModel {
     /// Links whose mass is said to be zero: frames, unless they move by themselves.
     pub without_mass: Vec<String>,
     pub mimics: Mimics,
+    /// Gains of servos, one entry a joint; a URDF has none.
+    pub gains: Vec<Option<Gain>>,
+    /// The text with what it includes, where it includes something.
+    pub expanded: Option<String>,
     pub warnings: Vec<RobotWarning>,
 }
 
@@ -76,6 +80,8 @@ pub(crate) fn parse(text: &str) -> Result<UrdfModel, RobotError> {
         base_has_mass: base().any(has_mass),
         without_mass,
         mimics,
+        gains: vec![],
+        expanded: None,
         warnings,
     })
 }

@@ -1,0 +1,132 @@
+use std::path::{Path, PathBuf};
+
+use exchange::{Fated, Format};
+use serde::Serialize;
+
+use crate::Outcome;
+use crate::error::CliError;
+use crate::input::PartArguments;
+use crate::output::{create_folder, print, print_json, shown, table};
+
+/// Names under which an output folder has the robot with its findings, of a diagnosis and of a run.
+const EXTENDED: [&str; 2] = ["extended.toml", "diagnosis/extended.toml"];
+
+/// Arguments of `export`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The output folder of diagnose, run or demo, or a robot.toml
+    path: PathBuf,
+    #[command(flatten)]
+    part: PartArguments,
+    /// Formats, with commas between them; all where it is left out
+    #[arg(long, value_enum, value_name = "FORMAT", value_delimiter = ',')]
+    to: Vec<Target>,
+    /// Folder for the files; that of the robot where it is left out
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// A format that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Target {
+    /// The format of ROS, the user's own file with what differs: extended.urdf
+    Urdf,
+    /// The format of MuJoCo: extended.xml
+    Mjcf,
+    /// The format of Gazebo: extended.sdf
+    Sdf,
+}
+
+impl Target {
+    fn format(self) -> Format {
+        match self {
+            Self::Urdf => Format::Urdf,
+            Self::Mjcf => Format::Mjcf,
+            Self::Sdf => Format::Sdf,
+        }
+    }
+}
+
+/// What is printed.
+#[derive(Serialize)]
+struct Exports {
+    schema: &'static str,
+    robot: String,
+    files: Vec<Written>,
+}
+
+/// A file that was written.
+#[derive(Serialize)]
+struct Written {
+    format: &'static str,
+    path: String,
+    quantities: Vec<Fated>,
+}
+
+/// Writes the robot in other formats and prints what became of every quantity.
+pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    let path = described(&arguments.path)?;
+    let loaded = arguments.part.load(&path)?;
+    let source = std::fs::read_to_string(&loaded.urdf_path).map_err(|error| {
+        CliError::Robot(robot::RobotError::Unreadable {
+            path: loaded.urdf_path.clone(),
+            reason: error.to_string(),
+        })
+    })?;
+    let folder = arguments.out.clone().or_else(|| path.parent().map(Path::to_owned));
+    let folder = folder.filter(|f| !f.as_os_str().is_empty()).unwrap_or_else(|| PathBuf::from("."));
+    create_folder(&folder)?;
+    let asked: Vec<Format> = arguments.to.iter().map(|target| target.format()).collect();
+    let formats = if asked.is_empty() { Format::ALL.to_vec() } else { asked };
+    let mut files = vec![];
+    for format in formats {
+        let export = exchange::export(&loaded, &source, format)?;
+        let name = format!("extended.{}", format.extension());
+        let file = folder.join(&name);
+        if same_file(&file, &loaded.urdf_path) {
+            return Err(CliError::OverSource { path: file });
+        }
+        report::write_folder(&folder, &[(&name, export.text.as_bytes())])?;
+        files.push(Written { format: format.name(), path: shown(&file), quantities: export.fates });
+    }
+    let exports =
+        Exports { schema: "plumbline.export/1", robot: loaded.robot.name().to_owned(), files };
+    if arguments.json {
+        print_json(&exports)?;
+    } else {
+        print(&text(&exports))?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// The description of the robot in an output folder, or the file itself.
+fn described(path: &Path) -> Result<PathBuf, CliError> {
+    if !path.is_dir() {
+        return Ok(path.to_owned());
+    }
+    let found = EXTENDED.iter().map(|name| path.join(name)).find(|file| file.exists());
+    found.ok_or_else(|| CliError::NothingToExport { path: path.to_owned() })
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    let resolved = |path: &Path| std::fs::canonicalize(path).ok();
+    resolved(a).is_some_and(|a| resolved(b) == Some(a))
+}
+
+fn text(exports: &Exports) -> String {
+    let mut text = String::new();
+    for file in &exports.files {
+        let of = |word: &str| file.quantities.iter().filter(|q| q.fate.word() == word).count();
+        let counts = ["exact", "approximated", "dropped"].map(|w| format!("{} {w}", of(w)));
+        text.push_str(&format!("{}: {}\n", file.path, counts.join(", ")));
+        let rows = file.quantities.iter().map(|q| {
+            vec![q.at.clone(), q.what.clone(), q.fate.word().to_owned(), q.fate.to_string()]
+        });
+        text.push_str(&table(&["where", "what", "fate", "how or why"], rows));
+        text.push('\n');
+    }
+    text
+}

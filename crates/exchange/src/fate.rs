@@ -1,0 +1,72 @@
+use std::fmt;
+
+use serde::Serialize;
+
+/// What became of a quantity in a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case", tag = "fate")]
+pub enum Fate {
+    /// The format says the same.
+    Exact {
+        /// The element or attribute that holds it.
+        place: String,
+    },
+    /// The format says something near.
+    Approximated {
+        /// What is written, and how far off it is.
+        how: String,
+    },
+    /// The format has no place for it.
+    Dropped {
+        /// Why, and what to do.
+        because: String,
+    },
+}
+
+impl Fate {
+    /// Held by `place`.
+    pub(crate) fn exact(place: &str) -> Self {
+        Self::Exact { place: place.to_owned() }
+    }
+
+    /// Written as `how` says.
+    pub(crate) fn near(how: impl Into<String>) -> Self {
+        Self::Approximated { how: how.into() }
+    }
+
+    /// Left out.
+    pub(crate) fn dropped(because: &str) -> Self {
+        Self::Dropped { because: because.to_owned() }
+    }
+
+    /// One word: `exact`, `approximated` or `dropped`.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Exact { .. } => "exact",
+            Self::Approximated { .. } => "approximated",
+            Self::Dropped { .. } => "dropped",
+        }
+    }
+}
+
+impl fmt::Display for Fate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Exact { place: text }
+            | Self::Approximated { how: text }
+            | Self::Dropped { because: text } => f.write_str(text),
+        }
+    }
+}
+
+/// A quantity of the robot with its fate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Fated {
+    /// The joint, the link or `robot`.
+    pub at: String,
+    /// The quantity with its size and unit.
+    pub what: String,
+    /// What became of it.
+    #[serde(flatten)]
+    pub fate: Fate,
+}

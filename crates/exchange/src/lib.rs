@@ -1,0 +1,27 @@
+//! A robot in the files of other programs.
+//!
+//! ```text
+//! Loaded (robot.urdf + robot.toml) -> export -> text of a URDF, an MJCF or an SDF
+//!                                           \-> fates: exact, approximated, dropped
+//! ```
+//!
+//! [`export`] writes what a format can hold and says of every quantity what became of it.
+
+mod error;
+mod export;
+mod fate;
+mod inertial;
+mod mjcf;
+mod mjcf_joint;
+mod numbers;
+mod quantity;
+mod reported;
+mod sdf;
+mod sheet;
+mod urdf;
+mod urdf_joint;
+mod urdf_written;
+
+pub use error::ExchangeError;
+pub use export::{Export, Format, export};
+pub use fate::{Fate, Fated};

@@ -1,0 +1,65 @@
+use quick_xml::escape::escape;
+
+/// XML that is being written, an element a line.
+#[derive(Debug, Default)]
+pub struct Sheet {
+    text: String,
+    open: Vec<&'static str>,
+}
+
+/// Attributes by name.
+pub type Attributes<'a> = &'a [(&'static str, String)];
+
+impl Sheet {
+    /// An empty sheet.
+    pub fn new() -> Self {
+        Self { text: "<?xml version=\"1.0\"?>\n".to_owned(), open: vec![] }
+    }
+
+    /// A comment; two hyphens in a row are none inside of one.
+    pub fn comment(&mut self, words: &str) {
+        let words = words.replace("--", "- -");
+        self.line(&format!("<!-- {words} -->"));
+    }
+
+    /// An element without children.
+    pub fn leaf(&mut self, name: &'static str, attributes: Attributes<'_>) {
+        self.line(&format!("<{name}{}/>", listed(attributes)));
+    }
+
+    /// An element that holds a text.
+    pub fn text(&mut self, name: &'static str, attributes: Attributes<'_>, text: &str) {
+        self.line(&format!("<{name}{}>{}</{name}>", listed(attributes), escape(text)));
+    }
+
+    /// Opens an element.
+    pub fn open(&mut self, name: &'static str, attributes: Attributes<'_>) {
+        self.line(&format!("<{name}{}>", listed(attributes)));
+        self.open.push(name);
+    }
+
+    /// Closes the element that was opened last.
+    pub fn close(&mut self) {
+        if let Some(name) = self.open.pop() {
+            self.line(&format!("</{name}>"));
+        }
+    }
+
+    /// The text, with all elements closed.
+    pub fn finish(mut self) -> String {
+        while !self.open.is_empty() {
+            self.close();
+        }
+        self.text
+    }
+
+    fn line(&mut self, line: &str) {
+        self.text.push_str(&"  ".repeat(self.open.len()));
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+}
+
+fn listed(attributes: Attributes<'_>) -> String {
+    attributes.iter().map(|(key, value)| format!(" {key}=\"{}\"", escape(value.as_str()))).collect()
+}

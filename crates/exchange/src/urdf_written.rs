@@ -1,0 +1,76 @@
+//! A URDF of a robot that was described otherwise, one link a moving link.
+
+use nalgebra::{Isometry3, Translation3};
+use robot::{JointKind, Link, Loaded, Robot};
+
+use crate::numbers::{number, numbers};
+use crate::quantity::levels;
+use crate::sheet::Sheet;
+
+/// The robot as a new URDF.
+pub fn written(loaded: &Loaded, robot: &Robot) -> String {
+    let mut sheet = Sheet::new();
+    sheet.open("robot", &[("name", robot.name().to_owned())]);
+    sheet.leaf("link", &[("name", loaded.base_link.clone())]);
+    for link in robot.links() {
+        body(&mut sheet, link);
+        let parent = link.parent.map_or(&loaded.base_link, |parent| &robot.links()[parent].name);
+        joint(&mut sheet, link, parent);
+    }
+    sheet.finish()
+}
+
+fn origin(sheet: &mut Sheet, frame: &Isometry3<f64>) {
+    let (roll, pitch, yaw) = frame.rotation.euler_angles();
+    let xyz = numbers(frame.translation.vector.iter());
+    sheet.leaf("origin", &[("xyz", xyz), ("rpy", numbers(&[roll, pitch, yaw]))]);
+}
+
+fn body(sheet: &mut Sheet, link: &Link) {
+    let (inertia, i) = (&link.inertia, &link.inertia.about_com);
+    sheet.open("link", &[("name", link.name.clone())]);
+    sheet.open("inertial", &[]);
+    origin(sheet, &Isometry3::from(Translation3::from(inertia.com_in_link)));
+    sheet.leaf("mass", &[("value", number(inertia.mass))]);
+    let moments = [
+        ("ixx", i.m11),
+        ("ixy", i.m12),
+        ("ixz", i.m13),
+        ("iyy", i.m22),
+        ("iyz", i.m23),
+        ("izz", i.m33),
+    ];
+    sheet.leaf("inertia", &moments.map(|(key, value)| (key, number(value))));
+    sheet.close();
+    sheet.close();
+}
+
+fn joint(sheet: &mut Sheet, link: &Link, parent: &str) {
+    let (joint, limits) = (&link.joint, &link.joint.limits);
+    let kind = match joint.kind {
+        JointKind::Revolute if limits.position.is_none() => "continuous",
+        JointKind::Revolute => "revolute",
+        JointKind::Continuous => "continuous",
+        JointKind::Prismatic => "prismatic",
+    };
+    sheet.open("joint", &[("name", joint.name.clone()), ("type", kind.to_owned())]);
+    sheet.leaf("parent", &[("link", parent.to_owned())]);
+    sheet.leaf("child", &[("link", link.name.clone())]);
+    origin(sheet, &joint.parent_from_joint);
+    sheet.leaf("axis", &[("xyz", numbers(joint.axis_in_joint.iter()))]);
+    // A URDF says 0 where a limit is not known.
+    let (lower, upper) = limits.position.unwrap_or_default();
+    let of = |limit: Option<f64>| number(limit.unwrap_or_default());
+    sheet.leaf(
+        "limit",
+        &[
+            ("lower", number(lower)),
+            ("upper", number(upper)),
+            ("effort", of(limits.effort)),
+            ("velocity", of(limits.velocity)),
+        ],
+    );
+    let (damping, friction) = (number(link.actuator.viscous), number(levels(link).0));
+    sheet.leaf("dynamics", &[("damping", damping), ("friction", friction)]);
+    sheet.close();
+}

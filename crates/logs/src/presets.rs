@@ -1,0 +1,158 @@
+use std::path::Path;
+
+use robot::Robot;
+
+use crate::damage::Damage;
+use crate::{Channel, ColumnMap, LogError, ReadOptions, log_file::LogFile};
+
+/// A column map by name.
+struct Preset {
+    name: &'static str,
+    /// What its columns are, in words.
+    words: &'static str,
+    /// The map.
+    text: &'static str,
+    /// Whether joints can be told by it: by name, or by the order that is the arm's.
+    is_certain: bool,
+}
+
+/// Files that other programs write, the fuller map of a name first.
+const PRESETS: [Preset; 9] = [
+    Preset {
+        name: "ur",
+        words: "RTDE of Universal Robots, efforts in N m",
+        text: "time = \"timestamp\"\nposition = \"actual_q_{i}\"\nvelocity = \"actual_qd_{i}\"\n\
+               effort = \"actual_current_as_torque_{i}\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "ur",
+        words: "RTDE of Universal Robots, efforts are currents (A): scale them in a map of your own",
+        text: "time = \"timestamp\"\nposition = \"actual_q_{i}\"\nvelocity = \"actual_qd_{i}\"\n\
+               effort = { column = \"actual_current_{i}\", unit = \"raw\" }\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "franka",
+        words: "libfranka, time in ms",
+        text: "time = { column = \"time\", unit = \"ms\" }\nposition = \"q[{i}]\"\n\
+               velocity = \"dq[{i}]\"\neffort = \"tau_J[{i}]\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "plotjuggler",
+        words: "PlotJuggler, joints by name",
+        text: "time = \"__time\"\nposition = \"/joint_states/{joint}/position\"\n\
+               velocity = \"/joint_states/{joint}/velocity\"\n\
+               effort = \"/joint_states/{joint}/effort\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "plotjuggler",
+        words: "PlotJuggler, joints in the order of the robot",
+        text: "time = \"__time\"\nposition = \"/joint_states/position[{i}]\"\n\
+               velocity = \"/joint_states/velocity[{i}]\"\n\
+               effort = \"/joint_states/effort[{i}]\"\n",
+        is_certain: false,
+    },
+    Preset {
+        name: "numpy",
+        words: "arrays q, dq and tau over time",
+        text: "position = \"q[{i}]\"\nvelocity = \"dq[{i}]\"\neffort = \"tau[{i}]\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "numpy",
+        words: "arrays q, qd and tau over time",
+        text: "position = \"q[{i}]\"\nvelocity = \"qd[{i}]\"\neffort = \"tau[{i}]\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "numpy",
+        words: "arrays q, qd and tau over t",
+        text: "time = \"t\"\nposition = \"q[{i}]\"\nvelocity = \"qd[{i}]\"\n\
+               effort = \"tau[{i}]\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "numpy",
+        words: "arrays qpos, qvel and qfrc over time",
+        text: "position = \"qpos[{i}]\"\nvelocity = \"qvel[{i}]\"\neffort = \"qfrc[{i}]\"\n",
+        is_certain: true,
+    },
+];
+
+/// A map whose columns a file has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recognised {
+    /// Name of the preset.
+    pub name: &'static str,
+    /// What its columns are, in words.
+    pub words: &'static str,
+    /// The map.
+    pub map: ColumnMap,
+}
+
+/// Names of the presets.
+pub fn preset_names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+    names.dedup();
+    names
+}
+
+/// The preset whose time, positions and efforts a file has for all joints of a robot: one of that
+/// `name`, or any that tells the joints for certain. A file that has its columns under their usual
+/// names needs none.
+///
+/// With a name, the first of that name comes back where none fits, so that reading says what is
+/// missing.
+///
+/// # Errors
+///
+/// Those of opening the file.
+pub fn recognised(
+    path: &Path,
+    robot: &Robot,
+    name: Option<&str>,
+    topic: Option<&str>,
+) -> Result<Option<Recognised>, LogError> {
+    let (mut first, mut without_velocity) = (None, None);
+    for preset in PRESETS.iter().filter(|p| name.map_or(p.is_certain, |name| p.name == name)) {
+        let map = ColumnMap::from_text(preset.name, preset.text)?;
+        let options = ReadOptions { map: Some(&map), topic, ..ReadOptions::default() };
+        let file = match LogFile::open(path, &options, &mut Damage::default()) {
+            Ok(file) => file,
+            // Reading says the same of a file that is none.
+            Err(_) if name.is_none() => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let names = file.names(path)?;
+        if name.is_none() && is_usual(&names, robot) {
+            return Ok(None);
+        }
+        let whole = map.for_robot(robot)?;
+        let has = |channel| has_all(&names, &whole, robot, channel);
+        let has_time = names.iter().any(|n| n == options.time());
+        let fits = has_time && has(Channel::Position) && has(Channel::Effort);
+        let has_velocity = has(Channel::Velocity);
+        let map = if has_velocity { map } else { map.without(Channel::Velocity) };
+        let found = Recognised { name: preset.name, words: preset.words, map };
+        match (fits, has_velocity) {
+            (true, true) => return Ok(Some(found)),
+            (true, false) => without_velocity = without_velocity.or(Some(found)),
+            (false, _) => first = first.or(Some(found)),
+        }
+    }
+    Ok(without_velocity.or(first.filter(|_| name.is_some())))
+}
+
+/// Whether a file has positions under their usual names.
+fn is_usual(names: &[String], robot: &Robot) -> bool {
+    robot.joint_names().any(|joint| names.contains(&format!("{joint}.position")))
+}
+
+fn has_all(names: &[String], map: &ColumnMap, robot: &Robot, channel: Channel) -> bool {
+    robot.joint_names().all(|joint| {
+        map.channel(joint, channel).is_some_and(|mapped| names.contains(&mapped.column))
+    })
+}
