@@ -11,6 +11,9 @@ use crate::{ControlSettings, Looks, Packages, Robot, RobotError, RobotWarning};
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
 
+/// Joints that are computed with: the cost grows with the cube of their number, and no arm or humanoid has more.
+const MOST_JOINTS: usize = 100;
+
 /// What a robot is loaded with beside its files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadOptions {
@@ -170,9 +173,14 @@ impl Loaded {
         Ok(smaller)
     }
 
-    /// Refuses a body that is said to have no mass and moves, and adds what to know of the joints
+    /// Refuses a body that is said to have no mass and moves, and more joints than are computed with, and adds what to know of the joints
     /// that are held.
     fn judge(&mut self, model: &UrdfModel) -> Result<(), RobotError> {
+        let found = self.robot.joint_count();
+        if found > MOST_JOINTS {
+            let robot = self.robot.name().to_owned();
+            return Err(RobotError::TooManyJoints { robot, found, most: MOST_JOINTS });
+        }
         for link in self.robot.links().iter().filter(|link| link.inertia.mass <= 0.0) {
             let (link, mass) = (link.name.clone(), link.inertia.mass);
             if model.without_mass.contains(&link) {
