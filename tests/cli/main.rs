@@ -9,6 +9,7 @@ mod compare;
 mod design;
 mod diagnose;
 mod figure;
+mod impossible;
 mod learn;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;
@@ -24,3 +25,4 @@ mod track;
 mod trials;
 mod trials_compare;
 mod view;
+mod writing;

@@ -131,6 +131,7 @@ fn one_after_the_other(level: f64) -> Run {
         source: Default::default(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         joints: efforts.into_iter().enumerate().map(channels).collect(),
         time,
         extra: Default::default(),

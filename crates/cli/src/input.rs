@@ -99,9 +99,22 @@ pub fn provenance(
     Ok(Provenance {
         program: "plumbline",
         version: env!("CARGO_PKG_VERSION"),
-        command: std::iter::once("plumbline".to_owned()).chain(given).collect(),
+        command: std::iter::once("plumbline".to_owned()).chain(without_out(given)).collect(),
         files,
         seed: None,
+    })
+}
+
+/// The arguments without the folder of the output: the same input gives the same output wherever it is
+/// written.
+fn without_out(arguments: impl Iterator<Item = String>) -> impl Iterator<Item = String> {
+    const OUT: &str = "--out";
+    let mut is_folder = false;
+    arguments.filter(move |argument| {
+        let is_left_out = std::mem::replace(&mut is_folder, argument == OUT)
+            || is_folder
+            || argument.starts_with("--out=");
+        !is_left_out
     })
 }
 

@@ -3,7 +3,7 @@ use std::path::Path;
 use robot::Robot;
 
 use crate::{
-    Channels, ColumnMap, LogError, Run,
+    ColumnMap, LogError, Run,
     log_file::{LogFile, sha256},
     plan::Plan,
     turns::on_the_turn_of,
@@ -41,6 +41,11 @@ impl<'a> ReadOptions<'a> {
 /// Columns are matched to the robot's joints by name. A joint of the log that the robot
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// The position of a rotation's link is brought to the turn of the motor's.
+///
+/// Rows with a sample that cannot be are left out where they are few: a position beyond the reach of the rows
+/// beside it, an effort or speed of a size that no joint has. Full turns by which the position of a rotation
+/// jumps are taken out. [`Run::mended`] tells of both.
+///
 /// A file is CSV, Parquet, NumPy's npz or npy, or MCAP, or one of them packed with gzip or zstd,
 /// which is seen from its first bytes.
 ///
@@ -61,7 +66,7 @@ impl<'a> ReadOptions<'a> {
 ///
 /// Every [`LogError`] that names a file: no file, an empty or broken one, a missing
 /// column or joint, a field that is not a finite number, time that does not increase,
-/// fewer than two rows, positions in degrees, a column map that does not fit.
+/// fewer than two rows, many samples that cannot be, positions in degrees, a column map that does not fit.
 pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run, LogError> {
     if let Some(map) = options.map {
         map.check(robot)?;
@@ -71,23 +76,33 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
     let mut table = file.load(&plan.needed())?;
     plan.check(&table)?;
 
+    let mut mended = plan.leave_out_impossible(robot, &mut table)?;
+
     let time = plan.time.take(&table.columns);
-    let mut joints = Vec::new();
-    for (joint, sources) in robot.links().iter().map(|l| &l.joint).zip(&plan.joints) {
-        let mut channels = Channels { name: joint.name.clone(), ..Channels::default() };
-        for (channel, source) in sources {
-            channels.set(*channel, source.take(&table.columns));
+    let mut joints = plan.channels(robot, &table);
+    let described = robot.links().iter().map(|l| &l.joint);
+    for ((joint, sources), channels) in described.zip(&plan.joints).zip(&mut joints) {
+        if joint.kind.is_rotation() {
+            mended.extend(plan.unwrap(sources, (&time, &table), channels));
         }
-        plan.check_degrees(joint, sources, (&time, &table), &channels)?;
+        plan.check_degrees(joint, sources, (&time, &table), channels)?;
         if joint.kind.is_rotation() {
             let link = channels.link_position.take();
             channels.link_position = link.map(|link| on_the_turn_of(&channels.position, link));
         }
-        joints.push(channels);
     }
     let needed = plan.needed();
     table.columns.retain(|name, _| !needed.contains(name));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let (sha256, is_torn) = (sha256(path)?, file.is_torn());
-    Ok(Run { name, source: path.to_owned(), sha256, is_torn, time, joints, extra: table.columns })
+    Ok(Run {
+        name,
+        source: path.to_owned(),
+        sha256,
+        is_torn,
+        mended,
+        time,
+        joints,
+        extra: table.columns,
+    })
 }
