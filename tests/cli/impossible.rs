@@ -182,3 +182,28 @@ fn a_chain_of_60_links_is_checked_and_one_of_1000_is_refused() {
         assert_eq!(answer.err.contains(expected), joints == 1000, "{}", answer.err);
     }
 }
+
+/// Stamps of arrival, late by up to ten milliseconds and so by two rows.
+#[test]
+fn stamps_with_jitter_of_many_rows_are_put_on_an_even_clock() {
+    let folder = arm::folder(FRICTION);
+    let log = arm::log(0, FRICTION);
+    let mut state = 1_u64;
+    let mut late = |line: &str| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        let (time, _) = line.split_once(',').unwrap();
+        time.parse::<f64>().unwrap() + 0.02 * (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut stamps: Vec<f64> = log.lines().skip(1).map(&mut late).collect();
+    stamps.sort_unstable_by(f64::total_cmp);
+    let rows = log.lines().skip(1).zip(stamps);
+    let row = |(line, time): (&str, f64)| format!("{time},{}\n", line.split_once(',').unwrap().1);
+    let text = format!("{}\n{}", log.lines().next().unwrap(), rows.map(row).collect::<String>());
+    arm::write(folder.path(), "changed.csv", &text);
+    let start = std::time::Instant::now();
+    let answer = diagnose(folder.path());
+    assert!(start.elapsed() < std::time::Duration::from_secs(60));
+    assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
+    assert!(answer.out.contains("FR02 Coulomb friction"), "{}", answer.out);
+    assert!(words(&answer).contains("ms off an even clock of 5.00"), "{}", answer.out);
+}

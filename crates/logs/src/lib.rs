@@ -30,6 +30,7 @@ mod dialect;
 mod differentiate;
 mod duplicate;
 mod error;
+mod even_clock;
 mod filter;
 mod filtered;
 mod guarded;

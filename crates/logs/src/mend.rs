@@ -18,6 +18,13 @@ pub enum Mend {
         /// How many rows.
         count: usize,
     },
+    /// Stamps that say when rows arrived, in the place of which an even clock is taken.
+    EvenClock {
+        /// Its step (s).
+        step_s: f64,
+        /// How far a stamp was off it at most (s).
+        largest_s: f64,
+    },
     /// Full turns by which a position jumps, which are taken out.
     Turns {
         /// The column.
@@ -39,6 +46,12 @@ impl fmt::Display for Mend {
                     _ => write!(f, "it and {} more such rows are left out", count - 1),
                 }
             }
+            Self::EvenClock { step_s, largest_s } => write!(
+                f,
+                "its stamps are up to {:.3} ms off an even clock of {:.4} ms, which is taken instead of them",
+                1e3 * largest_s,
+                1e3 * step_s
+            ),
             Self::Turns { column, row, count } => {
                 let more =
                     if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };

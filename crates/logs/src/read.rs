@@ -3,7 +3,8 @@ use std::path::Path;
 use robot::Robot;
 
 use crate::{
-    ColumnMap, LogError, Run,
+    ColumnMap, LogError, Mend, Run,
+    even_clock::{EvenClock, even_clock},
     log_file::{LogFile, sha256},
     plan::Plan,
     turns::on_the_turn_of,
@@ -44,7 +45,8 @@ impl<'a> ReadOptions<'a> {
 ///
 /// Rows with a sample that cannot be are left out where they are few: a position beyond the reach of the rows
 /// beside it, an effort or speed of a size that no joint has. Full turns by which the position of a rotation
-/// jumps are taken out. [`Run::mended`] tells of both.
+/// jumps are taken out. Stamps that scatter about an even clock by more than its step give way to it.
+/// [`Run::mended`] tells of all.
 ///
 /// A file is CSV, Parquet, NumPy's npz or npy, or MCAP, or one of them packed with gzip or zstd,
 /// which is seen from its first bytes.
@@ -78,7 +80,11 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
 
     let mut mended = plan.leave_out_impossible(robot, &mut table)?;
 
-    let time = plan.time.take(&table.columns);
+    let mut time = plan.time.take(&table.columns);
+    if let Some(EvenClock { time: even, step_s, largest_s }) = even_clock(&time) {
+        time = even;
+        mended.push(Mend::EvenClock { step_s, largest_s });
+    }
     let mut joints = plan.channels(robot, &table);
     let described = robot.links().iter().map(|l| &l.joint);
     for ((joint, sources), channels) in described.zip(&plan.joints).zip(&mut joints) {
