@@ -9,6 +9,7 @@ mod compare;
 mod design;
 mod diagnose;
 mod figure;
+mod foreign_files;
 mod impossible;
 mod learn;
 #[cfg(target_os = "linux")]

@@ -4,7 +4,7 @@ use catalogue::EffectKind;
 use diagnosis::Settings;
 use logs::{ColumnMap, ReadOptions, Run};
 use report::{FileHash, Provenance, ReportError};
-use robot::{LoadOptions, Loaded, Packages, Robot, RobotError};
+use robot::{LoadOptions, Loaded, MeshFolders, Packages, Robot, RobotError};
 
 use crate::commands::explain;
 use crate::error::CliError;
@@ -47,6 +47,9 @@ pub struct PartArguments {
     /// AMENT_PREFIX_PATH are looked through as well
     #[arg(long, value_name = "NAME=DIR", value_parser = package)]
     pub package: Vec<(String, PathBuf)>,
+    /// Meshes may lie outside of the folder of the URDF and of packages
+    #[arg(long)]
+    pub allow_outside: bool,
 }
 
 impl PartArguments {
@@ -57,7 +60,8 @@ impl PartArguments {
         let mut packages = Packages::from_paths(ros.as_deref(), ament.as_deref());
         packages.named.extend(self.package.iter().cloned());
         let joints = (!self.joints.is_empty()).then(|| self.joints.clone());
-        Robot::load_with(path, &LoadOptions { joints, packages })
+        let meshes = if self.allow_outside { MeshFolders::Anywhere } else { MeshFolders::Below };
+        Robot::load_with(path, &LoadOptions { joints, packages, meshes })
     }
 }
 

@@ -22,6 +22,18 @@ pub struct LoadOptions {
     pub joints: Option<Vec<String>>,
     /// Where meshes are looked for.
     pub packages: Packages,
+    /// Which folders meshes may lie in beside packages.
+    pub meshes: MeshFolders,
+}
+
+/// Which folders the meshes of a URDF may lie in, packages apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MeshFolders {
+    /// That of the URDF, and those in it.
+    #[default]
+    Below,
+    /// All.
+    Anywhere,
 }
 
 /// A robot as its files describe it.
@@ -84,7 +96,7 @@ impl Robot {
         let (description, urdf_path, text) = if is_toml {
             let description = Description::parse(&text).map_err(|e| e.in_file(path))?;
             let urdf_path = path.parent().unwrap_or(Path::new("")).join(&description.urdf);
-            let text = read(&urdf_path).map_err(|e| e.in_file(path))?;
+            let text = read_regular(&urdf_path).map_err(|e| e.in_file(path))?;
             (Some(description), urdf_path, text)
         } else {
             (None, path.to_owned(), text)
@@ -99,7 +111,9 @@ impl Robot {
         if let Some(joints) = &options.joints {
             loaded = loaded.narrowed(&model, joints)?;
         }
-        loaded.warnings.extend(loaded.looks.find_meshes(&urdf_path, &options.packages));
+        loaded
+            .warnings
+            .extend(loaded.looks.find_meshes(&urdf_path, (&options.packages, options.meshes)));
         loaded.judge(&model).map_err(|e| e.in_file(&urdf_path))?;
         Ok(loaded)
     }
@@ -237,6 +251,17 @@ fn whole_limits(whole: &Robot, joint: &str) -> Option<(f64, f64)> {
 }
 
 /// The text of a file, without a byte-order mark.
+/// A file that another one names: a pipe would be waited for.
+fn read_regular(path: &Path) -> Result<String, RobotError> {
+    let reason = "it is no regular file, a URDF was expected".to_owned();
+    match std::fs::metadata(path) {
+        Ok(found) if !found.is_file() && !found.is_dir() => {
+            Err(RobotError::Unreadable { path: path.to_owned(), reason })
+        }
+        _ => read(path),
+    }
+}
+
 fn read(path: &Path) -> Result<String, RobotError> {
     let unreadable = |reason: String| RobotError::Unreadable { path: path.to_owned(), reason };
     if path.is_dir() {
