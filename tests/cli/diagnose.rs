@@ -281,8 +281,8 @@ fn a_diagnosis_without_its_recording_is_whole_but_for_that() {
     // A folder in its place cannot be written.
     fs::create_dir(out.join("recording.rrd")).unwrap();
     let answer = run(folder.path(), &arguments);
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    assert!(answer.err.starts_with("warning: out/recording.rrd: "), "{}", answer.err);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    assert!(answer.err.starts_with("error: out/recording.rrd: "), "{}", answer.err);
 }
 
 #[test]

@@ -10,6 +10,8 @@ mod design;
 mod diagnose;
 mod export;
 mod figure;
+mod foreign_files;
+mod impossible;
 mod learn;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;
@@ -26,3 +28,4 @@ mod track;
 mod trials;
 mod trials_compare;
 mod view;
+mod writing;

@@ -246,6 +246,36 @@ fn trials_that_another_folder_has_are_taken_and_not_made_again() {
     }
 }
 
+/// In a clone elsewhere the campaign is the same; with a heavier link of the same file it is another one.
+#[test]
+fn a_campaign_is_its_content_wherever_it_lies() {
+    let (here, there) = (folder(), folder());
+    done(here.path(), &["plan", "campaign.toml", "--out", "a"]);
+    done(here.path(), &["work", "a", "--part", "1/6"]);
+    trials(here.path(), &["merge", "a"]);
+    let table = here.path().join("a/trials.parquet");
+    let plan = ["plan", "campaign.toml", "--made", table.to_str().unwrap(), "--out"];
+    let said = done(there.path(), &[&plan[..], &["b"]].concat());
+    assert!(said.contains("\n1 are made already."), "{said}");
+    let urdf = fs::read_to_string(there.path().join("arm.urdf")).unwrap();
+    arm::write(there.path(), "arm.urdf", &urdf.replace("mass value=\"3\"", "mass value=\"9\""));
+    let answer = trials(there.path(), &[&plan[..], &["c"]].concat());
+    assert_eq!(answer.code, 3, "{answer:?}");
+    assert!(answer.err.contains("its trials are of another campaign"), "{}", answer.err);
+    assert!(!there.path().join("c").exists());
+}
+
+/// The command of the README.
+#[test]
+fn the_trials_of_the_workspace_are_taken_in_any_clone() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let at = |name: &str| root.join("scenarios").join(name).display().to_string();
+    let (campaign, table) = (at("trials.toml"), at("trials.parquet"));
+    let said = done(folder.path(), &["plan", &campaign, "--out", "blind", "--made", &table]);
+    assert!(said.contains("1003 are made already"), "{said}");
+}
+
 #[test]
 fn a_folder_with_trials_of_another_campaign_is_refused() {
     let folder = folder();

@@ -142,6 +142,7 @@ fn logged(
         source: Default::default(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         joints: efforts.into_iter().enumerate().map(channels).collect(),
         time,
         extra: Default::default(),

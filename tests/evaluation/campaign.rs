@@ -6,7 +6,7 @@ use std::time::Duration;
 use catalogue::EffectKind::CoulombFriction;
 use document::Document;
 use evaluation::{
-    Campaign, CampaignFolder, Crew, Hidden, Part, Record, TrialLogs, WorkProgress, work,
+    Campaign, CampaignFolder, Crew, Hidden, Part, Record, TrialLogs, WorkProgress, finished, work,
 };
 
 use crate::trials::cheap;
@@ -213,7 +213,7 @@ fn a_population_is_planned_and_its_folder_refuses_trials_of_another_kind() {
     };
     let table = root.path().join("scenario.parquet");
     Record::write(&table, std::slice::from_ref(&shard)).unwrap();
-    let refused = folder.take(&table).unwrap_err().to_string();
+    let refused = finished(folder.campaign(), &table).unwrap_err().to_string();
     assert!(refused.contains("its trials are of another campaign"), "{refused}");
     fs::create_dir_all(root.path().join("shards")).unwrap();
     Record::write(&folder.shard(0), &[shard]).unwrap();

@@ -74,6 +74,7 @@ pub fn run(time: Vec<f64>, joints: Vec<Channels>) -> Run {
         source: PathBuf::from("run.csv"),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         time,
         joints,
         extra: BTreeMap::new(),

@@ -27,7 +27,16 @@ fn log(robot: &Robot, path: &Path, keep: impl Fn(f64) -> bool) {
     let joints = robot.joint_names().enumerate().map(channels).collect();
     let (source, sha256, extra) = (PathBuf::new(), String::new(), BTreeMap::new());
     let name = "run".to_owned();
-    let run = Run { name, source, sha256, is_torn: false, time: time.clone(), joints, extra };
+    let run = Run {
+        name,
+        source,
+        sha256,
+        is_torn: false,
+        mended: Vec::new(),
+        time: time.clone(),
+        joints,
+        extra,
+    };
     write_parquet(path, &run).unwrap();
 }
 

@@ -244,6 +244,7 @@ fn carriage_run(amplitudes: [f64; 2]) -> (Robot, Run) {
         source: "run.parquet".into(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         time,
         joints,
         extra: BTreeMap::new(),

@@ -181,7 +181,7 @@ fn meshes_are_found_in_packages_that_are_named_or_on_the_paths_of_ros() {
         let package = if parent == "prefix" { package.join("share") } else { package };
         let meshes = package.join("arm_looks/meshes");
         std::fs::create_dir_all(&meshes).unwrap();
-        std::fs::write(meshes.join("a.stl"), "solid").unwrap();
+        std::fs::write(meshes.join("a.stl"), "solid a\nendsolid a\n").unwrap();
         (root, meshes.join("a.stl"))
     };
     let found = |packages: Packages| {

@@ -69,8 +69,8 @@ fn number() -> impl Strategy<Value = f64> {
         Just(-0.0),
         Just(1.0),
         Just(f64::MIN_POSITIVE),
-        Just(1e300),
-        (-300i32..300).prop_map(|e| 1.1 * 10f64.powi(e)),
+        Just(1e11),
+        (-300i32..11).prop_map(|e| 1.1 * 10f64.powi(e)),
     ]
 }
 

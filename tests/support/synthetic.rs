@@ -154,6 +154,7 @@ pub fn run_at(truth: &Truth, noise: &Noise, [seconds, hertz]: [f64; 2], seed: u6
         source: PathBuf::new(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         time,
         joints,
         extra: BTreeMap::new(),

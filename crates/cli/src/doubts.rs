@@ -52,6 +52,7 @@ mod tests {
             source: "run_1.csv".into(),
             sha256: String::new(),
             is_torn: false,
+            mended: Vec::new(),
             time: vec![0.0; logged.len()],
             joints: vec![],
             extra: [("grip.position".to_owned(), logged.to_vec())].into(),

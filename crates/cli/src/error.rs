@@ -76,6 +76,12 @@ pub enum CliError {
         /// What was found.
         reason: String,
     },
+    /// The output would lie over what it is made from.
+    #[error("{}: it is read and would be written over, another folder for the output was expected", path.display())]
+    OwnInput {
+        /// The file.
+        path: PathBuf,
+    },
     /// The results are there, but a file beside them is not.
     #[error("{problem}; the comparison is whole")]
     Incomplete {
@@ -211,6 +217,7 @@ impl CliError {
             Self::UnknownEffect { .. }
             | Self::Output(_)
             | Self::Folder { .. }
+            | Self::OwnInput { .. }
             | Self::TestedOnTraining { .. }
             | Self::NoViewer { .. }
             | Self::NotOpened { .. }
@@ -220,12 +227,14 @@ impl CliError {
             | Self::Submit(_)
             | Self::Signal { .. } => 2,
             Self::Learner(error) => match error {
-                LearnerError::Setting { .. }
+                LearnerError::Log(LogError::Unwritable { .. })
+                | LearnerError::Setting { .. }
                 | LearnerError::Missing { .. }
                 | LearnerError::Memory { .. } => 2,
                 _ => 3,
             },
             Self::Design(error) => error.exit_code(),
+            Self::Simulator(SimulatorError::Log(LogError::Unwritable { .. })) => 2,
             Self::Document(_) | Self::Simulator(_) => 3,
             Self::Evaluation(error) => match **error {
                 EvaluationError::NoModel { .. }
@@ -236,6 +245,8 @@ impl CliError {
                 | EvaluationError::NoStore { .. }
                 | EvaluationError::TrialFolder { .. }
                 | EvaluationError::Population(_)
+                | EvaluationError::Stage { .. }
+                | EvaluationError::Learner(LearnerError::Log(LogError::Unwritable { .. }))
                 | EvaluationError::Log(LogError::Unwritable { .. })
                 | EvaluationError::Simulator(SimulatorError::Log(LogError::Unwritable {
                     ..
@@ -245,7 +256,7 @@ impl CliError {
             Self::Report(ReportError::Unreadable { .. }) => 3,
             Self::Report(_) | Self::Diagnosis(DiagnosisError::Setting { .. }) => 2,
             Self::Log(log) | Self::Diagnosis(DiagnosisError::Log(log)) => match log {
-                LogError::CutoffOutOfRange { .. } => 2,
+                LogError::CutoffOutOfRange { .. } | LogError::Unwritable { .. } => 2,
                 _ => 3,
             },
             Self::Robot(_)
@@ -304,9 +315,9 @@ impl CliError {
                 Some("give the robot with --robot, and --map if the columns have other names")
             }
             Self::Exists { .. } => Some("--force writes over it"),
-            Self::Report(ReportError::NotAFolder { .. }) | Self::OverSource { .. } => {
-                Some("give --out another name")
-            }
+            Self::Report(ReportError::NotAFolder { .. })
+            | Self::OverSource { .. }
+            | Self::OwnInput { .. } => Some("give --out another name"),
             Self::Robot(RobotError::InFile { path, .. } | RobotError::Unreadable { path, .. }) => {
                 (!has_extension(path, &["urdf", "xml", "toml"])).then_some(KINDS_OF_FILES)
             }

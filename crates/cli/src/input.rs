@@ -4,7 +4,7 @@ use catalogue::EffectKind;
 use diagnosis::Settings;
 use logs::Run;
 use report::{FileHash, Provenance, ReportError};
-use robot::{LoadOptions, Loaded, Packages, Robot, RobotError};
+use robot::{LoadOptions, Loaded, MeshFolders, Packages, Robot, RobotError};
 
 use crate::commands::explain;
 use crate::output::shown;
@@ -20,6 +20,9 @@ pub struct PartArguments {
     /// AMENT_PREFIX_PATH are looked through as well
     #[arg(long, value_name = "NAME=DIR", value_parser = package)]
     pub package: Vec<(String, PathBuf)>,
+    /// Meshes may lie outside of the folder of the URDF and of packages
+    #[arg(long)]
+    pub allow_outside: bool,
 }
 
 impl PartArguments {
@@ -30,7 +33,8 @@ impl PartArguments {
         let mut packages = Packages::from_paths(ros.as_deref(), ament.as_deref());
         packages.named.extend(self.package.iter().cloned());
         let joints = (!self.joints.is_empty()).then(|| self.joints.clone());
-        Robot::load_with(path, &LoadOptions { joints, packages })
+        let meshes = if self.allow_outside { MeshFolders::Anywhere } else { MeshFolders::Below };
+        Robot::load_with(path, &LoadOptions { joints, packages, meshes })
     }
 }
 
@@ -72,9 +76,22 @@ pub fn provenance(
     Ok(Provenance {
         program: "plumbline",
         version: env!("CARGO_PKG_VERSION"),
-        command: std::iter::once("plumbline".to_owned()).chain(given).collect(),
+        command: std::iter::once("plumbline".to_owned()).chain(without_out(given)).collect(),
         files,
         seed: None,
+    })
+}
+
+/// The arguments without the folder of the output: the same input gives the same output wherever it is
+/// written.
+fn without_out(arguments: impl Iterator<Item = String>) -> impl Iterator<Item = String> {
+    const OUT: &str = "--out";
+    let mut is_folder = false;
+    arguments.filter(move |argument| {
+        let is_left_out = std::mem::replace(&mut is_folder, argument == OUT)
+            || is_folder
+            || argument.starts_with("--out=");
+        !is_left_out
     })
 }
 

@@ -75,3 +75,23 @@ pub fn create_folder(folder: &Path) -> Result<(), CliError> {
         CliError::Folder { path: folder.to_owned(), reason }
     })
 }
+
+/// Refuses to write files of an output folder over files that are read.
+///
+/// # Errors
+///
+/// [`CliError::OwnInput`].
+pub fn keep_inputs<'a>(
+    out: &Path,
+    names: &[&str],
+    inputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), CliError> {
+    let written: Vec<_> =
+        names.iter().filter_map(|name| out.join(name).canonicalize().ok()).collect();
+    for input in inputs {
+        if input.canonicalize().is_ok_and(|input| written.contains(&input)) {
+            return Err(CliError::OwnInput { path: input.to_owned() });
+        }
+    }
+    Ok(())
+}

@@ -209,7 +209,8 @@ impl Design {
 
     /// Weights of all columns in the local order of joint `j`.
     pub fn local_weights(&self, j: usize, weights: &[f64]) -> Vec<f64> {
-        self.local[j].iter().map(|&c| weights[c]).collect()
+        // Where nothing could be fitted there are no weights: nothing is explained then.
+        self.local[j].iter().map(|&c| weights.get(c).copied().unwrap_or(0.0)).collect()
     }
 
     /// Residual of run `r` at joint `j` after the columns with `weights` (N·m or N).

@@ -57,6 +57,11 @@ impl Reader {
         for base in take_extends(&mut top).map_or(Ok(Vec::new()), bases)? {
             let file = source.folder().join(&base.name);
             let text = self.open(&file).map_err(|reason| base.refused(&file, &reason))?;
+            if let Some(line) = no_toml(&text) {
+                // Whatever it is, nothing of it is shown.
+                let reason = format!("line {line} is no TOML");
+                return Err(base.refused(&file, &reason));
+            }
             below = Some(laid_over(below, self.layers(&file, text)?));
         }
         self.chain.pop();
@@ -98,6 +103,13 @@ impl Reader {
             format!("line {} is not UTF-8, a text was expected", breaks + 1)
         })
     }
+}
+
+/// The line at which a text stops to be TOML.
+fn no_toml(text: &str) -> Option<usize> {
+    let error = toml::from_str::<toml::Table>(text).err()?;
+    let start = text.floor_char_boundary(error.span().map_or(0, |span| span.start));
+    Some(text[..start].matches('\n').count() + 1)
 }
 
 fn laid_over(below: Option<Node>, node: Node) -> Node {

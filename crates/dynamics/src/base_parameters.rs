@@ -1,3 +1,4 @@
+use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
@@ -10,6 +11,14 @@ use crate::{Column, ColumnSet, Dynamics, DynamicsError};
 /// Above the 1e-5 that angles written with five digits leave (5e-6 on the Kinova Gen3), and
 /// below real directions: their smallest singular value is 0.1 on the arms of the tests.
 const DEPENDENT_SHARE: f64 = 1e-4;
+
+/// Rows of the regressor beyond which no more states are added, but for [`FEWEST_STATES`]: every state gives a row a
+/// joint.
+const MOST_ROWS: usize = 2800;
+
+/// States that tell the parameters of every link and drive from one another: four times as many as a link and
+/// its drive have, as the first row of a state alone tells those of the first link.
+const FEWEST_STATES: usize = 56;
 
 /// Entries of the mapping below this are rounding errors and set to zero.
 const MAPPING_ROUNDING: f64 = 1e-9;
@@ -72,21 +81,31 @@ impl BaseParameters {
 /// rotor inertias last: so distal links keep their own parameters, and a rotor that a
 /// link can take over is taken over.
 ///
-/// The answer depends on the direction of gravity: tilting the base reveals more.
+/// The answer depends on the direction of gravity: tilting the base reveals more. The cost grows with the
+/// cube of the number of joints.
 pub fn base_parameters(robot: &Robot, set: ColumnSet) -> BaseParameters {
     let columns = set.columns(robot.joint_count());
     let (triangle, scales) = scaled_triangle(&stacked(robot, set, columns.len()), &columns);
-    let mut kept = Kept { basis: Vec::new(), columns: Vec::new() };
-    for column in preference(&columns) {
-        kept.offer(column, &triangle);
-    }
-    let mut independent = kept.columns;
+    let mut independent = Kept::of(&triangle, &columns);
     independent.sort_unstable();
     let dependent: Vec<usize> =
         (0..columns.len()).filter(|c| independent.binary_search(c).is_err()).collect();
     let mapping = mapping(&triangle, &scales, &independent, &dependent);
-    let singular_values = triangle.singular_values().iter().copied().collect();
+    let singular_values = singular_values(&triangle);
     BaseParameters { columns, independent, dependent, mapping, singular_values }
+}
+
+/// How many base parameters a robot has for the columns of `set`: the rank of [`base_parameters`].
+pub fn base_parameter_count(robot: &Robot, set: ColumnSet) -> usize {
+    let columns = set.columns(robot.joint_count());
+    let (triangle, _) = scaled_triangle(&stacked(robot, set, columns.len()), &columns);
+    Kept::of(&triangle, &columns).len()
+}
+
+/// Singular values, largest first; none where they do not converge.
+fn singular_values(triangle: &DMatrix<f64>) -> Vec<f64> {
+    let square = Mat::from_fn(triangle.nrows(), triangle.ncols(), |i, c| triangle[(i, c)]);
+    square.singular_values().unwrap_or_default()
 }
 
 /// Order in which columns are offered (see [`base_parameters`]).
@@ -101,11 +120,11 @@ fn preference(columns: &[Column]) -> Vec<usize> {
     order
 }
 
-/// The regressor over twice as many states as there are columns.
+/// The regressor over as many states as make every column that can be told from the others so.
 fn stacked(robot: &Robot, set: ColumnSet, width: usize) -> DMatrix<f64> {
     let dynamics = Dynamics::new(robot);
     let (n, mut ws) = (dynamics.joint_count(), dynamics.workspace());
-    let states = 2 * width;
+    let states = (2 * width).min((MOST_ROWS / n.max(1)).max(FEWEST_STATES));
     let mut rows = vec![0.0; n * width];
     let mut w = DMatrix::zeros(states * n, width);
     let mut number = uniform();
@@ -143,8 +162,12 @@ fn scaled_triangle(w: &DMatrix<f64>, columns: &[Column]) -> (DMatrix<f64>, Vec<f
         if norm > 0.0 { norm } else { 1.0 }
     };
     let scales: Vec<f64> = columns.iter().map(|column| longest(kind(column))).collect();
-    let scaled = DMatrix::from_fn(w.nrows(), w.ncols(), |i, c| w[(i, c)] / scales[c]);
-    (scaled.qr().r(), scales)
+    let scaled = Mat::from_fn(w.nrows(), w.ncols(), |i, c| w[(i, c)] / scales[c]);
+    let qr = scaled.qr();
+    let r = qr.thin_R();
+    let triangle =
+        DMatrix::from_fn(r.nrows(), r.ncols(), |i, c| if i > c { 0.0 } else { r[(i, c)] });
+    (triangle, scales)
 }
 
 /// Columns of one kind share their unit.
@@ -162,23 +185,34 @@ fn kind(column: &Column) -> usize {
 
 /// The columns kept so far and an orthonormal basis of what they span.
 struct Kept {
-    basis: Vec<DVector<f64>>,
+    /// Its first columns, as many as are kept.
+    basis: DMatrix<f64>,
     columns: Vec<usize>,
 }
 
 impl Kept {
+    /// The independent columns of `triangle`, as they are preferred.
+    fn of(triangle: &DMatrix<f64>, columns: &[Column]) -> Vec<usize> {
+        let (rows, most) = (triangle.nrows(), triangle.nrows().min(triangle.ncols()));
+        let mut kept = Self { basis: DMatrix::zeros(rows, most), columns: Vec::new() };
+        preference(columns).into_iter().for_each(|column| kept.offer(column, triangle));
+        kept.columns
+    }
+
     /// Keeps the column of `triangle` if it adds a direction.
     fn offer(&mut self, column: usize, triangle: &DMatrix<f64>) {
         let mut rest: DVector<f64> = triangle.column(column).into_owned();
         // Twice is enough (Parlett 1998, section 6.9): the second pass removes rounding.
+        let kept = self.columns.len();
         for _ in 0..2 {
-            for direction in &self.basis {
-                rest.axpy(-direction.dot(&rest), direction, 1.0);
-            }
+            let basis = self.basis.columns(0, kept);
+            let along = basis.tr_mul(&rest);
+            rest.gemv(-1.0, &basis, &along, 1.0);
         }
         let norm = rest.norm();
-        if norm > DEPENDENT_SHARE {
-            self.basis.push(rest / norm);
+        // Of a triangle, no more columns than rows are independent.
+        if norm > DEPENDENT_SHARE && kept < self.basis.ncols() {
+            self.basis.set_column(kept, &(rest / norm));
             self.columns.push(column);
         }
     }

@@ -41,7 +41,7 @@ mod rnea;
 mod rotor;
 mod spatial;
 
-pub use base_parameters::{BaseParameters, base_parameters};
+pub use base_parameters::{BaseParameters, base_parameter_count, base_parameters};
 pub use columns::{Column, ColumnSet};
 pub use consistency::{ConsistentFit, ConsistentInertias, FitOutcome, ShiftedPrior};
 pub use derivatives::InverseDynamicsDerivatives;

@@ -85,5 +85,5 @@ pub use trials::{
     BrokenShard, Campaign, CampaignFolder, CampaignSpec, Confusion, Crew, Estimated, Failure,
     Gained, Group, Hidden, KindCount, Lessened, MERGED_SCHEMA, Made, Merged, Named, NoPart, Part,
     PopulationCampaign, Power, PutIn, Record, Row, ScenarioCampaign, Score, Scored, Share, Size,
-    SizeClass, SizeTally, Tally, TextTable, Trial, TrialLogs, WorkProgress, judge, work,
+    SizeClass, SizeTally, Tally, TextTable, Trial, TrialLogs, WorkProgress, finished, judge, work,
 };

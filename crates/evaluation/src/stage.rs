@@ -151,7 +151,8 @@ fn refused(path: &Path) -> impl Fn(std::io::Error) -> EvaluationError {
     |error| EvaluationError::Stage { path: path.to_owned(), reason: error.to_string() }
 }
 
-fn sha256(path: &Path) -> Result<String, EvaluationError> {
+/// SHA-256 of a file, in hexadecimal.
+pub(crate) fn sha256(path: &Path) -> Result<String, EvaluationError> {
     let mut hasher = Sha256::new();
     let mut file = std::fs::File::open(path).map_err(refused(path))?;
     let mut buffer = vec![0; 1 << 16];

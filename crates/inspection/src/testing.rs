@@ -47,6 +47,7 @@ pub fn swing(phase: f64) -> Run {
         source: Default::default(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         time,
         joints: vec![joint],
         extra: Default::default(),

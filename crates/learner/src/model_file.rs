@@ -32,13 +32,25 @@ impl Model {
     ///
     /// [`LearnerError::Log`] when the file cannot be written; what was there before stays.
     pub fn save(&self, path: &Path) -> Result<(), LearnerError> {
+        Ok(logs::write_table(path, self.table(), vec![self.header(path)?])?)
+    }
+
+    /// The bytes of the file that [`Model::save`] writes.
+    ///
+    /// # Errors
+    ///
+    /// [`LearnerError::Log`] with `path`, the file that they are for.
+    pub fn bytes(&self, path: &Path) -> Result<Vec<u8>, LearnerError> {
+        Ok(logs::table_bytes(path, self.table(), vec![self.header(path)?])?)
+    }
+
+    fn header(&self, path: &Path) -> Result<KeyValue, LearnerError> {
         let unwritable = |e: serde_json::Error| LogError::Unwritable {
             path: path.to_owned(),
             reason: e.to_string(),
         };
         let header = serde_json::to_string(&Header::of(self)).map_err(unwritable)?;
-        let header = KeyValue::new(HEADER.to_owned(), header);
-        Ok(logs::write_table(path, self.table(), vec![header])?)
+        Ok(KeyValue::new(HEADER.to_owned(), header))
     }
 
     fn table(&self) -> Vec<(String, ArrayRef)> {

@@ -273,6 +273,27 @@ pub enum LogError {
         /// What was expected, as the end of `joint j1 ...`.
         expectation: String,
     },
+    /// Many samples of a column are none that the joint can have.
+    #[error("{}: column {column}, row {row}: found {found}, but {expectation}; \
+        {count} of {rows} rows are like it, up to {few} would have been left out", path.display())]
+    Impossible {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// The first such row.
+        row: usize,
+        /// What it holds.
+        found: f64,
+        /// Why it cannot be, as the end of `but ...`.
+        expectation: String,
+        /// Such rows.
+        count: usize,
+        /// All rows.
+        rows: usize,
+        /// How many would have been left out.
+        few: usize,
+    },
     /// Something in a column map is not what was expected.
     #[error("{problem}")]
     Map {

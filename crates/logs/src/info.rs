@@ -1,7 +1,7 @@
 use robot::{Joint, Robot};
 
 use crate::{
-    Agreement, Channel, Channels, Run, choice,
+    Agreement, Channel, Channels, Mend, Run, choice,
     clock::Fill,
     degrees,
     run::{median, range},
@@ -18,6 +18,8 @@ pub struct LogInfo {
     pub samples: usize,
     /// Whether the file ended in the middle of a further row, which is left out.
     pub is_torn: bool,
+    /// What was put right while it was read.
+    pub mended: Vec<Mend>,
     /// Time from the first row to the last (s).
     pub duration_s: f64,
     /// One over the median step of time (Hz).
@@ -96,6 +98,7 @@ pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
         name: run.name.clone(),
         samples: run.time.len(),
         is_torn: run.is_torn,
+        mended: run.mended.clone(),
         duration_s: steps.iter().sum(),
         rate_hz: 1.0 / usual,
         jitter_std_s,

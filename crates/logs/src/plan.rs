@@ -6,12 +6,14 @@ use std::{
 use robot::{Joint, Robot};
 
 use crate::{
-    Channel, Channels, ColumnMap, LogError, MappedColumn, ReadOptions,
+    Channel, Channels, ColumnMap, LogError, MappedColumn, Mend, ReadOptions,
     damage::Damage,
     degrees,
     error::nearest,
+    impossible::{few, impossible},
     log_file::LogFile,
     table::{Needed, Table},
+    turns::unwrapped,
 };
 
 /// Where one signal comes from.
@@ -107,6 +109,85 @@ impl<'a> Plan<'a> {
             found: time[index + 1],
         };
         Some((index + 1, error))
+    }
+
+    /// The signals of every joint.
+    pub(crate) fn channels(&self, robot: &Robot, table: &Table) -> Vec<Channels> {
+        let of = |(joint, sources): (&str, &Vec<(Channel, Source)>)| {
+            let mut channels = Channels { name: joint.to_owned(), ..Channels::default() };
+            for (channel, source) in sources {
+                channels.set(*channel, source.take(&table.columns));
+            }
+            channels
+        };
+        robot.joint_names().zip(&self.joints).map(of).collect()
+    }
+
+    /// Leaves out the rows with samples that cannot be.
+    ///
+    /// # Errors
+    ///
+    /// [`LogError::Impossible`] where those are more than a few, unless they look like degrees, which
+    /// [`Plan::check_degrees`] tells.
+    pub(crate) fn leave_out_impossible(
+        &self,
+        robot: &Robot,
+        table: &mut Table,
+    ) -> Result<Vec<Mend>, LogError> {
+        let time = self.time.take(&table.columns);
+        let mut all = Vec::new();
+        let mut mended = Vec::new();
+        let joints = robot.links().iter().map(|link| &link.joint).zip(&self.joints);
+        for ((joint, sources), channels) in joints.zip(self.channels(robot, table)) {
+            for (channel, found) in impossible(joint, &time, &channels) {
+                let Some(first) = found.first() else { continue };
+                let (row, count) = (table.row(first.sample), found.len());
+                let source = sources.iter().find(|(c, _)| *c == channel);
+                let column = source.map(|(_, source)| source.column.clone()).unwrap_or_default();
+                let value = channels.get(channel).map_or(f64::NAN, |x| x[first.sample]);
+                let expectation = first.expectation.clone();
+                if count > few(time.len()) {
+                    self.check_degrees(joint, sources, (&time, table), &channels)?;
+                    let (path, rows) = (self.path.clone(), time.len());
+                    let few = few(rows);
+                    return Err(LogError::Impossible {
+                        path,
+                        column,
+                        row,
+                        found: value,
+                        expectation,
+                        count,
+                        rows,
+                        few,
+                    });
+                }
+                mended.push(Mend::LeftOut { column, row, found: value, expectation, count });
+                all.extend(found.into_iter().map(|i| i.sample));
+            }
+        }
+        all.sort_unstable();
+        all.dedup();
+        if !all.is_empty() {
+            table.leave_out(&all);
+        }
+        Ok(mended)
+    }
+
+    /// Takes out of the positions of a rotation the full turns that they jump by.
+    pub(crate) fn unwrap(
+        &self,
+        sources: &[(Channel, Source)],
+        (time, table): (&[f64], &Table),
+        channels: &mut Channels,
+    ) -> Vec<Mend> {
+        let mut mended = Vec::new();
+        for (channel, source) in sources.iter().filter(|(c, _)| *c == Channel::Position) {
+            let Some(found) = unwrapped(time, &channels.position) else { continue };
+            let (row, count) = (table.row(found.jumps[0]), found.jumps.len());
+            channels.set(*channel, found.position);
+            mended.push(Mend::Turns { column: source.column.clone(), row, count });
+        }
+        mended
     }
 
     /// A unit that was stated is believed.

@@ -143,6 +143,8 @@ fn about_runs(runs: &[Run], pieces: &[UniformRun], fill: Fill, cutoff_hz: f64) -
     for (index, run) in runs.iter().enumerate() {
         let name = || run.name.clone();
         warnings.extend(run.is_torn.then(|| LogWarning::TornLastRow { run: name() }));
+        let mended = run.mended.iter().cloned();
+        warnings.extend(mended.map(|mend| LogWarning::Mended { run: name(), mend }));
         let unknown = unknown_joints(run).into_iter();
         warnings.extend(unknown.map(|joint| LogWarning::UnknownJoint { run: name(), joint }));
         if let Some(earlier) = duplicate_of(runs, index) {

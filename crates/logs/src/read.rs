@@ -3,8 +3,9 @@ use std::path::Path;
 use robot::Robot;
 
 use crate::{
-    Channels, ColumnMap, LogError, Run,
+    ColumnMap, LogError, Mend, Run,
     damage::Damage,
+    even_clock::{EvenClock, even_clock},
     log_file::{LogFile, sha256},
     plan::Plan,
     turns::on_the_turn_of,
@@ -42,6 +43,12 @@ impl<'a> ReadOptions<'a> {
 /// Columns are matched to the robot's joints by name. A joint of the log that the robot
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// The position of a rotation's link is brought to the turn of the motor's.
+///
+/// Rows with a sample that cannot be are left out where they are few: a position beyond the reach of the rows
+/// beside it, an effort or speed of a size that no joint has. Full turns by which the position of a rotation
+/// jumps are taken out. Stamps that scatter about an even clock by more than its step give way to it.
+/// [`Run::mended`] tells of all.
+///
 /// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5, or MCAP, or one of them packed with gzip or zstd,
 /// which is seen from its first bytes.
 ///
@@ -62,7 +69,7 @@ impl<'a> ReadOptions<'a> {
 ///
 /// Every [`LogError`] that names a file: no file, an empty or broken one, a missing
 /// column or joint, a field that is not a finite number, time that does not increase,
-/// fewer than two rows, positions in degrees, a column map that does not fit.
+/// fewer than two rows, many samples that cannot be, positions in degrees, a column map that does not fit.
 pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run, LogError> {
     read(path, robot, options, &mut Damage::Refused)
 }
@@ -103,23 +110,37 @@ fn read(
     let mut table = file.load(&plan.needed(), damage)?;
     plan.check(&mut table, damage)?;
 
-    let time = plan.time.take(&table.columns);
-    let mut joints = Vec::new();
-    for (joint, sources) in robot.links().iter().map(|l| &l.joint).zip(&plan.joints) {
-        let mut channels = Channels { name: joint.name.clone(), ..Channels::default() };
-        for (channel, source) in sources {
-            channels.set(*channel, source.take(&table.columns));
+    let mut mended = plan.leave_out_impossible(robot, &mut table)?;
+
+    let mut time = plan.time.take(&table.columns);
+    if let Some(EvenClock { time: even, step_s, largest_s }) = even_clock(&time) {
+        time = even;
+        mended.push(Mend::EvenClock { step_s, largest_s });
+    }
+    let mut joints = plan.channels(robot, &table);
+    let described = robot.links().iter().map(|l| &l.joint);
+    for ((joint, sources), channels) in described.zip(&plan.joints).zip(&mut joints) {
+        if joint.kind.is_rotation() {
+            mended.extend(plan.unwrap(sources, (&time, &table), channels));
         }
-        plan.check_degrees(joint, sources, (&time, &table), &channels)?;
+        plan.check_degrees(joint, sources, (&time, &table), channels)?;
         if joint.kind.is_rotation() {
             let link = channels.link_position.take();
             channels.link_position = link.map(|link| on_the_turn_of(&channels.position, link));
         }
-        joints.push(channels);
     }
     let needed = plan.needed();
     table.columns.retain(|name, _| !needed.contains(name));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let (sha256, is_torn) = (sha256(path)?, file.is_torn());
-    Ok(Run { name, source: path.to_owned(), sha256, is_torn, time, joints, extra: table.columns })
+    Ok(Run {
+        name,
+        source: path.to_owned(),
+        sha256,
+        is_torn,
+        mended,
+        time,
+        joints,
+        extra: table.columns,
+    })
 }

@@ -1,5 +1,7 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
+use crate::Mend;
+
 /// One recorded run, its joints in the order of the robot.
 ///
 /// Every signal has one value per entry of `time`.
@@ -13,6 +15,8 @@ pub struct Run {
     pub sha256: String,
     /// Whether the file ended in the middle of a row, which is left out.
     pub is_torn: bool,
+    /// What was put right while it was read.
+    pub mended: Vec<Mend>,
     /// Time of each sample as in the file (s), strictly increasing.
     pub time: Vec<f64>,
     /// Signals of each joint of the robot.

@@ -34,6 +34,17 @@ impl Table {
     pub(crate) fn row(&self, sample: usize) -> usize {
         self.rows.get(sample).copied().unwrap_or(sample + 1)
     }
+
+    /// Leaves samples out, in rising order.
+    pub(crate) fn leave_out(&mut self, samples: &[usize]) {
+        let rows = self.columns.values().map(Vec::len).max().unwrap_or(0);
+        let is_left = |k: &usize| samples.binary_search(k).is_err();
+        self.rows = (0..rows).filter(is_left).map(|k| self.row(k)).collect();
+        for column in self.columns.values_mut() {
+            let mut k = 0..;
+            column.retain(|_| k.next().is_some_and(|k| is_left(&k)));
+        }
+    }
 }
 
 /// What a row holds in a column.

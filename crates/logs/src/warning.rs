@@ -1,3 +1,5 @@
+use crate::Mend;
+
 /// Something about a log that its reader should know; it can be used nevertheless.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -15,6 +17,14 @@ pub enum LogWarning {
     TornLastRow {
         /// The run.
         run: String,
+    },
+    /// Something was put right while the run was read.
+    #[error("run {run}: {mend}")]
+    Mended {
+        /// The run.
+        run: String,
+        /// What.
+        mend: Mend,
     },
     /// Two runs have the same samples.
     #[error(

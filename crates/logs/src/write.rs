@@ -1,9 +1,4 @@
-use std::{
-    fs::File,
-    io::{BufWriter, Write},
-    path::Path,
-    sync::Arc,
-};
+use std::{io::Write, path::Path, sync::Arc};
 
 use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch};
 use arrow_schema::{Field, Schema};
@@ -13,34 +8,21 @@ use parquet::{
     file::{metadata::KeyValue, properties::WriterProperties},
 };
 
-use crate::{Channel, LogError, Run};
+use crate::{Channel, LogError, Run, WholeFile};
 
-/// Writes a file under a temporary name beside it and renames it when it is whole.
+/// Writes a file that appears under its name when it is whole, as [`WholeFile`] does it.
 ///
 /// # Errors
 ///
 /// [`LogError::Unwritable`]; what was under that name before is then untouched.
 pub fn replace_file(
     path: &Path,
-    fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), Box<dyn std::error::Error>>,
+    fill: impl FnOnce(&mut WholeFile) -> Result<(), Box<dyn std::error::Error>>,
 ) -> Result<(), LogError> {
     let unwritable = |reason: String| LogError::Unwritable { path: path.to_owned(), reason };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    // The same rights as any new file, not those of a private temporary one.
-    #[cfg(unix)]
-    let builder = {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666))
-    };
-    let temporary =
-        builder.prefix(".plumbline-").tempfile_in(folder).map_err(|e| unwritable(e.to_string()))?;
-    let (file, name) = temporary.into_parts();
-    let mut file = BufWriter::new(file);
+    let mut file = WholeFile::create(path).map_err(|e| unwritable(e.to_string()))?;
     fill(&mut file).map_err(|e| unwritable(e.to_string()))?;
-    file.flush().map_err(|e| unwritable(e.to_string()))?;
-    drop(file);
-    name.persist(path).map_err(|e| unwritable(e.error.to_string()))
+    file.finish().map_err(|e| unwritable(e.to_string()))
 }
 
 /// Writes columns of equal length as Parquet, with texts by key among the metadata of the file.
@@ -53,22 +35,44 @@ pub fn write_table(
     columns: Vec<(String, ArrayRef)>,
     metadata: Vec<KeyValue>,
 ) -> Result<(), LogError> {
+    replace_file(path, |file| encoded(file, columns, metadata))
+}
+
+/// The bytes of the file that [`write_table`] writes.
+///
+/// # Errors
+///
+/// [`LogError::Unwritable`] with `path`, the file that they are for.
+pub fn table_bytes(
+    path: &Path,
+    columns: Vec<(String, ArrayRef)>,
+    metadata: Vec<KeyValue>,
+) -> Result<Vec<u8>, LogError> {
+    let mut bytes = Vec::new();
+    encoded(&mut bytes, columns, metadata)
+        .map_err(|e| LogError::Unwritable { path: path.to_owned(), reason: e.to_string() })?;
+    Ok(bytes)
+}
+
+fn encoded(
+    into: impl Write + Send,
+    columns: Vec<(String, ArrayRef)>,
+    metadata: Vec<KeyValue>,
+) -> Result<(), Box<dyn std::error::Error>> {
     let field = |(name, array): &(String, ArrayRef)| {
         Field::new(name, array.data_type().clone(), array.is_nullable())
     };
     let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
     let arrays = columns.into_iter().map(|(_, array)| array).collect();
-    replace_file(path, |file| {
-        let batch = RecordBatch::try_new(schema.clone(), arrays)?;
-        let properties = WriterProperties::builder()
-            .set_compression(Compression::SNAPPY)
-            .set_key_value_metadata(Some(metadata).filter(|texts| !texts.is_empty()))
-            .build();
-        let mut writer = ArrowWriter::try_new(file, schema, Some(properties))?;
-        writer.write(&batch)?;
-        writer.close()?;
-        Ok(())
-    })
+    let batch = RecordBatch::try_new(schema.clone(), arrays)?;
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_key_value_metadata(Some(metadata).filter(|texts| !texts.is_empty()))
+        .build();
+    let mut writer = ArrowWriter::try_new(into, schema, Some(properties))?;
+    writer.write(&batch)?;
+    writer.close()?;
+    Ok(())
 }
 
 /// Writes a run as Parquet, one `f64` column per signal; reading it back is exact.
@@ -90,7 +94,7 @@ pub fn write_parquet(path: &Path, run: &Run) -> Result<(), LogError> {
 pub fn write_csv(path: &Path, run: &Run) -> Result<(), LogError> {
     let columns = columns(run);
     replace_file(path, |file| {
-        let mut writer = csv::Writer::from_writer(file);
+        let mut writer = csv::Writer::from_writer(&mut *file);
         writer.write_record(columns.iter().map(|(name, _)| name))?;
         for row in 0..run.time.len() {
             // `{}` prints the shortest number that reads back to the same f64.

@@ -103,7 +103,8 @@ impl LogWriter {
     ///
     /// [`LogError::Unwritable`].
     pub fn finish(mut self) -> Result<(), LogError> {
-        self.flush()
+        self.flush()?;
+        self.file.sync_all().map_err(|e| self.unwritable(&e))
     }
 
     fn push(&mut self, text: std::fmt::Arguments) -> Result<(), LogError> {

@@ -18,6 +18,7 @@
 mod arms;
 mod colour;
 mod contents;
+mod disk;
 mod error;
 mod layout;
 mod live;

@@ -1,4 +1,3 @@
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -8,7 +7,7 @@ use rerun::{
 };
 
 use crate::arms::{ArmTrack, part, time_column};
-use crate::contents::has_footer;
+use crate::disk::Disk;
 use crate::error::{refused, unwritable};
 use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
@@ -78,6 +77,7 @@ pub struct Written {
 pub struct Recorder {
     stream: RecordingStream,
     path: PathBuf,
+    disk: Disk,
     viewer: Viewer,
     layout: Layout,
     skeleton: Skeleton,
@@ -98,7 +98,7 @@ impl Recorder {
     /// [`RecordingError::NameTwice`] and [`RecordingError::Refused`].
     pub fn create(path: &Path, scene: &Scene<'_>, live: Live) -> Result<Self, RecordingError> {
         distinct(scene)?;
-        let (stream, viewer) = open(path, scene.title, live)?;
+        let (stream, disk, viewer) = open(path, scene.title, live)?;
         let skeleton = Skeleton::new(scene.robot, scene.looks);
         let arms = draw(&stream, scene, &skeleton).map_err(refused)?;
         let joints = scene.robot.links().iter().map(|l| (l.joint.name.clone(), l.joint.kind));
@@ -115,6 +115,7 @@ impl Recorder {
         Ok(Self {
             stream,
             path: path.to_owned(),
+            disk,
             viewer,
             layout,
             skeleton,
@@ -260,17 +261,16 @@ impl Recorder {
         }
         let cannot = |reason: String| unwritable(&self.path, reason);
         if let Err(error) = self.stream.flush_with_timeout(DISK) {
-            // Once its thread for the file has died, the library would wait for it forever.
-            std::mem::forget(self.stream);
-            return Err(cannot(error.to_string()));
+            let refusal = self.disk.refusal();
+            if refusal.is_none() {
+                // A disk that does not answer would be waited for.
+                std::mem::forget(self.stream);
+            }
+            return Err(cannot(refusal.unwrap_or_else(|| error.to_string())));
         }
         drop(self.stream);
-        // The library tells of what the disk refuses last to its own log alone.
-        let mut file = File::open(&self.path).map_err(|error| cannot(error.to_string()))?;
-        if !has_footer(&mut file).map_err(|error| cannot(error.to_string()))? {
-            return Err(cannot("its end is missing".to_owned()));
-        }
-        let bytes = file.metadata().map_err(|error| cannot(error.to_string()))?.len();
+        self.disk.end()?;
+        let bytes = std::fs::metadata(&self.path).map_err(|error| cannot(error.to_string()))?.len();
         let listener = self.viewer.close();
         Ok(Written { path: self.path, rows: self.rows, bytes, listener })
     }

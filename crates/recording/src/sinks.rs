@@ -1,9 +1,10 @@
 use std::path::Path;
 
-use rerun::sink::{FileSink, FileSinkError, LogSink};
+use rerun::sink::LogSink;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
-use crate::error::{refused, unwritable};
+use crate::disk::Disk;
+use crate::error::refused;
 use crate::live::Viewer;
 use crate::{Live, RecordingError};
 
@@ -12,7 +13,7 @@ pub(crate) fn open(
     path: &Path,
     title: &str,
     live: Live,
-) -> Result<(RecordingStream, Viewer), RecordingError> {
+) -> Result<(RecordingStream, Disk, Viewer), RecordingError> {
     let builder = RecordingStreamBuilder::new("plumbline").recording_name(title);
     let stream = builder.buffered().map_err(refused)?;
     if !stream.is_enabled() {
@@ -20,13 +21,10 @@ pub(crate) fn open(
         return Err(RecordingError::TurnedOff { path: path.to_owned(), value });
     }
     stream.set_log_time_enabled(false);
-    let file = FileSink::new(path).map_err(|error| match error {
-        FileSinkError::CreateFile { source, .. } => unwritable(path, source.to_string()),
-        other => unwritable(path, other.to_string()),
-    })?;
+    let disk = Disk::create(path)?;
     let (viewer, queue) = Viewer::find(live);
-    let mut sinks: Vec<Box<dyn LogSink>> = vec![Box::new(file)];
+    let mut sinks: Vec<Box<dyn LogSink>> = vec![Box::new(disk.clone())];
     sinks.extend(queue.map(|queue| -> Box<dyn LogSink> { Box::new(queue) }));
     stream.set_sinks(sinks);
-    Ok((stream, viewer))
+    Ok((stream, disk, viewer))
 }

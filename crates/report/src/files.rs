@@ -2,8 +2,8 @@ use std::fs;
 use std::io::{Read, Write};
 use std::path::Path;
 
+use logs::WholeFile;
 use sha2::{Digest, Sha256};
-use tempfile::NamedTempFile;
 
 use crate::ReportError;
 
@@ -53,13 +53,13 @@ pub fn write_folder(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), Report
     })?;
     for (file, (name, _)) in written.into_iter().zip(files) {
         let path = folder.join(name);
-        file.persist(&path).map_err(|e| unwritable(&path, &e.error))?;
+        file.finish().map_err(|e| unwritable(&path, &e))?;
     }
     Ok(())
 }
 
-/// The files under temporary names in `folder`, and the folders that they will move to.
-fn temporaries(folder: &Path, files: &[(&str, &[u8])]) -> Result<Vec<NamedTempFile>, ReportError> {
+/// The files under temporary names in `folder`, on the disk, and the folders that they will move to.
+fn temporaries(folder: &Path, files: &[(&str, &[u8])]) -> Result<Vec<WholeFile>, ReportError> {
     let written: Result<Vec<_>, _> =
         files.iter().map(|(name, bytes)| temporary(folder, name, bytes)).collect();
     let written = written?;
@@ -71,22 +71,12 @@ fn temporaries(folder: &Path, files: &[(&str, &[u8])]) -> Result<Vec<NamedTempFi
     Ok(written)
 }
 
-fn temporary(folder: &Path, name: &str, bytes: &[u8]) -> Result<NamedTempFile, ReportError> {
-    let refused = |e: std::io::Error| unwritable(&folder.join(name), &e);
-    let mut file = tempfile::Builder::new()
-        .prefix(".plumbline-")
-        .permissions(readable_by_others())
-        .tempfile_in(folder)
-        .map_err(refused)?;
-    file.write_all(bytes).and_then(|()| file.flush()).map_err(refused)?;
+fn temporary(folder: &Path, name: &str, bytes: &[u8]) -> Result<WholeFile, ReportError> {
+    let path = folder.join(name);
+    let refused = |e: std::io::Error| unwritable(&path, &e);
+    let mut file = WholeFile::create_in(folder, &path).map_err(refused)?;
+    file.write_all(bytes).and_then(|()| file.settle()).map_err(refused)?;
     Ok(file)
-}
-
-/// What an ordinary file gets; a temporary one would be private otherwise.
-#[cfg(unix)]
-fn readable_by_others() -> fs::Permissions {
-    use std::os::unix::fs::PermissionsExt;
-    fs::Permissions::from_mode(0o666)
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> ReportError {

@@ -48,6 +48,18 @@ pub enum RobotError {
         /// The name.
         name: String,
     },
+    /// The robot has more joints than are computed with.
+    #[error(
+        "robot {robot}: it has {found} joints that move, up to {most} were expected; keep some of them (--joints, or joints in a robot.toml)"
+    )]
+    TooManyJoints {
+        /// Name of the robot.
+        robot: String,
+        /// Joints found.
+        found: usize,
+        /// Joints that are computed with.
+        most: usize,
+    },
     /// The robot has no moving joint.
     #[error("robot {robot}: it has no moving joint, at least one was expected")]
     NoJoints {

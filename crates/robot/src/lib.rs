@@ -11,6 +11,7 @@
 //! sees of an arm, simulated or real.
 
 mod actuator;
+mod content;
 mod control;
 mod description;
 mod error;
@@ -23,6 +24,7 @@ mod looks;
 mod lumping;
 mod machine;
 mod mesh;
+mod mesh_kind;
 mod mjcf;
 mod model;
 mod packages;
@@ -38,7 +40,7 @@ pub use error::RobotError;
 pub use inertia::{Inertia, InertiaDefect};
 pub use joint::{Joint, JointKind, Limits};
 pub use link::Link;
-pub use load::{LoadOptions, Loaded};
+pub use load::{LoadOptions, Loaded, MeshFolders};
 pub use looks::{Looks, Shape, Visual};
 pub use machine::{Machine, MachineFault, Reading};
 pub use model::Robot;

@@ -12,6 +12,9 @@ use crate::{ControlSettings, Gain, Looks, Packages, Robot, RobotError, RobotWarn
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
 
+/// Joints that are computed with: the cost grows with the cube of their number, and no arm or humanoid has more.
+const MOST_JOINTS: usize = 100;
+
 /// What a robot is loaded with beside its files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadOptions {
@@ -20,6 +23,18 @@ pub struct LoadOptions {
     pub joints: Option<Vec<String>>,
     /// Where meshes are looked for.
     pub packages: Packages,
+    /// Which folders meshes may lie in beside packages.
+    pub meshes: MeshFolders,
+}
+
+/// Which folders the meshes of a URDF may lie in, packages apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MeshFolders {
+    /// That of the URDF, and those in it.
+    #[default]
+    Below,
+    /// All.
+    Anywhere,
 }
 
 /// A robot as its files describe it.
@@ -85,7 +100,7 @@ impl Robot {
         let (description, urdf_path, text) = if is_toml {
             let description = Description::parse(&text).map_err(|e| e.in_file(path))?;
             let urdf_path = path.parent().unwrap_or(Path::new("")).join(&description.urdf);
-            let text = read(&urdf_path).map_err(|e| e.in_file(path))?;
+            let text = read_regular(&urdf_path).map_err(|e| e.in_file(path))?;
             (Some(description), urdf_path, text)
         } else {
             (None, path.to_owned(), text)
@@ -100,7 +115,9 @@ impl Robot {
         if let Some(joints) = &options.joints {
             loaded = loaded.narrowed(&model, joints)?;
         }
-        loaded.warnings.extend(loaded.looks.find_meshes(&urdf_path, &options.packages));
+        loaded
+            .warnings
+            .extend(loaded.looks.find_meshes(&urdf_path, (&options.packages, options.meshes)));
         loaded.judge(&model).map_err(|e| e.in_file(&urdf_path))?;
         Ok(loaded)
     }
@@ -173,9 +190,14 @@ impl Loaded {
         Ok(smaller)
     }
 
-    /// Refuses a body that is said to have no mass and moves, and adds what to know of the joints
+    /// Refuses a body that is said to have no mass and moves, and more joints than are computed with, and adds what to know of the joints
     /// that are held.
     fn judge(&mut self, model: &UrdfModel) -> Result<(), RobotError> {
+        let found = self.robot.joint_count();
+        if found > MOST_JOINTS {
+            let robot = self.robot.name().to_owned();
+            return Err(RobotError::TooManyJoints { robot, found, most: MOST_JOINTS });
+        }
         for link in self.robot.links().iter().filter(|link| link.inertia.mass <= 0.0) {
             let (link, mass) = (link.name.clone(), link.inertia.mass);
             if model.without_mass.contains(&link) {
@@ -248,6 +270,17 @@ fn whole_limits(whole: &Robot, joint: &str) -> Option<(f64, f64)> {
 }
 
 /// The text of a file, without a byte-order mark.
+/// A file that another one names: a pipe would be waited for.
+fn read_regular(path: &Path) -> Result<String, RobotError> {
+    let reason = "it is no regular file, a URDF was expected".to_owned();
+    match std::fs::metadata(path) {
+        Ok(found) if !found.is_file() && !found.is_dir() => {
+            Err(RobotError::Unreadable { path: path.to_owned(), reason })
+        }
+        _ => read(path),
+    }
+}
+
 fn read(path: &Path) -> Result<String, RobotError> {
     let unreadable = |reason: String| RobotError::Unreadable { path: path.to_owned(), reason };
     if path.is_dir() {

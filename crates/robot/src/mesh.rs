@@ -1,19 +1,37 @@
 use std::path::{Component, Path, PathBuf};
 
-use crate::{Looks, Packages, RobotWarning, Shape, Visual};
+use crate::mesh_kind::is_mesh;
+use crate::{Looks, MeshFolders, Packages, RobotWarning, Shape, Visual};
 
 /// Folders, from that of the URDF upwards, beside which a package is looked for.
 const FOLDERS: usize = 5;
+/// How the name of a file in a package begins.
+const PACKAGE: &str = "package://";
 /// Largest mesh that is taken (bytes).
 const LARGEST_MESH: u64 = 64 << 20;
 
 impl Looks {
     /// Finds the files of the meshes; a mesh without one is left out.
-    pub(crate) fn find_meshes(&mut self, urdf: &Path, packages: &Packages) -> Option<RobotWarning> {
+    ///
+    /// A mesh that is no file of a package lies below the folder of the URDF, unless `folders` says otherwise.
+    pub(crate) fn find_meshes(
+        &mut self,
+        urdf: &Path,
+        (packages, folders): (&Packages, MeshFolders),
+    ) -> Option<RobotWarning> {
+        let below = folder_of(urdf).canonicalize().ok();
+        let is_let_in = |name: &str, path: &Path| {
+            let is_below = |path: PathBuf| below.as_ref().is_some_and(|b| path.starts_with(b));
+            folders == MeshFolders::Anywhere
+                || name.starts_with(PACKAGE)
+                || path.canonicalize().is_ok_and(is_below)
+        };
         let mut missing = vec![];
         let mut has_file = |visual: &mut Visual| {
             let Shape::Mesh { file, .. } = &mut visual.shape else { return true };
-            let found = candidates(file, urdf, packages).into_iter().find(|path| usable(path));
+            let name = file.to_string_lossy().into_owned();
+            let all = candidates(file, urdf, packages).into_iter();
+            let found = all.filter(|path| is_let_in(&name, path)).find(|path| usable(path));
             match found {
                 Some(path) => *file = path,
                 None => {
@@ -39,7 +57,7 @@ impl Looks {
 fn candidates(name: &Path, urdf: &Path, packages: &Packages) -> Vec<PathBuf> {
     let name = name.to_string_lossy();
     let folder = urdf.parent().unwrap_or(Path::new(""));
-    let Some(rest) = name.strip_prefix("package://") else {
+    let Some(rest) = name.strip_prefix(PACKAGE) else {
         return vec![folder.join(name.strip_prefix("file://").unwrap_or(&name))];
     };
     let inside = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
@@ -56,8 +74,15 @@ fn candidates(name: &Path, urdf: &Path, packages: &Packages) -> Vec<PathBuf> {
     first.iter().cloned().chain(near).chain(then.iter().cloned()).collect()
 }
 
+/// The folder of a file; an empty path has no parent: it is the working folder.
+fn folder_of(file: &Path) -> &Path {
+    file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Whether a file is regular, small enough, and a mesh.
 fn usable(path: &Path) -> bool {
-    std::fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() <= LARGEST_MESH)
+    let metadata = std::fs::metadata(path);
+    metadata.is_ok_and(|m| m.is_file() && m.len() <= LARGEST_MESH && is_mesh(path, m.len()))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
+use crate::range::{LARGEST, Most};
 use crate::{Link, RobotError};
 
 /// A robot: a tree of moving links on a fixed base.
@@ -99,7 +100,11 @@ fn finite<'a>(
     quantity: &'static str,
     mut values: impl Iterator<Item = &'a f64>,
 ) -> Result<(), RobotError> {
-    match values.find(|v| !v.is_finite()) {
+    match values.find(|v| v.is_nan() || v.abs() > LARGEST) {
+        Some(&value) if value.is_finite() => {
+            let (thing, expected) = (thing.to_owned(), Most::NUMBER.1);
+            Err(RobotError::OutOfRange { thing, quantity, value, expected })
+        }
         Some(&value) => Err(RobotError::NotFinite { thing: thing.to_owned(), quantity, value }),
         None => Ok(()),
     }

@@ -55,6 +55,18 @@ pub enum SimulatorError {
     /// A log cannot be read or written.
     #[error(transparent)]
     Log(#[from] LogError),
+    /// A record has hours between its rows, which would be simulated without end.
+    #[error(
+        "run {run}: it has {rate_hz} rows a second, at least {slowest_hz} were expected; is its time in seconds?"
+    )]
+    TooSlow {
+        /// Name of the run.
+        run: String,
+        /// Its rate (Hz).
+        rate_hz: f64,
+        /// The slowest rate that is simulated (Hz).
+        slowest_hz: f64,
+    },
     /// A record is shorter than the window it is to be replayed in.
     #[error(
         "run {run}: {found_s:.3} s are left of it, at least a window of {window_s} s was expected"

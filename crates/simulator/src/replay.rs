@@ -13,6 +13,9 @@ const STEP_S: f64 = 1e-4;
 /// Slowest rate of the controller that follows a recorded motion (Hz).
 const CONTROL_HZ: f64 = 500.0;
 
+/// Slowest record that is simulated (Hz): between two of its rows an arm moves as it likes.
+const SLOWEST_HZ: f64 = 1.0;
+
 /// How a record is rolled forward: in windows one after the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Windows {
@@ -61,14 +64,15 @@ pub struct ForwardReplay {
 ///
 /// # Errors
 ///
-/// [`SimulatorError`] when the robot cannot be simulated, or [`SimulatorError::TooShort`] when
-/// no window fits into the record.
+/// [`SimulatorError`] when the robot cannot be simulated, [`SimulatorError::TooSlow`] below one row a
+/// second, or [`SimulatorError::TooShort`] when no window fits into the record.
 pub fn replay_torque(
     robot: &Robot,
     record: &PreparedRun,
     windows: Windows,
 ) -> Result<ForwardReplay, SimulatorError> {
     let Windows { window_s, longest_step_s } = windows;
+    fast_enough(record)?;
     let record = &*in_time(robot, record);
     let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
     let count = record.time.len().saturating_sub(1) / samples;
@@ -96,6 +100,14 @@ pub fn replay_torque(
         motion: motion_of(robot, record, &starts, &windows),
         runaways: windows.into_iter().filter_map(|w| w.fault).collect(),
     })
+}
+
+fn fast_enough(record: &PreparedRun) -> Result<(), SimulatorError> {
+    if record.rate_hz >= SLOWEST_HZ {
+        return Ok(());
+    }
+    let (run, rate_hz) = (record.name.clone(), record.rate_hz);
+    Err(SimulatorError::TooSlow { run, rate_hz, slowest_hz: SLOWEST_HZ })
 }
 
 fn too_short(record: &PreparedRun, window_s: f64) -> SimulatorError {
@@ -171,6 +183,7 @@ fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[W
         source: Default::default(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         time: places.iter().map(|(k, _)| record.time[*k]).collect(),
         joints: robot.joint_names().enumerate().map(joint).collect(),
         extra: robot.joint_names().enumerate().map(measured).collect::<BTreeMap<_, _>>(),
@@ -209,6 +222,7 @@ pub fn replay_motion(
     gains: &[Gain],
     record: &PreparedRun,
 ) -> Result<MotionReplay, SimulatorError> {
+    fast_enough(record)?;
     if record.time.len() < 2 {
         return Err(too_short(record, 1.0 / record.rate_hz));
     }
@@ -278,6 +292,7 @@ fn compared(robot: &Robot, record: &PreparedRun, rows: &[Reading]) -> MotionRepl
             source: Default::default(),
             sha256: String::new(),
             is_torn: false,
+            mended: Vec::new(),
             time: whole(&record.time),
             joints: robot.joint_names().enumerate().map(channels).collect(),
             extra: robot.joint_names().enumerate().map(measured).collect(),

@@ -452,6 +452,7 @@ fn log(scenario: &Scenario, run: &ScenarioRun, rows: &[Row]) -> Run {
         source: Default::default(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         time: column(&|r| r.reading.time_s),
         joints: scenario.robot().joint_names().enumerate().map(joint).collect(),
         extra: BTreeMap::new(),

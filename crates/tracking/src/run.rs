@@ -33,6 +33,7 @@ impl Tracking {
             source: PathBuf::new(),
             sha256: String::new(),
             is_torn: false,
+            mended: Vec::new(),
             time: rows.reading_time_s().collect(),
             joints,
             extra,

@@ -11,7 +11,7 @@ use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{print, shown, warn};
+use crate::output::{keep_inputs, print, shown, warn};
 use crate::progress::Bar;
 
 /// Columns of the text.
@@ -43,6 +43,9 @@ pub struct Arguments {
     quiet: bool,
 }
 
+/// Folders of the two diagnoses.
+const SIDES: [&str; 2] = ["before", "after"];
+
 /// Compares two sets of logs, writes a diagnosis of each and prints what changed.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let out = &arguments.out;
@@ -54,6 +57,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let runs = [read(&arguments.before)?, read(&arguments.after)?];
     if !arguments.quiet {
         doubts(&loaded, runs.iter().flatten()).iter().for_each(|doubt| warn(doubt));
+    }
+    for side in SIDES {
+        let given = [&arguments.robot, &loaded.urdf_path].into_iter().chain(&arguments.columns.map);
+        let inputs = given.chain(&arguments.before).chain(&arguments.after);
+        keep_inputs(&out.join(side), &diagnose::FILES, inputs.map(PathBuf::as_path))?;
     }
     let settings = arguments.search.settings(&loaded);
     let bar = Bar::new();
@@ -78,7 +86,8 @@ fn write(
     comparison: &Comparison,
 ) -> Result<(), CliError> {
     let about = Loaded { robot: comparison.before.extended.clone(), ..loaded.clone() };
-    let sides = [("before", loaded, &comparison.before), ("after", &about, &comparison.after)];
+    let [before, after] = SIDES;
+    let sides = [(before, loaded, &comparison.before), (after, &about, &comparison.after)];
     for ((name, loaded, outcome), runs) in sides.into_iter().zip(runs) {
         let map = arguments.columns.map_file();
         let mut provenance = provenance(&arguments.robot, loaded, map)?;

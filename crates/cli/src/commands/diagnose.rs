@@ -3,9 +3,10 @@ mod residual;
 use std::path::{Path, PathBuf};
 
 use diagnosis::{Diagnosis, Progress, Silent, Verdict};
-use evaluation::{Diagnosed, ForwardGap};
+use evaluation::{Diagnosed, EvaluationError, ForwardGap};
 use exchange::Format;
 use logs::Run;
+use recording::RecordingError;
 use report::{Report, ReportError};
 use robot::{Loaded, Robot};
 
@@ -16,7 +17,7 @@ use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{print, shown, warn};
+use crate::output::{keep_inputs, print, shown, warn};
 use crate::progress::{Bar, Line};
 
 /// Columns of a comment in `extended.toml`.
@@ -24,6 +25,9 @@ const COMMENT_WIDTH: usize = 95;
 
 /// Name of the recording in the output folder.
 const RECORDING: &str = "recording.rrd";
+
+/// The recording until it is whole.
+const BEGUN: &str = ".plumbline-recording.rrd";
 
 /// Arguments of `diagnose`.
 #[derive(Debug, clap::Args)]
@@ -58,6 +62,17 @@ pub struct Arguments {
     quiet: bool,
 }
 
+/// Files of an output folder.
+pub(super) const FILES: [&str; 7] = [
+    "diagnosis.json",
+    "report.html",
+    "figure.svg",
+    "extended.toml",
+    "robot.urdf",
+    RECORDING,
+    residual::FILE,
+];
+
 /// A model of what the findings leave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum ResidualKind {
@@ -75,6 +90,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if !arguments.quiet {
         doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
     }
+    let given = [&arguments.robot, &loaded.urdf_path].into_iter().chain(&arguments.columns.map);
+    let inputs = given.chain(&arguments.logs).map(PathBuf::as_path);
+    keep_inputs(&arguments.out, &FILES, inputs)?;
     let settings = arguments.search.settings(&loaded);
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
@@ -106,7 +124,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         verdict: &report::markdown(&report),
     };
     let recording = record(arguments, &diagnosed);
-    say(arguments, &report, &json, recording.as_deref())?;
+    let shown = recording.as_ref().ok().and_then(Option::as_deref);
+    say(arguments, &report, &json, shown)?;
+    recording?;
     Ok(match outcome.diagnosis.verdict {
         Verdict::Consistent | Verdict::Explained => Outcome::Good,
         Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => Outcome::Gap,
@@ -163,26 +183,48 @@ pub(super) fn write(
     Ok(())
 }
 
-/// Writes the recording and names it; one that cannot be written is a warning, as all the rest
-/// is there.
-fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Option<PathBuf> {
+/// Writes the recording and names it; one that cannot be made is a warning, as all the rest is there.
+///
+/// # Errors
+///
+/// [`EvaluationError::Recording`] where the disk refuses it.
+fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<PathBuf>, CliError> {
     let path = arguments.out.join(RECORDING);
     // One of an earlier diagnosis would show something else than the report beside it.
     let _ = std::fs::remove_file(&path);
     if arguments.no_recording {
-        return None;
+        return Ok(None);
     }
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
-    let written = evaluation::record_diagnosis(&path, diagnosed, progress);
+    // Under another name until it is whole.
+    let begun = arguments.out.join(BEGUN);
+    let written = evaluation::record_diagnosis(&begun, diagnosed, progress);
     bar.finish();
+    let unwritten = |reason: String| {
+        let _ = std::fs::remove_file(&begun);
+        let path = path.clone();
+        Err(EvaluationError::Recording(RecordingError::Unwritable { path, reason }).into())
+    };
     match written {
-        Ok(written) => Some(written.path),
-        Err(error) => {
-            warn(&error);
-            None
+        Ok(_) => match std::fs::rename(&begun, &path) {
+            Ok(()) => logs::sync_folder(&arguments.out),
+            Err(error) => return unwritten(error.to_string()),
+        },
+        Err(EvaluationError::Recording(RecordingError::Unwritable { reason, .. })) => {
+            return unwritten(reason);
+        }
+        Err(EvaluationError::Recording(RecordingError::TurnedOff { value, .. })) => {
+            warn(&RecordingError::TurnedOff { path, value });
+            return Ok(None);
+        }
+        Err(other) => {
+            let _ = std::fs::remove_file(&begun);
+            warn(&other);
+            return Ok(None);
         }
     }
+    Ok(Some(path))
 }
 
 /// The extended robot as a `robot.toml`, its findings as comments on top.

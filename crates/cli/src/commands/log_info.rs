@@ -130,6 +130,9 @@ fn text(Info { path, info, repeats }: &Info) -> String {
     if info.is_torn {
         text.push_str("warning: the last row was cut off while it was written, it is left out\n");
     }
+    for mend in &info.mended {
+        text.push_str(&format!("warning: {mend}\n"));
+    }
     if let Some(earlier) = repeats {
         text.push_str(&format!("warning: the same samples as {earlier}\n"));
     }
@@ -196,6 +199,7 @@ struct FileInfo<'a> {
     path: &'a str,
     samples: usize,
     is_torn: bool,
+    mended: Vec<String>,
     duration_s: f64,
     rate_hz: f64,
     jitter_std_s: f64,
@@ -238,6 +242,7 @@ impl<'a> FileInfo<'a> {
             path,
             samples: info.samples,
             is_torn: info.is_torn,
+            mended: info.mended.iter().map(ToString::to_string).collect(),
             duration_s: info.duration_s,
             rate_hz: info.rate_hz,
             jitter_std_s: info.jitter_std_s,

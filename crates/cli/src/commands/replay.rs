@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use inspection::Mended;
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
 use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
@@ -38,6 +39,12 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
     let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
     doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
+    let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, &runs);
+    for seen in &mended {
+        let sentence = seen.sentence(&loaded.robot, &runs);
+        warn(&format!("{sentence} Until then the logs are read so."));
+    }
+    let runs = read.unwrap_or(runs);
     let prepared = logs::prepare(&runs, &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =
@@ -111,8 +118,8 @@ fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
          measured (N·m or N)\n",
     );
     use LogWarning as W;
-    let of_clocks = |w: &&W| matches!(w, W::Resampled { .. } | W::Split { .. });
-    for warning in prepared.warnings.iter().filter(of_clocks) {
+    let of_rows = |w: &&W| matches!(w, W::Mended { .. } | W::Resampled { .. } | W::Split { .. });
+    for warning in prepared.warnings.iter().filter(of_rows) {
         text.push_str(&format!("warning: {warning}\n"));
     }
     text + &format!("\nsimulated motion and torque {}\n", shown(&arguments.out))

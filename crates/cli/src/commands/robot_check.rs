@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use dynamics::{ColumnSet, base_parameters};
+use dynamics::{ColumnSet, base_parameter_count};
 use robot::{Actuator, JointKind, Link, Loaded, LockedJoint, RobotWarning};
 use serde::Serialize;
 
@@ -91,7 +91,7 @@ struct BaseCounts {
 impl Check {
     fn new(loaded: &Loaded, file: String) -> Self {
         let robot = &loaded.robot;
-        let count = |set| base_parameters(robot, set).rank();
+        let count = |set| base_parameter_count(robot, set);
         let rotors = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };
         let friction = ColumnSet { viscous: true, coulomb: true, ..ColumnSet::INERTIAL };
         Self {

@@ -8,7 +8,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use document::Document;
-use evaluation::{Campaign, CampaignFolder, KindCount, Made, Merged, MergedPanel, Record, work};
+use evaluation::{
+    Campaign, CampaignFolder, KindCount, Made, Merged, MergedPanel, Record, finished, work,
+};
 use report::{FileHash, Provenance, sha256_of};
 
 use crate::Outcome;
@@ -78,12 +80,13 @@ pub fn run(action: &Action) -> Result<Outcome, CliError> {
 
 fn plan(arguments: &Plan) -> Result<Outcome, CliError> {
     let campaign = Campaign::from_document(&Document::read(&arguments.campaign)?)?;
+    let read =
+        |table: &PathBuf| -> Result<Vec<Record>, CliError> { Ok(finished(&campaign, table)?) };
+    let made: Result<Vec<_>, CliError> = arguments.made.iter().map(read).collect();
+    let made = made?.concat();
     create_folder(&arguments.out)?;
     let folder = CampaignFolder::plan(&arguments.out, campaign)?;
-    let mut taken = 0;
-    for table in &arguments.made {
-        taken += folder.take(table)?;
-    }
+    let taken = folder.take(&made)?;
     if !arguments.quiet {
         let out = shown(&arguments.out);
         let made = match taken {

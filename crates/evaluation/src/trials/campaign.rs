@@ -91,8 +91,8 @@ impl Campaign {
         }
     }
 
-    /// What tells it from other campaigns: SHA-256 of all that its scores follow from, save files of
-    /// robots, recorded logs and this program.
+    /// What tells it from other campaigns: SHA-256 of all that its scores follow from, save recorded
+    /// logs of a population and this program.
     pub fn hash(&self) -> String {
         match self {
             Self::Scenario(campaign) => campaign.hash(),

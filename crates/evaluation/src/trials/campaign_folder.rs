@@ -92,26 +92,13 @@ impl CampaignFolder {
         Self { root: root.to_owned(), hash: campaign.hash(), campaign }
     }
 
-    /// Takes the finished trials of a table that [`Record::write`] has written, such as the
-    /// `trials.parquet` of another folder; those that have a shard here stay. Says how many it took.
+    /// Takes finished trials of the campaign, as [`finished`] reads them; those that have a shard here stay.
+    /// Says how many it took.
     ///
     /// # Errors
     ///
-    /// [`EvaluationError::UnreadableTrials`] and [`EvaluationError::OtherTrials`], before any is
-    /// taken, and whatever keeps a shard from being written.
-    pub fn take(&self, table: &Path) -> Result<usize, EvaluationError> {
-        let path = || table.to_owned();
-        let unreadable = |reason| EvaluationError::UnreadableTrials { path: path(), reason };
-        let records = Record::read(table).map_err(unreadable)?;
-        for record in &records {
-            if record.campaign != self.hash {
-                let (found, planned) = (record.campaign.clone(), self.hash.clone());
-                return Err(EvaluationError::OtherTrials { path: path(), found, planned });
-            }
-            if record.task >= self.campaign.trials() {
-                return Err(unreadable(format!("it holds a task {}", record.task)));
-            }
-        }
+    /// Whatever keeps a shard from being written.
+    pub fn take(&self, records: &[Record]) -> Result<usize, EvaluationError> {
         let new: Vec<&Record> = records.iter().filter(|record| !self.holds(record.task)).collect();
         new.iter().try_for_each(|record| self.keep(record))?;
         Ok(new.len())
@@ -218,6 +205,29 @@ impl CampaignFolder {
         }
         Ok(record)
     }
+}
+
+/// The finished trials of a campaign in a table that [`Record::write`] has written, such as the
+/// `trials.parquet` of another folder.
+///
+/// # Errors
+///
+/// [`EvaluationError::UnreadableTrials`] and [`EvaluationError::OtherTrials`].
+pub fn finished(campaign: &Campaign, table: &Path) -> Result<Vec<Record>, EvaluationError> {
+    let path = || table.to_owned();
+    let unreadable = |reason| EvaluationError::UnreadableTrials { path: path(), reason };
+    let records = Record::read(table).map_err(unreadable)?;
+    let planned = campaign.hash();
+    for record in &records {
+        if record.campaign != planned {
+            let found = record.campaign.clone();
+            return Err(EvaluationError::OtherTrials { path: path(), found, planned });
+        }
+        if record.task >= campaign.trials() {
+            return Err(unreadable(format!("it holds a task {}", record.task)));
+        }
+    }
+    Ok(records)
 }
 
 fn write(path: &Path, text: &str) -> Result<(), EvaluationError> {

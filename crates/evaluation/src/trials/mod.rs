@@ -26,7 +26,7 @@ mod trial;
 mod work;
 
 pub use campaign::{Campaign, PopulationCampaign};
-pub use campaign_folder::{BrokenShard, CampaignFolder, Made};
+pub use campaign_folder::{BrokenShard, CampaignFolder, Made, finished};
 pub use confusion::Confusion;
 pub use failure::Failure;
 pub use gained::{Gained, Lessened};

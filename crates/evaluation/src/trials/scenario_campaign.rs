@@ -2,13 +2,15 @@ use std::path::{Path, PathBuf};
 
 use catalogue::EffectKind;
 use document::{Document, DocumentError, KeyPath};
+use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use simulator::scenario::Scenario;
+use simulator::scenario::{Scenario, ScenarioSpec};
 
 use super::campaign::{hexadecimal, mixed};
 use super::{Hidden, Trial};
 use crate::EvaluationError;
+use crate::stage::sha256;
 
 /// Every kind of the catalogue, one effect each.
 const EACH: &str = "each";
@@ -16,6 +18,8 @@ const EACH: &str = "each";
 const WITHOUT_EACH: &str = "without_each";
 /// The same, with all that it is confused with.
 const STRANGE_EACH: &str = "strange_each";
+/// How the content of a campaign is put into words, which another way would make other campaigns of all.
+const IDENTITY: &str = "campaign by content/1\n";
 /// Most trials of a kind.
 const MOST_SEEDS: usize = 1_000_000;
 
@@ -84,6 +88,8 @@ pub struct ScenarioCampaign {
     seed: u64,
     /// The scenario with the settings, as one text that can be read from any folder.
     scenario: String,
+    /// What the scenario holds, without a path.
+    identity: String,
     gains: bool,
 }
 
@@ -101,7 +107,9 @@ impl ScenarioCampaign {
             return Err(document.mistake(&KeyPath::root().key("seeds"), message, None).into());
         }
         let scenario = scenario(document, &spec)?;
-        Ok(Self { kinds, seeds: spec.seeds, seed: spec.seed, scenario, gains: spec.gains })
+        let identity = identity(&scenario)?;
+        let (seeds, seed, gains) = (spec.seeds, spec.seed, spec.gains);
+        Ok(Self { kinds, seeds, seed, scenario, identity, gains })
     }
 
     /// The campaign as one text, beside a scenario that is called so.
@@ -134,10 +142,10 @@ impl ScenarioCampaign {
         self.kinds.len() * self.seeds
     }
 
-    /// What tells it from other campaigns: SHA-256 of all that its scores follow from, save the
-    /// robot's own file and this program.
+    /// What tells it from other campaigns: SHA-256 of all that its scores follow from, save this program;
+    /// of files the content counts, wherever they lie.
     pub fn hash(&self) -> String {
-        hexadecimal(&[&self.resolved(""), "\n", &self.scenario].concat())
+        hexadecimal(&[IDENTITY, &self.resolved(""), "\n", &self.identity].concat())
     }
 
     /// The kind and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
@@ -187,6 +195,26 @@ fn drawn(spec: &CampaignSpec) -> impl Iterator<Item = EffectKind> {
     EffectKind::ALL.into_iter().filter(|kind| !spec.except.contains(kind))
 }
 
+/// A resolved scenario with the content of its robot and of recorded files in the place of their paths.
+fn identity(scenario: &str) -> Result<String, EvaluationError> {
+    let mut spec: ScenarioSpec = Document::from_text("scenario", scenario)?.parse()?;
+    let content = Robot::load(&spec.robot)?.content()?;
+    spec.robot = PathBuf::new();
+    for file in spec.run.iter_mut().flat_map(|run| run.motion.files_mut()) {
+        *file = PathBuf::from(content_of(file)?);
+    }
+    // What has come from TOML can be written as TOML.
+    Ok(toml::to_string(&spec).unwrap_or_default() + &content)
+}
+
+/// Hash of a file, or of the files of a bag by their names.
+fn content_of(path: &Path) -> Result<String, EvaluationError> {
+    let Ok(entries) = std::fs::read_dir(path) else { return sha256(path) };
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    files.sort();
+    files.iter().filter(|file| file.is_file()).map(|file| sha256(file)).collect()
+}
+
 /// The scenario with the settings, checked.
 fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, EvaluationError> {
     let key = KeyPath::root().key("scenario");
@@ -218,7 +246,8 @@ mod tests {
 
     fn campaign(kinds: &[&str], seeds: usize, seed: u64) -> ScenarioCampaign {
         let kinds = kinds.iter().map(|kind| kind.parse().unwrap()).collect();
-        ScenarioCampaign { kinds, seeds, seed, scenario: String::new(), gains: false }
+        let (scenario, identity) = (String::new(), String::new());
+        ScenarioCampaign { kinds, seeds, seed, scenario, identity, gains: false }
     }
 
     /// The digests are those of `printf '%s' 7/backlash/1 | sha256sum`.
@@ -245,12 +274,12 @@ mod tests {
     #[test]
     fn whatever_a_score_follows_from_makes_another_campaign() {
         let usual = campaign(&["clean", "backlash"], 2, 7);
-        let scenario = "robot = 'arm.toml'".to_owned();
+        let identity = "robot = 'arm.toml'".to_owned();
         let others = [
             campaign(&["backlash", "clean"], 2, 7),
             campaign(&["clean", "backlash"], 3, 7),
             campaign(&["clean", "backlash"], 2, 8),
-            ScenarioCampaign { scenario, ..usual.clone() },
+            ScenarioCampaign { identity, ..usual.clone() },
             ScenarioCampaign { gains: true, ..usual.clone() },
         ];
         assert!(others.iter().all(|other| other.hash() != usual.hash()));

@@ -11,7 +11,10 @@ mod sinusoids;
 mod sweep;
 mod waypoints;
 
-use std::{collections::BTreeMap, path::Path};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 use robot::Robot;
 use schemars::JsonSchema;
@@ -75,18 +78,21 @@ impl MotionSpec {
             let path = folder.join(path);
             path.canonicalize().unwrap_or(path)
         };
+        self.files_mut().into_iter().for_each(|file| *file = anchored(file));
+    }
+
+    /// The files that it names.
+    pub fn files_mut(&mut self) -> Vec<&mut PathBuf> {
         match self {
             Self::Recorded(recorded) => {
-                recorded.file = anchored(&recorded.file);
-                recorded.map = recorded.map.as_deref().map(anchored);
+                std::iter::once(&mut recorded.file).chain(&mut recorded.map).collect()
             }
-            Self::Fourier(fourier) => {
-                if let Coefficients::File(file) = &mut fourier.coefficients {
-                    *file = anchored(file);
-                }
-            }
-            Self::Sequence(motions) => motions.iter_mut().for_each(|motion| motion.anchor(folder)),
-            _ => {}
+            Self::Fourier(fourier) => match &mut fourier.coefficients {
+                Coefficients::File(file) => vec![file],
+                Coefficients::Inline(_) => Vec::new(),
+            },
+            Self::Sequence(motions) => motions.iter_mut().flat_map(Self::files_mut).collect(),
+            _ => Vec::new(),
         }
     }
 

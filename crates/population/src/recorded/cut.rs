@@ -74,6 +74,7 @@ fn rows(run: &Run, name: &str, rows: Vec<usize>) -> Run {
         source: run.source.clone(),
         sha256: String::new(),
         is_torn: run.is_torn,
+        mended: run.mended.clone(),
         time: pick(&run.time),
         joints: run.joints.iter().map(joint).collect(),
         extra,

@@ -275,6 +275,7 @@ mod tests {
             source: Default::default(),
             sha256: String::new(),
             is_torn: false,
+            mended: Vec::new(),
             time,
             joints: vec![joint("one", 9.81 * 1.1), joint("two", 0.0)],
             extra: Default::default(),

@@ -2,13 +2,14 @@ use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 use urdf_rs::JointType;
 
 use crate::part::Mimic;
+use crate::range::{LARGEST, Most};
 use crate::{Inertia, Joint, JointKind, Limits, RobotError};
 
 /// Pose of the joint in its parent link at position zero.
 pub(super) fn origin(joint: &urdf_rs::Joint) -> Result<Isometry3<f64>, RobotError> {
     let thing = || format!("joint {}", joint.name);
-    finite(thing, "origin", &joint.origin.xyz.0)?;
-    finite(thing, "rpy", &joint.origin.rpy.0)?;
+    finite(thing, "origin", &joint.origin.xyz.0, Most::LENGTH)?;
+    finite(thing, "rpy", &joint.origin.rpy.0, Most::ANGLE)?;
     Ok(pose(&joint.origin))
 }
 
@@ -32,10 +33,11 @@ pub(super) fn inertia(link: &urdf_rs::Link) -> Result<Inertia, RobotError> {
     }
     let origin = &link.inertial.origin;
     let thing = || format!("link {}", link.name);
-    finite(thing, "mass", &[mass])?;
-    finite(thing, "centre of mass", &origin.xyz.0)?;
-    finite(thing, "rpy", &origin.rpy.0)?;
-    finite(thing, "inertia", &[i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz])?;
+    finite(thing, "mass", &[mass], Most::MASS)?;
+    finite(thing, "centre of mass", &origin.xyz.0, Most::LENGTH)?;
+    finite(thing, "rpy", &origin.rpy.0, Most::ANGLE)?;
+    let moments = [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz];
+    finite(thing, "inertia", &moments, Most::INERTIA)?;
     let about_com = Matrix3::new(
         i.ixx, i.ixy, i.ixz, //
         i.ixy, i.iyy, i.iyz, //
@@ -51,7 +53,8 @@ pub(super) fn joint(
     body_from_parent: &Isometry3<f64>,
 ) -> Result<Joint, RobotError> {
     let kind = kind(joint)?;
-    finite(|| format!("joint {}", joint.name), "axis", &joint.axis.xyz.0)?;
+    let any_length = Most(f64::MAX, "a finite number");
+    finite(|| format!("joint {}", joint.name), "axis", &joint.axis.xyz.0, any_length)?;
     let axis = Vector3::from(joint.axis.xyz.0);
     // Scaled first: the square of a very short axis would vanish.
     let axis = axis.unscale(if axis.amax() > 0.0 { axis.amax() } else { 1.0 });
@@ -72,8 +75,8 @@ pub(super) fn mimic(joint: &urdf_rs::Joint) -> Result<Option<Mimic>, RobotError>
     let Some(mimic) = joint.mimic.as_ref().filter(|_| moves) else { return Ok(None) };
     let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
     let thing = || format!("joint {}", joint.name);
-    finite(thing, "mimic multiplier", &[multiplier])?;
-    finite(thing, "mimic offset", &[offset])?;
+    finite(thing, "mimic multiplier", &[multiplier], Most::NUMBER)?;
+    finite(thing, "mimic offset", &[offset], Most::ANGLE)?;
     Ok(Some(Mimic { master: mimic.joint.clone(), multiplier, offset }))
 }
 
@@ -113,7 +116,7 @@ fn limits(joint: &urdf_rs::Joint, kind: JointKind) -> Result<Limits, RobotError>
         return Err(RobotError::LimitsReversed { joint, lower, upper });
     }
     let unknown = lower.abs() <= 0.0 && upper.abs() <= 0.0;
-    let endless = lower.is_infinite() && upper.is_infinite();
+    let endless = lower < -LARGEST && upper > LARGEST;
     let bounded = kind != JointKind::Continuous && !unknown && !endless;
     Ok(Limits {
         position: bounded.then_some((lower, upper)),
@@ -130,7 +133,7 @@ fn largest(
     if value.is_nan() || value < 0.0 {
         return Err(out_of_range(joint, quantity, value, "a number not below 0"));
     }
-    Ok(Some(value).filter(|v| *v > 0.0 && v.is_finite()))
+    Ok(Some(value).filter(|v| *v > 0.0 && *v < LARGEST))
 }
 
 fn out_of_range(
@@ -146,9 +149,13 @@ fn finite(
     thing: impl Fn() -> String,
     quantity: &'static str,
     values: &[f64],
+    Most(most, expected): Most,
 ) -> Result<(), RobotError> {
-    match values.iter().find(|v| !v.is_finite()) {
-        Some(&value) => Err(RobotError::NotFinite { thing: thing(), quantity, value }),
+    match values.iter().copied().find(|v| v.is_nan() || v.abs() > most) {
+        Some(value) if value.is_finite() => {
+            Err(RobotError::OutOfRange { thing: thing(), quantity, value, expected })
+        }
+        Some(value) => Err(RobotError::NotFinite { thing: thing(), quantity, value }),
         None => Ok(()),
     }
 }

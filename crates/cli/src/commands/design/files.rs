@@ -1,4 +1,5 @@
 use std::collections::BTreeMap;
+use std::io::Write as _;
 use std::path::PathBuf;
 
 use catalogue::EffectKind;
@@ -127,7 +128,7 @@ pub fn write(
         Scenario { robot: path, run: [OneRun { name: "motion", motion: &designed.spec }] };
     let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
     let comment: String = text.lines().map(|line| format!("# {line}\n")).collect();
-    std::fs::write(out.join(FILES[2]), format!("{comment}\n{toml}"))?;
+    logs::replace_file(&out.join(FILES[2]), |file| Ok(write!(file, "{comment}\n{toml}")?))?;
     let [csv, parquet, toml] = FILES.map(|name| shown(&out.join(name)));
     Ok(format!(
         "\n{}\nObstacles are not known here: look at the motion before it is run.\n\n\
@@ -190,6 +191,7 @@ fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
         source: PathBuf::new(),
         sha256: String::new(),
         is_torn: false,
+        mended: Vec::new(),
         time,
         joints: robot.joint_names().enumerate().map(channels).collect(),
         extra: BTreeMap::new(),

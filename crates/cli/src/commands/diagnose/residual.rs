@@ -3,7 +3,7 @@ use std::path::Path;
 use diagnosis::{Outcome, Verdict};
 use evaluation::{Residual, learn_residual};
 use learner::Model;
-use report::{LengthScale, ReportError, ResidualJoint, ResidualModel};
+use report::{LengthScale, ResidualJoint, ResidualModel};
 use robot::Robot;
 
 use crate::error::CliError;
@@ -66,12 +66,5 @@ fn said_of(joint: &diagnosis::JointReport, learned: &evaluation::ResidualJoint) 
 
 /// The file of a model.
 fn bytes(model: &Model) -> Result<Vec<u8>, CliError> {
-    let unwritable = |path: &Path, e: std::io::Error| ReportError::Unwritable {
-        path: path.to_owned(),
-        reason: e.to_string(),
-    };
-    let scratch = tempfile::tempdir().map_err(|e| unwritable(&std::env::temp_dir(), e))?;
-    let path = scratch.path().join("model.parquet");
-    model.save(&path)?;
-    Ok(std::fs::read(&path).map_err(|e| unwritable(&path, e))?)
+    Ok(model.bytes(Path::new(FILE))?)
 }

@@ -1,4 +1,3 @@
-use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
@@ -6,7 +5,7 @@ use effects::left_out;
 use learner::{
     LearnerError, ModelKind, Regression, RigidBodyFit, Samples, Score, TrainSettings, Training,
 };
-use report::{ComparedJoint, Comparison, ModelRow, ReportError};
+use report::{ComparedJoint, Comparison, ModelRow};
 use robot::{Loaded, Robot};
 
 use super::Arguments;
@@ -101,16 +100,15 @@ impl Learning<'_> {
             training = training.with_named(named);
         }
         let tested = self.data.tested();
-        let scratch = tempfile::tempdir_in(out).map_err(|e| unwritable(out, &e))?;
         let (mut rows, mut files) = (Vec::new(), Vec::new());
         for kind in distinct(&self.arguments.models) {
-            let mut row = self.model(&mut training, kind, &tested, scratch.path())?;
+            let (mut row, file) = self.model(&mut training, kind, &tested, out)?;
             if kind == ModelKind::Rbd {
                 row.training_s += regression_s;
                 row.remarks.extend(remark_of_fit(&fit));
             }
             row.remarks.extend(shared_kernels(&rows, &row));
-            files.push(file_of(scratch.path(), kind)?);
+            files.push(file);
             rows.push(row);
         }
         Ok((rows, files))
@@ -123,14 +121,14 @@ impl Learning<'_> {
         regression.fit(None)
     }
 
-    /// Trains one model, tests it, and writes it into `scratch`.
+    /// Trains one model, tests it, and gives its file of the folder `out`.
     fn model(
         &self,
         training: &mut Training,
         kind: ModelKind,
         tested: &Samples,
-        scratch: &Path,
-    ) -> Result<ModelRow, CliError> {
+        out: &Path,
+    ) -> Result<(ModelRow, NamedFile), CliError> {
         self.watch.begin(kind.name());
         let begin = Instant::now();
         let fitted = training.fit(kind)?;
@@ -138,12 +136,13 @@ impl Learning<'_> {
         self.watch.begin(&format!("{kind}: test on {} samples", tested.len()));
         let score = Score::of(&fitted.model, tested);
         let prediction_us = median_query_us(&fitted.model, tested);
-        fitted.model.save(&path_of(scratch, kind))?;
+        let name = format!("models/{kind}.parquet");
+        let bytes = fitted.model.bytes(&out.join(&name))?;
         let mut row = row(&fitted, score, self.robot);
         if self.watch.took_an_end() {
             row.remarks.push("Ctrl-C ended searches of it before they converged".to_owned());
         }
-        Ok(ModelRow { training_s, prediction_us, ..row })
+        Ok((ModelRow { training_s, prediction_us, ..row }, (name, bytes)))
     }
 }
 
@@ -156,20 +155,6 @@ fn distinct(kinds: &[ModelKind]) -> Vec<ModelKind> {
         }
     }
     distinct
-}
-
-fn path_of(folder: &Path, kind: ModelKind) -> std::path::PathBuf {
-    folder.join(format!("{kind}.parquet"))
-}
-
-fn file_of(scratch: &Path, kind: ModelKind) -> Result<NamedFile, CliError> {
-    let path = path_of(scratch, kind);
-    let bytes = fs::read(&path).map_err(|e| unwritable(&path, &e))?;
-    Ok((format!("models/{kind}.parquet"), bytes))
-}
-
-fn unwritable(path: &Path, error: &std::io::Error) -> ReportError {
-    ReportError::Unwritable { path: path.to_owned(), reason: error.to_string() }
 }
 
 /// What the regression could not tell.

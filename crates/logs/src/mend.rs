@@ -1,0 +1,65 @@
+use std::fmt;
+
+/// What was put right in a run while it was read.
+///
+/// Rows are those of the file, counted from 1.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mend {
+    /// Rows with a sample that cannot be, which are left out.
+    LeftOut {
+        /// The column.
+        column: String,
+        /// The first such row.
+        row: usize,
+        /// What it holds there, in the unit of the signal.
+        found: f64,
+        /// Why it cannot be, as the end of `but ...`.
+        expectation: String,
+        /// How many rows.
+        count: usize,
+    },
+    /// Stamps that say when rows arrived, in the place of which an even clock is taken.
+    EvenClock {
+        /// Its step (s).
+        step_s: f64,
+        /// How far a stamp was off it at most (s).
+        largest_s: f64,
+    },
+    /// Full turns by which a position jumps, which are taken out.
+    Turns {
+        /// The column.
+        column: String,
+        /// The first row after a jump.
+        row: usize,
+        /// How many jumps.
+        count: usize,
+    },
+}
+
+impl fmt::Display for Mend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LeftOut { column, row, found, expectation, count } => {
+                write!(f, "column {column}, row {row}: found {found}, but {expectation}; ")?;
+                match count {
+                    1 => write!(f, "the row is left out"),
+                    _ => write!(f, "it and {} more such rows are left out", count - 1),
+                }
+            }
+            Self::EvenClock { step_s, largest_s } => write!(
+                f,
+                "its stamps are up to {:.3} ms off an even clock of {:.4} ms, which is taken instead of them",
+                1e3 * largest_s,
+                1e3 * step_s
+            ),
+            Self::Turns { column, row, count } => {
+                let more =
+                    if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+                write!(
+                    f,
+                    "column {column}, row {row}{more}: the position jumps by full turns, which are taken out"
+                )
+            }
+        }
+    }
+}

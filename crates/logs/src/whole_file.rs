@@ -1,0 +1,126 @@
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
+
+/// A file that appears under its name only when it is whole.
+///
+/// It is written under a temporary name beside it. [`WholeFile::finish`] brings its bytes to the disk, renames
+/// it, and brings the name to the disk; what was under that name before is untouched until then. Dropped
+/// before, it leaves nothing.
+#[derive(Debug)]
+pub struct WholeFile {
+    path: PathBuf,
+    file: BufWriter<File>,
+    name: TempPath,
+}
+
+impl WholeFile {
+    /// Begins a file; its folder has to be there.
+    ///
+    /// # Errors
+    ///
+    /// What the operating system says.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        Self::create_in(folder_of(path), path)
+    }
+
+    /// The same with the temporary name in another folder of the same disk.
+    ///
+    /// # Errors
+    ///
+    /// What the operating system says.
+    pub fn create_in(folder: &Path, path: &Path) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        // The same rights as any new file, not those of a private temporary one.
+        #[cfg(unix)]
+        let builder = {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(fs::Permissions::from_mode(0o666))
+        };
+        let temporary = builder.prefix(".plumbline-").tempfile_in(folder).map_err(plain)?;
+        let (file, name) = temporary.into_parts();
+        Ok(Self { path: path.to_owned(), file: BufWriter::new(file), name })
+    }
+
+    /// Brings what was written to the disk, still under the temporary name.
+    ///
+    /// # Errors
+    ///
+    /// What the operating system says.
+    pub fn settle(&mut self) -> io::Result<()> {
+        self.file.flush()?;
+        self.file.get_ref().sync_all()
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    ///
+    /// What the operating system says.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.settle()?;
+        self.name.persist(&self.path).map_err(|error| plain(error.error))?;
+        sync_folder(folder_of(&self.path));
+        Ok(())
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// Brings the names in a folder to the disk, where the system can do that.
+pub fn sync_folder(folder: &Path) {
+    if let Ok(folder) = File::open(folder) {
+        // A file system without it has the names there in time; the bytes are there already.
+        let _ = folder.sync_all();
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// What the system says, without the temporary name.
+fn plain(error: io::Error) -> io::Error {
+    let source = error.get_ref().and_then(std::error::Error::source);
+    let code = source.and_then(|s| s.downcast_ref::<io::Error>()).and_then(io::Error::raw_os_error);
+    code.map_or(error, io::Error::from_raw_os_error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_not_finished_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        fs::write(&path, "old").unwrap();
+        let mut file = WholeFile::create(&path).unwrap();
+        file.write_all(b"half").unwrap();
+        file.settle().unwrap();
+        drop(file);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        let mut file = WholeFile::create(&path).unwrap();
+        file.write_all(b"new").unwrap();
+        file.finish().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+    }
+
+    #[test]
+    fn an_error_says_nothing_of_the_temporary_name() {
+        let error = WholeFile::create(Path::new("no/such/folder/a")).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+        assert!(!error.to_string().contains(".plumbline"), "{error}");
+    }
+}

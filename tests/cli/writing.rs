@@ -1,0 +1,203 @@
+//! Files that cannot be written, that are not finished, or that would lie over an input.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::arm::{self, Gap};
+use crate::program::{Answer, plumbline, run};
+
+const DIAGNOSE: [&str; 6] = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "run_1.csv"];
+
+fn names(folder: &Path) -> Vec<String> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut names: Vec<String> =
+        entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// Runs a command where no file may become larger than so many kB, as on a disk that is full.
+#[cfg(target_os = "linux")]
+fn with_room(folder: &Path, kb: usize, arguments: &[&str]) -> Answer {
+    let program = plumbline().get_program().to_owned();
+    let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" \"$@\"", 2 * kb);
+    let mut command = Command::new("sh");
+    command.current_dir(folder).args(["-c", &script]).arg(program).args(arguments);
+    command.output().unwrap().into()
+}
+
+/// From nothing to enough for the recording.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_ends_a_diagnosis_with_2_and_the_name_of_the_file() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let arguments = [&DIAGNOSE[..], &["--out", "out"]].concat();
+    for (kb, file) in [(1, "out/"), (100, "out/report.html"), (250, "out/recording.rrd")] {
+        let start = Instant::now();
+        let answer = with_room(folder.path(), kb, &arguments);
+        assert_eq!(answer.code, 2, "{kb} kB: {}", answer.err);
+        let expected = format!("error: {file}");
+        assert!(answer.err.contains(&expected), "{kb} kB: {}", answer.err);
+        assert!(start.elapsed() < Duration::from_secs(60));
+        let left = names(&folder.path().join("out"));
+        assert!(
+            left.iter().all(|name| !name.ends_with("rrd") && !name.starts_with('.')),
+            "{left:?}"
+        );
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_ends_the_other_commands_with_2() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let arguments: [&[&str]; 3] = [
+        &[
+            "replay",
+            "--robot",
+            "arm.urdf",
+            "--log",
+            "run_0.csv",
+            "--window-ms",
+            "200",
+            "--out",
+            "out",
+        ],
+        &[
+            "learn",
+            "--robot",
+            "arm.urdf",
+            "--train",
+            "run_0.csv",
+            "--test",
+            "run_1.csv",
+            "--models",
+            "rbd",
+            "--out",
+            "out",
+        ],
+        &[
+            "compare",
+            "--robot",
+            "arm.urdf",
+            "--before",
+            "run_0.csv",
+            "--after",
+            "run_1.csv",
+            "--out",
+            "out",
+        ],
+    ];
+    for arguments in arguments {
+        let answer = with_room(folder.path(), 1, arguments);
+        assert_eq!(answer.code, 2, "{arguments:?}: {}", answer.err);
+        assert!(answer.err.contains("error: out/"), "{arguments:?}: {}", answer.err);
+        assert!(!answer.err.contains(".plumbline-"), "{}", answer.err);
+        assert!(names(&folder.path().join("out")).iter().all(|name| !name.starts_with('.')));
+    }
+}
+
+/// A folder in the place of a file, as a name that cannot be written.
+#[test]
+fn a_file_that_cannot_be_written_ends_with_2() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let path = folder.path();
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/clean.toml");
+    let answer = run(path, &[&DIAGNOSE[..], &["--out", "found"]].concat());
+    assert!(answer.code <= 1, "{}", answer.err);
+    let robot = ["--robot", "arm.urdf"];
+    let commands: [(&str, &[&str]); 3] = [
+        ("run_0_forward_200ms.parquet", &["replay", "--log", "run_0.csv", "--window-ms", "200"]),
+        (
+            "motion.csv",
+            &["design", "--diagnosis", "found", "--separate", "FR02@elbow", "--from", "FR04@elbow"],
+        ),
+        ("models", &["learn", "--train", "run_0.csv", "--test", "run_1.csv", "--models", "rbd"]),
+    ];
+    for (file, command) in commands {
+        let out = format!("out_{}", command[0]);
+        if command[0] == "learn" {
+            fs::create_dir(path.join(&out)).unwrap();
+            fs::write(path.join(&out).join(file), "a file").unwrap();
+        } else {
+            fs::create_dir_all(path.join(&out).join(file).join("full")).unwrap();
+        }
+        let answer = run(path, &[command, &robot, &["--out", &out]].concat());
+        assert_eq!(answer.code, 2, "{command:?}: {}{}", answer.out, answer.err);
+        assert!(answer.err.contains(&format!("{out}/{file}")), "{command:?}: {}", answer.err);
+    }
+    fs::create_dir_all(path.join("sim/truth.json/full")).unwrap();
+    let answer = run(path, &["simulate", scenario, "--out", "sim"]);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    assert!(answer.err.contains("sim/truth.json"), "{}", answer.err);
+    fs::create_dir(path.join("run")).unwrap();
+    fs::write(path.join("run/stages"), "a file").unwrap();
+    let answer = run(path, &["run", scenario, "--out", "run"]);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    assert!(answer.err.contains("run/stages"), "{}", answer.err);
+}
+
+#[test]
+fn an_input_is_not_written_over() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let path = folder.path();
+    assert!(run(path, &[&DIAGNOSE[..], &["--out", "oe"]].concat()).code <= 1);
+    let before = fs::read(path.join("oe/extended.toml")).unwrap();
+    let again = ["diagnose", "--robot", "oe/extended.toml", "--log", "run_0.csv", "run_1.csv"];
+    for out in ["oe", "./oe", "oe/../oe"] {
+        let answer = run(path, &[&again[..], &["--out", out]].concat());
+        assert_eq!(answer.code, 2, "{}", answer.err);
+        assert!(answer.err.contains("error: oe/extended.toml: it is read"), "{}", answer.err);
+        assert!(answer.err.contains("give --out another name"), "{}", answer.err);
+        assert_eq!(fs::read(path.join("oe/extended.toml")).unwrap(), before);
+    }
+    assert!(run(path, &[&again[..], &["--out", "other"]].concat()).code <= 1);
+}
+
+#[test]
+fn a_table_that_is_none_leaves_no_campaign_behind() {
+    let folder = arm::folder(Gap::None);
+    let path = folder.path();
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/clean.toml");
+    let campaign = format!("scenario = {scenario:?}\nhidden = [\"clean\"]\nseeds = 2\n");
+    arm::write(path, "campaign.toml", &campaign);
+    arm::write(path, "bad.parquet", "no table");
+    let plan = ["trials", "plan", "campaign.toml", "--made", "bad.parquet", "--out", "out"];
+    let answer = run(path, &plan);
+    assert_eq!(answer.code, 3, "{}", answer.err);
+    assert!(answer.err.contains("bad.parquet"), "{}", answer.err);
+    assert!(!path.join("out").exists());
+}
+
+#[test]
+fn a_learning_that_is_killed_leaves_nothing_half_done() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let mut command = plumbline();
+    command.current_dir(folder.path()).args(["learn", "--robot", "arm.urdf", "--quiet"]);
+    command.args(["--train", "run_0.csv", "--test", "run_1.csv", "--points", "1500"]);
+    let mut child = command.args(["--models", "rbd,gp,gp-rbd", "--out", "out"]).spawn().unwrap();
+    let out = folder.path().join("out");
+    let start = Instant::now();
+    while !out.exists() && start.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(5));
+    }
+    sleep(Duration::from_millis(300));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(names(&out), Vec::<String>::new());
+}
+
+#[test]
+fn a_diagnosis_is_the_same_wherever_it_is_written() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let written = |out: &str| {
+        let answer =
+            run(folder.path(), &[&DIAGNOSE[..], &["--no-recording", "--out", out]].concat());
+        assert!(answer.code <= 1, "{}", answer.err);
+        fs::read(folder.path().join(out).join("diagnosis.json")).unwrap()
+    };
+    assert!(written("one") == written("further/down"));
+}
