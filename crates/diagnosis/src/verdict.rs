@@ -120,6 +120,10 @@ impl Situation {
             (false, true) if self.failed || blind => Verdict::DataInadequate,
             (false, true) => Verdict::Consistent,
             (true, true) if is_sane && !blind => Verdict::Explained,
+            // The description predicts it as well, whatever a cause of the whole arm does there.
+            (true, true) if !fell && self.remaining_rms < self.torque_rms && !blind => {
+                Verdict::Consistent
+            }
             (true, _) if is_sane => Verdict::PartlyExplained,
             (false, false) if self.is_drowned() => Verdict::DataInadequate,
             _ => Verdict::Unexplained,
@@ -314,6 +318,8 @@ mod tests {
     #[test]
     fn nothing_is_explained_by_an_error_that_rises_or_exceeds_the_effort() {
         assert_eq!(joint(1, 2.1, 2.0).verdict().0, Verdict::Unexplained);
+        let as_described = Situation { torque_rms: 20.0, ..joint(1, 2.1, 2.0) };
+        assert_eq!(as_described.verdict().0, Verdict::Consistent);
         let drowned = Situation { torque_rms: 0.1, ..joint(1, 1.9, 1.8) };
         assert_eq!(drowned.verdict().0, Verdict::Unexplained);
     }

@@ -1,5 +1,7 @@
 //! Numbers as these files have them: the shortest text that is read as the same number.
 
+use nalgebra::Matrix3;
+
 /// One number.
 pub fn number(value: f64) -> String {
     // An addition turns -0 into 0.
@@ -20,4 +22,18 @@ pub fn size(value: f64) -> String {
     }
     let rounded = format!("{value:.4}");
     rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The entries of a moment of inertia (kg·m²) by the names that URDF and SDF give them.
+pub fn moments(about_com: &Matrix3<f64>) -> [(&'static str, String); 6] {
+    let i = about_com;
+    let named = [
+        ("ixx", i.m11),
+        ("ixy", i.m12),
+        ("ixz", i.m13),
+        ("iyy", i.m22),
+        ("iyz", i.m23),
+        ("izz", i.m33),
+    ];
+    named.map(|(name, value)| (name, number(value)))
 }

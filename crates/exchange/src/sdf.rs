@@ -5,7 +5,7 @@ use robot::{Inertia, JointKind, Link, Loaded, Robot};
 
 use crate::export::unknown_friction;
 use crate::fate::Fate;
-use crate::numbers::{number, numbers};
+use crate::numbers::{moments, number, numbers};
 use crate::quantity::{Quantity, levels};
 use crate::sheet::Sheet;
 
@@ -61,15 +61,8 @@ fn body(sheet: &mut Sheet, link: &Link, parent: Option<&str>) {
     pose(sheet, &Isometry3::from(Translation3::from(*com_in_link)), None);
     sheet.text("mass", &[], &number(*mass));
     sheet.open("inertia", &[]);
-    for (name, value) in [
-        ("ixx", i.m11),
-        ("ixy", i.m12),
-        ("ixz", i.m13),
-        ("iyy", i.m22),
-        ("iyz", i.m23),
-        ("izz", i.m33),
-    ] {
-        sheet.text(name, &[], &number(value));
+    for (name, value) in moments(i) {
+        sheet.text(name, &[], &value);
     }
     sheet.close();
     sheet.close();

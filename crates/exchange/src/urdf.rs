@@ -11,7 +11,7 @@ use crate::error::ExchangeError;
 use crate::export::unknown_friction;
 use crate::fate::Fate;
 use crate::inertial::{changed, from_urdf};
-use crate::numbers::{number, numbers};
+use crate::numbers::{moments, number, numbers};
 use crate::quantity::Quantity;
 use crate::urdf_joint::JointChange;
 
@@ -269,15 +269,7 @@ impl<'a> Edit<'a> {
         let origin = BytesStart::new("origin")
             .with_attributes([("xyz", numbers(new.com_in_link.iter()).as_str()), ("rpy", "0 0 0")]);
         let mass = BytesStart::new("mass").with_attributes([("value", number(new.mass).as_str())]);
-        let moments = [
-            ("ixx", i.m11),
-            ("ixy", i.m12),
-            ("ixz", i.m13),
-            ("iyy", i.m22),
-            ("iyz", i.m23),
-            ("izz", i.m33),
-        ]
-        .map(|(key, value)| (key, number(value)));
+        let moments = moments(i);
         let moments = moments.iter().map(|(key, value)| (*key, value.as_str()));
         let inertia = BytesStart::new("inertia").with_attributes(moments);
         let inertial = BytesStart::new("inertial");

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3};
 use robot::{JointKind, Link, Loaded, Robot};
 
-use crate::numbers::{number, numbers};
+use crate::numbers::{moments, number, numbers};
 use crate::quantity::levels;
 use crate::sheet::Sheet;
 
@@ -32,15 +32,7 @@ fn body(sheet: &mut Sheet, link: &Link) {
     sheet.open("inertial", &[]);
     origin(sheet, &Isometry3::from(Translation3::from(inertia.com_in_link)));
     sheet.leaf("mass", &[("value", number(inertia.mass))]);
-    let moments = [
-        ("ixx", i.m11),
-        ("ixy", i.m12),
-        ("ixz", i.m13),
-        ("iyy", i.m22),
-        ("iyz", i.m23),
-        ("izz", i.m33),
-    ];
-    sheet.leaf("inertia", &moments.map(|(key, value)| (key, number(value))));
+    sheet.leaf("inertia", &moments(i));
     sheet.close();
     sheet.close();
 }

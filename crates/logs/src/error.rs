@@ -233,7 +233,7 @@ pub enum LogError {
         found: String,
     },
     /// Time stands still or goes backwards.
-    #[error("{}: row {row}, column {column}: time is {found} s after {previous} s, it must increase from row to row", path.display())]
+    #[error("{}: row {row}, column {column}: time is {} s after {} s, it must increase from row to row", path.display(), short(*found), short(*previous))]
     TimeNotIncreasing {
         /// The file.
         path: PathBuf,
@@ -412,6 +412,11 @@ impl LogError {
 
 fn hint(nearest: Option<&str>) -> String {
     nearest.map(|name| format!("; did you mean {name}?")).unwrap_or_default()
+}
+
+/// A number in at most some twenty characters.
+fn short(value: f64) -> String {
+    if value.abs() < 1e15 { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// The first of them.
