@@ -416,7 +416,9 @@ fn hint(nearest: Option<&str>) -> String {
 
 /// A number in at most some twenty characters.
 fn short(value: f64) -> String {
-    if value.abs() < 1e15 { format!("{value}") } else { format!("{value:e}") }
+    let is_tiny = value.abs() > 0.0 && value.abs() < 1e-6;
+    let is_plain = !is_tiny && value.abs() < 1e15;
+    if is_plain { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// The first of them.

@@ -106,7 +106,7 @@ mod tests {
     fn a_jump_that_is_no_full_turn_stays() {
         let time: Vec<f64> = (0..1000).map(|k| 0.002 * f64::from(k)).collect();
         let mut q = swing();
-        q[400..].iter_mut().for_each(|q| *q += 6.0);
+        q[400..].iter_mut().for_each(|q| *q += 5.0);
         assert_eq!(unwrapped(&time, &q), None);
     }
 }
