@@ -35,13 +35,15 @@ pub(crate) struct Unwrapped {
 /// Takes out of a rotation's position (rad) the full turns that a counter jumps by; `None` where there are none.
 ///
 /// ```text
-/// n = round(step / 2 pi) /= 0,   |step - 2 pi n| < 10 usual steps,   |step| > 10 usual steps
+/// n = round(step / 2 pi) /= 0,   |n| <= 4096,   |step - 2 pi n| < 10 usual steps,   |step| > 10 usual steps
 /// ```
 ///
 /// with the usual step the largest of all but one in fifty, so that what is left of a jump is a step of the
 /// motion. Steps count by rows of the usual clock.
 pub(crate) fn unwrapped(time: &[f64], position: &[f64]) -> Option<Unwrapped> {
     const USUAL_STEPS: f64 = 10.0;
+    /// Turns that an encoder of many turns counts, 12 bits of them: what jumps by more is no counter.
+    const MOST_TURNS: f64 = 4096.0;
     /// Bounds of what may be left of a jump (rad).
     const LEFT: [f64; 2] = [0.02, 0.5];
     if position.len() < 3 || time.len() != position.len() {
@@ -60,7 +62,8 @@ pub(crate) fn unwrapped(time: &[f64], position: &[f64]) -> Option<Unwrapped> {
         let near = USUAL_STEPS * usual * rows(k);
         let full = (step(k) / TAU).round();
         let left = (step(k) - full * TAU).abs();
-        if full.abs() > 0.0 && left < near.clamp(LEFT[0], LEFT[1]) && step(k).abs() > near {
+        let counts = full.abs() > 0.0 && full.abs() <= MOST_TURNS;
+        if counts && left < near.clamp(LEFT[0], LEFT[1]) && step(k).abs() > near {
             turns += full;
             found.jumps.push(k);
         }
