@@ -10,6 +10,7 @@ mod floors;
 mod manifests;
 mod places;
 mod references;
+mod rings;
 mod sealed;
 mod sources;
 mod tree;

@@ -1,5 +1,7 @@
 //! Several causes at once.
 
+use checks::synthetic::wam;
+use diagnosis::{Settings, Silent, diagnose};
 use rayon::prelude::*;
 
 use crate::world::{World, against_nominal, finding, named, sign};
@@ -57,6 +59,31 @@ fn three_causes_at_three_joints_are_all_found() {
             ("FR02 Coulomb friction at j4_elbow_pitch", "level", 0.5),
         ],
     );
+}
+
+/// Of damping that only the description has and friction that only the arm has, a fit of the damping
+/// alone is `w = -DAMPING + LEVEL mean(|qd|) / mean(qd²)`: nothing at the speed of these motions.
+#[test]
+fn damping_that_is_described_and_friction_that_is_not_are_found_though_they_cancel() {
+    const DAMPING: f64 = 4.0;
+    const LEVEL: f64 = 2.0;
+    let mut described = wam();
+    described.link_mut(3).unwrap().actuator.viscous = DAMPING;
+    let world = World::nominal().torque(3, |[_, qd, _]| LEVEL * sign(qd));
+    for seed in SEEDS {
+        let log = world.log(seed);
+        let speeds = || log.iter().flat_map(|run| run.joints[3].velocity.iter().flatten());
+        let [one, two] = [1, 2].map(|k| speeds().map(|qd| qd.abs().powi(k)).sum::<f64>());
+        println!("alone: {:.2}", LEVEL * one / two - DAMPING);
+        let answer = diagnose(&described, &log, &Settings::default(), &Silent).unwrap().diagnosis;
+        println!("{:?}", named(&answer));
+        let size = |words: &str| {
+            let found = finding(&answer, words);
+            found.unwrap_or_else(|| panic!("no {words}: {:?}", named(&answer))).parameters[0].value
+        };
+        assert!((size("FR02 Coulomb friction at j4_elbow_pitch") - LEVEL).abs() < 0.02 * LEVEL);
+        assert!(size("FR01 viscous friction at j4_elbow_pitch").abs() < 0.02 * DAMPING);
+    }
 }
 
 /// A spring's rest position and an offset are one number: together they are right.

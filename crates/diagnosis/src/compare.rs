@@ -2,18 +2,19 @@ use effects::{Hypothesis, hypotheses};
 use logs::{Run, repeated};
 use robot::Robot;
 
-use crate::design::Design;
+use crate::columns::design::Design;
 use crate::diagnose::{Outcome, diagnose};
 use crate::error::DiagnosisError;
-use crate::extent::inadequate;
-use crate::findings::effect_at;
-use crate::log::Log;
-use crate::problem::Model;
+use crate::outcome::effect_at::effect_at;
 use crate::progress::Progress;
+use crate::readiness::extent::inadequate;
+use crate::regression::fitted::Fitted;
+use crate::regression::problem::Model;
+use crate::regression::uncertainty::Uncertainty;
 use crate::result::{EffectAt, Estimate, Finding};
+use crate::search::study::Study;
 use crate::settings::Settings;
-use crate::study::Study;
-use crate::uncertainty::{Fitted, Uncertainty};
+use crate::signals::log::Log;
 
 /// What changed from one set of logs to another: of one arm before and after, early and late in a
 /// session, or of two arms that should be alike.

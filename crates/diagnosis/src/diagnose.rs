@@ -2,24 +2,24 @@ use effects::Frame;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
 
-use crate::at_limits::at_limits;
-use crate::between::between;
-use crate::design::Design;
+use crate::columns::design::Design;
+use crate::columns::shapes::sown;
 use crate::error::DiagnosisError;
-use crate::extent::{inadequate, without_unrecorded};
-use crate::heard::Heard;
-use crate::held_out::HeldOut;
-use crate::inspected::{Inspected, inspected};
-use crate::limits::limits;
-use crate::log::Log;
+use crate::oscillations::heard::Heard;
+use crate::oscillations::limits::limits;
+use crate::oscillations::tones::{BAND, tones};
+use crate::outcome::between::between;
+use crate::outcome::held_out::HeldOut;
+use crate::outcome::traces::{RunTraces, traces};
 use crate::progress::Progress;
+use crate::readiness::at_limits::at_limits;
+use crate::readiness::extent::{inadequate, without_unrecorded};
+use crate::readiness::inspected::{Inspected, inspected};
+use crate::readiness::second_encoders::without_idle_encoders;
 use crate::result::{Diagnosis, RunSummary};
-use crate::second_encoders::without_idle_encoders;
+use crate::search::study::Study;
 use crate::settings::Settings;
-use crate::shapes::sown;
-use crate::study::Study;
-use crate::tones::{BAND, tones};
-use crate::traces::RunTraces;
+use crate::signals::log::Log;
 
 /// Least width of the band in which tones are looked for, in cut-offs of the motion.
 const WIDE: f64 = 1.5;
@@ -119,7 +119,7 @@ pub fn diagnose(
         design: &design,
         inadequate: &inadequate,
     };
-    let (mut diagnosis, traces, extended, held_out) = study.run(progress)?;
+    let (mut diagnosis, traces, extended, held_out) = searched(&study, progress)?;
     diagnosis.data.runs = runs.iter().map(summary).collect();
     diagnosis.warnings = warnings;
     if read.is_some() {
@@ -127,6 +127,22 @@ pub fn diagnose(
         diagnosis.verdict = diagnosis.verdict.if_so_read();
     }
     Ok(Outcome { diagnosis, traces, extended, read, prepared, held_out })
+}
+
+/// Searches, tests and reports; `data.runs` and `warnings` are left for the caller.
+fn searched(
+    study: &Study,
+    progress: &dyn Progress,
+) -> Result<(Diagnosis, Vec<RunTraces>, Robot, Vec<HeldOut>), DiagnosisError> {
+    progress.stage("searching for causes", 3);
+    study.with_record(|record| {
+        progress.step();
+        let answer = study.answer(record, progress)?;
+        let diagnosis = study.report(record, &answer);
+        let traces = traces(study, &answer)?;
+        let held_out = study.held_out(record, &answer);
+        Ok((diagnosis, traces, answer.extended, held_out))
+    })?
 }
 
 /// Whether motors turn otherwise than they were described to: then efforts differ too.

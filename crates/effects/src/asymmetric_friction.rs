@@ -59,6 +59,21 @@ impl Explain for AsymmetricFriction {
         (forward - backward).abs() <= LARGEST_SKEW * (forward + backward)
     }
 
+    /// Half the change of the difference: without it both levels have changed alike.
+    fn more_than_plain(
+        &self,
+        place: Place,
+        [nominal, extended]: [&Robot; 2],
+        _: &Frame,
+    ) -> Vec<(usize, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let skew = |robot: &Robot| {
+            let a = &robot.links()[j].actuator;
+            0.5 * (a.coulomb_forward - a.coulomb_backward)
+        };
+        vec![(1, skew(extended) - skew(nominal))]
+    }
+
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
         let (Place::Joint(j), [level, skew]) = (place, weights) else { return };
         if let Some(link) = robot.link_mut(j) {

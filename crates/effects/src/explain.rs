@@ -87,6 +87,18 @@ pub trait Explain: Sync {
         true
     }
 
+    /// The weights without a change of which it is a plainer effect of the same place, by index, and
+    /// how far the second of the `robots`, nominal and extended, is from that; none where the effect is nothing more than its size.
+    fn more_than_plain(
+        &self,
+        place: Place,
+        robots: [&Robot; 2],
+        frame: &Frame,
+    ) -> Vec<(usize, f64)> {
+        let _ = (place, robots, frame);
+        Vec::new()
+    }
+
     /// How many times larger than as `robot` has it the effect has to be for logs of `frame` to
     /// show it, in the shape in which they show it least.
     fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame) -> f64 {

@@ -97,6 +97,11 @@ impl Hypothesis {
         self.model().is_some_and(|m| m.is_sound(self.place, extended))
     }
 
+    /// See [`Explain::more_than_plain`]; `robots` are the nominal and the extended one.
+    pub fn more_than_plain(self, robots: [&Robot; 2], frame: &Frame) -> Vec<(usize, f64)> {
+        self.model().map(|m| m.more_than_plain(self.place, robots, frame)).unwrap_or_default()
+    }
+
     /// See [`Explain::largest_unseen`].
     pub fn largest_unseen(self, robot: &Robot, frame: &Frame) -> f64 {
         self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame))

@@ -113,6 +113,21 @@ impl Explain for StribeckFriction {
         (velocity / least).sqrt().max(1.0)
     }
 
+    /// The change of the excess, and of the velocity beyond the least one, which has no larger size
+    /// unseen.
+    fn more_than_plain(
+        &self,
+        place: Place,
+        [nominal, extended]: [&Robot; 2],
+        frame: &Frame,
+    ) -> Vec<(usize, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let excess = |robot: &Robot| of(&robot.links()[j].actuator).map_or(0.0, |s| s.excess);
+        let velocity = of(&extended.links()[j].actuator).map_or(0.0, |s| s.velocity);
+        let unseen = self.largest_unseen(place, extended, frame);
+        vec![(0, excess(extended) - excess(nominal)), (1, velocity * (1.0 - unseen.powi(-2)))]
+    }
+
     fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
         let (Place::Joint(j), [excess, velocity @ ..]) = (place, weights) else { return };
         let Some(link) = robot.link_mut(j) else { return };

@@ -1,0 +1,167 @@
+use effects::{Frame, Hypothesis, Scale, hypotheses};
+use logs::LogError;
+use nalgebra::DVector;
+use robot::Robot;
+
+use crate::columns::beliefs::Beliefs;
+use crate::columns::evaluated::Evaluated;
+use crate::columns::repeats::{Runs, motions};
+use crate::columns::run_design::RunDesign;
+use crate::signals::along::Along;
+use crate::signals::log::Log;
+use crate::signals::look::Look;
+
+/// A hypothesis and its columns in the design.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Group {
+    /// The hypothesis.
+    pub hypothesis: Hypothesis,
+    /// Indices of its columns; two hypotheses may share a column.
+    pub columns: Vec<usize>,
+    /// Joints that its columns reach.
+    pub joints: Vec<usize>,
+}
+
+/// The regression problem of all runs: which columns reach which joint, and their values.
+#[derive(Debug, Clone)]
+pub(crate) struct Design {
+    /// The hypotheses.
+    pub groups: Vec<Group>,
+    /// Number of columns.
+    pub width: usize,
+    /// Standard deviation of each weight before any data.
+    pub prior: Vec<f64>,
+    /// Lowest and highest physically possible value of each weight.
+    pub bounds: Vec<(f64, f64)>,
+    /// The columns that reach each joint, in order.
+    pub local: Vec<Vec<usize>>,
+    /// One entry a run.
+    pub runs: Vec<RunDesign>,
+    /// Rate of the samples (Hz).
+    pub rate_hz: f64,
+    /// What the columns were made in.
+    pub frame: Frame,
+    /// Joints that moved; the rows of others take no part.
+    pub moved: Vec<bool>,
+    /// Which joints move in which run, `[run][joint]`.
+    pub moves: Vec<Vec<bool>>,
+    /// Number of the motion of each run: runs that repeat a motion share it.
+    pub motion: Vec<usize>,
+    /// What it explains.
+    pub look: Look,
+}
+
+impl Design {
+    /// Evaluates every hypothesis about `robot` along the prepared runs.
+    pub fn new(robot: &Robot, log: &Log) -> Result<Self, LogError> {
+        let all: Vec<_> = hypotheses(robot).into_iter().filter(|h| log.asks(*h)).collect();
+        Self::of(robot, log, &all)
+    }
+
+    /// Evaluates some hypotheses about `robot` along the prepared runs.
+    pub fn of(robot: &Robot, log: &Log, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
+        let (frame, scale) = (Frame::of_logs(log.prepared), Scale::of_logs(robot, log.prepared));
+        let along = log.along(robot, &frame)?;
+        let evaluated = |along: &Along| Evaluated::new(along, hypotheses, log.look);
+        let mut evaluated: Vec<Evaluated> =
+            along.iter().map(evaluated).collect::<Result<_, LogError>>()?;
+        if let Some(described) = log.described {
+            let described = log.along(described, &frame)?;
+            evaluated.iter_mut().zip(&described).for_each(|(e, along)| e.measure_from(along));
+        }
+        let mut design = Self {
+            groups: Vec::new(),
+            width: 0,
+            prior: Vec::new(),
+            bounds: Vec::new(),
+            local: vec![Vec::new(); robot.joint_count()],
+            runs: Vec::new(),
+            rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
+            frame,
+            moved: log.rows(),
+            look: log.look,
+            moves: Vec::new(),
+            motion: Vec::new(),
+        };
+        let origins = design.lay_out(robot, hypotheses, &scale, &evaluated);
+        design.runs = evaluated.iter().map(|e| e.to_run(&design.local, &origins)).collect();
+        design.moves = design.runs.iter().map(RunDesign::moves).collect();
+        design.motion = motions(design.repeated());
+        Ok(design)
+    }
+
+    /// Gives every distinct column an index and every hypothesis its columns; returns the
+    /// hypothesis and weight that each column comes from.
+    fn lay_out(
+        &mut self,
+        robot: &Robot,
+        hypotheses: &[Hypothesis],
+        scale: &Scale,
+        runs: &[Evaluated],
+    ) -> Vec<(usize, usize)> {
+        let mut origins: Vec<(usize, usize)> = Vec::new();
+        for (h, &hypothesis) in hypotheses.iter().enumerate() {
+            let prior = hypothesis.prior(robot, scale);
+            let bounds = hypothesis.bounds(robot);
+            let mut group = Group { hypothesis, columns: Vec::new(), joints: Vec::new() };
+            for (k, &sd) in prior.iter().enumerate() {
+                let reached =
+                    || runs.iter().take(1).flat_map(|r| &r.columns[h][k]).map(|p| p.joint);
+                let same = |&(a, b): &(usize, usize)| {
+                    runs.iter().all(|r| r.columns[a][b] == r.columns[h][k])
+                };
+                let index = origins.iter().position(same).unwrap_or(origins.len());
+                if index == origins.len() {
+                    origins.push((h, k));
+                    self.prior.push(sd);
+                    self.bounds.push(bounds[k]);
+                    reached().for_each(|j| self.local[j].push(index));
+                }
+                group.columns.push(index);
+                group.joints.extend(reached().filter(|&j| self.moved[j]));
+            }
+            group.joints.sort_unstable();
+            group.joints.dedup();
+            // What reaches no joint that moved, or has no prior spread, cannot be tested.
+            if !group.joints.is_empty() && prior.iter().all(|&sd| sd > 0.0) {
+                self.groups.push(group);
+            }
+        }
+        self.width = origins.len();
+        origins
+    }
+
+    /// What is believed of every weight before any data.
+    pub fn beliefs(&self) -> Beliefs<'_> {
+        Beliefs { prior: &self.prior, bounds: &self.bounds }
+    }
+
+    /// The runs, as what is asked for repeats.
+    pub fn repeated(&self) -> Runs<'_> {
+        Runs { runs: &self.runs, rate_hz: self.rate_hz, moved: &self.moved }
+    }
+
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.local.len()
+    }
+
+    /// Weights of all columns in the local order of joint `j`.
+    pub fn local_weights(&self, j: usize, weights: &[f64]) -> Vec<f64> {
+        // Where nothing could be fitted there are no weights: nothing is explained then.
+        self.local[j].iter().map(|&c| weights.get(c).copied().unwrap_or(0.0)).collect()
+    }
+
+    /// Residual of run `r` at joint `j` after the columns with `weights` (N·m or N).
+    pub fn remaining(&self, r: usize, j: usize, weights: &[f64]) -> Vec<f64> {
+        let joint = &self.runs[r].joints[j];
+        let w = DVector::from_vec(self.local_weights(j, weights));
+        let explained = &joint.x * w;
+        joint.residual().zip(explained.iter()).map(|(y, e)| y - e).collect()
+    }
+
+    /// Index of the hypothesis `h` among the groups.
+    pub fn find(&self, h: Hypothesis) -> Option<usize> {
+        self.groups.iter().position(|g| g.hypothesis == h)
+    }
+}

@@ -1,0 +1,13 @@
+//! The regression problem: the columns of every hypothesis about a robot, and what they are to
+//! explain.
+//!
+//! ```text
+//! effort - nominal effort = sum over hypotheses of columns weights + noise
+//! ```
+
+pub(crate) mod beliefs;
+pub(crate) mod design;
+pub(crate) mod evaluated;
+pub(crate) mod repeats;
+pub(crate) mod run_design;
+pub(crate) mod shapes;

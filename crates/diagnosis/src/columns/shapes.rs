@@ -1,0 +1,134 @@
+use std::collections::{BTreeMap, BTreeSet};
+
+use catalogue::EffectKind;
+use effects::{Column, Frame, Germ, Hypothesis, Scale, germs};
+use logs::LogError;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rayon::prelude::*;
+use robot::Robot;
+
+use crate::columns::design::Design;
+use crate::signals::along::Along;
+use crate::signals::log::Log;
+
+/// The robot with the germ of every effect whose columns are not linear in one of its
+/// parameters, of the trial value that explains most of what all effects without germs leave.
+///
+/// With `X` the columns of those effects, `C` those of the germ and `r = y - X w`,
+///
+/// ```text
+/// explained = r' C (C' C - C' X (X' X + 1 / prior^2)^-1 X' C)^-1 C' r
+/// ```
+///
+/// over the joints that it reaches, each weighted by the power of its `r`.
+pub(crate) fn sown(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
+    let (prepared, moved) = (log.prepared, log.moved);
+    let relevant = |g: &Germ| {
+        let looked_for = !log.without.contains(&g.hypothesis.kind);
+        looked_for && g.hypothesis.joint().is_some_and(|j| moved[j])
+    };
+    let germs: Vec<Germ> =
+        germs(robot, &Scale::of_logs(robot, prepared)).into_iter().filter(relevant).collect();
+    let kinds = germs.iter().map(|germ| germ.hypothesis.kind).chain(log.without.iter().copied());
+    let without: Vec<EffectKind> = kinds.collect::<BTreeSet<_>>().into_iter().collect();
+    let design = Design::new(robot, &Log { without: &without, ..*log })?;
+    let frame = Frame::of_logs(prepared);
+    let mut runs = log.along(robot, &frame)?;
+    let left: Vec<Option<Left>> = (0..design.joints())
+        .into_par_iter()
+        .map(|j| moved[j].then(|| Left::new(&design, j))?)
+        .collect();
+    let columns = columns(&germs, &mut runs);
+    let explained: Vec<f64> =
+        columns.par_iter().map(|runs| explained(&left, runs).unwrap_or(0.0)).collect();
+    let mut best: BTreeMap<Hypothesis, (f64, Germ)> = BTreeMap::new();
+    for (germ, explained) in germs.into_iter().zip(explained) {
+        let known = best.entry(germ.hypothesis).or_insert((explained, germ));
+        if explained > known.0 {
+            *known = (explained, germ);
+        }
+    }
+    let mut sown = robot.clone();
+    best.into_values().for_each(|(_, germ)| germ.sow(&mut sown));
+    Ok(sown)
+}
+
+/// The columns of every germ, `[germ][run][weight]`.
+fn columns(germs: &[Germ], runs: &mut [Along]) -> Vec<Vec<Vec<Column>>> {
+    let mut all = vec![Vec::new(); germs.len()];
+    for along in runs {
+        let raw: Vec<Vec<Column>> = germs.iter().map(|g| g.columns(&mut along.motion)).collect();
+        let finished = raw.into_par_iter().map(|c| along.finished(c)).collect::<Vec<_>>();
+        all.iter_mut().zip(finished).for_each(|(of, columns)| of.push(columns));
+    }
+    all
+}
+
+/// What all effects that are linear leave at one joint.
+pub(crate) struct Left {
+    /// Columns of those effects over all runs.
+    pub x: DMatrix<f64>,
+    /// Normal matrix with the priors.
+    pub normal: Cholesky<f64, Dyn>,
+    /// Measured minus nominal effort over all runs (N·m or N).
+    pub y: DVector<f64>,
+    /// One over the variance of each weight before any data, in units of the power of `y`.
+    pub ridge: DVector<f64>,
+    pub residual: DVector<f64>,
+    /// One over the mean square of the residual.
+    weight: f64,
+    /// One where a sample tells of the effort, else zero: rows of all the others are none.
+    pub tells: DVector<f64>,
+}
+
+impl Left {
+    pub fn new(design: &Design, j: usize) -> Option<Self> {
+        let runs = || design.runs.iter().map(|r| &r.joints[j]);
+        let samples = runs().map(|run| run.measured.len()).sum();
+        let mut x = DMatrix::zeros(samples, design.local[j].len());
+        let mut first = 0;
+        for run in runs() {
+            x.rows_mut(first, run.x.nrows()).copy_from(&run.x);
+            first += run.x.nrows();
+        }
+        let tells = runs().flat_map(|run| &run.tells).map(|tells| f64::from(u8::from(*tells)));
+        let tells = DVector::from_iterator(samples, tells);
+        x.column_iter_mut().for_each(|mut column| column.component_mul_assign(&tells));
+        let y = DVector::from_iterator(samples, runs().flat_map(|run| run.residual()));
+        let y = y.component_mul(&tells);
+        let power = y.norm_squared() / samples.max(1) as f64;
+        let ridge = design.local[j].iter().map(|&column| power / design.prior[column].powi(2));
+        let ridge = DVector::from_iterator(x.ncols(), ridge);
+        let normal = (x.tr_mul(&x) + DMatrix::from_diagonal(&ridge)).cholesky()?;
+        let residual = &y - &x * normal.solve(&x.tr_mul(&y));
+        let mean = residual.norm_squared() / samples.max(1) as f64;
+        (mean > 0.0).then(|| Self { x, normal, y, ridge, residual, weight: mean.recip(), tells })
+    }
+}
+
+/// What the columns of one germ, `[run][weight]`, explain of what is left, in units of its mean
+/// square.
+fn explained(left: &[Option<Left>], runs: &[Vec<Column>]) -> Option<f64> {
+    let width = runs.first()?.len();
+    let (mut normal, mut score) = (DMatrix::zeros(width, width), DVector::zeros(width));
+    for (j, left) in left.iter().enumerate() {
+        let Some(left) = left else { continue };
+        let column = |k: usize| -> Option<DVector<f64>> {
+            let part =
+                |run: &Vec<Column>| run[k].iter().find(|p| p.joint == j).map(|p| p.values.clone());
+            let parts: Option<Vec<Vec<f64>>> = runs.iter().map(part).collect();
+            Some(DVector::from_vec(parts?.concat()).component_mul(&left.tells))
+        };
+        let Some(columns) = (0..width).map(column).collect::<Option<Vec<_>>>() else { continue };
+        let c = DMatrix::from_columns(&columns);
+        let across = left.x.tr_mul(&c);
+        normal += (c.tr_mul(&c) - across.tr_mul(&left.normal.solve(&across))) * left.weight;
+        score += c.tr_mul(&left.residual) * left.weight;
+    }
+    // A direction that the other effects have already explains nothing.
+    for k in 0..width {
+        normal[(k, k)] *= 1.0 + 1e-9;
+    }
+    let solved = normal.cholesky()?.solve(&score);
+    Some(score.dot(&solved))
+}

@@ -1,0 +1,78 @@
+use crate::signals::tone::{Beat, Tone};
+use crate::thresholds::{OF_A_BAND, ONE_LINE};
+
+/// Oscillations in the logs.
+#[derive(Debug, Default)]
+pub(crate) struct Heard {
+    /// Those with one period each.
+    pub tones: Vec<Tone>,
+    /// Joints, by their index, with a band of frequencies about one (Hz): something rings.
+    pub ringing: Vec<(usize, f64)>,
+}
+
+impl Heard {
+    /// Takes the lines of one joint, the strongest first. A line whose amplitude varies has weak ones
+    /// beside it, which are no tones; lines of one size side by side are a band.
+    pub fn take(&mut self, lines: Vec<Tone>) {
+        let is_beside = |a: &Tone, b: &Tone| match (a.beat, b.beat) {
+            (Beat::Clock(a), Beat::Clock(b)) | (Beat::Position(a), Beat::Position(b)) => {
+                (a - b).abs() < ONE_LINE * b
+            }
+            _ => false,
+        };
+        for (i, line) in lines.iter().enumerate() {
+            if lines[..i].iter().any(|stronger| is_beside(line, stronger)) {
+                continue;
+            }
+            let least = OF_A_BAND * line.amplitude();
+            let mut weaker = lines[i + 1..].iter().filter(|weaker| is_beside(weaker, line));
+            match line.beat {
+                Beat::Clock(hz) if weaker.any(|weaker| weaker.amplitude() > least) => {
+                    self.ringing.push((line.joint, hz));
+                }
+                _ => self.tones.push(line.clone()),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Complex;
+
+    use super::*;
+
+    /// Tones and joints that ring in lines of one joint, the strongest first.
+    fn heard(lines: &[(Beat, f64)]) -> (Vec<Beat>, Vec<f64>) {
+        let line = |&(beat, amplitude): &(Beat, f64)| {
+            let z = vec![Complex::from_polar(amplitude, 0.3); 2];
+            Tone { joint: 4, beat, z, error: [0.0; 3], stands_out: 0.0, share: 0.0 }
+        };
+        let mut heard = Heard::default();
+        heard.take(lines.iter().map(line).collect());
+        assert!(heard.ringing.iter().all(|(joint, _)| *joint == 4));
+        let beats = heard.tones.iter().map(|tone| tone.beat).collect();
+        (beats, heard.ringing.iter().map(|(_, hz)| *hz).collect())
+    }
+
+    #[test]
+    fn lines_far_apart_are_tones_each() {
+        let lines = [(Beat::Clock(4.0), 1.0), (Beat::Position(4.1), 0.9), (Beat::Clock(8.0), 0.1)];
+        let beats: Vec<Beat> = lines.iter().map(|(beat, _)| *beat).collect();
+        assert_eq!(heard(&lines), (beats, vec![]));
+    }
+
+    #[test]
+    fn what_a_strong_line_leaves_beside_it_is_no_tone() {
+        let ripple = Beat::Position(232.0);
+        assert_eq!(heard(&[(ripple, 1.1), (Beat::Position(230.9), 0.05)]), (vec![ripple], vec![]));
+        let hum = Beat::Clock(10.0);
+        assert_eq!(heard(&[(hum, 1.0), (Beat::Clock(10.3), 0.1)]), (vec![hum], vec![]));
+    }
+
+    #[test]
+    fn lines_of_one_size_side_by_side_are_a_band_that_rings() {
+        let band = [(Beat::Clock(24.3), 7.2), (Beat::Clock(24.7), 5.8), (Beat::Clock(25.1), 5.7)];
+        assert_eq!(heard(&band), (vec![], vec![24.3]));
+    }
+}

@@ -1,0 +1,150 @@
+use catalogue::EffectKind;
+use effects::Frame;
+use logs::LogError;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use robot::{Robot, TorqueSource};
+
+use crate::columns::design::Design;
+use crate::columns::shapes::Left;
+use crate::regression::noise::integrated_time;
+use crate::signals::along::Along;
+use crate::signals::limit::Limit;
+use crate::signals::log::Log;
+use crate::thresholds::{LIMIT_LEFT, LIMIT_SHARE, LIMIT_STANDS_OUT};
+
+/// Trial limits: so many quantiles of the absolute effort.
+const TRIALS: usize = 24;
+
+/// The least of those quantiles.
+const LOWEST_QUANTILE: f64 = 0.6;
+
+/// Share of the largest effort beyond a limit from which on a sample is above it.
+const TOUCHED: f64 = 0.01;
+
+/// Rise of the deviance at the ends of a 95 per cent interval.
+const CHI_SQUARE: f64 = 3.84;
+
+/// The joints whose effort beyond some limit moves nothing, where the effort is a command: one
+/// that was measured is never beyond.
+///
+/// ```text
+/// clamp(effort, -limit, limit) - nominal = columns w + noise
+/// ```
+///
+/// with the limit that leaves least.
+pub(crate) fn limits(robot: &Robot, log: &Log) -> Result<Vec<Limit>, LogError> {
+    if log.without.contains(&EffectKind::TorqueSaturation) {
+        return Ok(Vec::new());
+    }
+    let design = Design::new(robot, log)?;
+    let frame = Frame::of_logs(log.prepared);
+    let runs = log.along(robot, &frame)?;
+    let commanded = |j: &usize| {
+        let source = robot.links()[*j].actuator.torque_source;
+        log.moved[*j] && source == TorqueSource::Commanded
+    };
+    let joints = (0..design.joints()).into_par_iter().filter(commanded);
+    let found: Vec<Option<Limit>> = joints
+        .map(|j| Left::new(&design, j).map_or(Ok(None), |left| at_joint(&runs, &left, j)))
+        .collect::<Result<_, LogError>>()?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// What is left where the effort of the log is clamped.
+struct Trial {
+    /// Sum of squares over all samples.
+    deviance: f64,
+    /// `[run][sample]`, of the samples that tell.
+    rest: Vec<Vec<f64>>,
+    /// The effort beyond the limit, low-passed; none where a sample does not tell.
+    beyond: DVector<f64>,
+}
+
+fn trial(runs: &[Along], left: &Left, limit: &Limit) -> Result<Trial, LogError> {
+    let beyond: Vec<Vec<f64>> =
+        runs.iter().map(|run| run.beyond(limit)).collect::<Result<_, _>>()?;
+    let lengths: Vec<usize> = beyond.iter().map(Vec::len).collect();
+    let beyond = DVector::from_vec(beyond.concat()).component_mul(&left.tells);
+    let clamped = &left.y - &beyond;
+    let rest = &clamped - &left.x * left.normal.solve(&left.x.tr_mul(&clamped));
+    let deviance = rest.norm_squared();
+    let mut samples = rest.iter().zip(&left.tells);
+    let mut told = |n: usize| {
+        let of_run = samples.by_ref().take(n);
+        of_run.filter(|(_, tells)| **tells > 0.0).map(|(rest, _)| *rest).collect()
+    };
+    let rest = lengths.iter().map(|&n| told(n)).collect();
+    Ok(Trial { deviance, rest, beyond })
+}
+
+/// Whether effort beyond the limit moves nothing: what the samples below it say of all other
+/// effects predicts the clamped effort above it, and not the effort.
+fn moves_nothing(left: &Left, beyond: &DVector<f64>) -> bool {
+    let touched = TOUCHED * beyond.amax();
+    let told = (0..beyond.len()).filter(|&t| left.tells[t] > 0.0);
+    let (above, below): (Vec<usize>, Vec<usize>) = told.partition(|&t| beyond[t].abs() > touched);
+    let (x, y) = (left.x.select_rows(&below), left.y.select_rows(&below));
+    let normal = x.tr_mul(&x) + DMatrix::from_diagonal(&left.ridge);
+    let Some(normal) = normal.cholesky() else { return false };
+    let weights = normal.solve(&x.tr_mul(&y));
+    let noise = (y - x * &weights).norm_squared() / below.len().max(1) as f64;
+    let gap = left.y.select_rows(&above) - left.x.select_rows(&above) * weights;
+    let clamped = &gap - beyond.select_rows(&above);
+    let power = gap.norm_squared() / above.len().max(1) as f64;
+    power > LIMIT_STANDS_OUT * noise && clamped.norm_squared() < LIMIT_LEFT * gap.norm_squared()
+}
+
+fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogError> {
+    let mut efforts: Vec<f64> = runs.iter().flat_map(|run| run.effort(j)).map(f64::abs).collect();
+    efforts.sort_by(f64::total_cmp);
+    let quantile = |k: usize| {
+        let share = LOWEST_QUANTILE + (1.0 - LOWEST_QUANTILE) * k as f64 / TRIALS as f64;
+        efforts.get((share * efforts.len() as f64) as usize).copied().unwrap_or(0.0)
+    };
+    let at =
+        |limit: f64| Limit { joint: j, limit, ci95: [limit; 2], share: 0.0, log_evidence: 0.0 };
+    let deviance = |limit: f64| trial(runs, left, &at(limit)).map(|t| t.deviance);
+    let mut curve: Vec<(f64, f64)> = Vec::new();
+    for k in 0..TRIALS {
+        curve.push((quantile(k), deviance(quantile(k))?));
+    }
+    let Some(best) = (0..TRIALS).min_by(|&a, &b| curve[a].1.total_cmp(&curve[b].1)) else {
+        return Ok(None);
+    };
+    let unlimited = left.residual.norm_squared();
+    // Where the least limit does best, less effort is better: it is not the limit that explains it.
+    if best == 0 || curve[best].1 > (1.0 - LIMIT_SHARE) * unlimited {
+        return Ok(None);
+    }
+    // The trials next to the best bracket it: thirds of that are dropped until nothing is left.
+    let mut low = curve[best.saturating_sub(1)].0;
+    let mut high = curve[(best + 1).min(TRIALS - 1)].0;
+    while high - low > 1e-4 * high {
+        let third = (high - low) / 3.0;
+        if deviance(low + third)? > deviance(high - third)? {
+            low += third;
+        } else {
+            high -= third;
+        }
+    }
+    let limit = at(0.5 * (low + high));
+    let found = trial(runs, left, &limit)?;
+    if !moves_nothing(left, &found.beyond) {
+        return Ok(None);
+    }
+    let samples = found.rest.iter().map(Vec::len).sum::<usize>() as f64;
+    let independent = samples / integrated_time(&found.rest);
+    let rise = CHI_SQUARE * found.deviance / independent;
+    let mut ci95 = [limit.limit; 2];
+    for (end, way) in ci95.iter_mut().zip([-1.0, 1.0]) {
+        let mut step = 1e-4 * limit.limit;
+        while *end > 0.0 && deviance(*end)? - found.deviance < rise && step < limit.limit {
+            *end = (*end + way * step).max(0.0);
+            step *= 1.5;
+        }
+    }
+    let left = (found.deviance / unlimited).clamp(f64::MIN_POSITIVE, 1.0);
+    let log_evidence = -0.5 * independent * left.ln();
+    Ok(Some(Limit { ci95, share: 1.0 - left, log_evidence, ..limit }))
+}

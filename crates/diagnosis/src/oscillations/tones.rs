@@ -1,0 +1,461 @@
+use std::f64::consts::{LN_2, TAU};
+use std::ops::Range;
+
+use effects::Frame;
+use logs::{LogError, LowPass, Prepared};
+use nalgebra::Complex;
+use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use robot::Robot;
+
+use crate::oscillations::heard::Heard;
+use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
+use crate::signals::along::Along;
+use crate::signals::log::Log;
+use crate::signals::rest::Rest;
+use crate::signals::tone::{Beat, Tone};
+use crate::thresholds::{
+    LINE_IS_EVEN, LINE_SHARE, LINE_SHARE_IN_BAND, LINE_SHARE_OF_SLOW, LINE_SHARE_OF_SPEED,
+    LINE_STANDS_OUT, LINE_STANDS_OUT_IN_FEW,
+};
+
+/// Cut-off of the band in which tones are looked for, as a share of the sampling rate.
+pub(crate) const BAND: f64 = 0.1;
+
+/// The highest frequency looked at, as a share of that cut-off.
+const HIGHEST: f64 = 0.6;
+
+/// The lowest frequency looked at (Hz).
+const LOWEST_HZ: f64 = 0.3;
+
+/// Fewest waves over the range of motion: fewer may be anything that depends on position.
+const FEWEST_WAVES: f64 = 8.0;
+
+/// Most waves over the range of motion.
+const MOST_WAVES: f64 = 1000.0;
+
+/// Cut-off of what such a tone is compared with, in bandwidths of the motion.
+const SLOW_BAND: f64 = 2.0;
+
+/// Order of that low-pass.
+const ORDER: usize = 4;
+
+/// Length of a window in which that is asked (s): some turns of the slowest line that is looked for.
+const WINDOW_S: f64 = 5.0;
+
+/// Fewest windows in which no joint has that share.
+const FEWEST_STILL: usize = 2;
+
+/// Most tones of one joint.
+const MOST: usize = 3;
+
+/// Zeros that are added to a run before its spectrum is taken, in lengths of the longest.
+const PADDED: usize = 4;
+
+/// Values on either side of a line that are just beside it: eight times its width.
+const BESIDE: usize = 32;
+
+/// Frequencies whose median is the power around them.
+const AROUND: usize = 200;
+
+/// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
+/// lines of the spectrum over time and over position that stand out in every run.
+///
+/// A line below `slowest_hz` may be the motion's, unless it is most of what is left all the time, and
+/// some of the time no joint moves much at its frequency.
+pub(crate) fn tones(
+    robot: &Robot,
+    wide: &Prepared,
+    frame: &Frame,
+    (log, slowest_hz): (&Log, f64),
+) -> Result<Heard, LogError> {
+    let rest = |run| Rest::new(Along::new(robot, frame, run, wide.cutoff_hz, log.limits)?);
+    let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
+    let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
+    let at = |j: usize| {
+        if log.moved[j] { at_joint(&runs, j, bands_hz) } else { Vec::new() }
+    };
+    let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
+    let lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
+    let mut heard = Heard::default();
+    for lines in lines {
+        heard.take(lines);
+    }
+    heard.tones.retain(looked_for);
+    Ok(heard)
+}
+
+/// What the tones of a joint may keep time with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Follows {
+    Position,
+    Clock,
+}
+
+/// One joint: its residual in every run, and what keeps time with it.
+struct Joint<'a> {
+    index: usize,
+    follows: Follows,
+    runs: &'a [Rest<'a>],
+    /// `[run][sample]`.
+    left: &'a [Vec<f64>],
+    /// `[run][sample]`: the highest value of the beat (rad per unit) at which a sample counts.
+    highest: &'a [Vec<f64>],
+}
+
+fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3]) -> Vec<Tone> {
+    let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
+    let highest = TAU * HIGHEST * cutoff_hz;
+    // What holds a standing joint is a constant of any size, and with it a sine over position.
+    let by_speed = |run: &Rest| {
+        let at =
+            |(v, stands): (&f64, &bool)| if *stands { 0.0 } else { highest / v.abs().max(1e-9) };
+        run.qd[j].iter().zip(&run.stands[j]).map(at).collect()
+    };
+    let by_speed: Vec<Vec<f64>> = runs.iter().map(by_speed).collect();
+    let anywhere: Vec<Vec<f64>> = runs.iter().map(|r| vec![highest; r.time.len()]).collect();
+    let slowest_hz = slowest_hz.max(LOWEST_HZ);
+    let mut tones: Vec<Tone> = Vec::new();
+    while tones.len() < MOST {
+        let of = |follows, highest| Joint { index: j, follows, runs, left: &left, highest };
+        let (clock, position) = (of(Follows::Clock, &anywhere), of(Follows::Position, &by_speed));
+        let line = |band_hz: [f64; 2]| clock.found(|clock| clock.lines(band_hz));
+        let found = [
+            position.found(|position| position.waves()),
+            line([slowest_hz, HIGHEST * cutoff_hz])
+                .filter(|tone| is_much_of_its_band(tone, &clock, band_hz)),
+            line([LOWEST_HZ, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, slowest_hz)),
+        ];
+        let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
+        let Some(tone) = strongest else { break };
+        left = clock.without(&tone);
+        tones.push(tone);
+    }
+    tones
+}
+
+/// Whether a tone is faster than the band of the diagnosis, or much of what is left in it.
+fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
+    let Beat::Clock(frequency_hz) = tone.beat else { return false };
+    let power = |left: &[Vec<f64>]| -> f64 {
+        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, band_hz);
+        left.iter().zip(clock.runs).flat_map(of).map(|x| x * x).sum()
+    };
+    frequency_hz > band_hz
+        || power(&clock.without(tone)) < (1.0 - LINE_SHARE_IN_BAND) * power(clock.left)
+}
+
+/// Whether a tone is most of what is left wherever one looks, and no motion: some of the time no joint
+/// has much of its speed at its frequency.
+fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
+    let Beat::Clock(frequency_hz) = tone.beat else { return false };
+    let runs = clock.runs;
+    let slow = |left: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, SLOW_BAND * slowest_hz);
+        left.iter().zip(runs).map(of).collect()
+    };
+    let (with, without) = (slow(clock.left), slow(&clock.without(tone)));
+    let windows = || {
+        let of = |(r, run): (usize, &Rest)| windows(&run.time).into_iter().map(move |w| (r, w));
+        runs.iter().enumerate().flat_map(of)
+    };
+    let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+    let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
+    let is_most = |(r, w): (usize, Range<usize>)| {
+        in_window(&without[r], &w) < (1.0 - LINE_SHARE_OF_SLOW) * in_window(&with[r], &w)
+    };
+    let is_still = |(r, w): &(usize, Range<usize>)| {
+        let moves = |qd: &Vec<f64>| {
+            let samples = qd.iter().zip(&runs[*r].time).take(w.end).skip(w.start);
+            let turning = samples.map(|(v, t)| Complex::cis(-TAU * frequency_hz * t) * v);
+            // Of a sine alone the sum is n / 2 times its amplitude, the power n / 2 times its square.
+            2.0 * turning.sum::<Complex<f64>>().norm_sqr() / w.len().max(1) as f64
+                > LINE_SHARE_OF_SPEED * in_window(qd, w)
+        };
+        !runs[*r].qd.iter().any(moves)
+    };
+    windows().all(is_most) && windows().filter(is_still).count() >= FEWEST_STILL
+}
+
+/// What of a signal is slower than a cut-off.
+fn low_passed(x: &[f64], time: &[f64], cutoff_hz: f64) -> Vec<f64> {
+    let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+    let rate_hz = time.len().saturating_sub(1) as f64 / span;
+    let mut slow = x.to_vec();
+    // A rate that leaves no room for it has nothing faster.
+    if let Ok(low_pass) = LowPass::new(ORDER, cutoff_hz, rate_hz) {
+        low_pass.apply(&mut slow);
+    }
+    slow
+}
+
+/// Parts of a run of some `WINDOW_S`.
+fn windows(time: &[f64]) -> Vec<Range<usize>> {
+    let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+    let count = ((span / WINDOW_S) as usize).max(1);
+    (0..count).map(|i| i * time.len() / count..(i + 1) * time.len() / count).collect()
+}
+
+/// The spectra of all runs over the same values.
+struct Spectrum {
+    /// `[run][value]`
+    powers: Vec<Vec<f64>>,
+    /// The first value, a phase per unit of beat.
+    first: f64,
+    /// Distance to the next one.
+    step: f64,
+}
+
+/// A line of a spectrum.
+#[derive(Debug, Clone)]
+struct Line {
+    /// Its place in the spectrum.
+    index: usize,
+    /// Phase per unit of beat.
+    at: f64,
+    /// Distance to the next value that was looked at.
+    step: f64,
+    /// Its power in every run.
+    power: Vec<f64>,
+}
+
+impl Joint<'_> {
+    /// What keeps time in run `r` (s; or rad or m).
+    fn beat(&self, r: usize) -> &[f64] {
+        match self.follows {
+            Follows::Position => &self.runs[r].q[self.index],
+            Follows::Clock => &self.runs[r].time,
+        }
+    }
+
+    /// The tone of the strongest line of a spectrum, where it stands out in every run from what
+    /// is left without it: the line itself is wide, over position above all.
+    fn found(&self, spectrum: impl Fn(&Joint) -> Option<Spectrum>) -> Option<Tone> {
+        let line = spectrum(self)?.line()?;
+        let mut tone = self.tone(&line)?;
+        let left = self.without(&tone);
+        let rest = spectrum(&Joint { left: &left, ..*self })?;
+        let around: Vec<f64> = rest.around(line.index)?;
+        let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
+        tone.stands_out = ratios.fold(f64::INFINITY, f64::min);
+        tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
+        let least = if self.left.len() < 3 { LINE_STANDS_OUT_IN_FEW } else { LINE_STANDS_OUT };
+        (tone.stands_out > least).then_some(tone)
+    }
+
+    /// What is left without a tone, `[run][sample]`.
+    fn without(&self, tone: &Tone) -> Vec<Vec<f64>> {
+        let of = |(r, left): (usize, &Vec<f64>)| {
+            let wave = self.runs[r].along.wave(self.index, tone.beat, 0.0);
+            left.iter().zip(wave.values).map(|(x, sine)| x - (tone.z[r] * sine).re).collect()
+        };
+        self.left.iter().enumerate().map(of).collect()
+    }
+
+    /// The spectra over position.
+    fn waves(&self) -> Option<Spectrum> {
+        let all = || (0..self.runs.len()).flat_map(|r| self.beat(r).iter().copied());
+        let (low, high) =
+            all().fold((f64::INFINITY, -f64::INFINITY), |(l, h), q| (l.min(q), h.max(q)));
+        let wave = TAU / (high - low);
+        if !wave.is_finite() {
+            return None;
+        }
+        let step = 0.25 * wave;
+        let first = FEWEST_WAVES * wave;
+        let count = (4.0 * (MOST_WAVES - FEWEST_WAVES)) as usize;
+        let powers: Vec<Vec<f64>> = (0..self.left.len())
+            .into_par_iter()
+            .map(|r| self.scan(r, first, step, count))
+            .collect();
+        Some(Spectrum { powers, first, step })
+    }
+
+    /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count, until fewer than
+    /// a spectrum needs are left.
+    fn scan(&self, r: usize, first: f64, step: f64, count: usize) -> Vec<f64> {
+        let mut order: Vec<usize> = (0..self.left[r].len()).collect();
+        order.sort_by(|&a, &b| self.highest[r][b].total_cmp(&self.highest[r][a]));
+        let beat = self.beat(r);
+        let signal = |at: f64| order.iter().map(move |&t| Complex::cis(-at * beat[t]));
+        let turns: Vec<Complex<f64>> = signal(step).collect();
+        let mut now: Vec<Complex<f64>> =
+            signal(first).zip(&order).map(|(z, &t)| z * self.left[r][t]).collect();
+        let mut powers = Vec::with_capacity(count);
+        for k in 0..count {
+            let at = first + k as f64 * step;
+            let counted = order.partition_point(|&t| self.highest[r][t] >= at);
+            if counted < AROUND {
+                break;
+            }
+            now.truncate(counted);
+            let sum: Complex<f64> = now.iter().sum();
+            powers.push(sum.norm_sqr() / counted as f64);
+            now.iter_mut().zip(&turns).for_each(|(z, turn)| *z *= turn);
+        }
+        powers
+    }
+
+    /// The spectra over time between two frequencies (Hz).
+    fn lines(&self, [lowest_hz, highest_hz]: [f64; 2]) -> Option<Spectrum> {
+        let longest = self.left.iter().map(Vec::len).max()?;
+        let size = (PADDED * longest).next_power_of_two();
+        let times = self.runs.iter().map(|run| &run.time).max_by_key(|t| t.len())?;
+        let period_s = (times.last()? - times.first()?) / (longest.saturating_sub(1)) as f64;
+        let step = (size as f64 * period_s).recip();
+        if !step.is_finite() {
+            return None;
+        }
+        let [first, last] = [lowest_hz, highest_hz].map(|f| (f / step) as usize);
+        let fft = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+        let power = |x: &Vec<f64>| -> Option<Vec<f64>> {
+            let mut padded = x.clone();
+            padded.resize(size, 0.0);
+            let mut spectrum = fft.make_output_vec();
+            fft.process(&mut padded, &mut spectrum).ok()?;
+            let used = spectrum.get(first..=last)?;
+            Some(used.iter().map(|z| z.norm_sqr() / x.len() as f64).collect())
+        };
+        let powers: Vec<Vec<f64>> = self.left.iter().map(power).collect::<Option<_>>()?;
+        Some(Spectrum { powers, first: TAU * first as f64 * step, step: TAU * step })
+    }
+
+    /// The tone of a line, if it is one: fitted, even over the runs, and large enough; its errors are
+    /// those of noise of variance one.
+    fn tone(&self, line: &Line) -> Option<Tone> {
+        let runs = 0..self.left.len();
+        let power = |at: f64| -> f64 {
+            let sums = runs.clone().map(|r| self.sum(r, at));
+            match self.follows {
+                Follows::Position => sums.map(|(z, _)| z).sum::<Complex<f64>>().norm_sqr(),
+                Follows::Clock => sums.map(|(z, _)| z.norm_sqr()).sum(),
+            }
+        };
+        let (mut at, mut step) = (line.at, line.step);
+        for _ in 0..2 {
+            let near = (-10..=10).map(|k| at + 0.1 * f64::from(k) * step);
+            at = near.max_by(|a, b| power(*a).total_cmp(&power(*b)))?;
+            step *= 0.1;
+        }
+        let sums = runs.map(|r| self.sum(r, at));
+        let sizes: Vec<(f64, usize)> =
+            sums.map(|(z, n)| (2.0 * z.norm() / n.max(1) as f64, n)).collect();
+        let (least, most) =
+            sizes.iter().fold((f64::INFINITY, 0.0), |(l, m), (z, _)| (z.min(l), z.max(m)));
+        let expected: f64 = sizes.iter().map(|(z, n)| 0.5 * z * z * *n as f64).sum();
+        if most > LINE_IS_EVEN * least || expected < 0.5 * LINE_SHARE * self.power_of(self.left) {
+            return None;
+        }
+        let mut tone = self.fitted(at, step)?;
+        // A tone of one phase that differs from run to run keeps time with something else.
+        let even = tone.amplitude() > least / LINE_IS_EVEN;
+        tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
+        (even && tone.share > LINE_SHARE).then_some(tone)
+    }
+
+    /// The tone near a value of the beat (rad per unit), by least squares.
+    fn fitted(&self, at: f64, step: f64) -> Option<Tone> {
+        let highest = self.highest.iter();
+        let counts: Vec<Vec<bool>> =
+            highest.map(|run| run.iter().map(|highest| *highest >= at).collect()).collect();
+        let counted = |r: usize| {
+            let samples = self.beat(r).iter().zip(&counts[r]).filter(|(_, counts)| **counts);
+            samples.fold((0.0, 0), |(sum, n), (beat, _)| (sum + beat, n + 1))
+        };
+        let own = |(sum, n): (f64, usize)| sum / n.max(1) as f64;
+        let each: Vec<(f64, usize)> = (0..self.left.len()).map(counted).collect();
+        let all = own(each.iter().fold((0.0, 0), |a, b| (a.0 + b.0, a.1 + b.1)));
+        let sampled = |r: usize| Sampled {
+            left: &self.left[r],
+            counts: &counts[r],
+            origin: match self.follows {
+                Follows::Position => all,
+                Follows::Clock => own(each[r]),
+            },
+        };
+        let (coherence, per_unit) = match self.follows {
+            Follows::Position => (Coherence::AllRuns, 1.0),
+            Follows::Clock => (Coherence::EachRun, TAU),
+        };
+        let beat = |at: f64| match self.follows {
+            Follows::Position => Beat::Position(at),
+            Follows::Clock => Beat::Clock(at / TAU),
+        };
+        let sampled: Vec<Sampled> = (0..self.left.len()).map(sampled).collect();
+        let wave =
+            |r: usize, at: f64, origin: f64| self.runs[r].along.wave(self.index, beat(at), origin);
+        let fit = ToneFit::new(&sampled, coherence, [at, step], wave)?;
+        let [of_amplitude, of_beat, of_phase] = fit.variances.map(f64::sqrt);
+        let error = [of_amplitude, of_beat / per_unit, of_phase];
+        let beat = beat(fit.at);
+        Some(Tone { joint: self.index, beat, z: fit.z, error, stands_out: 0.0, share: 0.0 })
+    }
+
+    /// Sum of squares over all runs, where samples count at any beat.
+    fn power_of(&self, left: &[Vec<f64>]) -> f64 {
+        let counted = left.iter().flatten().zip(self.highest.iter().flatten());
+        let counted = counted.filter(|(_, highest)| **highest > 0.0);
+        counted.map(|(x, _)| x * x).sum::<f64>().max(f64::MIN_POSITIVE)
+    }
+
+    /// `sum r exp(-i at beat)` of one run over the samples that count, and their number.
+    fn sum(&self, r: usize, at: f64) -> (Complex<f64>, usize) {
+        let samples = self.left[r].iter().zip(self.beat(r)).zip(&self.highest[r]);
+        let counted = samples.filter(|(_, highest)| **highest >= at);
+        counted.fold((Complex::new(0.0, 0.0), 0), |(sum, n), ((x, beat), _)| {
+            (sum + Complex::cis(-at * beat) * *x, n + 1)
+        })
+    }
+}
+
+impl Spectrum {
+    /// Number of values that every run has.
+    fn len(&self) -> usize {
+        self.powers.iter().map(Vec::len).min().unwrap_or(0)
+    }
+
+    /// The line that stands out most from the powers around it, in the run where it does least.
+    fn line(&self) -> Option<Line> {
+        let length = self.len();
+        let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
+        let ratio = |r: usize, k: usize| self.powers[r][k] / around[r][k].max(f64::MIN_POSITIVE);
+        let runs = 0..self.powers.len();
+        let least = |k: usize| runs.clone().map(|r| ratio(r, k)).fold(f64::INFINITY, f64::min);
+        let index = (0..length).max_by(|&a, &b| least(a).total_cmp(&least(b)))?;
+        let (at, step) = (self.first + index as f64 * self.step, self.step);
+        Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
+    }
+
+    /// Variance of the white noise that has the power just beside a value, or around it if that is more:
+    /// what of a strong tone is no sine lies there.
+    fn beside(&self, index: usize, around: &[f64]) -> f64 {
+        let of = |(power, around): (&Vec<f64>, &f64)| {
+            let near = &power[index.saturating_sub(BESIDE)..(index + BESIDE + 1).min(power.len())];
+            around.max(near.iter().sum::<f64>() / near.len() as f64)
+        };
+        self.powers.iter().zip(around).map(of).sum::<f64>() / around.len().max(1) as f64
+    }
+
+    /// The power around a value in every run.
+    fn around(&self, index: usize) -> Option<Vec<f64>> {
+        let length = self.len();
+        self.powers.iter().map(|p| around(&p[..length]).get(index).copied()).collect()
+    }
+}
+
+/// The power around every value of a spectrum: the median of its neighbours, which for noise is
+/// `ln 2` of the mean.
+fn around(power: &[f64]) -> Vec<f64> {
+    let median = |block: &[f64]| {
+        let mut sorted = block.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        sorted[sorted.len() / 2] / LN_2
+    };
+    let medians: Vec<f64> = power.chunks(AROUND).map(median).collect();
+    let near = |k: usize| {
+        let b = k / AROUND;
+        let blocks = &medians[b.saturating_sub(1)..(b + 2).min(medians.len())];
+        blocks.iter().copied().fold(0.0, f64::max)
+    };
+    (0..power.len()).map(near).collect()
+}

@@ -1,0 +1,153 @@
+use crate::columns::run_design::JointDesign;
+use crate::regression::blocks::{Block, Fold};
+use crate::regression::problem::Problem;
+use crate::regression::solved::Solved;
+use crate::result::{FoldGain, InverseGain};
+use crate::search::record::Record;
+
+/// Torque prediction on parts of the record that took no part in selection or fit.
+#[derive(Debug)]
+pub(crate) struct HeldOutGain {
+    /// For the user.
+    pub inverse: InverseGain,
+    /// What a search without each fold of the whole record's problem came to.
+    pub folds: Vec<Solved>,
+}
+
+impl HeldOutGain {
+    /// What the fits without each fold of `whole` predict of it.
+    pub fn new(record: &Record, whole: &Problem, folds: Vec<Solved>) -> Self {
+        Self { inverse: inverse(record, whole, &folds), folds }
+    }
+
+    /// What is left of the efforts of every fold of `whole` by what was found without it,
+    /// `[joint][run][sample]` (N·m or N).
+    pub fn left(&self, whole: &Problem) -> Vec<Vec<Vec<f64>>> {
+        whole.held_out_residuals(|f, run, j| self.folds[f].remaining(whole.design, run, j))
+    }
+}
+
+fn inverse(record: &Record, whole: &Problem, solved: &[Solved]) -> InverseGain {
+    let joints = record.design.joints();
+    let before =
+        |blocks: &[usize]| -> Vec<f64> { (0..joints).map(|j| gap(record, blocks, j)).collect() };
+    let rms = |(sum, n): (f64, usize)| (sum / n.max(1) as f64).sqrt();
+    let left = |(fold, solved): (&Fold, &Solved)| -> Vec<(f64, usize)> {
+        (0..joints).map(|j| squares(whole, fold, solved, j)).collect()
+    };
+    let left: Vec<Vec<(f64, usize)>> = whole.folds.iter().zip(solved).map(left).collect();
+    let fold = |(f, fold): (usize, &Fold)| FoldGain {
+        name: name(whole, f),
+        torque_rms_nm: (0..joints).map(|j| measured(record, &fold.test, j).0).collect(),
+        rms_before_nm: before(&fold.test),
+        rms_after_nm: left[f].iter().copied().map(rms).collect(),
+    };
+    let folds: Vec<FoldGain> = whole.folds.iter().enumerate().map(fold).collect();
+    let all = |j: usize| left.iter().fold((0.0, 0), |(s, n), of| (s + of[j].0, n + of[j].1));
+    let rms_after: Vec<f64> = (0..joints).map(|j| rms(all(j))).collect();
+    let rms_before = before(&whole.of);
+    let nmse = |rms: &[f64]| {
+        let of = |j: usize| {
+            let variance = measured(record, &whole.of, j).1;
+            if variance > 0.0 { rms[j].powi(2) / variance } else { 0.0 }
+        };
+        (0..joints).map(of).collect()
+    };
+    InverseGain {
+        nmse_before: nmse(&rms_before),
+        nmse_after: nmse(&rms_after),
+        rms_before_nm: rms_before,
+        rms_after_nm: rms_after,
+        held_out: held_out(whole),
+        folds,
+    }
+}
+
+/// Sum of squares, and number, of what is left of the effort of joint `j` in the test of a fold, where
+/// that tells.
+fn squares(whole: &Problem, fold: &Fold, solved: &Solved, j: usize) -> (f64, usize) {
+    let in_run = |run: usize| {
+        let blocks = fold.test.iter().map(|&b| &whole.blocks[b]).filter(move |b| b.run == run);
+        let mut blocks = blocks.peekable();
+        blocks.peek()?;
+        let left = solved.remaining(whole.design, run, j);
+        let tells = &whole.design.runs[run].joints[j].tells;
+        let sum = |(sum, n): (f64, usize), block: &Block| {
+            let of = left[block.samples.clone()].iter().zip(&tells[block.samples.clone()]);
+            let told = of.filter(|(_, tells)| **tells);
+            told.fold((sum, n), |(sum, n), (x, _)| (sum + x * x, n + 1))
+        };
+        Some(blocks.fold((0.0, 0), sum))
+    };
+    let runs = 0..whole.design.runs.len();
+    runs.filter_map(in_run).fold((0.0, 0), |(s, n), (sum, count)| (s + sum, n + count))
+}
+
+fn name(whole: &Problem, f: usize) -> String {
+    let runs = &whole.design.runs;
+    if is_in_parts(whole) {
+        let of = if runs.len() == 1 { "" } else { " of every run" };
+        return format!("part {} of {}{of}", f + 1, whole.folds.len());
+    }
+    let mut held: Vec<usize> = whole.folds[f].test.iter().map(|&b| whole.blocks[b].run).collect();
+    held.dedup();
+    held.iter().map(|&r| runs[r].name.as_str()).collect::<Vec<_>>().join(" + ")
+}
+
+/// Whether parts of runs are held out rather than runs.
+fn is_in_parts(whole: &Problem) -> bool {
+    let run = |b: &usize| whole.blocks[*b].run;
+    let is_torn =
+        |f: &Fold| f.test.iter().any(|b| f.train.iter().any(|other| run(other) == run(b)));
+    whole.folds.iter().any(is_torn)
+}
+
+fn held_out(whole: &Problem) -> String {
+    let runs = whole.design.runs.len();
+    let count = whole.folds.len();
+    if is_in_parts(whole) {
+        let of = if runs == 1 { "the run" } else { "every run" };
+        format!(
+            "each of {count} parts of {of} in turn, with a gap on either side; causes and sizes found on the others"
+        )
+    } else if count == runs {
+        "each run in turn; causes and sizes found on the others".to_owned()
+    } else {
+        format!("each of {count} groups of runs in turn; causes and sizes found on the others")
+    }
+}
+
+/// RMS of measured minus nominal effort of joint `j` over some blocks, where that tells.
+fn gap(record: &Record, blocks: &[usize], j: usize) -> f64 {
+    let gaps = told(record, blocks, j, |joint| joint.gap().collect());
+    let (n, sum) = gaps.iter().fold((0_usize, 0.0), |(n, sum), gap| (n + 1, sum + gap * gap));
+    (sum / n.max(1) as f64).sqrt()
+}
+
+/// RMS and variance of the measured effort of joint `j` over some blocks, where that tells.
+pub(crate) fn measured(record: &Record, blocks: &[usize], j: usize) -> (f64, f64) {
+    let efforts = told(record, blocks, j, |joint| joint.measured.clone());
+    let count = efforts.len().max(1) as f64;
+    let mean = efforts.iter().sum::<f64>() / count;
+    let square = efforts.iter().map(|v| v * v).sum::<f64>() / count;
+    (square.sqrt(), (square - mean * mean).max(0.0))
+}
+
+/// A signal of joint `j` over some blocks, where that tells of its effort.
+fn told(
+    record: &Record,
+    blocks: &[usize],
+    j: usize,
+    signal: impl Fn(&JointDesign) -> Vec<f64>,
+) -> Vec<f64> {
+    let joints = record.design.runs.iter().map(|run| &run.joints[j]);
+    let signals: Vec<(Vec<f64>, &[bool])> =
+        joints.map(|joint| (signal(joint), joint.tells.as_slice())).collect();
+    let of_block = |b: &usize| {
+        let Block { run, samples } = &record.blocks[*b];
+        let (signal, tells) = &signals[*run];
+        let all = signal[samples.clone()].iter().zip(&tells[samples.clone()]);
+        all.filter(|(_, tells)| **tells).map(|(value, _)| *value)
+    };
+    blocks.iter().flat_map(of_block).collect()
+}

@@ -1,0 +1,183 @@
+use catalogue::EffectKind;
+use effects::{Hypothesis, Place, Weights};
+use nalgebra::DMatrix;
+
+use crate::outcome::effect_at::effect_at;
+use crate::outcome::findings::Evidence;
+use crate::regression::fit::{Complement, Fit};
+use crate::regression::problem::Problem;
+use crate::result::RuledOut;
+use crate::search::constancy::Variation;
+use crate::thresholds::{DETECTED_AT, DETERMINED};
+
+impl Evidence<'_> {
+    /// Every hypothesis that is no finding, with the smallest size that would have been one.
+    pub fn ruled_out(&self) -> Vec<RuledOut> {
+        let problem = self.selection.problem;
+        let Some(fit) = problem.fit(self.model) else { return Vec::new() };
+        let outside = (0..problem.design.groups.len()).filter(|g| !self.model.contains(g));
+        outside.map(|g| self.one(g, &fit)).collect()
+    }
+
+    fn one(&self, g: usize, fit: &Fit) -> RuledOut {
+        let (problem, robot) = (self.selection.problem, self.selection.robot);
+        let group = &problem.design.groups[g];
+        let rotation =
+            group.hypothesis.joint().is_none_or(|j| robot.links()[j].joint.kind.is_rotation());
+        let (sharpest, because) = self.judge(g, fit);
+        let (weight, size) = sharpest.map_or((0, None), |(weight, size)| (weight, Some(size)));
+        let (index, smallest_detectable) = read(group.hypothesis.kind, weight, size);
+        let parameter = &group.hypothesis.kind.entry().parameters[index];
+        RuledOut {
+            at: effect_at(robot, group.hypothesis),
+            parameter: parameter.name,
+            smallest_detectable,
+            unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
+            because,
+        }
+    }
+
+    /// The smallest level of dry friction that would have been found at every joint where none is (N·m or N);
+    /// zero where some form of it is a finding, or none is looked for.
+    pub fn unseen_friction(&self) -> Vec<f64> {
+        let problem = self.selection.problem;
+        let fit = problem.fit(self.model);
+        let unseen = |j: usize| {
+            let (kind, place) = (EffectKind::CoulombFriction, Place::Joint(j));
+            let g = problem.design.find(Hypothesis { kind, place })?;
+            let is_new = !problem.new_columns(self.model, g).is_empty();
+            fit.as_ref().filter(|_| is_new).and_then(|fit| self.smallest(g, fit))
+        };
+        (0..problem.design.joints()).map(|j| unseen(j).unwrap_or(0.0)).collect()
+    }
+
+    /// The smallest weight that would have been found of `g`, whatever its shape, in the first column
+    /// or, of a wave, whatever its phase; none where the log shows no such column.
+    pub fn smallest(&self, g: usize, fit: &Fit) -> Option<f64> {
+        let problem = self.selection.problem;
+        let columns = problem.new_columns(self.model, g);
+        let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
+        let errors = standard_errors(problem, fit, &complement);
+        let nature = problem.design.groups[g].hypothesis.nature();
+        let has_phases = nature.is_some_and(|n| n.weights == Weights::Phases);
+        let errors = errors.get(..if has_phases { 2 } else { 1 })?;
+        let error = errors.iter().copied().fold(0.0, f64::max);
+        Some(DETECTED_AT * error * self.largest_unseen(g))
+    }
+
+    fn largest_unseen(&self, g: usize) -> f64 {
+        let design = self.selection.problem.design;
+        design.groups[g].hypothesis.largest_unseen(self.selection.robot, &design.frame)
+    }
+
+    /// The parameter that the logs show best with the smallest size of it that would have
+    /// been found, and why the hypothesis is no finding.
+    fn judge(&self, g: usize, fit: &Fit) -> (Option<(usize, f64)>, String) {
+        let problem = self.selection.problem;
+        let columns = problem.new_columns(self.model, g);
+        if columns.is_empty() {
+            return (None, "a finding already changes the same numbers".to_owned());
+        }
+        let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
+        let Some(sharpest) =
+            self.sharpest(g, &columns, &standard_errors(problem, fit, &complement))
+        else {
+            return (None, "these logs cannot show it".to_owned());
+        };
+        let mut larger = self.model.clone();
+        larger.insert(g);
+        let gain = fit.evidence_of(&problem.info, &columns, &problem.design.prior);
+        let because = if let Some(variation) = self.withheld.get(&g) {
+            self.words(variation)
+        } else if self.failed.drops(problem.design, g) && gain > 0.0 {
+            "what was fitted here predicts efforts that took no part worse than the description"
+                .to_owned()
+        } else if problem.idle.contains(&g) {
+            "a robot that has it is no nearer to the logs".to_owned()
+        } else if !self.selection.is_possible(&larger, g) {
+            "its best size is not physically possible".to_owned()
+        } else if gain < 3.0 {
+            format!("it adds {gain:.1} to the log evidence, 3 are needed")
+        } else {
+            "it adds nothing on held-out data that counts".to_owned()
+        };
+        (Some(sharpest), because)
+    }
+
+    /// Why an effect whose size would have to vary is no finding.
+    fn words(&self, Variation { rms, with, joint }: &Variation) -> String {
+        let name = &self.selection.robot.links()[*joint].joint.name;
+        let with = with
+            .map_or_else(|| format!("at {name}"), |signal| format!("with the {signal} of {name}"));
+        format!(
+            "its size would have to vary by {:.0} % {with}, and that of a cause is one",
+            100.0 * rms
+        )
+    }
+
+    /// Index and smallest detectable size of the parameter whose standard error is the
+    /// smallest share of its prior; none if all are near the prior.
+    fn sharpest(&self, g: usize, columns: &[usize], errors: &[f64]) -> Option<(usize, f64)> {
+        let design = self.selection.problem.design;
+        let hypothesis = design.groups[g].hypothesis;
+        let parameters = hypothesis.kind.entry().parameters.len();
+        let share = |k: usize| errors[k] / design.prior[columns[k]];
+        let best =
+            (0..errors.len().min(parameters)).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+        let size = DETECTED_AT * errors[best] * self.largest_unseen(g);
+        // The weights behind a centre of mass are first moments: m c.
+        let mass = hypothesis.link().map(|l| self.selection.robot.links()[l].inertia.mass);
+        let unit = if best > 0 { mass.filter(|m| *m > 0.0).unwrap_or(1.0) } else { 1.0 };
+        (share(best) <= DETERMINED).then_some((best, size / unit))
+    }
+}
+
+/// The parameter that weight `weight` of an effect stands for, and its value at a size of it: a
+/// spring's weight is its compliance, and what is beyond the level of Coulomb friction is that of
+/// breaking away, or all that is springy.
+fn read(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
+    match effects::model(kind).map(|model| model.nature().weights) {
+        Ok(Weights::Reciprocal) => (weight, size.map(f64::recip)),
+        Ok(Weights::SeenBy(parameter)) => (parameter, size),
+        _ => (weight, size),
+    }
+}
+
+/// Standard errors of the weights of a group that is not in the model: the larger of what
+/// the likelihood and what the scatter of the blocks' scores say.
+fn standard_errors(problem: &Problem, fit: &Fit, complement: &Complement) -> Vec<f64> {
+    let count = complement.b.nrows();
+    let Some(inverse) = complement.b.clone().try_inverse() else {
+        return vec![f64::INFINITY; count];
+    };
+    let weights = fit.expand(problem.design.width);
+    let mut meat = DMatrix::zeros(count, count);
+    for score in problem.scores(&weights) {
+        let own = complement.project(&score);
+        meat.ger(1.0, &own, &own, 1.0);
+    }
+    let blocks = &inverse * meat * &inverse;
+    (0..count).map(|k| inverse[(k, k)].max(blocks[(k, k)]).max(0.0).sqrt()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1e-4 rad/(N m) is 10000 N m/rad.
+    #[test]
+    fn a_weight_is_read_as_the_parameter_that_people_know() {
+        let name = |kind: EffectKind, (index, _): (usize, Option<f64>)| {
+            kind.entry().parameters[index].name
+        };
+        let (kind, found) = (EffectKind::JointElasticity, Some(1e-4));
+        let (index, size) = read(kind, 0, found);
+        assert_eq!(name(kind, (index, size)), "stiffness");
+        assert!((size.unwrap() / 1e4 - 1.0).abs() < 1e-12);
+        let named = |kind| name(kind, read(kind, 0, found));
+        assert_eq!(named(EffectKind::StribeckFriction), "breakaway");
+        assert_eq!(named(EffectKind::PreslidingFriction), "level");
+        assert_eq!(read(EffectKind::Payload, 2, found), (2, found));
+        assert_eq!(read(EffectKind::JointElasticity, 0, None), (0, None));
+    }
+}

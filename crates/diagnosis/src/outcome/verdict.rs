@@ -1,0 +1,327 @@
+use crate::result::{NoiseFloorSource, Verdict};
+use crate::thresholds::{DEPENDS, DROWNED, ERRORS, OF_COMMANDED_NOISE, OF_NOISE, UNSEEN};
+
+/// Whether dry friction that goes unseen may matter: the logs say nothing of a joint then, however little is left.
+pub(crate) fn hides(unseen: f64, torque_rms: f64) -> bool {
+    unseen > UNSEEN * torque_rms
+}
+
+/// What is known of one joint when its verdict is due.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Situation {
+    /// Why the logs say nothing of the joint.
+    pub inadequate: Option<String>,
+    /// Number of findings that lower its held-out error.
+    pub findings: usize,
+    /// Number of those that are causes of the joint alone.
+    pub own: usize,
+    /// Number of findings between its two encoders.
+    pub between: usize,
+    /// Whether what was fitted predicts worse than the description.
+    pub failed: bool,
+    /// The smallest level of dry friction that would have been found, where none was (N·m or N).
+    pub unseen: f64,
+    /// RMS of the effort (N·m or N).
+    pub torque_rms: f64,
+    /// Held-out RMS error of the nominal and of the extended model.
+    pub nominal_rms: f64,
+    pub remaining_rms: f64,
+    /// Number of independent samples of noise that these are of.
+    pub samples: f64,
+    /// Noise of the effort, and where it comes from.
+    pub noise: (f64, NoiseFloorSource),
+    /// Whether the effort is what a controller asked for.
+    pub is_command: bool,
+    /// RMS of dry friction that nobody knows while the joint turns (N·m or N).
+    pub near_rest: f64,
+    /// Share of the effort below which what is left does not matter.
+    pub practical: f64,
+    /// Share of the remaining residual's power that is predictable.
+    pub structure: f64,
+    /// Frequency above which most of what is left lies, and that of the motion (Hz).
+    pub above_hz: Option<f64>,
+    pub motion_hz: f64,
+}
+
+impl Situation {
+    /// Share of the remaining residual's power that is beyond the noise.
+    pub fn unexplained(&self) -> f64 {
+        let noise = self.floor() / self.remaining_rms.max(f64::MIN_POSITIVE);
+        (1.0 - noise.powi(2)).clamp(0.0, 1.0)
+    }
+
+    /// RMS of what no model can know (N·m or N).
+    fn floor(&self) -> f64 {
+        self.noise.0.hypot(self.near_rest)
+    }
+
+    /// Whether what is left is within so many times a floor, but for the error of an RMS.
+    fn is_within(&self, most: f64, floor: f64) -> bool {
+        let error = (2.0 * self.samples.max(1.0)).sqrt().recip();
+        self.remaining_rms <= (most + ERRORS * error) * floor
+    }
+
+    /// Whether what is left may be noise.
+    fn is_noise(&self) -> bool {
+        let most = if self.is_command { OF_COMMANDED_NOISE } else { OF_NOISE };
+        self.is_within(most, self.floor())
+    }
+
+    /// Whether it may be noise and is so large that what matters fits in. Without a cause of the joint's
+    /// own, which these logs alone would have to show, for no better reason than that a command or a
+    /// turning joint is given more room.
+    fn is_drowned(&self) -> bool {
+        self.is_noise()
+            && self.remaining_rms > DROWNED * self.torque_rms
+            && (self.own > 0 || !self.is_within(OF_NOISE, self.noise.0))
+    }
+
+    /// Whether what is left beyond the noise does not matter.
+    fn is_small(&self) -> bool {
+        self.unexplained().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
+    }
+
+    /// The verdict and why.
+    ///
+    /// Nothing is open where what is left is within noise that has a source, or a share of the effort
+    /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
+    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone, beside no cause of the joint's own. Where a fit failed nothing is
+    /// consistent.
+    pub fn verdict(&self) -> (Verdict, String) {
+        if let Some(reason) = &self.inadequate {
+            return (Verdict::DataInadequate, reason.clone());
+        }
+        let closed = !self.is_drowned() && (self.is_noise() || self.is_small());
+        let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
+        let is_sane = fell && self.remaining_rms < self.torque_rms;
+        let blind = hides(self.unseen, self.torque_rms);
+        let verdict = match (self.findings + self.between > 0, closed) {
+            // Something was there to fit, though no two parts of the logs agree on it.
+            (false, true) if self.failed || blind => Verdict::DataInadequate,
+            (false, true) => Verdict::Consistent,
+            (true, true) if is_sane && !blind => Verdict::Explained,
+            // The description predicts it as well, whatever a cause of the whole arm does there.
+            (true, true) if !fell && self.remaining_rms < self.torque_rms && !blind => {
+                Verdict::Consistent
+            }
+            (true, _) if is_sane => Verdict::PartlyExplained,
+            (false, false) if self.is_drowned() => Verdict::DataInadequate,
+            _ => Verdict::Unexplained,
+        };
+        let because = self.because(verdict);
+        if closed && blind {
+            return (verdict, format!("{because}; {}", self.of_unseen()));
+        }
+        (verdict, because)
+    }
+
+    fn of_unseen(&self) -> String {
+        if !self.unseen.is_finite() {
+            return "these logs show no friction of this joint, however large".to_owned();
+        }
+        let percent = 100.0 * self.unseen / self.torque_rms;
+        format!(
+            "dry friction of up to {:.3} N m, {percent:.0} % of its effort, would go unseen",
+            self.unseen
+        )
+    }
+
+    fn because(&self, verdict: Verdict) -> String {
+        let subject = match (self.findings, self.between) {
+            (0, 1..) => "its two encoders show the cause; the effort is left with",
+            (0, 0) if self.failed => {
+                "what was fitted predicts worse than the description, which is kept and leaves"
+            }
+            (0, 0) if verdict == Verdict::Unexplained => {
+                "no named effect earns its place; the description leaves"
+            }
+            (0, 0) => "the description leaves",
+            _ => "the findings leave",
+        };
+        let left = format!("{subject} {:.3} N m RMS while it moves", self.remaining_rms);
+        if self.is_drowned() {
+            let percent = 100.0 * self.remaining_rms / self.torque_rms;
+            return format!(
+                "{left}, {percent:.0} % of its effort, in which noise and a cause cannot be told apart: {}",
+                self.of_noise()
+            );
+        }
+        if self.is_noise() {
+            return format!("{left}, within the noise: {}", self.of_noise());
+        }
+        if self.is_small() {
+            let percent = 100.0 * self.practical;
+            return format!(
+                "{left}, beyond the noise less than {percent:.0} % of its effort ({})",
+                self.of_noise()
+            );
+        }
+        let share = 100.0 * (self.remaining_rms / self.nominal_rms.max(f64::MIN_POSITIVE)).powi(2);
+        let gap = if self.findings > 0 {
+            format!(", {share:.0} % of the gap's power")
+        } else {
+            String::new()
+        };
+        format!("{left}{gap}; {}{}", self.of_noise(), self.origin())
+    }
+
+    fn of_noise(&self) -> String {
+        let (rms, source) = self.noise;
+        let noise = match source {
+            NoiseFloorSource::Unknown => "of its noise the logs tell nothing".to_owned(),
+            _ => format!("{rms:.3} N m {}", source.words()),
+        };
+        if self.near_rest > rms {
+            return format!("{noise}, {:.3} N m of dry friction while it turns", self.near_rest);
+        }
+        noise
+    }
+
+    /// What can be said of a rest that no function of the motion predicts.
+    fn origin(&self) -> String {
+        let fast = self.above_hz.filter(|hz| *hz > self.motion_hz && self.structure < DEPENDS);
+        fast.map_or_else(String::new, |hz| {
+            format!(
+                ". It is vibration or noise of unknown origin: nine tenths of its power lie above {hz:.1} Hz, faster than the motion, and no function of the motion predicts it"
+            )
+        })
+    }
+}
+
+/// The verdict over all joints of which the logs show enough. Nothing is closed where any of them moves and
+/// hides what friction it may have.
+pub(crate) fn overall(joints: &[Verdict], hiding: usize) -> Verdict {
+    use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
+    let adequate: Vec<Verdict> = joints.iter().copied().filter(|v| *v != DataInadequate).collect();
+    let has = |v: Verdict| adequate.contains(&v);
+    if adequate.is_empty() || (hiding > 0 && adequate.iter().all(|v| *v == Consistent)) {
+        DataInadequate
+    } else if has(PartlyExplained) || (has(Explained) && (hiding > 0 || has(Unexplained))) {
+        PartlyExplained
+    } else if has(Unexplained) {
+        Unexplained
+    } else if has(Explained) {
+        Explained
+    } else {
+        Consistent
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A joint of 10 N m with a gap of 2 N m.
+    fn joint(findings: usize, remaining_rms: f64, noise: f64) -> Situation {
+        Situation {
+            inadequate: None,
+            findings,
+            own: findings,
+            between: 0,
+            failed: false,
+            unseen: 0.0,
+            torque_rms: 10.0,
+            nominal_rms: 2.0,
+            remaining_rms,
+            samples: 450.0,
+            noise: (noise, NoiseFloorSource::Effort),
+            is_command: false,
+            near_rest: 0.0,
+            practical: 0.02,
+            structure: 0.0,
+            above_hz: Some(8.0),
+            motion_hz: 1.0,
+        }
+    }
+
+    #[test]
+    fn a_rest_within_its_noise_or_two_per_cent_of_the_effort_is_closed() {
+        // 450 independent samples: 1.3 times the noise.
+        assert_eq!(joint(0, 2.0, 1.55).verdict().0, Verdict::Consistent);
+        assert_eq!(joint(0, 2.0, 1.52).verdict().0, Verdict::Unexplained);
+        assert_eq!(joint(0, 0.19, 0.0).verdict().0, Verdict::Consistent);
+        assert_eq!(joint(1, 0.19, 0.0).verdict().0, Verdict::Explained);
+        assert_eq!(joint(0, 0.3, 0.1).verdict().0, Verdict::Unexplained);
+        assert_eq!(joint(1, 0.3, 0.1).verdict().0, Verdict::PartlyExplained);
+    }
+
+    #[test]
+    fn more_room_than_noise_has_closes_no_joint_of_which_it_is_a_sixth() {
+        let command = |findings, torque_rms| {
+            Situation { torque_rms, is_command: true, ..joint(findings, 1.7, 1.2) }.verdict().0
+        };
+        assert_eq!(command(0, 12.0), Verdict::Consistent);
+        assert_eq!(command(0, 11.0), Verdict::DataInadequate);
+        assert_eq!(command(1, 12.0), Verdict::Explained);
+        assert_eq!(command(1, 11.0), Verdict::PartlyExplained);
+        let own = |findings, left| joint(findings, left, left).verdict().0;
+        assert_eq!([own(0, 1.6), own(1, 1.4)], [Verdict::Consistent, Verdict::Explained]);
+        assert_eq!(own(1, 1.6), Verdict::PartlyExplained);
+        let of_the_arm = Situation { own: 0, ..joint(1, 1.6, 1.6) };
+        assert_eq!(of_the_arm.verdict().0, Verdict::Explained);
+        // Nor does the friction of a joint that often turns.
+        let turning = |left| Situation { near_rest: 1.5, ..joint(0, left, 0.1) }.verdict().0;
+        assert_eq!(turning(1.4), Verdict::Consistent);
+        assert_eq!(turning(1.6), Verdict::DataInadequate);
+    }
+
+    #[test]
+    fn a_joint_whose_friction_would_go_unseen_is_not_closed() {
+        let joint = |findings, unseen| Situation { unseen, ..joint(findings, 0.19, 0.0) }.verdict();
+        assert_eq!(joint(0, 2.4).0, Verdict::Consistent);
+        assert_eq!(joint(1, 2.4).0, Verdict::Explained);
+        let (verdict, because) = joint(0, 2.6);
+        assert_eq!(verdict, Verdict::DataInadequate);
+        assert!(
+            because
+                .ends_with("dry friction of up to 2.600 N m, 26 % of its effort, would go unseen")
+        );
+        assert_eq!(joint(1, 2.6).0, Verdict::PartlyExplained);
+        assert!(joint(0, f64::INFINITY).1.ends_with("no friction of this joint, however large"));
+    }
+
+    #[test]
+    fn a_joint_whose_fit_failed_is_not_called_consistent() {
+        let failed = |noise| Situation { failed: true, ..joint(0, 1.0, noise) }.verdict();
+        assert_eq!(failed(0.95).0, Verdict::DataInadequate);
+        assert!(failed(0.95).1.contains("predicts worse than the description"));
+        assert_eq!(failed(0.1).0, Verdict::Unexplained);
+    }
+
+    #[test]
+    fn dry_friction_that_turns_may_be_anything_up_to_its_level() {
+        let turning = |near_rest| Situation { near_rest, ..joint(0, 0.5, 0.1) };
+        assert_eq!(turning(0.2).verdict().0, Verdict::Unexplained);
+        assert_eq!(turning(0.45).verdict().0, Verdict::Consistent);
+    }
+
+    #[test]
+    fn nothing_is_explained_by_an_error_that_rises_or_exceeds_the_effort() {
+        assert_eq!(joint(1, 2.1, 2.0).verdict().0, Verdict::Unexplained);
+        let as_described = Situation { torque_rms: 20.0, ..joint(1, 2.1, 2.0) };
+        assert_eq!(as_described.verdict().0, Verdict::Consistent);
+        let drowned = Situation { torque_rms: 0.1, ..joint(1, 1.9, 1.8) };
+        assert_eq!(drowned.verdict().0, Verdict::Unexplained);
+    }
+
+    #[test]
+    fn a_fast_rest_that_follows_nothing_is_said_to_be_vibration_or_noise() {
+        let (_, because) = joint(0, 1.0, 0.1).verdict();
+        assert!(because.contains("unknown origin: nine tenths of its power lie above 8.0 Hz"));
+        let slow = Situation { above_hz: Some(0.5), ..joint(0, 1.0, 0.1) };
+        assert!(!slow.verdict().1.contains("unknown origin"));
+    }
+
+    #[test]
+    fn the_overall_verdict_is_no_better_than_the_worst_adequate_joint() {
+        use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
+        assert_eq!(overall(&[DataInadequate, Consistent], 0), Consistent);
+        assert_eq!(overall(&[DataInadequate, Consistent], 1), DataInadequate);
+        assert_eq!(overall(&[DataInadequate, Explained], 1), PartlyExplained);
+        assert_eq!(overall(&[DataInadequate, Unexplained], 1), Unexplained);
+        assert_eq!(overall(&[Explained, Consistent], 0), Explained);
+        assert_eq!(overall(&[Unexplained, Consistent], 0), Unexplained);
+        assert_eq!(overall(&[Unexplained, Explained], 0), PartlyExplained);
+        assert_eq!(overall(&[DataInadequate], 0), DataInadequate);
+    }
+}

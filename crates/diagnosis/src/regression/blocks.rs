@@ -1,0 +1,266 @@
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::columns::design::Design;
+
+/// Fewest blocks of a record: three for each of the folds, and one more; scores of as many give the errors
+/// of sizes.
+pub(crate) const FEWEST_BLOCKS: usize = 16;
+
+/// Fewest samples of a block.
+const FEWEST_SAMPLES: f64 = 2.0;
+
+/// Number of blocks in which each joint moves that is aimed at where the record allows.
+const WANTED_BLOCKS: f64 = 24.0;
+
+/// Most blocks of a record: each costs the memory of a matrix for every joint.
+const MOST_BLOCKS: f64 = 240.0;
+
+/// Least length of a block, in autocorrelation times.
+const BLOCK_TIMES: f64 = 5.0;
+
+/// Largest number of folds.
+const FOLDS: usize = 5;
+
+/// Fewest motions of every joint that are held out in turn: with two, each fit would know only one.
+const FEWEST_MOTIONS: usize = 3;
+
+/// A stretch of one run: the unit of replication.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Block {
+    /// Index of the run.
+    pub run: usize,
+    /// Its samples.
+    pub samples: Range<usize>,
+}
+
+/// A part of the record that is held out together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Fold {
+    /// Blocks to predict.
+    pub test: Vec<usize>,
+    /// Blocks to fit on: all but the test blocks and their neighbours.
+    pub train: Vec<usize>,
+}
+
+/// Cuts every run into blocks of at least five autocorrelation times.
+///
+/// They are so short that every joint has about 24 of them in which it moves, in motions that differ:
+/// what a joint does in one log of six, or in three repeats of one motion, is cut as finely as one log
+/// of that alone would be. Where a joint moves too briefly for that, blocks are shortened until it has
+/// sixteen.
+pub(crate) fn blocks(design: &Design, autocorrelation: f64) -> Vec<Block> {
+    let lengths: Vec<usize> = design.runs.iter().map(|r| r.time.len()).collect();
+    let total = lengths.iter().sum::<usize>() as f64;
+    let least = least_told(design).unwrap_or(total);
+    let wanted = (least / WANTED_BLOCKS).max(BLOCK_TIMES * autocorrelation);
+    let length = wanted.min(least / FEWEST_BLOCKS as f64).max(FEWEST_SAMPLES);
+    let length = length.max(total / MOST_BLOCKS);
+    let cut = |(run, &n): (usize, &usize)| {
+        let count = ((n as f64 / length).round() as usize).max(1);
+        let edge = move |k: usize| k * n / count;
+        (0..count).map(move |k| Block { run, samples: edge(k)..edge(k + 1) })
+    };
+    lengths.iter().enumerate().flat_map(cut).filter(|b| !b.samples.is_empty()).collect()
+}
+
+/// The fewest samples that tell of the effort of a joint that moved, in motions that differ.
+fn least_told(design: &Design) -> Option<f64> {
+    let is_first = |r: &usize| !design.motion[..*r].contains(&design.motion[*r]);
+    let firsts: Vec<usize> = (0..design.runs.len()).filter(is_first).collect();
+    let told = |j: usize| {
+        let of_run = |r: &usize| design.runs[*r].joints[j].tells.iter().filter(|t| **t).count();
+        firsts.iter().map(of_run).sum::<usize>()
+    };
+    let moved = (0..design.joints()).filter(|j| design.moved[*j]);
+    moved.map(told).filter(|told| *told > 0).min().map(|told| told as f64)
+}
+
+/// What is held out together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Folding {
+    /// A run, even if another run repeats its motion: how well is the next run predicted?
+    ByRun,
+    /// All runs of one motion: does what was found carry over to another motion?
+    ByMotion,
+}
+
+/// Folds over the blocks `of`.
+///
+/// Runs, or motions, are held out in turn where every joint moves in three of them or more. Otherwise
+/// each run is cut into stretches, the same stretches of every run are held out together, and the
+/// blocks next to them are left out: every motion of a joint is then on both sides.
+pub(crate) fn folds(
+    design: &Design,
+    blocks: &[Block],
+    of: &[usize],
+    folding: Folding,
+) -> Vec<Fold> {
+    let key = |run: usize| match folding {
+        Folding::ByRun => run,
+        Folding::ByMotion => design.motion[run],
+    };
+    let mut runs: Vec<usize> = of.iter().map(|&b| blocks[b].run).collect();
+    runs.dedup();
+    let keys_of =
+        |runs: &mut dyn Iterator<Item = usize>| -> BTreeSet<usize> { runs.map(key).collect() };
+    let moves_in =
+        |j: usize| keys_of(&mut runs.iter().copied().filter(|r| design.moves[*r][j])).len();
+    let mut moved = (0..design.joints()).filter(|j| design.moved[*j]);
+    if moved.any(|j| moves_in(j) < FEWEST_MOTIONS) {
+        return parts(design, blocks, of);
+    }
+    let keys: Vec<usize> = keys_of(&mut runs.iter().copied()).into_iter().collect();
+    let count = keys.len().min(2 * FOLDS);
+    let part = |run: usize| keys.binary_search(&key(run)).unwrap_or(0) * count / keys.len();
+    (0..count)
+        .map(|p| {
+            let (test, train) = of.iter().partition(|&&b| part(blocks[b].run) == p);
+            Fold { test, train }
+        })
+        .collect()
+}
+
+/// Largest share of what a joint tells while it turns one way that a fold may keep from its fit.
+const MOST_HELD_OUT: f64 = 0.5;
+
+/// Least share of what a joint tells that it tells while it turns one way, for that way to count.
+const A_WAY: f64 = 0.1;
+
+/// Fewest blocks of a stretch that is held out: the two beside it are lost to its gap.
+const FEWEST_IN_STRETCH: usize = 3;
+
+/// The same stretches of every run held out together, in as few stretches of the run as leave half of what
+/// every joint tells, turning either way, to the fit: 5, and where a joint moves but briefly 10, 20, ..., dealt
+/// in turn. Where none do, those that keep the least from it, joint by joint: one that is always kept whole
+/// decides nothing for the others.
+fn parts(design: &Design, blocks: &[Block], of: &[usize]) -> Vec<Fold> {
+    let mut runs: Vec<usize> = of.iter().map(|&b| blocks[b].run).collect();
+    runs.dedup();
+    let within: Vec<Vec<usize>> = runs
+        .iter()
+        .map(|&r| of.iter().copied().filter(|&b| blocks[b].run == r).collect())
+        .collect();
+    let longest = within.iter().map(Vec::len).max().unwrap_or(0);
+    let count = FOLDS.min(longest).max(2);
+    let told = Told::new(design, blocks, of);
+    let mut best: Option<(f64, Vec<Fold>)> = None;
+    let mut rounds = 1;
+    loop {
+        let folds = dealt(&within, count, rounds);
+        let kept = told.held_out(&folds);
+        let most = kept.iter().copied().fold(0.0, f64::max);
+        let beyond = kept.iter().map(|kept| (kept - MOST_HELD_OUT).max(0.0)).sum();
+        if best.as_ref().is_none_or(|(least, _)| beyond < *least) {
+            best = Some((beyond, folds));
+        }
+        rounds *= 2;
+        if most <= MOST_HELD_OUT || rounds * count * FEWEST_IN_STRETCH > longest {
+            break;
+        }
+    }
+    best.map(|(_, folds)| folds).unwrap_or_default()
+}
+
+/// Stretches of the runs `within`, `rounds` for each of `count` folds, dealt in turn.
+fn dealt(within: &[Vec<usize>], count: usize, rounds: usize) -> Vec<Fold> {
+    let fold = |p: usize| {
+        let (mut test, mut train) = (Vec::new(), Vec::new());
+        for run in within {
+            let is_held_out = |k: usize| k * count * rounds / run.len() % count == p;
+            // One block on each side is left out: a gap against the memory of the noise.
+            let is_near = |k: usize| (k.saturating_sub(1)..(k + 2).min(run.len())).any(is_held_out);
+            test.extend((0..run.len()).filter(|k| is_held_out(*k)).map(|k| run[k]));
+            train.extend((0..run.len()).filter(|k| !is_near(*k)).map(|k| run[k]));
+        }
+        Fold { test, train }
+    };
+    (0..count).map(fold).collect()
+}
+
+/// How many samples every joint tells of in every block, by the way it turns.
+struct Told {
+    /// `[joint and way][block]`
+    samples: Vec<Vec<usize>>,
+    /// The same of all blocks.
+    all: Vec<usize>,
+}
+
+impl Told {
+    fn new(design: &Design, blocks: &[Block], of: &[usize]) -> Self {
+        let moved: Vec<usize> = (0..design.joints()).filter(|j| design.moved[*j]).collect();
+        let in_block = |j: usize, forward: bool, block: &Block| {
+            let joint = &design.runs[block.run].joints[j];
+            let tells = |t: &usize| joint.tells[*t] && (joint.state[1][*t] > 0.0) == forward;
+            block.samples.clone().filter(tells).count()
+        };
+        let (mut samples, mut all) = (Vec::new(), Vec::new());
+        for j in moved {
+            let ways = [false, true]
+                .map(|way| blocks.iter().map(|b| in_block(j, way, b)).collect::<Vec<_>>());
+            let sums = ways.each_ref().map(|way| of.iter().map(|&b| way[b]).sum::<usize>());
+            let whole = (sums[0] + sums[1]) as f64;
+            for (way, sum) in ways.into_iter().zip(sums) {
+                if sum > 0 && sum as f64 >= A_WAY * whole {
+                    samples.push(way);
+                    all.push(sum);
+                }
+            }
+        }
+        Self { samples, all }
+    }
+
+    /// The largest share of what each joint tells each way that a fold keeps from its fit.
+    fn held_out(&self, folds: &[Fold]) -> Vec<f64> {
+        let of = |(way, all): (&Vec<usize>, &usize)| {
+            let share = |fold: &Fold| {
+                1.0 - fold.train.iter().map(|&b| way[b]).sum::<usize>() as f64 / *all as f64
+            };
+            folds.iter().map(share).fold(0.0, f64::max)
+        };
+        self.samples.iter().zip(&self.all).map(of).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two runs, of 60 and of 30 blocks.
+    fn within() -> Vec<Vec<usize>> {
+        vec![(0..60).collect(), (60..90).collect()]
+    }
+
+    #[test]
+    fn stretches_are_held_out_once_and_next_to_none_that_is_fitted() {
+        for rounds in [1, 2, 4] {
+            let folds = dealt(&within(), FOLDS, rounds);
+            let mut held_out: Vec<usize> = folds.iter().flat_map(|f| f.test.clone()).collect();
+            held_out.sort_unstable();
+            assert_eq!(held_out, (0..90).collect::<Vec<_>>());
+            for fold in &folds {
+                let is_near = |b: &usize| {
+                    fold.test.iter().any(|t| t.abs_diff(*b) <= 1 && (*t < 60) == (*b < 60))
+                };
+                assert!(!fold.train.iter().any(is_near), "{rounds} rounds");
+            }
+        }
+        // A fifth of every run, as one stretch, and the block next to it.
+        let first = &dealt(&within(), FOLDS, 1)[0];
+        assert_eq!(first.test, (0..12).chain(60..66).collect::<Vec<_>>());
+        assert_eq!(first.train, (13..60).chain(67..90).collect::<Vec<_>>());
+    }
+
+    /// A joint that moves in blocks 12 to 23 of 60 alone moves in one fold of five, and in all of them
+    /// when 10 or 20 stretches are dealt.
+    #[test]
+    fn a_brief_motion_is_on_both_sides_when_more_stretches_are_dealt() {
+        let brief: Vec<usize> =
+            (0..60).map(|b| if (12..24).contains(&b) { 10 } else { 0 }).collect();
+        let told = Told { all: vec![brief.iter().sum()], samples: vec![brief] };
+        let within = vec![(0..60).collect::<Vec<usize>>()];
+        let kept = |rounds| told.held_out(&dealt(&within, FOLDS, rounds))[0];
+        assert!((kept(1) - 1.0).abs() < 1e-12);
+        assert!(kept(2) > MOST_HELD_OUT && kept(4) <= MOST_HELD_OUT, "{} {}", kept(2), kept(4));
+    }
+}

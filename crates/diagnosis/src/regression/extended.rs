@@ -1,0 +1,15 @@
+use robot::Robot;
+
+use crate::columns::design::Design;
+use crate::regression::problem::Model;
+
+/// The robot changed by the weights of a model.
+pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &[f64]) -> Robot {
+    let mut changed = robot.clone();
+    for &g in model {
+        let group = &design.groups[g];
+        let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
+        group.hypothesis.extend(&mut changed, &own, &design.frame);
+    }
+    changed
+}

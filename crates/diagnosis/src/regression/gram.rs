@@ -1,0 +1,149 @@
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::columns::design::Design;
+use crate::regression::blocks::Block;
+
+/// Sufficient statistics of one joint in one block: with `X` its local columns and `y` its
+/// residual,
+///
+/// ```text
+/// xx = X' X,  xy = X' y,  yy = y' y
+/// ```
+#[derive(Debug, Clone)]
+pub(crate) struct JointGram {
+    pub xx: DMatrix<f64>,
+    pub xy: DVector<f64>,
+    pub yy: f64,
+    /// Number of samples.
+    pub count: usize,
+}
+
+impl JointGram {
+    fn empty(width: usize) -> Self {
+        Self { xx: DMatrix::zeros(width, width), xy: DVector::zeros(width), yy: 0.0, count: 0 }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.xx += &other.xx;
+        self.xy += &other.xy;
+        self.yy += other.yy;
+        self.count += other.count;
+    }
+
+    /// Sum of squares left by the local weights `w`, each with its place: `yy - 2 w' xy + w' xx w`.
+    fn remaining(&self, w: &[(usize, f64)]) -> f64 {
+        let explained = |&(i, wi): &(usize, f64)| {
+            let column = self.xx.column(i);
+            wi * (2.0 * self.xy[i] - w.iter().map(|&(k, wk)| column[k] * wk).sum::<f64>())
+        };
+        (self.yy - w.iter().map(explained).sum::<f64>()).max(0.0)
+    }
+
+    /// `X' (y - X w)`.
+    fn score(&self, w: &[(usize, f64)]) -> DVector<f64> {
+        let mut score = self.xy.clone();
+        w.iter().for_each(|&(k, wk)| score.axpy(-wk, &self.xx.column(k), 1.0));
+        score
+    }
+}
+
+/// Sufficient statistics of every block, `[block][joint]`.
+#[derive(Debug, Clone)]
+pub(crate) struct Grams {
+    blocks: Vec<Vec<JointGram>>,
+    local: Vec<Vec<usize>>,
+    width: usize,
+}
+
+/// The statistics of all joints together, each with its weight: the normal equations.
+#[derive(Debug, Clone)]
+pub(crate) struct Information {
+    /// `sum_j c_j X_j' X_j`.
+    pub h: DMatrix<f64>,
+    /// `sum_j c_j X_j' y_j`.
+    pub g: DVector<f64>,
+    /// `sum_j c_j y_j' y_j`.
+    pub yy: f64,
+}
+
+impl Information {
+    /// What the weights `w` leave: `yy - 2 w' g + w' H w`.
+    pub fn deviance(&self, w: &[f64]) -> f64 {
+        let w = DVector::from_column_slice(w);
+        self.yy - 2.0 * w.dot(&self.g) + w.dot(&(&self.h * &w))
+    }
+}
+
+impl Grams {
+    /// One pass over the design.
+    pub fn new(design: &Design, blocks: &[Block]) -> Self {
+        let joint = |block: &Block, j: usize| {
+            let signals = &design.runs[block.run].joints[j];
+            let told: Vec<usize> =
+                block.samples.clone().filter(|t| signals.tells.get(*t) == Some(&true)).collect();
+            let y = signals.residual().skip(block.samples.start).take(block.samples.len());
+            let y = y.zip(&signals.tells[block.samples.clone()]).filter(|(_, tells)| **tells);
+            let y = DVector::from_iterator(told.len(), y.map(|(y, _)| y));
+            let x = signals.x.select_rows(&told);
+            let xt = x.transpose();
+            JointGram { xx: &xt * &x, xy: &xt * &y, yy: y.norm_squared(), count: y.len() }
+        };
+        let all = |block: &Block| (0..design.joints()).map(|j| joint(block, j)).collect();
+        Self {
+            blocks: blocks.par_iter().map(all).collect(),
+            local: design.local.clone(),
+            width: design.width,
+        }
+    }
+
+    /// The statistics of joint `j` over the blocks `of`.
+    pub fn joint(&self, j: usize, of: &[usize]) -> JointGram {
+        let mut sum = JointGram::empty(self.local[j].len());
+        of.iter().for_each(|&b| sum.add(&self.blocks[b][j]));
+        sum
+    }
+
+    /// The normal equations over the blocks `of`, joint `j` with weight `weight[j]`.
+    pub fn information(&self, of: &[usize], weight: &[f64]) -> Information {
+        let (mut h, mut g) = (DMatrix::zeros(self.width, self.width), DVector::zeros(self.width));
+        let mut yy = 0.0;
+        for (j, &c) in weight.iter().enumerate().filter(|(_, c)| **c > 0.0) {
+            let sum = self.joint(j, of);
+            yy += c * sum.yy;
+            for (a, &row) in self.local[j].iter().enumerate() {
+                g[row] += c * sum.xy[a];
+                for (b, &column) in self.local[j].iter().enumerate() {
+                    h[(row, column)] += c * sum.xx[(a, b)];
+                }
+            }
+        }
+        Information { h, g, yy }
+    }
+
+    /// `sum_j c_j X_j' (y_j - X_j w)` of one block.
+    pub fn score(&self, block: usize, weight: &[f64], w: &[f64]) -> DVector<f64> {
+        let mut score = DVector::zeros(self.width);
+        for (j, &c) in weight.iter().enumerate().filter(|(_, c)| **c > 0.0) {
+            let local = self.local(j, w);
+            let part = self.blocks[block][j].score(&local);
+            self.local[j].iter().zip(part.iter()).for_each(|(&k, s)| score[k] += c * s);
+        }
+        score
+    }
+
+    /// The weights at joint `j` that are not zero, with their places: few of its columns are in a model.
+    fn local(&self, j: usize, w: &[f64]) -> Vec<(usize, f64)> {
+        let all = self.local[j].iter().map(|&k| w[k]).enumerate();
+        all.filter(|(_, w)| w.abs() > 0.0).collect()
+    }
+
+    /// Sum of squares and number of samples that `w` leaves at joint `j` over the blocks `of`.
+    pub fn remaining(&self, j: usize, of: &[usize], w: &[f64]) -> (f64, usize) {
+        let local = self.local(j, w);
+        of.iter().fold((0.0, 0), |(sum, n), &b| {
+            let gram = &self.blocks[b][j];
+            (sum + gram.remaining(&local), n + gram.count)
+        })
+    }
+}

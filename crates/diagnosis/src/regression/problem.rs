@@ -1,0 +1,227 @@
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::DVector;
+
+use crate::columns::design::Design;
+use crate::regression::blocks::{Block, Fold, Folding, folds};
+use crate::regression::fit::Fit;
+use crate::regression::gram::{Grams, Information};
+use crate::regression::noise::Noise;
+use crate::signals::look::Look;
+
+/// A set of hypotheses, by index of their groups.
+pub(crate) type Model = BTreeSet<usize>;
+
+/// The regression problem on a part of the record: what selection, tests and fits work on.
+#[derive(Debug, Clone)]
+pub(crate) struct Problem<'a> {
+    pub design: &'a Design,
+    pub blocks: &'a [Block],
+    pub grams: &'a Grams,
+    /// The blocks that take part.
+    pub of: Vec<usize>,
+    /// How they are held out in turn.
+    pub folds: Vec<Fold>,
+    /// Weight of each joint's squared residuals.
+    pub weight: Vec<f64>,
+    /// Normal equations of all blocks.
+    pub info: Information,
+    /// Normal equations of each fold's training blocks.
+    pub training: Vec<Information>,
+    /// Effects that are known to do less than their columns, and are not looked for.
+    pub idle: Model,
+}
+
+/// Squared held-out residuals of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct HeldOut {
+    /// Mean square at each joint.
+    pub mean_square: Vec<f64>,
+    /// Weighted sum of squares of each block of the problem.
+    pub deviance: Vec<f64>,
+}
+
+impl HeldOut {
+    /// Weighted sum of squares of all blocks.
+    pub fn total(&self) -> f64 {
+        self.deviance.iter().sum()
+    }
+}
+
+impl<'a> Problem<'a> {
+    /// The problem on the blocks `of`, with joints weighted as `weight` says.
+    pub fn new(
+        design: &'a Design,
+        blocks: &'a [Block],
+        grams: &'a Grams,
+        of: &[usize],
+        weight: Vec<f64>,
+    ) -> Self {
+        let folds = folds(design, blocks, of, Folding::ByMotion);
+        let info = grams.information(of, &weight);
+        let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
+        let idle = Model::new();
+        Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training, idle }
+    }
+
+    /// The same problem with other weights.
+    pub fn reweighted(&self, weight: Vec<f64>) -> Self {
+        let problem = Self::new(self.design, self.blocks, self.grams, &self.of, weight);
+        Self { idle: self.idle.clone(), ..problem }
+    }
+
+    /// The same problem held out in another way.
+    pub fn refolded(&self, folding: Folding) -> Self {
+        let folds = folds(self.design, self.blocks, &self.of, folding);
+        let information = |f: &Fold| self.grams.information(&f.train, &self.weight);
+        let training = folds.iter().map(information).collect();
+        Self { folds, training, ..self.clone() }
+    }
+
+    /// The blocks in groups that are independent of each other: where runs repeat a motion,
+    /// what is left of them repeats too, and the same stretch of each belongs together.
+    pub fn independent(&self) -> Vec<Vec<usize>> {
+        let mut groups: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+        for &b in &self.of {
+            let run = self.blocks[b].run;
+            let place = self.blocks[..b].iter().filter(|other| other.run == run).count();
+            groups.entry((self.design.motion[run], place)).or_default().push(b);
+        }
+        groups.into_values().collect()
+    }
+
+    /// The score of every independent group of blocks, `sum_j c_j X_j' (y_j - X_j w)`.
+    pub fn scores(&self, weights: &[f64]) -> Vec<DVector<f64>> {
+        let score = |b: &usize| self.grams.score(*b, &self.weight, weights);
+        let sum = |group: &Vec<usize>| group.iter().map(score).sum();
+        self.independent().iter().map(sum).collect()
+    }
+
+    /// The columns of a model, in increasing order.
+    pub fn columns(&self, model: &Model) -> Vec<usize> {
+        let all: BTreeSet<usize> =
+            model.iter().flat_map(|&g| self.design.groups[g].columns.iter().copied()).collect();
+        all.into_iter().collect()
+    }
+
+    /// The columns of `group` that `model` does not have.
+    pub fn new_columns(&self, model: &Model, group: usize) -> Vec<usize> {
+        let have = self.columns(model);
+        let of_group = &self.design.groups[group].columns;
+        of_group.iter().copied().filter(|k| have.binary_search(k).is_err()).collect()
+    }
+
+    /// The fit of a model to all blocks.
+    pub fn fit(&self, model: &Model) -> Option<Fit> {
+        Fit::new(&self.info, self.columns(model), self.design.beliefs())
+    }
+
+    /// All weights of a model fitted to the training blocks of fold `fold`.
+    pub fn fold_weights(&self, model: &Model, fold: usize) -> Vec<f64> {
+        let fit = Fit::new(&self.training[fold], self.columns(model), self.design.beliefs());
+        fit.map_or_else(|| vec![0.0; self.design.width], |f| f.expand(self.design.width))
+    }
+
+    /// What a model leaves on the blocks that its weights have not seen.
+    pub fn held_out(&self, model: &Model) -> HeldOut {
+        let joints = self.design.joints();
+        let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
+        let mut deviance = vec![0.0; self.blocks.len()];
+        for (f, fold) in self.folds.iter().enumerate() {
+            let w = self.fold_weights(model, f);
+            for &b in &fold.test {
+                for j in 0..joints {
+                    let (sum, n) = self.grams.remaining(j, &[b], &w);
+                    squares[j] += sum;
+                    counts[j] += n;
+                    deviance[b] += self.weight[j] * sum;
+                }
+            }
+        }
+        let mean = |(s, &n): (&f64, &usize)| s / n.max(1) as f64;
+        HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
+    }
+
+    /// A signal of run `run` of which each block is taken from what its fold has; a block of no fold, from
+    /// the first.
+    pub fn put_together(&self, run: usize, folds: &[&[f64]]) -> Vec<f64> {
+        let of_run = self.blocks.iter().enumerate().filter(|(_, block)| block.run == run);
+        let part = |(b, block): (usize, &Block)| {
+            let fold = self.folds.iter().position(|f| f.test.contains(&b)).unwrap_or(0);
+            folds.get(fold).map_or(&[][..], |of| &of[block.samples.clone()]).to_vec()
+        };
+        of_run.flat_map(part).collect()
+    }
+
+    /// Held-out residuals, `[joint][run][sample]`, of what `left` says that each fold, by its
+    /// index, leaves of a run at a joint; runs that take no part are left out.
+    pub fn held_out_residuals(
+        &self,
+        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+    ) -> Vec<Vec<Vec<f64>>> {
+        self.residuals(left, |_, left| left.to_vec())
+    }
+
+    /// The same of the samples that tell of the efforts.
+    pub fn told_residuals(
+        &self,
+        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+    ) -> Vec<Vec<Vec<f64>>> {
+        self.residuals(left, |tells, left| {
+            left.iter().zip(tells).filter(|(_, tells)| **tells).map(|(left, _)| *left).collect()
+        })
+    }
+
+    /// Held-out residuals, of which `taken` takes its part of what a block tells and leaves.
+    fn residuals(
+        &self,
+        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+        taken: impl Fn(&[bool], &[f64]) -> Vec<f64>,
+    ) -> Vec<Vec<Vec<f64>>> {
+        let fold_of = |b: usize| self.folds.iter().position(|f| f.test.contains(&b));
+        let mut residuals = vec![Vec::new(); self.design.joints()];
+        for run in 0..self.design.runs.len() {
+            let of_run = self.blocks.iter().enumerate().filter(|(_, block)| block.run == run);
+            let own: Vec<(&Block, usize)> =
+                of_run.filter_map(|(b, block)| Some((block, fold_of(b)?))).collect();
+            if own.is_empty() {
+                continue;
+            }
+            for (j, residual) in residuals.iter_mut().enumerate() {
+                let of_fold = |f: usize| {
+                    let used = own.iter().any(|(_, fold)| *fold == f);
+                    if used { left(f, run, j) } else { Vec::new() }
+                };
+                let left: Vec<Vec<f64>> = (0..self.folds.len()).map(of_fold).collect();
+                let tells = &self.design.runs[run].joints[j].tells;
+                let part = |(block, f): &(&Block, usize)| {
+                    taken(&tells[block.samples.clone()], &left[*f][block.samples.clone()])
+                };
+                residual.push(own.iter().flat_map(part).collect());
+            }
+        }
+        residuals
+    }
+
+    /// The noise that a model leaves on held-out blocks.
+    pub fn noise(&self, model: &Model) -> Noise {
+        let weights: Vec<Vec<f64>> =
+            (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
+        let left = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
+        Noise::of(&self.told_residuals(left))
+    }
+
+    /// The noise that a model leaves on the blocks it is fitted to.
+    pub fn fitted_noise(&self, model: &Model) -> Noise {
+        let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
+        Noise::of(&self.told_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
+    }
+
+    /// The model of every hypothesis at once, but those that may pass for others in an effort.
+    pub fn everything(&self) -> Model {
+        let groups = &self.design.groups;
+        let firm =
+            |g: &usize| self.design.look == Look::Twist || !groups[*g].hypothesis.is_doubtful();
+        (0..groups.len()).filter(firm).collect()
+    }
+}

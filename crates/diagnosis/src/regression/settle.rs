@@ -1,0 +1,155 @@
+use dynamics::{ConsistentFit, PARAMETERS_PER_LINK};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use robot::{Inertia, Robot};
+
+use crate::columns::design::Design;
+use crate::regression::fit::{Fit, pick};
+use crate::regression::gram::Information;
+use crate::regression::problem::{Model, Problem};
+
+/// Weight of the divergence from the nominal inertias, in units of the log-likelihood: a
+/// pseudo-inertia that differs by its own size counts like one standard deviation.
+const PRIOR_WEIGHT: f64 = 1.0;
+
+/// Least standard deviation of a direction, in those of its prior: a thousandth of what is
+/// believed beforehand is sharper than any model of rigid bodies is true.
+const SHARPEST: f64 = 1e-3;
+
+/// Weights of a model with every inertia physical.
+///
+/// Links of the model are profiled against all other columns, moved to the physically
+/// consistent inertias nearest in likelihood (see [`ConsistentFit`]), and the other
+/// columns are fitted again with the links held.
+pub(crate) fn settle(
+    problem: &Problem,
+    model: &Model,
+    info: &Information,
+    robot: &Robot,
+) -> Vec<f64> {
+    let design = problem.design;
+    let links = links(design, model);
+    let all = problem.columns(model);
+    if links.is_empty() {
+        let fit = Fit::new(info, all, design.beliefs());
+        return fit.map_or_else(|| vec![0.0; design.width], |f| f.expand(design.width));
+    }
+    let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
+    let rest: Vec<usize> = all.into_iter().filter(|k| !body.contains(k)).collect();
+    let Some(others) = Fit::new(info, rest.clone(), design.beliefs()) else {
+        return vec![0.0; design.width];
+    };
+    let change = consistent_change(&others, info, robot, &links, design);
+    let mut weights = vec![0.0; design.width];
+    body.iter().zip(&change).for_each(|(&k, &w)| weights[k] = w);
+    // With the links held, the rest answers what is left: g_R - H_RL w_L.
+    let held = Information {
+        h: info.h.clone(),
+        g: &info.g - &info.h * DVector::from_column_slice(&weights),
+        yy: info.yy,
+    };
+    if let Some(fit) = Fit::new(&held, rest, design.beliefs()) {
+        let others = fit.expand(design.width);
+        weights.iter_mut().zip(others).for_each(|(w, other)| *w += other);
+    }
+    weights
+}
+
+/// The links of a model, each with its ten columns.
+pub(crate) fn links(design: &Design, model: &Model) -> Vec<(usize, Vec<usize>)> {
+    let of = |&g: &usize| {
+        let group = &design.groups[g];
+        group.hypothesis.link().map(|link| (link, group.columns.clone()))
+    };
+    model.iter().filter_map(of).collect()
+}
+
+/// Changes of the links' parameters, in the order of `links`, that keep every inertia
+/// physical.
+fn consistent_change(
+    others: &Fit,
+    info: &Information,
+    robot: &Robot,
+    links: &[(usize, Vec<usize>)],
+    design: &Design,
+) -> Vec<f64> {
+    let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
+    let flat = vec![f64::INFINITY; design.width];
+    let (complement, score) = others.beyond(info, &body, &flat);
+    let prior = pick(&DVector::from_column_slice(&design.prior), &body);
+    let (h, change) = limited(&complement.b, &score, &prior);
+    let nominal: Vec<f64> = robot.links().iter().flat_map(|l| l.inertia.parameters()).collect();
+    let place: Vec<usize> = links
+        .iter()
+        .flat_map(|(link, _)| (0..PARAMETERS_PER_LINK).map(move |p| PARAMETERS_PER_LINK * link + p))
+        .collect();
+    let mut information = DMatrix::zeros(nominal.len(), nominal.len());
+    let mut estimate = nominal.clone();
+    for (i, &row) in place.iter().enumerate() {
+        estimate[row] += change[i];
+        place.iter().enumerate().for_each(|(k, &column)| information[(row, column)] = h[(i, k)]);
+    }
+    let indices: Vec<usize> = links.iter().map(|(link, _)| *link).collect();
+    let fit = ConsistentFit {
+        robot,
+        information: &information,
+        estimate: &estimate,
+        links: &indices,
+        prior_weight: PRIOR_WEIGHT,
+    };
+    // What is physical as it stands needs no change; otherwise the nearest in likelihood of
+    // two physical answers is taken, and the second is there whatever the solver says.
+    let back = drawn_back(&nominal, &place, &change);
+    let found = fit.solve().ok().map(|found| {
+        DVector::from_iterator(place.len(), place.iter().map(|&k| found.parameters[k] - nominal[k]))
+    });
+    let distance = |w: &DVector<f64>| (w - &change).dot(&(&h * (w - &change)));
+    let nearest = found.filter(|w| distance(w) < distance(&back)).unwrap_or(back);
+    nearest.iter().copied().collect()
+}
+
+/// Information and most likely change of some weights, in the eigenvectors of
+/// `P H P = V diag(l) V'` with `P` the priors' standard deviations:
+///
+/// ```text
+/// l' = l / (1 + l SHARPEST^2),  change = P V diag(1 / (1 + l)) V' P score
+/// ```
+///
+/// No direction is known better than a share of its prior, which keeps the problem well
+/// conditioned; directions that the data do not show stay.
+fn limited(
+    h: &DMatrix<f64>,
+    score: &DVector<f64>,
+    prior: &DVector<f64>,
+) -> (DMatrix<f64>, DVector<f64>) {
+    let n = h.nrows();
+    let scaled = DMatrix::from_fn(n, n, |i, k| 0.5 * prior[i] * (h[(i, k)] + h[(k, i)]) * prior[k]);
+    if scaled.iter().any(|v| !v.is_finite()) {
+        return (DMatrix::zeros(n, n), DVector::zeros(n));
+    }
+    let eigen = SymmetricEigen::new(scaled);
+    let seen = eigen.eigenvalues.map(|l| l.max(0.0));
+    let kept = seen.map(|l| l / (1.0 + l * SHARPEST * SHARPEST));
+    let solved = seen.map(|l| 1.0 / (1.0 + l));
+    let v = &eigen.eigenvectors;
+    let change = v * solved.component_mul(&v.tr_mul(&score.component_mul(prior)));
+    let known = v * DMatrix::from_diagonal(&kept) * v.transpose();
+    let information = DMatrix::from_fn(n, n, |i, k| {
+        0.5 * (known[(i, k)] + known[(k, i)]) / (prior[i] * prior[k])
+    });
+    (information, change.component_mul(prior))
+}
+
+/// The largest part of a change, in tenths, that keeps every inertia physical.
+fn drawn_back(nominal: &[f64], place: &[usize], change: &DVector<f64>) -> DVector<f64> {
+    let part = |tenths: u32| change.map(|c| c * f64::from(tenths) / 10.0);
+    let physical = |change: &DVector<f64>| {
+        let mut all = nominal.to_vec();
+        place.iter().zip(change.iter()).for_each(|(&k, c)| all[k] += c);
+        let touched = |link: usize| place.iter().any(|k| k / PARAMETERS_PER_LINK == link);
+        all.as_chunks::<PARAMETERS_PER_LINK>().0.iter().enumerate().all(|(link, pi)| {
+            !touched(link) || Inertia::from_parameters(pi).pseudo_inertia().cholesky().is_some()
+        })
+    };
+    let largest = (1..=10).rev().map(part).find(physical);
+    largest.unwrap_or_else(|| DVector::zeros(place.len()))
+}

@@ -1,0 +1,258 @@
+use effects::{Hypothesis, Quantity, Weights};
+use nalgebra::{DMatrix, DVector};
+use robot::Robot;
+use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+
+use crate::regression::extended::extended;
+use crate::regression::fit::{Fit, covariance, pick};
+use crate::regression::fitted::Fitted;
+use crate::regression::problem::{Model, Problem};
+use crate::result::Estimate;
+use crate::thresholds::DETERMINED;
+
+/// Share of the largest eigenvalue of a correlation below which one is rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// The uncertainty of a model's weights.
+///
+/// Two covariances of the weights are kept, and the larger of the two counts:
+///
+/// ```text
+/// likelihood  A^-1, where n correlated samples count as n / time
+/// blocks      A^-1 (sum_b s_b s_b') A^-1 B / (B - 1),  s_b the score of block b
+/// ```
+#[derive(Debug, Clone)]
+pub(crate) struct Uncertainty {
+    columns: Vec<usize>,
+    likelihood: DMatrix<f64>,
+    blocks: DMatrix<f64>,
+    /// Half width of a 95 per cent interval in standard deviations.
+    t: f64,
+}
+
+impl Uncertainty {
+    /// The uncertainty of what was fitted.
+    pub fn of(fitted: &Fitted) -> Option<Self> {
+        let fit = fitted.problem.fit(fitted.model)?;
+        Some(Self::new(fitted.problem, &fit, fitted.weights))
+    }
+
+    /// The uncertainty of `fit`, whose weights are used as they stand in `weights`.
+    fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
+        // Weights held at a bound are uncertain too, on the side that is possible.
+        let held = fit.held.iter().map(|(k, _)| *k);
+        let mut columns: Vec<usize> = fit.columns.iter().copied().chain(held).collect();
+        columns.sort_unstable();
+        let likelihood = covariance(&problem.info, &columns, &problem.design.prior);
+        let scores = problem.scores(weights);
+        let count = scores.len() as f64;
+        let mut meat = DMatrix::zeros(columns.len(), columns.len());
+        for score in &scores {
+            let own = pick(score, &columns);
+            meat.ger(1.0, &own, &own, 1.0);
+        }
+        let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
+        let t =
+            StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0)).map_or(2.0, |d| d.inverse_cdf(0.975));
+        Self { columns, likelihood, blocks, t }
+    }
+
+    /// The parameters of `hypothesis` as the user reads them, with intervals, where it and its
+    /// `parts` are fitted about a robot.
+    pub fn estimates(
+        &self,
+        fitted: &Fitted,
+        hypothesis: Hypothesis,
+        parts: &[Hypothesis],
+    ) -> Vec<Estimate> {
+        let (design, weights) = (fitted.problem.design, fitted.weights);
+        let at = |w: &[f64]| {
+            let robot = extended(fitted.about, design, fitted.model, w);
+            hypothesis.quantities(fitted.nominal, &robot)
+        };
+        let here = at(weights);
+        let groups = parts.iter().chain([&hypothesis]).filter_map(|h| design.find(*h));
+        let own: Vec<usize> =
+            groups.flat_map(|g| design.groups[g].columns.iter().copied()).collect();
+        let slopes: Vec<Vec<f64>> =
+            own.iter().map(|&k| slope(&at, &here, weights, k, design.prior[k])).collect();
+        let place: Vec<usize> =
+            own.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
+        here.iter()
+            .enumerate()
+            .map(|(i, quantity)| {
+                let gradient = DVector::from_iterator(own.len(), slopes.iter().map(|s| s[i]));
+                let prior = pick(&DVector::from_column_slice(&design.prior), &own);
+                let sd = self.sd(&place, &gradient);
+                let before = gradient.component_mul(&prior).norm();
+                let mut estimate = estimate(quantity, sd * self.t, before * self.t);
+                let at = (quantity.value, weights);
+                clip(&mut estimate, (&own, &gradient), &design.bounds, at);
+                if hypothesis.nature().is_some_and(|n| n.weights == Weights::Reciprocal) {
+                    let half = self.t * self.sd(&place, &DVector::from_element(own.len(), 1.0));
+                    estimate.ci95 = between(estimate.value.recip(), half);
+                }
+                estimate
+            })
+            .collect()
+    }
+
+    /// Standard deviation of `gradient' w` over the columns at `place`.
+    fn sd(&self, place: &[usize], gradient: &DVector<f64>) -> f64 {
+        let variance = |all: &DMatrix<f64>| {
+            let part = DMatrix::from_fn(place.len(), place.len(), |i, k| all[(place[i], place[k])]);
+            gradient.dot(&(part * gradient))
+        };
+        variance(&self.likelihood).max(variance(&self.blocks)).max(0.0).sqrt()
+    }
+
+    /// Whether a change of the weights of some columns is within their 95 per cent region:
+    ///
+    /// ```text
+    /// change' C^-1 change / max(1, trace(C^-1 C_blocks) / k) < chi^2_k(0.95)
+    /// ```
+    ///
+    /// with `C` of the likelihood and `k` columns.
+    fn may_be_none(&self, columns: &[usize], change: &DVector<f64>) -> bool {
+        let place: Vec<usize> =
+            columns.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
+        let sd = |i: usize| self.likelihood[(place[i], place[i])].sqrt();
+        let part = |all: &DMatrix<f64>| {
+            let scaled = |i, k| all[(place[i], place[k])] / (sd(i) * sd(k));
+            DMatrix::from_fn(place.len(), place.len(), scaled)
+        };
+        let (likelihood, count) = (part(&self.likelihood), place.len());
+        if count != change.len() || likelihood.iter().any(|v| !v.is_finite()) {
+            return false;
+        }
+        let scaled = DVector::from_fn(count, |i, _| change[i] / sd(i));
+        let Some(inverse) = likelihood.pseudo_inverse(ROUNDING).ok() else { return false };
+        let Ok(law) = ChiSquared::new(count as f64) else { return false };
+        let wider = ((&inverse * part(&self.blocks)).trace() / count as f64).max(1.0);
+        scaled.dot(&(&inverse * &scaled)) / wider < law.inverse_cdf(0.95)
+    }
+
+    /// How many directions of the group's weights the data leave as wide as half the prior,
+    /// and how many there are.
+    pub fn undetermined(&self, problem: &Problem, hypothesis: Hypothesis) -> (usize, usize) {
+        let design = problem.design;
+        let Some(group) = design.find(hypothesis) else { return (0, 0) };
+        let own = &design.groups[group].columns;
+        let place: Vec<usize> =
+            own.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
+        let scaled = DMatrix::from_fn(place.len(), place.len(), |i, k| {
+            self.likelihood[(place[i], place[k])] / (design.prior[own[i]] * design.prior[own[k]])
+        });
+        // An infinite covariance has no eigenvalues, and determines nothing.
+        if scaled.is_empty() || scaled.iter().any(|v| !v.is_finite()) {
+            return (own.len(), own.len());
+        }
+        let wide =
+            scaled.symmetric_eigenvalues().iter().filter(|v| **v > DETERMINED.powi(2)).count();
+        (wide, own.len())
+    }
+}
+
+/// A hypothesis that is not possible together with all others, one with one weight none of
+/// whose parameters differs from its nominal value by more than its 95 per cent interval, a body
+/// whose ten numbers together may as well be those described, or an asymmetry or an excess near rest
+/// that may be none: its size is not decided. None if all stand.
+pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Option<usize> {
+    let uncertainty = Uncertainty::of(fitted)?;
+    let robot = fitted.robot();
+    let holds = |e: &Estimate| {
+        let rounding = 1e-9 * (e.ci95[1] - e.ci95[0]);
+        (e.ci95[0] - rounding..=e.ci95[1] + rounding).contains(&e.nominal)
+    };
+    model.iter().copied().find(|&g| {
+        let group = &problem.design.groups[g];
+        let estimates = || uncertainty.estimates(fitted, group.hypothesis, &[]);
+        !group.hypothesis.is_sound(&robot)
+            || group.columns.len() == 1 && estimates().iter().all(holds)
+            || is_unchanged_body(&uncertainty, fitted, group.hypothesis)
+            || is_no_more_than_plain(&uncertainty, fitted, group.hypothesis)
+    })
+}
+
+/// Whether an effect that changes all ten inertial parameters of a link changes none for sure.
+fn is_unchanged_body(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hypothesis) -> bool {
+    let design = fitted.problem.design;
+    let (Some(link), Some(group)) = (hypothesis.link(), design.find(hypothesis)) else {
+        return false;
+    };
+    let of = |robot: &Robot| DVector::from_column_slice(&robot.links()[link].inertia.parameters());
+    let change = of(&fitted.robot()) - of(fitted.nominal);
+    uncertainty.may_be_none(&design.groups[group].columns, &change)
+}
+
+/// Whether what makes an effect more than a plainer one of the same place may be none.
+fn is_no_more_than_plain(
+    uncertainty: &Uncertainty,
+    fitted: &Fitted,
+    hypothesis: Hypothesis,
+) -> bool {
+    let design = fitted.problem.design;
+    let Some(columns) = design.find(hypothesis).map(|g| &design.groups[g].columns) else {
+        return false;
+    };
+    let may_be_none = |(weight, change): (usize, f64)| {
+        let column = columns.get(weight);
+        column.is_some_and(|&k| uncertainty.may_be_none(&[k], &DVector::from_element(1, change)))
+    };
+    let more = hypothesis.more_than_plain([fitted.nominal, &fitted.robot()], &design.frame);
+    more.into_iter().any(may_be_none)
+}
+
+/// Change of every quantity per unit of weight `k`, by a central difference.
+fn slope(
+    at: &impl Fn(&[f64]) -> Vec<Quantity>,
+    here: &[Quantity],
+    weights: &[f64],
+    k: usize,
+    prior: f64,
+) -> Vec<f64> {
+    let step = 1e-4 * prior;
+    let moved = |sign: f64| {
+        let mut w = weights.to_vec();
+        w[k] += sign * step;
+        at(&w)
+    };
+    let (up, down) = (moved(1.0), moved(-1.0));
+    let slope = |i: usize| (up[i].value - down[i].value) / (2.0 * step);
+    (0..here.len()).map(slope).collect()
+}
+
+/// Keeps an interval within what is physically possible, where its quantity follows one
+/// bounded weight; `value` is the quantity at `weights`.
+fn clip(
+    estimate: &mut Estimate,
+    (own, gradient): (&[usize], &DVector<f64>),
+    bounds: &[(f64, f64)],
+    (value, weights): (f64, &[f64]),
+) {
+    let mut followed = own.iter().zip(gradient.iter()).filter(|(_, g)| g.abs() > 0.0);
+    let (Some((&k, &slope)), None) = (followed.next(), followed.next()) else { return };
+    let at = |bound: f64| value + slope * (bound - weights[k]);
+    let (a, b) = (at(bounds[k].0), at(bounds[k].1));
+    let [low, high] = estimate.ci95;
+    estimate.ci95 = [low.max(a.min(b)).min(estimate.value), high.min(a.max(b)).max(estimate.value)];
+}
+
+/// Interval of the reciprocal of a number that is not negative and known to `half`: of a
+/// stiffness whose compliance is what the weights change.
+fn between(number: f64, half: f64) -> [f64; 2] {
+    [(number + half).recip(), (number - half).max(0.0).recip()]
+}
+
+/// An estimate with the half width `half` of its interval, which was `before` without data.
+/// A quantity that no weight moves is not determined.
+fn estimate(quantity: &Quantity, half: f64, before: f64) -> Estimate {
+    Estimate {
+        name: quantity.name,
+        value: quantity.value,
+        ci95: [quantity.value - half, quantity.value + half],
+        nominal: quantity.nominal,
+        unit: quantity.unit,
+        determined: before > 1e-9 * quantity.value.abs() && half < DETERMINED * before,
+    }
+}

@@ -1,0 +1,224 @@
+use effects::Law;
+use nalgebra::{DMatrix, DVector};
+
+use crate::columns::design::Design;
+use crate::columns::run_design::RunDesign;
+use crate::regression::fitted::Fitted;
+use crate::regression::gram::Information;
+use crate::regression::problem::Problem;
+use crate::thresholds::{EVIDENCE, VARIATION, VARIATION_OF_ROUGH};
+
+/// What a size may vary with: position, velocity and acceleration of the joint, and its load.
+const SIGNALS: [&str; 4] = ["position", "velocity", "acceleration", "load"];
+
+/// Functions of one signal.
+const FUNCTIONS: usize = 2;
+
+/// How the size of an effect would have to vary for the logs.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Variation {
+    /// RMS variation as a share of the size.
+    pub rms: f64,
+    /// The signal that it varies with; none where it differs from joint to joint.
+    pub with: Option<&'static str>,
+    /// The joint.
+    pub joint: usize,
+}
+
+/// What is fitted beside a model: the torque `c` of one effect at one joint, times functions of a
+/// signal there.
+#[derive(Debug)]
+struct Contrast {
+    joint: usize,
+    with: Option<&'static str>,
+    /// Samples of every run by functions.
+    factors: Vec<DMatrix<f64>>,
+}
+
+/// Normal equations of a model and of one [`Contrast`], over some blocks.
+#[derive(Debug)]
+struct Equations {
+    h: DMatrix<f64>,
+    g: DVector<f64>,
+    yy: f64,
+}
+
+/// The variation without which an effect does not do what the logs show; none where its size may be a
+/// constant, as that of a cause is. `size` are the weights of the effect about the robot without it;
+/// those that it has beyond them about a robot with it are of its shape.
+///
+/// With `c` the torque of the effect, `b_k` functions of one signal z, and `X` the columns of the whole
+/// model,
+///
+/// ```text
+/// y = X w + sum_k g_k b_k(z) c,   b = z and z^2 - 1, or 1 at one of several joints,   g_k ~ N(0, 1)
+/// share = (D(X) - D(X, b c)) / D(c | X without the effect)
+/// ```
+///
+/// with `z` of zero mean and variance one, the fall of `D` on held-out blocks, and what `c` explains
+/// that the others cannot below it. It varies where the root of the share is above [`VARIATION`], or
+/// [`VARIATION_OF_ROUGH`], for some signal. What stands in for a cause that is not looked for explains some
+/// of its torque, and leaves the rest where it is not like it.
+pub(crate) fn variation(fitted: &Fitted, group: usize, size: &[f64]) -> Option<Variation> {
+    let Fitted { problem, model, .. } = *fitted;
+    let columns = problem.columns(model);
+    let alone = explained_alone(problem, &columns, group, size)?;
+    let base = held_out(problem, &columns, None)?;
+    let nature = problem.design.groups[group].hypothesis.nature();
+    let most =
+        if nature.is_some_and(|n| n.law == Law::Rough) { VARIATION_OF_ROUGH } else { VARIATION };
+    let mut largest: Option<(f64, Contrast)> = None;
+    for contrast in contrasts(problem.design, group, size) {
+        let fall = base - held_out(problem, &columns, Some(&contrast))?;
+        let is_largest = largest.as_ref().is_none_or(|(least, _)| fall > *least);
+        if is_largest && fall > 2.0 * EVIDENCE && fall > most * most * alone {
+            largest = Some((fall, contrast));
+        }
+    }
+    let (fall, Contrast { joint, with, .. }) = largest?;
+    Some(Variation { rms: (fall / alone).sqrt(), with, joint })
+}
+
+/// What the torque of an effect explains that the other columns of a model cannot (weighted sum of
+/// squares).
+fn explained_alone(
+    problem: &Problem,
+    columns: &[usize],
+    group: usize,
+    size: &[f64],
+) -> Option<f64> {
+    let own = &problem.design.groups[group].columns;
+    let others: Vec<usize> = columns.iter().copied().filter(|k| !own.contains(k)).collect();
+    let h = &problem.info.h;
+    let sized = own.len().min(size.len());
+    let (own, size) = (&own[..sized], DVector::from_column_slice(&size[..sized]));
+    let whole = size.dot(&(h.select_rows(own).select_columns(own) * &size));
+    let shared = h.select_rows(&others).select_columns(own) * &size;
+    let mut a = h.select_rows(&others).select_columns(&others);
+    others.iter().enumerate().for_each(|(i, &k)| a[(i, i)] += problem.design.prior[k].powi(-2));
+    let alone = whole - shared.dot(&a.cholesky()?.solve(&shared));
+    (alone > 0.0).then_some(alone)
+}
+
+/// The variations of an effect that are tried.
+fn contrasts(design: &Design, group: usize, size: &[f64]) -> Vec<Contrast> {
+    let joints = &design.groups[group].joints;
+    let of_joint = |&joint: &usize| {
+        let torque: Vec<DVector<f64>> =
+            design.runs.iter().map(|run| torque(design, run, (group, size), joint)).collect();
+        let mut all: Vec<Contrast> = Vec::new();
+        for (index, &with) in SIGNALS.iter().enumerate() {
+            let (mean, sd) = spread(design, index, joint);
+            let varied = |(run, torque): (&RunDesign, &DVector<f64>)| {
+                let values = signal(run, index, joint);
+                DMatrix::from_fn(torque.len(), FUNCTIONS, |t, k| {
+                    let z = (values[t] - mean) / sd;
+                    torque[t] * if k == 0 { z } else { z * z - 1.0 }
+                })
+            };
+            let factors = design.runs.iter().zip(&torque).map(varied).collect();
+            all.push(Contrast { joint, with: Some(with), factors });
+        }
+        if joints.len() > 1 {
+            let factors =
+                torque.iter().map(|c| DMatrix::from_columns(std::slice::from_ref(c))).collect();
+            all.push(Contrast { joint, with: None, factors });
+        }
+        all
+    };
+    joints.iter().flat_map(of_joint).collect()
+}
+
+/// The torque of an effect of some size at a joint along a run (N·m or N).
+fn torque(
+    design: &Design,
+    run: &RunDesign,
+    (group, size): (usize, &[f64]),
+    joint: usize,
+) -> DVector<f64> {
+    let x = &run.joints[joint].x;
+    let mut torque = DVector::zeros(x.nrows());
+    for (k, size) in design.groups[group].columns.iter().zip(size) {
+        if let Some(place) = design.local[joint].iter().position(|c| c == k) {
+            torque.axpy(*size, &x.column(place), 1.0);
+        }
+    }
+    torque
+}
+
+/// One of the [`SIGNALS`] of a joint.
+fn signal(run: &RunDesign, index: usize, joint: usize) -> &[f64] {
+    let joint = &run.joints[joint];
+    joint.state.get(index).unwrap_or(&joint.nominal)
+}
+
+/// Mean and standard deviation of a signal over all runs.
+fn spread(design: &Design, index: usize, joint: usize) -> (f64, f64) {
+    let values = || design.runs.iter().flat_map(|run| signal(run, index, joint));
+    let count = values().count().max(1) as f64;
+    let mean = values().sum::<f64>() / count;
+    let variance = values().map(|v| (v - mean).powi(2)).sum::<f64>() / count;
+    (mean, variance.sqrt().max(f64::MIN_POSITIVE))
+}
+
+/// Weighted sum of squares that a model, with a contrast, leaves of blocks that it was not fitted to.
+fn held_out(problem: &Problem, columns: &[usize], contrast: Option<&Contrast>) -> Option<f64> {
+    let mut left = 0.0;
+    for (fold, training) in problem.folds.iter().zip(&problem.training) {
+        let mut train = equations(problem, (training, &fold.train), columns, contrast);
+        for i in 0..train.g.len() {
+            let prior = columns.get(i).map_or(1.0, |&k| problem.design.prior[k]);
+            train.h[(i, i)] += prior.powi(-2);
+        }
+        let w = train.h.cholesky()?.solve(&train.g);
+        let test = problem.grams.information(&fold.test, &problem.weight);
+        let Equations { h, g, yy } = equations(problem, (&test, &fold.test), columns, contrast);
+        left += yy - 2.0 * w.dot(&g) + w.dot(&(h * &w));
+    }
+    Some(left)
+}
+
+/// Normal equations of the columns of a model over the blocks `of`, whose own are `info`, bordered by
+/// those of a contrast.
+fn equations(
+    problem: &Problem,
+    (info, of): (&Information, &[usize]),
+    columns: &[usize],
+    contrast: Option<&Contrast>,
+) -> Equations {
+    let mut h = info.h.select_rows(columns).select_columns(columns);
+    let mut g = info.g.select_rows(columns);
+    let Some(Contrast { joint, factors, .. }) = contrast else {
+        return Equations { h, g, yy: info.yy };
+    };
+    let (known, added) = (columns.len(), factors.first().map_or(0, DMatrix::ncols));
+    h = h.resize(known + added, known + added, 0.0);
+    g = g.resize_vertically(known + added, 0.0);
+    let weight = problem.weight[*joint];
+    let design = problem.design;
+    for block in of.iter().map(|&b| &problem.blocks[b]) {
+        let signals = &design.runs[block.run].joints[*joint];
+        let (from, samples) = (block.samples.start, block.samples.len());
+        let mut b = factors[block.run].rows(from, samples).into_owned();
+        for (t, tells) in signals.tells[block.samples.clone()].iter().enumerate() {
+            if !tells {
+                b.row_mut(t).fill(0.0);
+            }
+        }
+        let x = signals.x.rows(from, samples).tr_mul(&b) * weight;
+        for (i, k) in columns.iter().enumerate() {
+            let Some(place) = design.local[*joint].iter().position(|c| c == k) else { continue };
+            for e in 0..added {
+                h[(i, known + e)] += x[(place, e)];
+                h[(known + e, i)] += x[(place, e)];
+            }
+        }
+        let own = b.tr_mul(&b) * weight;
+        let mut corner = h.view_mut((known, known), (added, added));
+        corner += own;
+        let y = DVector::from_iterator(samples, signals.residual().skip(from).take(samples));
+        let mut last = g.rows_mut(known, added);
+        last += b.tr_mul(&y) * weight;
+    }
+    Equations { h, g, yy: info.yy }
+}
