@@ -51,15 +51,7 @@ fn extended(folder: &Path) -> Vec<Vec<u8>> {
     std::fs::write(&path, URDF).unwrap();
     let loaded = Robot::load(&path).unwrap();
     let mut robot = loaded.robot.clone();
-    let drive = &mut robot.link_mut(1).unwrap().actuator;
-    drive.stribeck = Some(robot::Stribeck { excess: 0.2, velocity: 0.05 });
-    drive.friction_wave = Some(robot::Wave { share: 0.3, periods: 5.0, phase: 0.7 });
-    drive.ripple = Some(robot::Ripple { amplitude: 0.1, periods: 40.0, phase: 0.2 });
-    (drive.load_friction, drive.presliding) = (0.07, Some(0.001));
-    (drive.coulomb_forward, drive.coulomb_backward) = (0.5, 0.4);
-    (drive.backlash, drive.elasticity) = (0.002, Some(900.0));
-    (drive.delay_s, drive.lag_s, drive.effort_skew_s) = (0.003, 0.001, -0.002);
-    (drive.encoder_offset, drive.transmission_ratio) = (0.01, 1.02);
+    checks::arms::put_in_everything(&mut robot.link_mut(1).unwrap().actuator);
     vec![loaded.to_toml(&robot, "robot.urdf").unwrap().into_bytes()]
 }
 
