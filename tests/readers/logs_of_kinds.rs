@@ -187,7 +187,7 @@ fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<(), String> {
 fn told(error: &logs::LogError) -> String {
     let told = error.to_string();
     // What the decoder of Parquet says is quoted as it is.
-    let own = told.split("(Parquet error").next().unwrap();
+    let own = told.split("(Parquet ").next().unwrap();
     let is_one = !own.split(". ").skip(1).any(|next| next.starts_with(char::is_uppercase));
     assert!(is_one && !told.contains(char::is_control), "{told}");
     assert!(told.chars().count() < 600, "{told}");
