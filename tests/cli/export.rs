@@ -36,5 +36,5 @@ fn what_cannot_be_exported_is_told() {
     std::fs::rename(folder.path().join("arm.urdf"), folder.path().join("extended.urdf")).unwrap();
     let answer = run(folder.path(), &["export", "extended.urdf", "--to", "urdf"]);
     assert_eq!(answer.code, 2);
-    assert!(answer.err.contains("it is the URDF that the robot was read from"), "{}", answer.err);
+    assert!(answer.err.contains("extended.urdf: it is read and would be"), "{}", answer.err);
 }

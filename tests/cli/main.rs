@@ -9,6 +9,8 @@ mod compare;
 mod design;
 mod diagnose;
 mod export;
+#[cfg(target_os = "linux")]
+mod faults;
 mod figure;
 mod foreign_files;
 mod impossible;

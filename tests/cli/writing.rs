@@ -21,7 +21,7 @@ fn names(folder: &Path) -> Vec<String> {
 
 /// Runs a command where no file may become larger than so many kB, as on a disk that is full.
 #[cfg(target_os = "linux")]
-fn with_room(folder: &Path, kb: usize, arguments: &[&str]) -> Answer {
+pub fn with_room(folder: &Path, kb: usize, arguments: &[&str]) -> Answer {
     let program = plumbline().get_program().to_owned();
     let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" \"$@\"", 2 * kb);
     let mut command = Command::new("sh");
@@ -154,6 +154,10 @@ fn an_input_is_not_written_over() {
         assert!(answer.err.contains("give --out another name"), "{}", answer.err);
         assert_eq!(fs::read(path.join("oe/extended.toml")).unwrap(), before);
     }
+    let urdf = ["diagnose", "--robot", "oe/extended.urdf", "--log", "run_0.csv", "--out", "oe"];
+    let answer = run(path, &urdf);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    assert!(answer.err.contains("error: oe/extended.urdf: it is read"), "{}", answer.err);
     assert!(run(path, &[&again[..], &["--out", "other"]].concat()).code <= 1);
 }
 
@@ -191,13 +195,18 @@ fn a_learning_that_is_killed_leaves_nothing_half_done() {
 }
 
 #[test]
-fn a_diagnosis_is_the_same_wherever_it_is_written() {
+fn a_diagnosis_is_the_same_wherever_it_is_written_and_on_any_number_of_threads() {
     let folder = arm::folder(Gap::Friction(1.5));
-    let written = |out: &str| {
-        let answer =
-            run(folder.path(), &[&DIAGNOSE[..], &["--no-recording", "--out", out]].concat());
+    let written = |out: &str, threads: &str| {
+        let mut command = plumbline();
+        command.current_dir(folder.path()).env("RAYON_NUM_THREADS", threads);
+        let answer = command.args(DIAGNOSE).args(["--no-recording", "--out", out]).output();
+        let answer = Answer::from(answer.unwrap());
         assert!(answer.code <= 1, "{}", answer.err);
         fs::read(folder.path().join(out).join("diagnosis.json")).unwrap()
     };
-    assert!(written("one") == written("further/down"));
+    let one = written("one", "1");
+    for (out, threads) in [("further/down", "2"), ("four", "4")] {
+        assert!(written(out, threads) == one, "{threads} threads");
+    }
 }

@@ -194,15 +194,7 @@ fn a_model_that_is_saved_and_read_again_predicts_the_same() {
 #[test]
 fn a_saved_model_keeps_all_that_the_extended_robot_says_of_its_drives() {
     let mut robot = named();
-    let drive = &mut robot.link_mut(1).unwrap().actuator;
-    drive.stribeck = Some(robot::Stribeck { excess: 0.2, velocity: 0.05 });
-    drive.friction_wave = Some(robot::Wave { share: 0.3, periods: 5.0, phase: 0.7 });
-    drive.ripple = Some(robot::Ripple { amplitude: 0.1, periods: 40.0, phase: 0.2 });
-    (drive.load_friction, drive.presliding) = (0.07, Some(0.001));
-    (drive.coulomb_forward, drive.coulomb_backward) = (0.5, 0.4);
-    (drive.backlash, drive.elasticity) = (0.002, Some(900.0));
-    (drive.delay_s, drive.lag_s, drive.effort_skew_s) = (0.003, 0.001, -0.002);
-    (drive.encoder_offset, drive.transmission_ratio) = (0.01, 1.02);
+    checks::arms::put_in_everything(&mut robot.link_mut(1).unwrap().actuator);
     let torque = learner::RobotTorque::new(robot.clone(), vec![0.01; 2]);
     let mean = learner::Mean::Robot(Box::new(torque));
     let model = Model::new(ModelKind::Named, &arm::robot(), mean, vec![0.1; 2]);

@@ -15,7 +15,6 @@ mod kinds;
 mod link_lag;
 mod maps;
 mod matlab;
-mod mutated;
 mod noise;
 mod numpy;
 mod packed;

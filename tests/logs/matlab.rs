@@ -6,7 +6,6 @@ use logs::{ColumnMap, LogError, ReadOptions, Run, read_run, recognised};
 use robot::JointKind;
 
 use crate::kinds::given;
-use crate::mutated;
 use crate::support::{Scratch, assert_golden, golden, robot, two_joints};
 
 const MAP: &str = "position = \"q[:]\"\neffort = \"tau[:]\"\n";
@@ -71,12 +70,4 @@ fn the_given_file_is_recognised_and_read() {
         assert!((run.joints[0].position[1] - 1.449495).abs() < 1e-6);
         assert!(run.joints[5].velocity.is_some());
     }
-}
-
-#[test]
-fn a_damaged_file_is_told_in_one_sentence() {
-    let map = map(MAP);
-    let options = ReadOptions { map: Some(&map), ..ReadOptions::default() };
-    mutated::read_all(&golden("matlab_plain.mat"), &options, 3000);
-    mutated::read_all(&golden("matlab_packed.mat"), &options, 3000);
 }

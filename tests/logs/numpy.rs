@@ -5,7 +5,6 @@ use std::fs;
 use logs::{ColumnMap, ReadOptions, Run, read_run};
 
 use crate::kinds::given;
-use crate::mutated;
 use crate::support::{Scratch, assert_golden, golden, two_joints};
 
 const MAP: &str = "[joint.j1]\nposition = { column = \"q[0]\" }\neffort = { column = \"tau[0]\" }\n\
@@ -119,15 +118,6 @@ fn an_archive_that_was_made_to_be_large_is_refused() {
     let expected =
         "run: unpacked it takes more than the 65 MB that are allowed of a packed file of this size";
     assert_eq!(read(golden("numpy_bomb.npz"), map).unwrap_err(), expected);
-}
-
-#[test]
-fn damaged_files_are_read_or_refused_in_one_sentence() {
-    let columns = map(MAP);
-    let options = ReadOptions { map: Some(&columns), ..ReadOptions::default() };
-    mutated::read_all(&golden("numpy_records.npy"), &options, 3000);
-    mutated::read_all(&golden("numpy_plain.npz"), &options, 3000);
-    mutated::read_all(&golden("numpy_turned.npz"), &options, 3000);
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use logs::{ColumnMap, ReadOptions, read_run};
 
-use crate::mutated;
 use crate::support::{Scratch, assert_golden, golden, two_joints};
 
 fn told(name: &str) -> String {
@@ -50,12 +49,5 @@ fn a_cut_file_is_told() {
             let is_torn = kind == "zstd" && told.contains("fields");
             assert!(is_told || is_torn, "cut at {cut}: {told}");
         }
-    }
-}
-
-#[test]
-fn damaged_files_are_read_or_refused_in_one_sentence() {
-    for name in ["packed_log.csv.gz", "packed_log.csv.zst", "packed_log.npz.gz"] {
-        mutated::read_all(&golden(name), &ReadOptions::default(), 3000);
     }
 }

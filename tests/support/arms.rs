@@ -146,3 +146,15 @@ pub fn kinetic_energy(robot: &Robot, q: &[f64], qd: &[f64]) -> f64 {
     }
     energy
 }
+
+/// Everything that can be found in a drive.
+pub fn put_in_everything(drive: &mut Actuator) {
+    drive.stribeck = Some(robot::Stribeck { excess: 0.2, velocity: 0.05 });
+    drive.friction_wave = Some(robot::Wave { share: 0.3, periods: 5.0, phase: 0.7 });
+    drive.ripple = Some(robot::Ripple { amplitude: 0.1, periods: 40.0, phase: 0.2 });
+    (drive.load_friction, drive.presliding) = (0.07, Some(0.001));
+    (drive.coulomb_forward, drive.coulomb_backward) = (0.5, 0.4);
+    (drive.backlash, drive.elasticity) = (0.002, Some(900.0));
+    (drive.delay_s, drive.lag_s, drive.effort_skew_s) = (0.003, 0.001, -0.002);
+    (drive.encoder_offset, drive.transmission_ratio) = (0.01, 1.02);
+}

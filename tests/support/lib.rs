@@ -7,5 +7,7 @@
 
 pub mod arms;
 pub mod golden;
+pub mod mutated;
 pub mod recorded;
+pub mod round;
 pub mod synthetic;

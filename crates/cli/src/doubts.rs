@@ -4,15 +4,34 @@ use robot::{Loaded, LockedJoint, RobotWarning};
 /// Distance from the place of a locked joint within which a log confirms it (rad or m).
 const NEAR: f64 = 0.01;
 
-/// What the description of a robot leaves out of its motion, and locked joints that a log has
-/// somewhere else.
+/// What a diagnosis holds of one sample of one joint (bytes), as measured on logs of 7 joints.
+const BYTES_PER_SAMPLE: f64 = 750.0;
+
+/// What the description of a robot leaves out of its motion, locked joints that a log has
+/// somewhere else, and logs that may need more memory than is free.
 pub fn doubts<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Run>) -> Vec<String> {
     let of_motion = loaded.warnings.iter().filter(|warning| warning.is_about_motion());
     let mut doubts: Vec<String> = of_motion.map(RobotWarning::to_string).collect();
+    let mut samples = 0;
     for run in runs {
         doubts.extend(loaded.locked.iter().filter_map(|lock| elsewhere(lock, run)));
+        samples += run.time.len() * run.joints.len();
     }
+    doubts.extend(learner::available_bytes().and_then(|free| too_long(samples, free)));
     doubts
+}
+
+/// Says what samples of single joints need where that is more than is free (bytes).
+fn too_long(samples: usize, free: f64) -> Option<String> {
+    const GIGA: f64 = 1e9;
+    let needed = BYTES_PER_SAMPLE * samples as f64;
+    let [needed_gb, free_gb] = [needed, free].map(|bytes| short(bytes / GIGA));
+    (needed > free).then(|| {
+        format!(
+            "the logs need about {needed_gb} GB of memory and {free_gb} GB are free: \
+             give fewer logs, or logs of a lower rate"
+        )
+    })
 }
 
 /// Says where a log has a joint that is locked at another place.
@@ -44,6 +63,13 @@ fn short(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn logs_that_need_more_than_is_free_are_told() {
+        assert_eq!(too_long(1_000_000, 1e9), None);
+        let told = too_long(10_000_000, 1e9).unwrap();
+        assert!(told.contains("need about 7.50 GB of memory and 1.00 GB are free"), "{told}");
+    }
 
     fn said(logged: &[f64]) -> Option<String> {
         let lock = LockedJoint { joint: "grip".to_owned(), position: 0.2, mimics: None };

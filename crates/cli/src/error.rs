@@ -136,12 +136,6 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
-    /// A file would be written over the one that it is made of.
-    #[error("{}: it is the URDF that the robot was read from, another folder was expected", path.display())]
-    OverSource {
-        /// The file.
-        path: PathBuf,
-    },
     /// A file has no joints to look at.
     #[error("{}: there is no column <joint>.position, at least one was expected", path.display())]
     NoJoints {
@@ -222,7 +216,6 @@ impl CliError {
             | Self::NoViewer { .. }
             | Self::NotOpened { .. }
             | Self::Incomplete { .. }
-            | Self::OverSource { .. }
             | Self::Exists { .. }
             | Self::Submit(_)
             | Self::Signal { .. } => 2,
@@ -315,9 +308,9 @@ impl CliError {
                 Some("give the robot with --robot, and --map if the columns have other names")
             }
             Self::Exists { .. } => Some("--force writes over it"),
-            Self::Report(ReportError::NotAFolder { .. })
-            | Self::OverSource { .. }
-            | Self::OwnInput { .. } => Some("give --out another name"),
+            Self::Report(ReportError::NotAFolder { .. }) | Self::OwnInput { .. } => {
+                Some("give --out another name")
+            }
             Self::Robot(RobotError::InFile { path, .. } | RobotError::Unreadable { path, .. }) => {
                 (!has_extension(path, &["urdf", "xml", "toml"])).then_some(KINDS_OF_FILES)
             }

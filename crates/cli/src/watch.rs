@@ -8,6 +8,10 @@ use crate::progress::Line;
 /// Exit code of a program that Ctrl-C has ended.
 const INTERRUPTED: i32 = 130;
 
+/// The answer to the first Ctrl-C.
+const STOPPING: &str =
+    "stopping: what is begun comes to its end; another Ctrl-C ends the program now";
+
 /// Shows what is being done, and ends it at Ctrl-C, searches with the best they have; a second
 /// one ends the program.
 pub struct Watch {
@@ -34,6 +38,7 @@ impl Watch {
             if pressed.swap(true, Ordering::Relaxed) {
                 std::process::exit(INTERRUPTED);
             }
+            anstream::eprintln!("{STOPPING}");
         })
         .map_err(|error| CliError::Signal { reason: error.to_string() })?;
         Ok(Self { stop, ..Self::of_all(line) })

@@ -190,8 +190,11 @@ fn compared(document: &Document) -> Result<Document, EvaluationError> {
     let others = spec.feedforward.iter().filter(|kind| !COMPARED.contains(kind));
     let names: Vec<String> =
         COMPARED.iter().chain(others).map(|kind| format!("{:?}", kind.name())).collect();
+    let given = &spec.feedforward;
+    // A name that is there twice is refused where it stands.
+    let is_repeated = (1..given.len()).any(|n| given[..n].contains(&given[n]));
     let mut document = document.clone();
-    if COMPARED.iter().any(|kind| !spec.feedforward.contains(kind)) {
+    if !is_repeated && COMPARED.iter().any(|kind| !given.contains(kind)) {
         document.set(&format!("feedforward=[{}]", names.join(", ")))?;
     }
     Ok(document)

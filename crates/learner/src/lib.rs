@@ -38,6 +38,7 @@ mod weighting;
 
 pub use error::LearnerError;
 pub use inputs::Inputs;
+pub use memory::available_bytes;
 pub use model::{Mean, Model, Process};
 pub use model_kind::ModelKind;
 pub use prior::GaussianPrior;

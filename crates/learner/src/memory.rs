@@ -27,7 +27,7 @@ fn fits(points: usize, joints: usize, available: f64) -> Result<(), LearnerError
 }
 
 /// Memory that can be taken without swapping (bytes), as Linux tells it.
-fn available_bytes() -> Option<f64> {
+pub fn available_bytes() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let kilo: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;

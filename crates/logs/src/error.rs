@@ -411,7 +411,9 @@ impl LogError {
 }
 
 fn hint(nearest: Option<&str>) -> String {
-    nearest.map(|name| format!("; did you mean {name}?")).unwrap_or_default()
+    // A message stays one line, whatever the names in the file hold.
+    let plain = |name: &str| name.replace(char::is_control, " ");
+    nearest.map(|name| format!("; did you mean {}?", plain(name))).unwrap_or_default()
 }
 
 /// A number in at most some twenty characters.
@@ -442,4 +444,14 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>)
         .filter(|(similarity, _)| *similarity >= SIMILAR)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, c)| c.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_of_a_file_keeps_the_message_on_one_line() {
+        assert_eq!(hint(Some("\0ime\n")), "; did you mean  ime ?");
+    }
 }

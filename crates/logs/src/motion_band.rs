@@ -120,7 +120,8 @@ fn velocity(joint: &UniformJoint, rate_hz: f64, planner: &mut RealFftPlanner<f64
     let place = ((1.0 - OUTLIERS) * speeds.len() as f64) as usize;
     if place < speeds.len() {
         let fastest = FASTEST * *speeds.select_nth_unstable_by(place, f64::total_cmp).1;
-        velocity.iter_mut().for_each(|v| *v = v.clamp(-fastest, fastest));
+        // Differences of numbers of any size may be no number, which `clamp` does not take.
+        velocity.iter_mut().for_each(|v| *v = v.min(fastest).max(-fastest));
     }
     Density::of(&velocity, rate_hz, planner)
 }
@@ -180,5 +181,18 @@ impl Velocities {
             below >= share * total
         });
         bin.filter(|_| total > 0.0).map(|bin| (bin + 1) as f64 * BIN_HZ)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_whose_differences_are_no_numbers_end_nothing() {
+        let q = (0..400).map(|k| if k % 2 == 0 { 1.7e308 } else { -1.7e308 }).collect();
+        let joint =
+            UniformJoint { q, effort: vec![], velocity: None, acceleration: None, link: None };
+        velocity(&joint, 1000.0, &mut RealFftPlanner::new());
     }
 }

@@ -16,7 +16,7 @@ pub(crate) const LONGEST_S: f64 = 86_400.0;
 /// Highest frequency (Hz).
 const HIGHEST_HZ: f64 = 100.0;
 /// Most periods of the highest frequency in one motion.
-const MOST_PERIODS: f64 = 1e5;
+const MOST_PERIODS: f64 = 1e4;
 /// How far a value may pass a limit by rounding, relative to the limit.
 const ROUNDING: f64 = 1e-9;
 

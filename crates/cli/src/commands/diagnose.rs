@@ -63,11 +63,12 @@ pub struct Arguments {
 }
 
 /// Files of an output folder.
-pub(super) const FILES: [&str; 7] = [
+pub(super) const FILES: [&str; 8] = [
     "diagnosis.json",
     "report.html",
     "figure.svg",
     "extended.toml",
+    "extended.urdf",
     "robot.urdf",
     RECORDING,
     residual::FILE,

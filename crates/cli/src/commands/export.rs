@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::Outcome;
 use crate::error::CliError;
 use crate::input::PartArguments;
-use crate::output::{create_folder, print, print_json, shown, table};
+use crate::output::{create_folder, keep_inputs, print, print_json, shown, table};
 
 /// Names under which an output folder has the robot with its findings, of a diagnosis and of a run.
 const EXTENDED: [&str; 2] = ["extended.toml", "diagnosis/extended.toml"];
@@ -86,9 +86,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         let export = exchange::export(&loaded, &source, format)?;
         let name = format!("extended.{}", format.extension());
         let file = folder.join(&name);
-        if same_file(&file, &loaded.urdf_path) {
-            return Err(CliError::OverSource { path: file });
-        }
+        keep_inputs(&folder, &[&name], [loaded.urdf_path.as_path()])?;
         report::write_folder(&folder, &[(&name, export.text.as_bytes())])?;
         files.push(Written { format: format.name(), path: shown(&file), quantities: export.fates });
     }
@@ -109,11 +107,6 @@ fn described(path: &Path) -> Result<PathBuf, CliError> {
     }
     let found = EXTENDED.iter().map(|name| path.join(name)).find(|file| file.exists());
     found.ok_or_else(|| CliError::NothingToExport { path: path.to_owned() })
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    let resolved = |path: &Path| std::fs::canonicalize(path).ok();
-    resolved(a).is_some_and(|a| resolved(b) == Some(a))
 }
 
 fn text(exports: &Exports) -> String {

@@ -159,3 +159,64 @@ impl Size {
         !self.determined || change.is_none_or(|change| 0.5 * (high - low) > WIDE * change)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use checks::{mutated, round};
+
+    use super::*;
+
+    /// A diagnosis with every field that a design reads.
+    fn good(robot: &Robot) -> String {
+        let joint = |name: &str| {
+            format!(
+                "{{\"name\": {name:?}, \"remaining_rms_nm\": 0.05, \"autocorrelation_time_s\": null}}"
+            )
+        };
+        let joints: Vec<String> = robot.joint_names().map(joint).collect();
+        let at = |effect: &str| {
+            format!("\"effect\": {effect:?}, \"joint\": \"j4_elbow_pitch\", \"link\": null")
+        };
+        format!(
+            r#"{{"schema": {SCHEMA:?}, "data": {{"cutoff_hz": 12.5}}, "joints": [{}],
+"findings": [{{{}, "not_separable_from": [{{{}}}], "undetermined": ["level"], "parameters": {{"level":
+{{"value": 1.5, "ci95": [1.4, 1.6], "nominal": 0.0, "determined": true}}}}}}],
+"provenance": {{"files": [{{"role": "log", "path": "run.csv", "sha256": "00"}}]}}}}"#,
+            joints.join(",\n"),
+            at("coulomb_friction"),
+            at("stribeck_friction")
+        )
+    }
+
+    fn read(path: &Path, robot: &Robot) -> Result<(), String> {
+        let told = |error: DesignError| error.to_string();
+        let file = DiagnosisFile::read(path, robot).map_err(told)?;
+        // What is wrong with a cause is told of its name.
+        let _ = (file.findings(robot).is_ok(), file.goals(robot).is_ok());
+        let _ = (file.noise(), file.logs(), file.cutoff_hz(), file.knows("00"));
+        Ok(())
+    }
+
+    fn round(seeds: std::ops::Range<u64>) -> round::Counts {
+        let robot = checks::arms::wam();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("diagnosis.json");
+        let good = good(&robot);
+        std::fs::write(&path, &good).unwrap();
+        assert_eq!(read(&path, &robot), Ok(()));
+        let change = |random: &mut _| mutated::text(&good, random);
+        let counts = round::run("diagnosis", seeds, &path, change, |path| read(path, &robot));
+        let counts = counts.unwrap();
+        let few = (counts.read + counts.refused) / 50;
+        assert!(counts.read > few && counts.refused > few, "{counts:?}");
+        counts
+    }
+
+    #[test]
+    fn no_changed_diagnosis_ends_the_program() {
+        match round::fresh_seeds() {
+            None => println!("{:?}", round(0..1500)),
+            Some(first) => println!("{:?}", round(first..first + 20_000)),
+        }
+    }
+}

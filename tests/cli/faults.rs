@@ -1,0 +1,211 @@
+//! Commands that are ended at any moment or find the disk full: what is finished is whole, and the command that is
+//! started again gives what it would have given.
+//!
+//! The long form: `PLUMBLINE_LONG=1 cargo test --release --workspace --test cli faults -- --nocapture`.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use recording::Contents;
+
+use crate::arm::{self, Gap};
+use crate::campaign;
+use crate::program::{Answer, plumbline, run};
+use crate::writing::with_room;
+
+/// A command ends, or says that it will, within this time of a signal.
+const ANSWER: Duration = Duration::from_secs(1);
+
+/// Commands that write below `out`, and a file of each that is always the same.
+const COMMANDS: [(&str, &str); 7] = [
+    ("diagnose --robot arm.urdf --log run_0.csv run_1.csv --out out", "diagnosis.json"),
+    (
+        "compare --robot arm.urdf --before run_0.csv --after run_1.csv --out out",
+        "after/diagnosis.json",
+    ),
+    (
+        "replay --robot arm.urdf --log run_0.csv --window-ms 200 --out out",
+        "run_0_forward_200ms.parquet",
+    ),
+    (
+        "learn --robot arm.urdf --train run_0.csv --test run_1.csv --models rbd,gp --points 150 --out out",
+        "models/rbd.parquet",
+    ),
+    ("simulate scenario.toml --out out", "waves.parquet"),
+    ("trials work out --quiet", "shards/00003.parquet"),
+    (
+        "design --robot arm.urdf --separate FR02@elbow --from FR04@elbow --duration-s 5 --out out",
+        "motion.csv",
+    ),
+];
+
+struct Place {
+    folder: tempfile::TempDir,
+    random: ChaCha8Rng,
+    /// How long each command takes, its exit code, and its file.
+    known: Vec<(Duration, i32, Vec<u8>)>,
+}
+
+impl Place {
+    fn new(seed: u64) -> Self {
+        let folder = campaign::folder();
+        let path = folder.path();
+        for number in 0..2 {
+            arm::write(path, &format!("run_{number}.csv"), &arm::log(number, Gap::Friction(1.5)));
+        }
+        let random = ChaCha8Rng::seed_from_u64(seed);
+        let mut place = Self { folder, random, known: Vec::new() };
+        for (index, (command, _)) in COMMANDS.iter().enumerate() {
+            place.prepare();
+            let start = Instant::now();
+            let answer = run(place.path(), &words(index));
+            assert!(answer.code <= 1, "{command}: {}", answer.err);
+            let file = fs::read(place.same(index)).unwrap();
+            place.known.push((start.elapsed(), answer.code, file));
+        }
+        place
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    fn out(&self) -> PathBuf {
+        self.path().join("out")
+    }
+
+    fn same(&self, index: usize) -> PathBuf {
+        self.out().join(COMMANDS[index].1)
+    }
+
+    /// A new folder, with a campaign that was planned.
+    fn prepare(&self) {
+        if self.out().exists() {
+            fs::remove_dir_all(self.out()).unwrap();
+        }
+        campaign::done(self.path(), &["plan", "campaign.toml", "--out", "out"]);
+    }
+
+    /// Ends a command at some moment, looks at what is there, and starts it again.
+    fn end(&mut self, index: usize) {
+        self.prepare();
+        let mut command = plumbline();
+        command.current_dir(self.path()).args(words(index));
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        sleep(self.known[index].0.mul_f64(self.random.random_range(0.0..1.1)));
+        let signal = ["-INT", "-TERM", "-KILL"][self.random.random_range(0..3)];
+        ended(child, signal, COMMANDS[index].0);
+        assert_whole(&self.out());
+        let again = run(self.path(), &words(index));
+        self.assert_same(index, &again);
+    }
+
+    /// Runs a command where no file may become larger than some kB.
+    fn fill(&mut self, index: usize) {
+        self.prepare();
+        let kb = self.random.random_range(1..400);
+        let answer = with_room(self.path(), kb, &words(index));
+        if answer.code == 2 {
+            assert!(answer.err.contains("out/"), "{kb} kB: {}", answer.err);
+            assert_whole(&self.out());
+        } else {
+            self.assert_same(index, &answer);
+        }
+    }
+
+    fn assert_same(&self, index: usize, answer: &Answer) {
+        let (_, code, file) = &self.known[index];
+        assert_eq!(answer.code, *code, "{}: {}", COMMANDS[index].0, answer.err);
+        assert!(fs::read(self.same(index)).unwrap() == *file, "{}", COMMANDS[index].0);
+        assert_whole(&self.out());
+    }
+
+    fn campaign(&mut self, kills: usize, disks: usize) {
+        for number in 0..kills {
+            self.end(number % COMMANDS.len());
+        }
+        for number in 0..disks {
+            self.fill(number % COMMANDS.len());
+        }
+        println!("{kills} commands were ended, {disks} found the disk full");
+    }
+}
+
+fn words(index: usize) -> Vec<&'static str> {
+    COMMANDS[index].0.split(' ').collect()
+}
+
+/// Sends a signal. The program ends; at Ctrl-C it may say that it comes to its end, and a second one ends it.
+fn ended(mut child: Child, signal: &str, command: &str) {
+    send(&child, signal);
+    if within(&mut child) {
+        return;
+    }
+    assert_eq!(signal, "-INT", "{command}");
+    send(&child, "-INT");
+    assert!(within(&mut child), "{command}: two interrupts");
+    let mut told = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut told).unwrap();
+    assert!(told.contains("stopping: "), "{command}: {told}");
+}
+
+fn send(child: &Child, signal: &str) {
+    // A program that has ended already cannot be reached.
+    let _ = Command::new("kill").args([signal, &child.id().to_string()]).output().unwrap();
+}
+
+fn within(child: &mut Child) -> bool {
+    let start = Instant::now();
+    while start.elapsed() < ANSWER {
+        if child.try_wait().unwrap().is_some() {
+            return true;
+        }
+        sleep(Duration::from_millis(5));
+    }
+    false
+}
+
+/// Every file of a finished name is whole: its beginning and its end are those of its kind.
+fn assert_whole(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for path in entries.map(|entry| entry.unwrap().path()) {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        // What is being worked on has a folder of its own, or a temporary name.
+        if name.starts_with('.') || name == "work" {
+            continue;
+        }
+        if path.is_dir() {
+            assert_whole(&path);
+            continue;
+        }
+        let bytes = fs::read(&path).unwrap();
+        let ends = |end: &str| bytes.trim_ascii_end().ends_with(end.as_bytes());
+        let whole = match path.extension().and_then(|e| e.to_str()).unwrap_or_default() {
+            "json" => serde_json::from_slice::<serde_json::Value>(&bytes).is_ok(),
+            "toml" => std::str::from_utf8(&bytes).is_ok_and(|t| t.parse::<toml::Table>().is_ok()),
+            "parquet" => bytes.len() > 8 && bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"),
+            "html" => ends("</html>"),
+            "svg" => ends("</svg>"),
+            "urdf" => ends("</robot>"),
+            "csv" => bytes.ends_with(b"\n"),
+            "rrd" => Contents::read(&path).is_ok_and(|found| found.is_whole),
+            // A kind of file that nothing is known of.
+            _ => false,
+        };
+        assert!(whole, "{}: {} bytes", path.display(), bytes.len());
+    }
+}
+
+#[test]
+fn commands_that_are_ended_or_find_the_disk_full_lose_nothing() {
+    match checks::round::fresh_seeds() {
+        None => Place::new(1).campaign(COMMANDS.len(), 4),
+        Some(first) => Place::new(first).campaign(200, 30),
+    }
+}

@@ -1,0 +1,195 @@
+//! Logs of every kind, read, described and prepared.
+
+use std::fmt::Write as _;
+use std::io::{Cursor, Read, Write as _};
+use std::path::Path;
+use std::sync::LazyLock;
+
+use checks::arms::workspace_root;
+use checks::mutated;
+use flate2::Compression;
+use flate2::read::ZlibDecoder;
+use flate2::write::{GzEncoder, ZlibEncoder};
+use logs::{
+    ColumnMap, PrepareSettings, ReadOptions, log_info, prepare, read_run, read_run_until_damage,
+};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use robot::Robot;
+use zip::{ZipArchive, ZipWriter, write::SimpleFileOptions};
+
+use crate::{Reader, robots, tables};
+
+static ROBOT: LazyLock<Robot> = LazyLock::new(|| Robot::from_urdf(robots::URDF).unwrap());
+
+pub fn readers() -> Vec<Reader> {
+    let of = |name, seeds, change| Reader { name, file: "run", short: 1500, seeds, change, read };
+    let arrays = |name, seeds, change| Reader { read: read_arrays, ..of(name, seeds, change) };
+    let binary = |bytes: &[u8], random: &mut ChaCha8Rng| mutated::bytes(bytes, random);
+    vec![
+        of("CSV", |_| vec![csv().into_bytes()], robots::changed_text),
+        of("gzip", |_| vec![gzip(csv().as_bytes())], packed),
+        of("zstd", |_| vec![zstd(csv().as_bytes())], packed),
+        of("Parquet", parquet, tables::changed),
+        of("MCAP", |_| golden(&["mcap_none.mcap", "mcap_zstd.mcap", "mcap_lz4.mcap"]), binary),
+        arrays("npy", |_| golden(&["numpy_records.npy"]), array),
+        arrays("npz", |_| golden(&["numpy_plain.npz", "numpy_turned.npz"]), archive),
+        arrays("MAT", |_| golden(&["matlab_plain.mat", "matlab_packed.mat"]), matlab),
+    ]
+}
+
+/// Two joints for a second and a half.
+fn csv() -> String {
+    rows(150)
+}
+
+/// Two joints for twelve seconds.
+pub fn long_csv() -> String {
+    rows(1200)
+}
+
+fn rows(count: u32) -> String {
+    let mut text = "time,j1.position,j1.velocity,j1.effort,j2.position,j2.effort,note\n".to_owned();
+    for k in 0..count {
+        let t = 0.01 * f64::from(k);
+        let (a, b) = ((5.0 * t).sin(), (7.0 * t).cos());
+        let (qd, tau) = (5.0 * (5.0 * t).cos(), 3.0 + 4.0 * b);
+        writeln!(text, "{t:.2},{a:.5},{qd:.4},{tau:.3},{b:.5},{:.3},{k}", 2.0 * a).unwrap();
+    }
+    text
+}
+
+fn golden(names: &[&str]) -> Vec<Vec<u8>> {
+    let folder = workspace_root().join("tests/golden/logs");
+    names.iter().map(|name| std::fs::read(folder.join(name)).unwrap()).collect()
+}
+
+fn parquet(folder: &Path) -> Vec<Vec<u8>> {
+    let path = folder.join("run.csv");
+    std::fs::write(&path, csv()).unwrap();
+    let run = read_run(&path, &ROBOT, &ReadOptions::default()).unwrap();
+    logs::write_parquet(&path, &run).unwrap();
+    vec![std::fs::read(&path).unwrap()]
+}
+
+fn gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+    packed.write_all(bytes).unwrap();
+    packed.finish().unwrap()
+}
+
+fn zstd(bytes: &[u8]) -> Vec<u8> {
+    zstd::encode_all(bytes, 1).unwrap()
+}
+
+/// What is packed is changed in two of three inputs, the packing in the others.
+fn packed(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
+    if random.random_ratio(1, 3) {
+        return mutated::bytes(bytes, random);
+    }
+    let text = mutated::text(&csv(), random);
+    if bytes.starts_with(&[0x1f, 0x8b]) { gzip(&text) } else { zstd(&text) }
+}
+
+/// The header of an array, its length put right in most inputs, or the bytes.
+fn array(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
+    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let end = 10 + length;
+    if random.random_ratio(1, 2) {
+        return mutated::bytes(bytes, random);
+    }
+    let header = mutated::text(&String::from_utf8_lossy(&bytes[10..end]), random);
+    let told = if random.random_ratio(1, 8) { length } else { header.len() } as u16;
+    [&bytes[..8], &told.to_le_bytes(), &header, &bytes[end..]].concat()
+}
+
+/// One array of an archive, packed again with a checksum that holds, or the bytes.
+fn archive(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
+    if random.random_ratio(1, 3) {
+        return mutated::bytes(bytes, random);
+    }
+    let mut old = ZipArchive::new(Cursor::new(bytes)).unwrap();
+    let mut new = ZipWriter::new(Cursor::new(Vec::new()));
+    let changed = random.random_range(0..old.len());
+    for index in 0..old.len() {
+        let mut entry = old.by_index(index).unwrap();
+        let (name, mut content) = (entry.name().unwrap().into_owned(), Vec::new());
+        entry.read_to_end(&mut content).unwrap();
+        if index == changed {
+            content = array(&content, random);
+        }
+        new.start_file(name, SimpleFileOptions::default()).unwrap();
+        new.write_all(&content).unwrap();
+    }
+    new.finish().unwrap().into_inner()
+}
+
+/// A variable of a file, packed again where it was packed, or the bytes.
+fn matlab(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
+    const HEADER: usize = 128;
+    const PACKED: u32 = 15;
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
+    if random.random_ratio(1, 3) || word(HEADER) != PACKED {
+        return mutated::bytes(bytes, random);
+    }
+    let (mut changed, mut at) = (bytes[..HEADER].to_vec(), HEADER);
+    while at < bytes.len() {
+        let end = at + 8 + word(at + 4) as usize;
+        let mut content = Vec::new();
+        ZlibDecoder::new(&bytes[at + 8..end]).read_to_end(&mut content).unwrap();
+        if random.random_ratio(1, 3) {
+            content = mutated::bytes(&content, random);
+        }
+        let mut packed = ZlibEncoder::new(Vec::new(), Compression::fast());
+        packed.write_all(&content).unwrap();
+        let packed = packed.finish().unwrap();
+        changed.extend([PACKED.to_le_bytes(), (packed.len() as u32).to_le_bytes()].concat());
+        changed.extend(packed);
+        at = end;
+    }
+    changed
+}
+
+fn read(path: &Path) -> Result<(), String> {
+    read_with(path, &ReadOptions::default())
+}
+
+/// The joints are columns of the arrays `q` and `tau`.
+fn read_arrays(path: &Path) -> Result<(), String> {
+    static MAP: LazyLock<ColumnMap> = LazyLock::new(|| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.toml");
+        std::fs::write(&path, "position = \"q[:]\"\neffort = \"tau[:]\"\n").unwrap();
+        ColumnMap::load(&path).unwrap()
+    });
+    read_with(path, &ReadOptions { map: Some(&MAP), ..ReadOptions::default() })
+}
+
+fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<(), String> {
+    // What is there before the damage has to be usable as well.
+    let torn = read_run_until_damage(path, &ROBOT, options);
+    let run = match read_run(path, &ROBOT, options) {
+        Ok(run) => run,
+        Err(error) => {
+            if let Ok((run, _)) = torn {
+                let _ = prepare(&[run], &PrepareSettings::default());
+            }
+            return Err(told(&error));
+        }
+    };
+    log_info(&run, &ROBOT);
+    // Runs of few rows are too short to be prepared.
+    let _ = prepare(&[run], &PrepareSettings::default());
+    Ok(())
+}
+
+/// One sentence of few characters.
+fn told(error: &logs::LogError) -> String {
+    let told = error.to_string();
+    // What the decoder of Parquet says is quoted as it is.
+    let own = told.split("(Parquet ").next().unwrap();
+    let is_one = !own.split(". ").skip(1).any(|next| next.starts_with(char::is_uppercase));
+    assert!(is_one && !told.contains(char::is_control), "{told}");
+    assert!(told.chars().count() < 600, "{told}");
+    told
+}
