@@ -1,5 +1,5 @@
 use numpy::{
-    Element, PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
+    PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
     PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -83,7 +83,7 @@ impl Rows<'_> {
     }
 }
 
-/// The argument `name` as a vector of numbers; with `samples`, of as many.
+/// The argument `name` as a vector of numbers.
 ///
 /// # Errors
 ///
@@ -111,15 +111,7 @@ pub fn table<'py>(
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let rows = numbers.len() / columns.max(1);
     let array = PyArray1::from_vec(py, numbers);
-    let shape = if is_single { vec![columns] } else { vec![rows, columns] };
-    reshaped(&array, shape)
-}
-
-fn reshaped<'py, T: Element>(
-    array: &Bound<'py, PyArray1<T>>,
-    shape: Vec<usize>,
-) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    array.reshape(shape)
+    array.reshape(if is_single { vec![columns] } else { vec![rows, columns] })
 }
 
 /// Columns as a table.

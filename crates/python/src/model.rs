@@ -30,17 +30,19 @@ impl Model {
         Self { model, joints }
     }
 
-    fn samples(
+    /// What the model tells in every state, without the lock of the interpreter.
+    fn in_states<'py>(
         &self,
-        q: &Bound<'_, PyAny>,
-        qd: &Bound<'_, PyAny>,
-        qdd: &Bound<'_, PyAny>,
-    ) -> PyResult<(Samples, bool)> {
+        py: Python<'py>,
+        [q, qd, qdd]: [&Bound<'py, PyAny>; 3],
+        tells: fn(&learner::Model, &Samples) -> Vec<f64>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = |name, value| Rows::new(name, value, &self.joints);
         let (q, qd, qdd) = (rows("q", q)?, rows("qd", qd)?, rows("qdd", qdd)?);
         same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
         let states = [q.as_slice()?.to_vec(), qd.as_slice()?.to_vec(), qdd.as_slice()?.to_vec()];
-        Ok((Samples::of_states(self.joints.len(), states), q.is_single))
+        let told = py.detach(|| tells(&self.model, &Samples::of_states(self.joints.len(), states)));
+        table(py, told, self.joints.len(), q.is_single)
     }
 }
 
@@ -138,9 +140,7 @@ impl Model {
         qd: &Bound<'py, PyAny>,
         qdd: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let (samples, is_single) = self.samples(q, qd, qdd)?;
-        let tau = py.detach(|| self.model.torque(&samples));
-        table(py, tau, self.joints.len(), is_single)
+        self.in_states(py, [q, qd, qdd], learner::Model::torque)
     }
 
     /// The variance of a measured torque about the prediction, NaN where the model tells none.
@@ -151,9 +151,7 @@ impl Model {
         qd: &Bound<'py, PyAny>,
         qdd: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let (samples, is_single) = self.samples(q, qd, qdd)?;
-        let variance = py.detach(|| self.model.variance(&samples));
-        table(py, variance, self.joints.len(), is_single)
+        self.in_states(py, [q, qd, qdd], learner::Model::variance)
     }
 
     /// Root mean square error of every joint in logs that the model was not learned from.
