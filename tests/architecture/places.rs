@@ -4,10 +4,12 @@ use crate::assert_kept;
 use crate::workspace::{Package, crates};
 
 /// How the name of a dependency starts, and the crates that may use it.
-const PLACES: [(&str, &[&str]); 4] = [
+const PLACES: [(&str, &[&str]); 6] = [
     ("rapier", &["simulator"]),
     ("rerun", &["recording"]),
     ("clap", &["cli"]),
+    ("pyo3", &["python"]),
+    ("numpy", &["python"]),
     ("faer", &["dynamics", "effects", "evaluation", "gaussian_process", "learner", "population"]),
 ];
 

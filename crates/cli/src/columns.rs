@@ -28,6 +28,10 @@ pub struct ColumnArguments {
 
 impl ColumnArguments {
     /// The runs of some files.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Log`] of the first file that cannot be used, or of the map.
     pub fn read_runs(&self, paths: &[PathBuf], robot: &Robot) -> Result<Vec<Run>, CliError> {
         let reader = self.reader()?;
         paths.iter().map(|path| reader.read(path, robot)).collect()

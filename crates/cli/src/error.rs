@@ -265,12 +265,20 @@ impl CliError {
     }
 
     /// What to do about it, where that can be said.
-    fn help(&self) -> Option<Cow<'static, str>> {
+    pub fn help(&self) -> Option<Cow<'static, str>> {
         match self.log() {
             Some(LogError::JointAbsent { shared, .. }) if !shared.is_empty() => {
                 Some(Cow::Owned(format!("--joints {} {LEFT_OUT}; {MAP}", shared.join(","))))
             }
             _ => self.advice().map(Cow::Borrowed),
+        }
+    }
+
+    /// The error in words, of a mistake in a scenario with the place where it stands.
+    pub fn words(&self) -> String {
+        match self.mistake() {
+            Some(error) => error.render(Coloring::Plain),
+            None => self.to_string(),
         }
     }
 

@@ -7,6 +7,7 @@ use report::{FileHash, Provenance, ReportError};
 use robot::{LoadOptions, Loaded, MeshFolders, Packages, Robot, RobotError};
 
 use crate::commands::explain;
+use crate::invocation;
 use crate::output::shown;
 
 /// Which part of a robot is meant, and where its meshes are.
@@ -27,6 +28,10 @@ pub struct PartArguments {
 
 impl PartArguments {
     /// The robot that a file describes, or the part of it that is meant.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Robot::load_with`].
     pub fn load(&self, path: &Path) -> Result<Loaded, RobotError> {
         let variable = |name| std::env::var_os(name);
         let (ros, ament) = (variable("ROS_PACKAGE_PATH"), variable("AMENT_PREFIX_PATH"));
@@ -67,16 +72,31 @@ pub fn provenance(
     loaded: &Loaded,
     map: Option<&Path>,
 ) -> Result<Provenance, ReportError> {
+    let given = invocation::arguments().into_iter();
+    let command = std::iter::once("plumbline".to_owned()).chain(without_out(given)).collect();
+    provenance_of(command, robot, loaded, map)
+}
+
+/// This program, a command line, and the files that describe the robot and its logs.
+///
+/// # Errors
+///
+/// [`ReportError::Unreadable`].
+pub fn provenance_of(
+    command: Vec<String>,
+    robot: &Path,
+    loaded: &Loaded,
+    map: Option<&Path>,
+) -> Result<Provenance, ReportError> {
     let mut files = vec![hash("robot", robot)?];
     if loaded.urdf_path != robot {
         files.push(hash("urdf", &loaded.urdf_path)?);
     }
     files.extend(map.map(|map| hash("map", map)).transpose()?);
-    let given = std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned());
     Ok(Provenance {
         program: "plumbline",
         version: env!("CARGO_PKG_VERSION"),
-        command: std::iter::once("plumbline".to_owned()).chain(without_out(given)).collect(),
+        command,
         files,
         seed: None,
     })

@@ -62,7 +62,7 @@ impl Samples {
     }
 
     /// States without torques, `[q, qd, qdd]` row-major, as one run without a name or rate.
-    pub(crate) fn of_states(joints: usize, [q, qd, qdd]: [Vec<f64>; 3]) -> Self {
+    pub fn of_states(joints: usize, [q, qd, qdd]: [Vec<f64>; 3]) -> Self {
         let tau = vec![0.0; q.len()];
         Self { joints, q, qd, qdd, tau, runs: Vec::new() }
     }

@@ -93,7 +93,7 @@ pub use noise::{ChannelNoise, JointNoise, NoiseSource};
 pub use prepare::{PrepareSettings, prepare};
 pub use prepared::{Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide};
 pub use presets::{Recognised, preset_names, recognised};
-pub use read::{ReadOptions, read_run, read_run_until_damage};
+pub use read::{ReadOptions, read_run, read_run_until_damage, run_of_columns};
 pub use rest::rest_speeds;
 pub use run::{Channel, Channels, Run};
 pub use unit::Unit;

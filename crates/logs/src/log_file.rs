@@ -1,5 +1,5 @@
 use std::{
-    collections::BTreeSet,
+    collections::{BTreeMap, BTreeSet},
     fs::{self, File},
     io::{self, Read},
     path::Path,
@@ -27,6 +27,8 @@ pub(crate) enum LogFile {
     Numpy(NumpyFile),
     Matlab(MatlabFile),
     Bag(Bag),
+    /// Columns that were never a file.
+    Columns(BTreeMap<String, Vec<f64>>),
 }
 
 impl LogFile {
@@ -85,6 +87,7 @@ impl LogFile {
             Self::Numpy(numpy) => numpy.names(),
             Self::Matlab(matlab) => matlab.names(),
             Self::Bag(bag) => bag.names().to_vec(),
+            Self::Columns(columns) => columns.keys().cloned().collect(),
         };
         let mut seen = BTreeSet::new();
         match names.iter().find(|n| !n.is_empty() && !seen.insert(n.as_str())) {
@@ -100,7 +103,7 @@ impl LogFile {
         match self {
             Self::Csv(csv) => csv.is_unnamed(),
             Self::Numpy(numpy) => numpy.is_unnamed(),
-            Self::Parquet(_) | Self::Matlab(_) | Self::Bag(_) => false,
+            Self::Parquet(_) | Self::Matlab(_) | Self::Bag(_) | Self::Columns(_) => false,
         }
     }
 
@@ -117,7 +120,20 @@ impl LogFile {
             Self::Numpy(numpy) => numpy.load(needed),
             Self::Matlab(matlab) => matlab.load(needed),
             Self::Bag(bag) => bag.load(needed),
+            Self::Columns(columns) => Ok(Table { columns: columns.clone(), ..Table::default() }),
         }
+    }
+
+    /// SHA-256 of the file at `path`, in hexadecimal; of columns that were never one, that of their
+    /// names and numbers.
+    pub(crate) fn sha256(&self, path: &Path) -> Result<String, LogError> {
+        let Self::Columns(columns) = self else { return sha256(path) };
+        let mut hasher = Sha256::new();
+        for (name, samples) in columns {
+            hasher.update(format!("{name} {}\n", samples.len()));
+            samples.iter().for_each(|x| hasher.update(x.to_le_bytes()));
+        }
+        Ok(hexadecimal(hasher))
     }
 }
 
@@ -150,7 +166,7 @@ fn kind(path: &Path, first: &[u8]) -> Result<Kind, LogError> {
 }
 
 /// SHA-256 of a file, or of the files of a bag one after the other, in hexadecimal.
-pub(crate) fn sha256(path: &Path) -> Result<String, LogError> {
+fn sha256(path: &Path) -> Result<String, LogError> {
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     let files = if path.is_dir() { bag::files_of(path)? } else { vec![path.to_owned()] };
@@ -163,5 +179,9 @@ pub(crate) fn sha256(path: &Path) -> Result<String, LogError> {
             }
         }
     }
-    Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(hexadecimal(hasher))
+}
+
+fn hexadecimal(hasher: Sha256) -> String {
+    hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

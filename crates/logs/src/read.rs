@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use robot::Robot;
@@ -6,7 +7,7 @@ use crate::{
     ColumnMap, LogError, Mend, Run,
     damage::Damage,
     even_clock::{EvenClock, even_clock},
-    log_file::{LogFile, sha256},
+    log_file::LogFile,
     plan::Plan,
     turns::on_the_turn_of,
 };
@@ -106,7 +107,49 @@ fn read(
     let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
     let options = &ReadOptions { map: map.as_ref(), ..*options };
     let file = LogFile::open(path, options, damage)?;
-    let plan = Plan::new(path, &file, robot, options)?;
+    checked((path, &file), robot, options, damage)
+}
+
+/// The run that columns in memory hold, read and checked as [`read_run`] does it with a file:
+/// `time` (s), and by joint `<joint>.position`, `<joint>.effort` and what else a log may have.
+///
+/// `name` stands in errors where a file would. A column of another length than `time` is an error.
+///
+/// # Errors
+///
+/// [`LogError::ColumnLength`], and every other [`LogError`] of [`read_run`] that names a column or a row.
+pub fn run_of_columns(
+    name: &str,
+    columns: BTreeMap<String, Vec<f64>>,
+    robot: &Robot,
+    options: &ReadOptions,
+) -> Result<Run, LogError> {
+    let expected = columns.get(options.time()).map_or(0, Vec::len);
+    if let Some((column, samples)) = columns.iter().find(|(_, x)| x.len() != expected) {
+        return Err(LogError::ColumnLength {
+            path: name.into(),
+            column: column.clone(),
+            found: samples.len() as u64,
+            time: options.time().to_owned(),
+            expected: expected as u64,
+        });
+    }
+    let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
+    let options = &ReadOptions { map: map.as_ref(), ..*options };
+    let file = LogFile::Columns(columns);
+    let run = checked((Path::new(name), &file), robot, options, &mut Damage::Refused)?;
+    // A name with a dot is none with an extension.
+    Ok(Run { name: name.to_owned(), ..run })
+}
+
+/// The run of a log that is opened.
+fn checked(
+    (path, file): (&Path, &LogFile),
+    robot: &Robot,
+    options: &ReadOptions,
+    damage: &mut Damage,
+) -> Result<Run, LogError> {
+    let plan = Plan::new(path, file, robot, options)?;
     let mut table = file.load(&plan.needed(), damage)?;
     plan.check(&mut table, damage)?;
 
@@ -132,7 +175,7 @@ fn read(
     let needed = plan.needed();
     table.columns.retain(|name, _| !needed.contains(name));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let (sha256, is_torn) = (sha256(path)?, file.is_torn());
+    let (sha256, is_torn) = (file.sha256(path)?, file.is_torn());
     Ok(Run {
         name,
         source: path.to_owned(),

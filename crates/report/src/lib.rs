@@ -1,7 +1,7 @@
 //! What was found, for people and for programs: a page, a figure, a text for the terminal, JSON.
 //!
 //! ```text
-//! Report { diagnosis, traces, robot, forward, .. }      -> json(), html(), figure(), text(), markdown()
+//! Report { diagnosis, traces, robot, forward, .. }      -> json(), html(), notebook(), figure(), text(), markdown()
 //! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
@@ -30,6 +30,7 @@ mod learning;
 mod linear_axis;
 mod log_axis;
 mod markdown;
+mod notebook;
 mod numbers;
 mod paper;
 mod places;
@@ -58,6 +59,7 @@ pub use learning::{
     PredictionTimes, TIMES_SCHEMA, TimePoint,
 };
 pub use markdown::markdown;
+pub use notebook::notebook;
 pub use numbers::{interval, percent, significant, unit};
 pub use paper::{
     LEARNING_FIGURE_SCHEMA, LearningFigureReport, PREDICTION_TIME_FIGURE_SCHEMA,

@@ -151,7 +151,11 @@ fn forward(
 }
 
 /// Writes an output folder, all but the recording.
-pub(super) fn write(
+///
+/// # Errors
+///
+/// [`CliError::Report`], [`CliError::Extended`] and [`CliError::Exchange`].
+pub fn write(
     out: &Path,
     loaded: &Loaded,
     outcome: &diagnosis::Outcome,
@@ -190,42 +194,59 @@ pub(super) fn write(
 ///
 /// [`EvaluationError::Recording`] where the disk refuses it.
 fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<PathBuf>, CliError> {
-    let path = arguments.out.join(RECORDING);
-    // One of an earlier diagnosis would show something else than the report beside it.
-    let _ = std::fs::remove_file(&path);
     if arguments.no_recording {
+        // One of an earlier diagnosis would show something else than the report beside it.
+        let _ = std::fs::remove_file(arguments.out.join(RECORDING));
         return Ok(None);
     }
     let bar = Bar::new();
     let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
-    // Under another name until it is whole.
-    let begun = arguments.out.join(BEGUN);
-    let written = evaluation::record_diagnosis(&begun, diagnosed, progress);
+    let recorded = recorded(&arguments.out, diagnosed, progress);
     bar.finish();
-    let unwritten = |reason: String| {
-        let _ = std::fs::remove_file(&begun);
-        let path = path.clone();
-        Err(EvaluationError::Recording(RecordingError::Unwritable { path, reason }).into())
-    };
-    match written {
-        Ok(_) => match std::fs::rename(&begun, &path) {
-            Ok(()) => logs::sync_folder(&arguments.out),
-            Err(error) => return unwritten(error.to_string()),
-        },
-        Err(EvaluationError::Recording(RecordingError::Unwritable { reason, .. })) => {
-            return unwritten(reason);
-        }
-        Err(EvaluationError::Recording(RecordingError::TurnedOff { value, .. })) => {
-            warn(&RecordingError::TurnedOff { path, value });
-            return Ok(None);
+    match recorded {
+        Ok(path) => Ok(Some(path)),
+        Err(error @ EvaluationError::Recording(RecordingError::Unwritable { .. })) => {
+            Err(error.into())
         }
         Err(other) => {
-            let _ = std::fs::remove_file(&begun);
             warn(&other);
-            return Ok(None);
+            Ok(None)
         }
     }
-    Ok(Some(path))
+}
+
+/// Writes the recording of a diagnosis into an output folder, under its name when it is whole.
+///
+/// # Errors
+///
+/// Those of [`evaluation::record_diagnosis`]; no recording is then there.
+pub fn recorded(
+    out: &Path,
+    diagnosed: &Diagnosed<'_>,
+    progress: &dyn Progress,
+) -> Result<PathBuf, EvaluationError> {
+    let (path, begun) = (out.join(RECORDING), out.join(BEGUN));
+    // One of an earlier diagnosis would show something else than the report beside it.
+    let _ = std::fs::remove_file(&path);
+    let failed = |error: EvaluationError| {
+        let _ = std::fs::remove_file(&begun);
+        match error {
+            EvaluationError::Recording(RecordingError::Unwritable { reason, .. }) => {
+                RecordingError::Unwritable { path: path.clone(), reason }.into()
+            }
+            EvaluationError::Recording(RecordingError::TurnedOff { value, .. }) => {
+                RecordingError::TurnedOff { path: path.clone(), value }.into()
+            }
+            other => other,
+        }
+    };
+    evaluation::record_diagnosis(&begun, diagnosed, progress).map_err(failed)?;
+    std::fs::rename(&begun, &path).map_err(|error| {
+        let reason = error.to_string();
+        failed(RecordingError::Unwritable { path: path.clone(), reason }.into())
+    })?;
+    logs::sync_folder(out);
+    Ok(path)
 }
 
 /// The extended robot as a `robot.toml`, its findings as comments on top.

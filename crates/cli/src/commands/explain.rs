@@ -27,6 +27,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
 }
 
 /// The effect of a name or a code.
+///
+/// # Errors
+///
+/// [`CliError::UnknownEffect`], with names that are near.
 pub fn find(name: &str) -> Result<EffectKind, CliError> {
     let plain = name.to_lowercase().replace(['-', ' '], "_");
     plain.parse().map_err(|_| {

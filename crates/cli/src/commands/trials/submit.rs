@@ -75,7 +75,7 @@ fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), CliError> {
     let part = |&task: &usize| Part::of_task(task, arguments.parts).number();
     let numbers: BTreeSet<usize> = left.iter().map(part).collect();
     let tasks = numbers.len();
-    let program = std::env::current_exe()?;
+    let program = crate::invocation::program()?;
     let root = std::path::absolute(&arguments.folder)?;
     let script = ArrayJob {
         program: &program,

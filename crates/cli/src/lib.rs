@@ -1,0 +1,85 @@
+//! The program `plumbline`, and what of it the Python module shares.
+//!
+//! ```text
+//! command line -> main -> a command -> files, text, exit code
+//! ```
+//!
+//! [`main`] is the program, whoever starts it. The rest is how files are read, and how a diagnosis is
+//! written and recorded, for whoever has them in memory.
+
+mod arguments;
+mod columns;
+mod commands;
+mod doubts;
+mod error;
+mod input;
+mod invocation;
+mod output;
+mod progress;
+mod watch;
+
+use std::ffi::OsString;
+
+use clap::Parser;
+
+use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
+use crate::commands::{
+    compare, demo, design, diagnose, effects, explain, export, learn, log_info, replay,
+    robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
+};
+
+pub use crate::columns::ColumnArguments;
+pub use crate::commands::diagnose::{recorded as record_diagnosis, write as write_diagnosis};
+pub use crate::commands::explain::find as find_effect;
+pub use crate::doubts::doubts;
+pub use crate::error::CliError;
+pub use crate::input::{PartArguments, SearchArguments, hashes_of, provenance_of};
+
+/// How a command that ran to its end turned out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Exit code 0.
+    Good,
+    /// A gap is left or an inertia is impossible: exit code 1.
+    Gap,
+}
+
+/// Runs the program with a command line, whose first argument is the program's own name, and gives its
+/// exit code.
+///
+/// A command line that cannot be understood, or that asks for help, ends the process.
+pub fn main(command_line: Vec<OsString>) -> u8 {
+    let arguments = Arguments::parse_from(&command_line);
+    invocation::keep(command_line);
+    match run(&arguments) {
+        Ok(Outcome::Good) => 0,
+        Ok(Outcome::Gap) => 1,
+        Err(error) => {
+            error.print();
+            error.exit_code()
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+    match &arguments.command {
+        Command::Demo(arguments) => demo::run(arguments),
+        Command::Run(arguments) => run_scenario::run(arguments),
+        Command::Diagnose(arguments) => diagnose::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
+        Command::Design(arguments) => design::run(arguments),
+        Command::Robot(RobotCommand::Check(arguments)) => robot_check::run(arguments),
+        Command::Robot(RobotCommand::Init(arguments)) => robot_init::run(arguments),
+        Command::Log(LogCommand::Info(arguments)) => log_info::run(arguments),
+        Command::Effects(arguments) => effects::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
+        Command::Learn(arguments) => learn::run(arguments),
+        Command::Replay(arguments) => replay::run(arguments),
+        Command::Simulate(arguments) => simulate::run(arguments),
+        Command::Track(arguments) => track::run(arguments),
+        Command::Trials(action) => trials::run(action),
+        Command::View(arguments) => view::run(arguments),
+        Command::Schema(arguments) => schema::run(arguments),
+    }
+}

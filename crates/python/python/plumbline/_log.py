@@ -1,0 +1,173 @@
+"""One recorded run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Optional, Union
+
+import numpy
+import numpy.typing
+
+from plumbline import _plumbline
+from plumbline._robot import Robot, native
+
+_Array = numpy.typing.NDArray[numpy.float64]
+
+
+class Log:
+    """One run in memory: ``time`` (s) of the shape (samples,), all else (samples, joints).
+
+    ``q`` is the position (rad or m), ``tau`` the torque that the joints report (N m or N), ``qd`` and
+    ``qdd`` velocity and acceleration where they were recorded, ``q_desired``, ``qd_desired``,
+    ``qdd_desired`` and ``tau_commanded`` what the controller asked for, ``q_link`` the position of the
+    link from a second encoder, behind the gear. ``joints`` names the columns; without it they are those of
+    the robot, in its order.
+
+    Real numbers of every type are taken, in every order in memory. Raises ``TypeError`` for what holds
+    none, ``ValueError`` for a wrong shape and for a number that is not finite; each names the argument.
+    What a log of this robot cannot be, a position out of reach or time that goes back, is a
+    ``PlumblineError`` once it is used.
+    """
+
+    _native: _plumbline.Log
+
+    def __init__(
+        self,
+        time: numpy.typing.ArrayLike,
+        q: numpy.typing.ArrayLike,
+        tau: numpy.typing.ArrayLike,
+        qd: Optional[numpy.typing.ArrayLike] = None,
+        qdd: Optional[numpy.typing.ArrayLike] = None,
+        *,
+        joints: Optional[Sequence[str]] = None,
+        q_desired: Optional[numpy.typing.ArrayLike] = None,
+        qd_desired: Optional[numpy.typing.ArrayLike] = None,
+        qdd_desired: Optional[numpy.typing.ArrayLike] = None,
+        tau_commanded: Optional[numpy.typing.ArrayLike] = None,
+        q_link: Optional[numpy.typing.ArrayLike] = None,
+        name: str = "log",
+    ) -> None:
+        self._native = _plumbline.Log(
+            time,
+            q,
+            tau,
+            qd,
+            qdd,
+            joints=None if joints is None else list(joints),
+            q_desired=q_desired,
+            qd_desired=qd_desired,
+            qdd_desired=qdd_desired,
+            tau_commanded=tau_commanded,
+            q_link=q_link,
+            name=name,
+        )
+
+    @classmethod
+    def _of(cls, native: _plumbline.Log) -> Log:
+        log = cls.__new__(cls)
+        log._native = native
+        return log
+
+    @classmethod
+    def read(
+        cls,
+        path: Union[str, PathLike[str]],
+        *,
+        map: Optional[Union[str, PathLike[str]]] = None,
+        effort: str = "effort",
+        topic: Optional[str] = None,
+        until_damage: bool = False,
+    ) -> Log:
+        """A log in a file: CSV, Parquet, NumPy, MATLAB, or a bag of ROS 2, as the program reads it.
+
+        ``map`` names a column map or one that the program knows, ``effort`` the column of the torque,
+        ``topic`` that of a bag; with ``until_damage`` a damaged file is read up to there. The file is read
+        when it is used with a robot. Raises ``PlumblineError`` where there is no file.
+        """
+        options = {"map": map, "effort": effort, "topic": topic, "until_damage": until_damage}
+        return cls._of(_plumbline.Log.read_file(path, **options))  # type: ignore[arg-type]
+
+    @classmethod
+    def from_frame(cls, frame: Any, *, name: str = "log") -> Log:
+        """A run from a frame of pandas or polars, or from arrays by name.
+
+        Columns are called as in a file: ``time`` (s), ``<joint>.position``, ``<joint>.effort`` and, where
+        they were recorded, ``.velocity``, ``.acceleration``, ``.desired_position``,
+        ``.commanded_effort``, ``.link_position``. Columns without numbers are left out where their name is
+        none of these. Raises ``TypeError`` and ``KeyError`` that name the column.
+        """
+        names = frame.keys() if isinstance(frame, Mapping) else getattr(frame, "columns", None)
+        if not isinstance(names, Iterable):
+            raise TypeError(
+                f"frame: found {type(frame).__name__}, a frame of pandas or polars or a mapping was expected"
+            )
+        columns = [(str(column), numpy.asarray(frame[column])) for column in names]
+        used = [c for c in columns if c[1].dtype.kind in "iuf" or c[0] == "time" or "." in c[0]]
+        return cls._of(_plumbline.Log.of_columns(used, name=name))
+
+    def on(self, robot: Robot) -> Log:
+        """The log as it is read and checked for a robot, its joints in the robot's order.
+
+        Raises ``ValueError`` for other joints and ``PlumblineError`` for a log that cannot be used.
+        """
+        return Log._of(self._native.on(native(robot)))
+
+    @property
+    def name(self) -> str:
+        """Name of the log."""
+        return self._native.name
+
+    @property
+    def joints(self) -> Optional[list[str]]:
+        """Names of the joints, where the log knows them."""
+        return self._native.joints
+
+    @property
+    def mended(self) -> list[str]:
+        """What was put right while it was read, in sentences."""
+        return self._native.mended
+
+    @property
+    def time(self) -> _Array:
+        """Time of each sample (s), a copy."""
+        return self._native.time
+
+    @property
+    def q(self) -> Optional[_Array]:
+        """Position (rad or m), of the shape (samples, joints), a copy."""
+        return self._native.signal("q")
+
+    @property
+    def qd(self) -> Optional[_Array]:
+        """Velocity (rad/s or m/s), likewise; ``None`` where it was not recorded."""
+        return self._native.signal("qd")
+
+    @property
+    def qdd(self) -> Optional[_Array]:
+        """Acceleration (rad/s² or m/s²), likewise; ``None`` where it was not recorded."""
+        return self._native.signal("qdd")
+
+    @property
+    def tau(self) -> Optional[_Array]:
+        """Torque (N m or N), likewise."""
+        return self._native.signal("tau")
+
+    def signal(self, name: str) -> Optional[_Array]:
+        """A signal by the name of its argument, such as ``"q_desired"``, likewise."""
+        return self._native.signal(name)
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+
+def natives(argument: str, logs: Union[Log, Sequence[Log]]) -> list[_plumbline.Log]:
+    """Logs as the functions of Rust take them; raises ``TypeError`` for anything else."""
+    if isinstance(logs, Log):
+        logs = [logs]
+    if isinstance(logs, (str, bytes)) or not isinstance(logs, Iterable):
+        raise TypeError(f"{argument}: found {type(logs).__name__}, logs in a list were expected")
+    for log in logs:
+        if not isinstance(log, Log):
+            raise TypeError(f"{argument}: found {type(log).__name__}, a Log was expected")
+    return [log._native for log in logs]

@@ -1,0 +1,34 @@
+"""Pictures by matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_COLOURS = {"measured": "#30363d", "nominal": "#c8500a", "extended": "#1668c5"}
+
+
+def plotted(run: dict[str, Any]) -> Figure:
+    """Torque over time, and below it the error of both models, joint by joint."""
+    from matplotlib.figure import Figure
+
+    time, joints = run["time"], run["joints"]
+    figure = Figure(figsize=(9, 2.6 * len(joints)), layout="constrained")
+    axes = figure.subplots(2 * len(joints), 1, sharex=True, squeeze=False, height_ratios=[2, 1] * len(joints))
+    for index, (joint, signals) in enumerate(joints.items()):
+        torque, left = axes[2 * index, 0], axes[2 * index + 1, 0]
+        count = len(signals["measured"])
+        for name, colour in _COLOURS.items():
+            torque.plot(time[:count], signals[name], color=colour, linewidth=0.8, label=name)
+            if name != "measured":
+                error = signals["measured"] - signals[name]
+                left.plot(time[:count], error, color=colour, linewidth=0.8)
+        torque.set_title(joint, loc="left")
+        torque.set_ylabel("torque (N m or N)")
+        left.set_ylabel("left")
+    axes[0, 0].legend(loc="upper right", ncols=3)
+    axes[-1, 0].set_xlabel("time (s)")
+    figure.suptitle(run["name"])
+    return figure

@@ -1,0 +1,123 @@
+"""A robot, as its files describe it or as a diagnosis extends it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy
+import numpy.typing
+
+from plumbline import _plumbline
+
+
+@dataclass(frozen=True)
+class Export:
+    """A robot in the file of another program."""
+
+    text: str
+    """The file."""
+    quantities: tuple[Mapping[str, Any], ...]
+    """What became of every quantity that is more than a rigid body's: exact, approximated (how),
+    dropped (why)."""
+
+    def save(self, path: Union[str, PathLike[str]]) -> None:
+        """Write the file."""
+        Path(path).write_text(self.text, encoding="utf-8")
+
+
+class Robot:
+    """A robot from a URDF, an MJCF, or a ``robot.toml`` that names one.
+
+    ``joints`` are the names of those that move; the others are locked at zero, or where the
+    ``robot.toml`` says. ``packages`` are folders by the name of the ROS package whose meshes are there;
+    with ``allow_outside`` meshes may lie in any folder.
+
+    Arrays have one column a joint, in the order of ``robot.joints``; units are rad or m, per s, per s²,
+    N m or N; a positive torque accelerates its joint positively.
+
+    Raises ``PlumblineError`` for files that cannot be used or a joint that they lack.
+    """
+
+    _native: _plumbline.Robot
+
+    def __init__(
+        self,
+        path: Union[str, PathLike[str]],
+        joints: Optional[Sequence[str]] = None,
+        *,
+        packages: Optional[Mapping[str, Union[str, PathLike[str]]]] = None,
+        allow_outside: bool = False,
+    ) -> None:
+        if isinstance(joints, str):
+            raise TypeError("joints: found str, names of joints in a list were expected")
+        self._native = _plumbline.Robot(
+            path,
+            None if joints is None else list(joints),
+            packages=list((packages or {}).items()),
+            allow_outside=allow_outside,
+        )
+
+    @classmethod
+    def _of(cls, native: _plumbline.Robot) -> Robot:
+        robot = cls.__new__(cls)
+        robot._native = native
+        return robot
+
+    @property
+    def name(self) -> str:
+        """Name of the robot."""
+        return self._native.name
+
+    @property
+    def path(self) -> Path:
+        """The file that was named."""
+        return Path(self._native.path)
+
+    @property
+    def joints(self) -> list[str]:
+        """Names of the joints that move, in the order of every array."""
+        return self._native.joints
+
+    @property
+    def links(self) -> list[str]:
+        """Names of the links that they move."""
+        return self._native.links
+
+    @property
+    def locked(self) -> dict[str, float]:
+        """Joints that are locked, and where (rad or m)."""
+        return dict(self._native.locked)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the owner of the files should know, in sentences."""
+        return self._native.warnings
+
+    @property
+    def limits(self) -> numpy.typing.NDArray[numpy.float64]:
+        """Limits, of the shape (joints, 4): lowest and highest position, speed and torque; NaN where the
+        files say none."""
+        return self._native.limits
+
+    def export(self, format: str) -> Export:
+        """The robot as ``"urdf"``, ``"mjcf"`` or ``"sdf"``.
+
+        Raises ``ValueError`` for another format, and ``PlumblineError`` where the robot has no such form.
+        """
+        text, quantities = self._native.export(format)
+        return Export(text, tuple(json.loads(quantities)))
+
+    def __repr__(self) -> str:
+        return repr(self._native)
+
+
+def native(robot: Robot) -> _plumbline.Robot:
+    """The robot as the functions of Rust take it; raises ``TypeError`` for anything else."""
+    if not isinstance(robot, Robot):
+        raise TypeError(f"robot: found {type(robot).__name__}, a Robot was expected")
+    return robot._native

@@ -1,0 +1,179 @@
+use numpy::{
+    PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
+    PyUntypedArrayMethods,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Kinds of NumPy's types that are read as numbers: integers with and without a sign, and floats.
+const KINDS: &str = "iuf";
+
+/// Rows of numbers, one column a joint, as they lie in memory.
+pub struct Rows<'py> {
+    array: PyReadonlyArray2<'py, f64>,
+    /// Whether one row was given, and not a table of rows.
+    pub is_single: bool,
+}
+
+impl<'py> Rows<'py> {
+    /// The argument `name`, of the shape (samples, joints) or (joints,).
+    ///
+    /// Float64 whose rows lie one behind the other is read where it is; all other numbers are copied.
+    ///
+    /// # Errors
+    ///
+    /// `TypeError` for what holds no real numbers, `ValueError` for another shape and for a number that
+    /// is not finite; both name the argument.
+    pub fn new(name: &str, value: &Bound<'py, PyAny>, joints: &[String]) -> PyResult<Self> {
+        let array = numbers(name, value)?;
+        let (shape, n) = (array.shape().to_vec(), joints.len());
+        let is_single = shape.len() == 1;
+        if shape.last() != Some(&n) || shape.len() > 2 {
+            return Err(PyValueError::new_err(format!(
+                "{name}: its shape is {}, (samples, {n}) was expected, one column a joint: {}",
+                shown(&shape),
+                joints.join(", ")
+            )));
+        }
+        let rows = shape.iter().product::<usize>() / n.max(1);
+        let array = array.reshape([rows, n])?;
+        let array = array.try_readonly().map_err(|e| busy(name, &e))?;
+        finite(name, array.as_slice()?, |index| {
+            let row = if is_single { String::new() } else { format!("row {}, ", index / n) };
+            format!("{row}joint {}", joints[index % n])
+        })?;
+        Ok(Self { array, is_single })
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.array.shape()[0]
+    }
+
+    /// The numbers, row by row.
+    pub fn as_slice(&self) -> PyResult<&[f64]> {
+        Ok(self.array.as_slice()?)
+    }
+
+    /// The columns, one a joint.
+    pub fn columns(&self) -> PyResult<Vec<Vec<f64>>> {
+        let (all, n) = (self.as_slice()?, self.array.shape()[1]);
+        Ok((0..n).map(|j| all.iter().skip(j).step_by(n.max(1)).copied().collect()).collect())
+    }
+}
+
+/// Refuses arguments that do not have as many rows as the first.
+pub fn same_rows(rows: [(&str, &Rows<'_>); 3]) -> PyResult<()> {
+    let [(first_name, first), ..] = rows;
+    let other = rows.iter().find(|(_, r)| r.len() != first.len() || r.is_single != first.is_single);
+    match other {
+        None => Ok(()),
+        Some((name, other)) => Err(PyValueError::new_err(format!(
+            "{name}: its shape is {}, that of {first_name} is {}: both were expected to be alike",
+            shown(other.shape()),
+            shown(first.shape())
+        ))),
+    }
+}
+
+impl Rows<'_> {
+    fn shape(&self) -> &[usize] {
+        if self.is_single { &self.array.shape()[1..] } else { self.array.shape() }
+    }
+}
+
+/// The argument `name` as a vector of numbers.
+///
+/// # Errors
+///
+/// As [`Rows::new`].
+pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let array = numbers(name, value)?;
+    if array.ndim() != 1 {
+        let shape = shown(array.shape());
+        return Err(PyValueError::new_err(format!(
+            "{name}: its shape is {shape}, (samples,) was expected"
+        )));
+    }
+    let array = array.reshape([array.len()])?;
+    let array: PyReadonlyArray1<'_, f64> = array.try_readonly().map_err(|e| busy(name, &e))?;
+    Ok(array.as_slice()?.to_vec())
+}
+
+/// A table as an array of NumPy, made of its numbers row by row without a copy; of one row alone a
+/// vector.
+pub fn table<'py>(
+    py: Python<'py>,
+    numbers: Vec<f64>,
+    columns: usize,
+    is_single: bool,
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let rows = numbers.len() / columns.max(1);
+    let array = PyArray1::from_vec(py, numbers);
+    array.reshape(if is_single { vec![columns] } else { vec![rows, columns] })
+}
+
+/// Columns as a table.
+pub fn rows_of(columns: &[&[f64]]) -> Vec<f64> {
+    let samples = columns.first().map_or(0, |column| column.len());
+    (0..samples).flat_map(|k| columns.iter().map(move |column| column[k])).collect()
+}
+
+/// Float64 in the order of C, of whatever NumPy takes for an array of real numbers.
+fn numbers<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let py = value.py();
+    let numpy = py.import("numpy")?;
+    let no_numbers = |found: String| {
+        PyTypeError::new_err(format!(
+            "{name}: found {found}, an array of real numbers was expected"
+        ))
+    };
+    let array = numpy
+        .call_method1("asarray", (value,))
+        .map_err(|error| no_numbers(format!("{} ({})", type_name(value), error.value(py))))?;
+    let dtype = array.getattr("dtype")?;
+    let kind: String = dtype.getattr("kind")?.extract()?;
+    if !KINDS.contains(&kind) {
+        return Err(no_numbers(format!("{} of dtype {dtype}", type_name(value))));
+    }
+    let options = PyDict::new(py);
+    options.set_item("dtype", "float64")?;
+    // A vector or scalar of no dimension stays so: ascontiguousarray would give it one.
+    options.set_item("order", "C")?;
+    let array = numpy.call_method("asarray", (array,), Some(&options))?;
+    let array = array.cast_into::<PyArray<f64, _>>().map_err(PyErr::from)?;
+    if array.is_c_contiguous() && array.getattr("flags")?.getattr("aligned")?.extract()? {
+        return Ok(array);
+    }
+    let copy = array.call_method0("copy")?;
+    copy.cast_into::<PyArray<f64, _>>().map_err(PyErr::from)
+}
+
+fn finite(name: &str, all: &[f64], place: impl Fn(usize) -> String) -> PyResult<()> {
+    match all.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(PyValueError::new_err(format!(
+            "{name}: {}: found {}, a finite number was expected",
+            place(index),
+            all[index]
+        ))),
+    }
+}
+
+fn busy(name: &str, error: &numpy::BorrowError) -> PyErr {
+    PyValueError::new_err(format!("{name}: it is being written: {error}"))
+}
+
+/// The name of a value's type.
+pub fn type_name(value: &Bound<'_, PyAny>) -> String {
+    value.get_type().name().map_or_else(|_| "a value".to_owned(), |name| name.to_string())
+}
+
+/// A shape as Python writes it.
+fn shown(shape: &[usize]) -> String {
+    match shape {
+        [only] => format!("({only},)"),
+        all => format!("({})", all.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}

@@ -1,0 +1,52 @@
+use pyo3::prelude::*;
+
+use crate::diagnosis::{Diagnosis, Question};
+use crate::error::raised;
+use crate::log::Log;
+use crate::program::json_of;
+use crate::robot::Robot;
+use crate::work::run;
+
+/// What changed from one set of logs to another.
+#[pyclass(frozen, module = "plumbline", get_all)]
+pub struct Comparison {
+    /// What the first logs say of the robot.
+    before: Py<Diagnosis>,
+    /// What the others say of the robot as the first found it: its findings are the changes.
+    after: Py<Diagnosis>,
+    /// As JSON the findings that both show to the same size, which are no change.
+    alike: String,
+}
+
+/// Names what changed from the logs `before` to the logs `after`.
+///
+/// # Errors
+///
+/// [`crate::error::PlumblineError`] for logs that cannot be used, and for one that is in both.
+#[pyfunction]
+#[pyo3(signature = (robot, before, after, *, cutoff_hz=None, without=Vec::new(), progress=None))]
+pub fn compare(
+    py: Python<'_>,
+    robot: &Robot,
+    before: Vec<PyRef<'_, Log>>,
+    after: Vec<PyRef<'_, Log>>,
+    cutoff_hz: Option<f64>,
+    without: Vec<String>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Comparison> {
+    let asked = |logs| Question { asks: "compare", robot, logs, cutoff_hz, without: &without };
+    let (first, other) = (asked(before), asked(after));
+    let (runs, settings) = ([first.runs()?, other.runs()?], first.settings()?);
+    let origins = [first.provenance(&runs[0])?, other.provenance(&runs[1])?];
+    let about = &robot.loaded.robot;
+    let sets = [runs[0].as_slice(), runs[1].as_slice()];
+    let compared =
+        run(py, progress.as_ref(), |work| ::diagnosis::compare(about, sets, &settings, work))?;
+    let compared = compared.map_err(raised)?;
+    let alike = json_of(&compared.alike)?;
+    let extended = robot.extended(compared.before.extended.clone());
+    let ([before, after], [origin, other]) = (runs, origins);
+    let before = Diagnosis::new(py, robot, (before, compared.before), None, origin)?;
+    let after = Diagnosis::new(py, &extended, (after, compared.after), None, other)?;
+    Ok(Comparison { before: Py::new(py, before)?, after: Py::new(py, after)?, alike })
+}

@@ -1,0 +1,237 @@
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ::diagnosis::{Outcome, Settings};
+use cli::{SearchArguments, hashes_of, provenance_of};
+use evaluation::{Diagnosed, ForwardGap};
+use logs::Run;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use report::{Provenance, Report};
+
+use crate::arguments::{effects, positive};
+use crate::error::raised;
+use crate::log::Log;
+use crate::robot::Robot;
+use crate::work::{Work, run};
+
+/// What a model gets wrong in logs.
+#[pyclass(frozen, module = "plumbline")]
+pub struct Diagnosis {
+    robot: Arc<::robot::Loaded>,
+    extended: Py<Robot>,
+    runs: Vec<Run>,
+    outcome: Outcome,
+    forward: Option<ForwardGap>,
+    provenance: Provenance,
+    doubts: Vec<String>,
+}
+
+/// What is asked of some logs.
+pub struct Question<'a> {
+    /// The function of Python that asks.
+    pub asks: &'static str,
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The logs.
+    pub logs: Vec<PyRef<'a, Log>>,
+    /// Cut-off of the low-pass (Hz).
+    pub cutoff_hz: Option<f64>,
+    /// Effects that are not looked for.
+    pub without: &'a [String],
+}
+
+impl Question<'_> {
+    /// The logs as runs of the robot.
+    pub fn runs(&self) -> PyResult<Vec<Run>> {
+        self.logs.iter().map(|log| log.run(&self.robot.loaded.robot)).collect()
+    }
+
+    /// How causes are searched.
+    pub fn settings(&self) -> PyResult<Settings> {
+        let cutoff_hz = positive("cutoff_hz", self.cutoff_hz)?;
+        let search = SearchArguments { cutoff_hz, without: effects(self.without)? };
+        Ok(search.settings(&self.robot.loaded))
+    }
+
+    /// Where the answer comes from: the command line of the program that gives the same, or the call
+    /// where a log was never a file.
+    pub fn provenance(&self, runs: &[Run]) -> PyResult<Provenance> {
+        let loaded = &self.robot.loaded;
+        let mut provenance =
+            provenance_of(self.command(runs), &self.robot.path, loaded, None).map_err(raised)?;
+        provenance.files.extend(hashes_of(runs));
+        Ok(provenance)
+    }
+
+    fn command(&self, runs: &[Run]) -> Vec<String> {
+        let robot = self.robot.path.display().to_string();
+        let files: Option<Vec<_>> = self.logs.iter().map(|log| log.options()).collect();
+        let same = files.filter(|files| files.windows(2).all(|pair| pair[0].1 == pair[1].1));
+        let Some(files) = same else {
+            let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
+            return vec![format!("plumbline.{}({robot}, [{}])", self.asks, names.join(", "))];
+        };
+        let mut command = vec!["plumbline".to_owned(), self.asks.to_owned()];
+        command.extend(["--robot".to_owned(), robot]);
+        if let Some(joints) = &self.robot.asked {
+            command.extend(["--joints".to_owned(), joints.join(",")]);
+        }
+        command.push("--log".to_owned());
+        command.extend(files.iter().map(|(path, _)| path.display().to_string()));
+        command.extend(files.first().map(|(_, options)| options.clone()).unwrap_or_default());
+        if let Some(cutoff_hz) = self.cutoff_hz {
+            command.extend(["--cutoff-hz".to_owned(), cutoff_hz.to_string()]);
+        }
+        for effect in self.without {
+            command.extend(["--without".to_owned(), effect.clone()]);
+        }
+        command
+    }
+}
+
+impl Diagnosis {
+    /// The diagnosis that an outcome is.
+    pub fn new(
+        py: Python<'_>,
+        robot: &Robot,
+        (runs, outcome): (Vec<Run>, Outcome),
+        forward: Option<ForwardGap>,
+        provenance: Provenance,
+    ) -> PyResult<Self> {
+        let doubts = cli::doubts(&robot.loaded, &runs);
+        let extended = Py::new(py, robot.extended(outcome.extended.clone()))?;
+        let loaded = Arc::clone(&robot.loaded);
+        Ok(Self { robot: loaded, extended, runs, outcome, forward, provenance, doubts })
+    }
+
+    fn shown(&self) -> Report<'_> {
+        Report {
+            forward: self.forward.as_ref(),
+            ..Report::new(&self.outcome, &self.robot.robot, &self.provenance)
+        }
+    }
+}
+
+/// Names what the model of `robot` gets wrong in `logs`.
+///
+/// # Errors
+///
+/// [`crate::error::PlumblineError`] for logs that cannot be used.
+#[pyfunction]
+#[pyo3(signature = (robot, logs, *, cutoff_hz=None, without=Vec::new(), progress=None))]
+pub fn diagnose(
+    py: Python<'_>,
+    robot: &Robot,
+    logs: Vec<PyRef<'_, Log>>,
+    cutoff_hz: Option<f64>,
+    without: Vec<String>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Diagnosis> {
+    let question = Question { asks: "diagnose", robot, logs, cutoff_hz, without: &without };
+    let (runs, settings) = (question.runs()?, question.settings()?);
+    let provenance = question.provenance(&runs)?;
+    let about = &robot.loaded.robot;
+    let found = run(py, progress.as_ref(), |work: &Work| {
+        let outcome = ::diagnosis::diagnose(about, &runs, &settings, work)?;
+        let read = outcome.read.as_deref().unwrap_or(&runs);
+        let robots = [about, &outcome.extended];
+        let cutoff_hz = outcome.diagnosis.data.cutoff_hz;
+        // A robot that cannot be simulated is diagnosed all the same.
+        let forward = evaluation::forward_gap_of_logs(robots, read, cutoff_hz, work).ok();
+        Ok::<_, ::diagnosis::DiagnosisError>((outcome, forward))
+    })?;
+    let (outcome, forward) = found.map_err(raised)?;
+    Diagnosis::new(py, robot, (runs, outcome), forward, provenance)
+}
+
+#[pymethods]
+impl Diagnosis {
+    /// The robot with the findings in it.
+    #[getter]
+    fn robot(&self, py: Python<'_>) -> Py<Robot> {
+        self.extended.clone_ref(py)
+    }
+
+    /// What the description of the robot leaves out of its motion, in sentences.
+    #[getter]
+    fn doubts(&self) -> Vec<String> {
+        self.doubts.clone()
+    }
+
+    /// `diagnosis.json`.
+    fn json(&self) -> PyResult<String> {
+        report::json(&self.shown()).map_err(raised)
+    }
+
+    /// What the program prints.
+    fn text(&self) -> String {
+        report::text(&self.shown())
+    }
+
+    /// `report.html`.
+    fn html(&self) -> PyResult<String> {
+        report::html(&self.shown()).map_err(raised)
+    }
+
+    /// The first screen of the report.
+    fn notebook(&self) -> PyResult<String> {
+        report::notebook(&self.shown()).map_err(raised)
+    }
+
+    /// `figure.svg`.
+    fn figure(&self) -> PyResult<String> {
+        report::figure(&self.shown()).map_err(raised)
+    }
+
+    /// Writes the files of the program's output folder.
+    #[pyo3(signature = (folder, *, recording=true, progress=None))]
+    fn report(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        recording: bool,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let shown = self.shown();
+        let json = report::json(&shown).map_err(raised)?;
+        cli::write_diagnosis(&folder, &self.robot, &self.outcome, (&shown, &json), None)
+            .map_err(raised)?;
+        if !recording {
+            return Ok(());
+        }
+        let diagnosed = Diagnosed {
+            loaded: &self.robot,
+            runs: self.outcome.read.as_deref().unwrap_or(&self.runs),
+            outcome: &self.outcome,
+            verdict: &report::markdown(&shown),
+        };
+        let recorded =
+            run(py, progress.as_ref(), |work| cli::record_diagnosis(&folder, &diagnosed, work))?;
+        recorded.map(|_| ()).map_err(raised)
+    }
+
+    /// The signals behind the diagnosis: of every run its name, its times (s) and, by joint, position,
+    /// velocity, and the measured, nominal and extended torque.
+    fn traces<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let vector = |values: &Vec<f64>| PyArray1::from_slice(py, values);
+        let of = |trace: &::diagnosis::RunTraces| {
+            let (run, joints) = (PyDict::new(py), PyDict::new(py));
+            for (joint, link) in trace.joints.iter().zip(self.robot.robot.links()) {
+                let signals = PyDict::new(py);
+                signals.set_item("position", vector(&joint.position))?;
+                signals.set_item("velocity", vector(&joint.velocity))?;
+                signals.set_item("measured", vector(&joint.measured))?;
+                signals.set_item("nominal", vector(&joint.nominal))?;
+                signals.set_item("extended", vector(&joint.extended))?;
+                joints.set_item(&link.joint.name, signals)?;
+            }
+            run.set_item("name", &trace.name)?;
+            run.set_item("time", vector(&trace.time))?;
+            run.set_item("joints", joints)?;
+            Ok(run)
+        };
+        self.outcome.traces.iter().map(of).collect()
+    }
+}

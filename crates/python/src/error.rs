@@ -1,0 +1,21 @@
+use cli::CliError;
+use pyo3::PyErr;
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+
+create_exception!(
+    plumbline,
+    PlumblineError,
+    PyValueError,
+    "A robot, a log, a scenario or a model that cannot be used, in the words of the program."
+);
+
+/// The exception that an error of the program becomes: its sentence, and what to do about it.
+pub fn raised(error: impl Into<CliError>) -> PyErr {
+    let error = error.into();
+    let words = error.words();
+    PlumblineError::new_err(match error.help() {
+        Some(help) => format!("{words}\nhelp: {help}"),
+        None => words,
+    })
+}

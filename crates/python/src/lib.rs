@@ -1,0 +1,44 @@
+//! The module `plumbline` of Python, and the program in it.
+//!
+//! ```text
+//! arrays, frames, files -> Robot, Log -> diagnose -> findings, report, robots in other formats
+//! ```
+//!
+//! Everything is computed where the program computes it; here stand the checks of what Python hands
+//! over. The work goes on without the lock of the interpreter, on a thread that Ctrl-C ends.
+
+mod arguments;
+mod arrays;
+mod comparison;
+mod diagnosis;
+mod error;
+mod inverse_dynamics;
+mod log;
+mod model;
+mod program;
+mod robot;
+mod simulation;
+mod work;
+
+/// What the Python package `plumbline` is made of.
+#[pyo3::pymodule]
+mod _plumbline {
+    #[pymodule_export]
+    use crate::comparison::{Comparison, compare};
+    #[pymodule_export]
+    use crate::diagnosis::{Diagnosis, diagnose};
+    #[pymodule_export]
+    use crate::error::PlumblineError;
+    #[pymodule_export]
+    use crate::inverse_dynamics::inverse_dynamics;
+    #[pymodule_export]
+    use crate::log::Log;
+    #[pymodule_export]
+    use crate::model::{Model, learn};
+    #[pymodule_export]
+    use crate::program::main;
+    #[pymodule_export]
+    use crate::robot::Robot;
+    #[pymodule_export]
+    use crate::simulation::{Simulation, simulate};
+}

@@ -1,0 +1,150 @@
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use ::robot::{Loaded, RobotError};
+use cli::PartArguments;
+use dynamics::Dynamics;
+use exchange::Format;
+use numpy::PyArrayDyn;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::table;
+use crate::error::raised;
+use crate::program::json_of;
+
+/// A robot as its files describe it.
+#[pyclass(frozen, module = "plumbline")]
+pub struct Robot {
+    /// What was read, once for all that use it.
+    pub loaded: Arc<Loaded>,
+    /// The file that was named: a description, or a `robot.toml` that names one.
+    pub path: PathBuf,
+    /// The joints that were asked for.
+    pub asked: Option<Vec<String>>,
+    dynamics: Dynamics,
+}
+
+impl Robot {
+    /// The robot of files that were read, with another one in the place of what they describe.
+    pub fn extended(&self, robot: ::robot::Robot) -> Self {
+        let loaded = Loaded { robot, ..(*self.loaded).clone() };
+        Self::new(loaded, self.path.clone(), self.asked.clone())
+    }
+
+    fn new(loaded: Loaded, path: PathBuf, asked: Option<Vec<String>>) -> Self {
+        let dynamics = Dynamics::new(&loaded.robot);
+        Self { loaded: Arc::new(loaded), path, asked, dynamics }
+    }
+
+    /// The robot of a file, all of its joints.
+    pub fn read(path: &Path) -> PyResult<Self> {
+        Self::load(path.to_owned(), None, Vec::new(), false)
+    }
+
+    /// Its rigid bodies.
+    pub fn dynamics(&self) -> &Dynamics {
+        &self.dynamics
+    }
+}
+
+#[pymethods]
+impl Robot {
+    #[new]
+    #[pyo3(signature = (path, joints=None, *, packages=Vec::new(), allow_outside=false))]
+    fn load(
+        path: PathBuf,
+        joints: Option<Vec<String>>,
+        packages: Vec<(String, PathBuf)>,
+        allow_outside: bool,
+    ) -> PyResult<Self> {
+        if joints.as_ref().is_some_and(Vec::is_empty) {
+            return Err(PyValueError::new_err("joints: at least one name was expected"));
+        }
+        let part = PartArguments {
+            joints: joints.clone().unwrap_or_default(),
+            package: packages,
+            allow_outside,
+        };
+        Ok(Self::new(part.load(&path).map_err(raised)?, path, joints))
+    }
+
+    /// Name of the robot.
+    #[getter]
+    fn name(&self) -> &str {
+        self.loaded.robot.name()
+    }
+
+    /// The file that was named.
+    #[getter]
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Names of the joints that move, in the order of every array.
+    #[getter]
+    pub fn joints(&self) -> Vec<String> {
+        self.loaded.robot.joint_names().map(str::to_owned).collect()
+    }
+
+    /// Names of the links that they move.
+    #[getter]
+    fn links(&self) -> Vec<String> {
+        self.loaded.robot.links().iter().map(|link| link.name.clone()).collect()
+    }
+
+    /// Joints that are locked, and where (rad or m).
+    #[getter]
+    fn locked(&self) -> Vec<(String, f64)> {
+        self.loaded.locked.iter().map(|lock| (lock.joint.clone(), lock.position)).collect()
+    }
+
+    /// What the owner of the files should know.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.loaded.warnings.iter().map(ToString::to_string).collect()
+    }
+
+    /// Limits of the joints, one row each: lowest and highest position (rad or m), speed (rad/s or m/s)
+    /// and torque (N m or N); NaN where the files say none.
+    #[getter]
+    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let of = |link: &::robot::Link| {
+            let limits = &link.joint.limits;
+            let (low, high) = limits.position.unwrap_or((f64::NAN, f64::NAN));
+            [low, high, limits.velocity.unwrap_or(f64::NAN), limits.effort.unwrap_or(f64::NAN)]
+        };
+        table(py, self.loaded.robot.links().iter().flat_map(of).collect(), 4, false)
+    }
+
+    /// The robot in a format, and as JSON what became of every quantity.
+    fn export(&self, format: &str) -> PyResult<(String, String)> {
+        let known = Format::ALL.into_iter().find(|known| known.name() == format);
+        let Some(known) = known else {
+            let all = Format::ALL.map(Format::name).join(", ");
+            return Err(PyValueError::new_err(format!(
+                "format: found {format:?}, one of {all} was expected"
+            )));
+        };
+        let export = exchange::export(&self.loaded, &self.source()?, known).map_err(raised)?;
+        Ok((export.text, json_of(&export.fates)?))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Robot({:?}, joints=[{}])", self.name(), self.joints().join(", "))
+    }
+}
+
+impl Robot {
+    /// The text of the description.
+    fn source(&self) -> PyResult<String> {
+        if let Some(text) = &self.loaded.expanded {
+            return Ok(text.clone());
+        }
+        let path = &self.loaded.urdf_path;
+        std::fs::read_to_string(path).map_err(|error| {
+            let reason = error.to_string();
+            raised(RobotError::Unreadable { path: path.clone(), reason })
+        })
+    }
+}

@@ -1,0 +1,69 @@
+use std::path::PathBuf;
+
+use document::Document;
+use pyo3::prelude::*;
+use simulator::LogFormat;
+use simulator::scenario::Scenario;
+
+use crate::error::raised;
+use crate::log::Log;
+use crate::robot::Robot;
+use crate::work::run;
+
+/// The runs of a scenario, simulated.
+#[pyclass(frozen, module = "plumbline")]
+pub struct Simulation {
+    scenario: Scenario,
+    simulation: simulator::Simulation,
+}
+
+/// Simulates every run of a scenario; the same seed gives the same logs.
+///
+/// # Errors
+///
+/// [`crate::error::PlumblineError`] for a scenario that cannot be read or simulated.
+#[pyfunction]
+#[pyo3(signature = (scenario, *, seed=None, set=Vec::new(), progress=None))]
+pub fn simulate(
+    py: Python<'_>,
+    scenario: PathBuf,
+    seed: Option<u64>,
+    set: Vec<String>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Simulation> {
+    let mut document = Document::read(&scenario).map_err(raised)?;
+    set.iter().try_for_each(|assignment| document.set(assignment)).map_err(raised)?;
+    if let Some(seed) = seed {
+        document.set(&format!("seed={seed}")).map_err(raised)?;
+    }
+    let scenario = Scenario::from_document(&document).map_err(raised)?;
+    let seconds: f64 = scenario.runs().iter().map(|run| run.motion.duration_s()).sum();
+    let simulation = run(py, progress.as_ref(), |work| {
+        work.begin("simulating (seconds of motion)", seconds as usize);
+        simulator::simulate(&scenario, &|| work.advance())
+    })?;
+    Ok(Simulation { scenario, simulation: simulation.map_err(raised)? })
+}
+
+#[pymethods]
+impl Simulation {
+    /// The logs, which tell nothing of what was put in.
+    #[getter]
+    fn logs(&self) -> Vec<Log> {
+        self.simulation.runs.iter().cloned().map(Log::of_run).collect()
+    }
+
+    /// The robot as its files describe it, without what was put in.
+    #[getter]
+    fn robot(&self) -> PyResult<Robot> {
+        Robot::read(self.scenario.robot_file())
+    }
+
+    /// Writes the logs, the whole scenario and, apart from them, what was put in.
+    #[pyo3(signature = (folder, *, csv=false))]
+    fn save(&self, folder: PathBuf, csv: bool) -> PyResult<()> {
+        std::fs::create_dir_all(&folder)?;
+        let format = if csv { LogFormat::Csv } else { LogFormat::Parquet };
+        simulator::write(&folder, &self.scenario, &self.simulation, format).map_err(raised)
+    }
+}
