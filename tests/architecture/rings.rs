@@ -58,7 +58,10 @@ fn imports(modules: &Modules) -> Imports {
         prefixes.into_iter().find(|name| modules.contains_key(name))
     };
     let of = |(name, text): (&String, &String)| {
-        let imported: BTreeSet<String> = paths(text).iter().filter_map(known).collect();
+        let folder =
+            name.rsplit_once("::").map_or(String::new(), |(folder, _)| format!("{folder}::"));
+        let text = text.replace("super::", &format!("crate::{folder}"));
+        let imported: BTreeSet<String> = paths(&text).iter().filter_map(known).collect();
         (name.clone(), imported.into_iter().filter(|other| other != name).collect())
     };
     modules.iter().map(of).collect()
@@ -129,6 +132,8 @@ fn a_ring_of_three_files_is_reported() {
     ];
     let told = broken("x", &made_up(&ring));
     assert!(told[0].contains("a, b, c import") && !told[0].contains('d'), "{told:?}");
+    let within = [("f::a", "use super::b::B;"), ("f::b", "use crate::f::a::A;")];
+    assert_eq!(broken("x", &made_up(&within)), ["x: f::a, f::b import each other"]);
     let tree = [ring[0], ring[1], ("c", "// crate::a::A\n#[cfg(test)]\nuse crate::a::A;"), ring[3]];
     assert_eq!(broken("x", &made_up(&tree)), Vec::<String>::new());
 }
