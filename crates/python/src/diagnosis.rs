@@ -209,7 +209,7 @@ impl Diagnosis {
         };
         let recorded =
             run(py, progress.as_ref(), |work| cli::record_diagnosis(&folder, &diagnosed, work))?;
-        recorded.map(|_| ()).map_err(raised)
+        recorded.map(|_| ()).map_err(|error| raised(*error))
     }
 
     /// The signals behind the diagnosis: of every run its name, its times (s) and, by joint, position,

@@ -6,6 +6,10 @@
 //!
 //! Everything is computed where the program computes it; here stand the checks of what Python hands
 //! over. The work goes on without the lock of the interpreter, on a thread that Ctrl-C ends.
+#![allow(
+    clippy::fn_params_excessive_bools,
+    reason = "keywords of Python, which are named where they are given"
+)]
 
 mod arguments;
 mod arrays;

@@ -205,13 +205,13 @@ fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<Pat
     bar.finish();
     match recorded {
         Ok(path) => Ok(Some(path)),
-        Err(error @ EvaluationError::Recording(RecordingError::Unwritable { .. })) => {
-            Err(error.into())
-        }
-        Err(other) => {
-            warn(&other);
-            Ok(None)
-        }
+        Err(error) => match *error {
+            EvaluationError::Recording(RecordingError::Unwritable { .. }) => Err((*error).into()),
+            other => {
+                warn(&other);
+                Ok(None)
+            }
+        },
     }
 }
 
@@ -224,13 +224,13 @@ pub fn recorded(
     out: &Path,
     diagnosed: &Diagnosed<'_>,
     progress: &dyn Progress,
-) -> Result<PathBuf, EvaluationError> {
+) -> Result<PathBuf, Box<EvaluationError>> {
     let (path, begun) = (out.join(RECORDING), out.join(BEGUN));
     // One of an earlier diagnosis would show something else than the report beside it.
     let _ = std::fs::remove_file(&path);
     let failed = |error: EvaluationError| {
         let _ = std::fs::remove_file(&begun);
-        match error {
+        Box::new(match error {
             EvaluationError::Recording(RecordingError::Unwritable { reason, .. }) => {
                 RecordingError::Unwritable { path: path.clone(), reason }.into()
             }
@@ -238,7 +238,7 @@ pub fn recorded(
                 RecordingError::TurnedOff { path: path.clone(), value }.into()
             }
             other => other,
-        }
+        })
     };
     evaluation::record_diagnosis(&begun, diagnosed, progress).map_err(failed)?;
     std::fs::rename(&begun, &path).map_err(|error| {
