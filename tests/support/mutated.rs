@@ -162,7 +162,7 @@ fn number(random: &mut impl Rng) -> u64 {
     whole.get(choice).copied().unwrap_or_else(|| real[choice - whole.len()].to_bits())
 }
 
-/// One of the [`ODD`] numbers that a float can hold.
+/// One of the odd numbers that a float can hold.
 pub fn odd_number(random: &mut impl Rng) -> f64 {
     ODD[random.random_range(0..ODD.len())].parse().unwrap_or(f64::MAX)
 }
