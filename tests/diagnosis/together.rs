@@ -66,7 +66,7 @@ fn three_causes_at_three_joints_are_all_found() {
 #[test]
 fn damping_that_is_described_and_friction_that_is_not_are_found_though_they_cancel() {
     const DAMPING: f64 = 4.0;
-    const LEVEL: f64 = 2.0;
+    const LEVEL: f64 = 6.8;
     let mut described = wam();
     described.link_mut(3).unwrap().actuator.viscous = DAMPING;
     let world = World::nominal().torque(3, |[_, qd, _]| LEVEL * sign(qd));
