@@ -1,5 +1,5 @@
 //! The module of Python, loaded as its users load it. Where there is no `python3` with NumPy, the test says
-//! so and is left out; so is the wheel where there is no `maturin`.
+//! so and is left out.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 use std::fs;
