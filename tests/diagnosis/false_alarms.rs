@@ -9,14 +9,14 @@ use rayon::prelude::*;
 
 use crate::world::{World, against_nominal, named};
 
-const LOGS: u64 = 20;
+const LOGS: u64 = 40;
 
 /// Time after which the noise has forgotten all but 1/e of itself (s).
 const MEMORY_S: f64 = 0.3;
 
-/// Logs with any finding: one was expected at a probability of 5 %, and more than two are seen eight times
-/// in a hundred then.
-const MOST: usize = 2;
+/// Logs with any finding: two were expected at a probability of 5 %, and more than four are seen once in
+/// a hundred times then.
+const MOST: usize = 4;
 
 /// Adds to the effort of every joint noise of the same RMS as the white noise of
 /// [`Noise::of_a_wam`], all of it slow: `x_t = a x_{t-1} + sqrt(1 - a^2) sd z_t`.

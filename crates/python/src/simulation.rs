@@ -39,8 +39,8 @@ pub fn simulate(
     let scenario = Scenario::from_document(&document).map_err(raised)?;
     let seconds: f64 = scenario.runs().iter().map(|run| run.motion.duration_s()).sum();
     let simulation = run(py, progress.as_ref(), |work| {
-        work.begin("simulating (seconds of motion)", seconds as usize);
-        simulator::simulate(&scenario, &|| work.advance())
+        work.stage("simulating (seconds of motion)", seconds as usize);
+        simulator::simulate(&scenario, &|| work.step())
     })?;
     Ok(Simulation { scenario, simulation: simulation.map_err(raised)? })
 }

@@ -86,24 +86,16 @@ fn mistake(panic: &(dyn Any + Send)) -> PyErr {
 }
 
 impl Work {
-    fn stage(&self, name: &str, steps: usize) {
+    /// Begins a stage of as many steps.
+    pub fn stage(&self, name: &str, steps: usize) {
         self.go_on();
         *self.lock() = Stage { name: name.to_owned(), steps, done: 0 };
     }
 
-    fn step(&self) {
+    /// A step of the stage is done.
+    pub fn step(&self) {
         self.go_on();
         self.lock().done += 1;
-    }
-
-    /// Begins a stage of as many steps.
-    pub fn begin(&self, name: &str, steps: usize) {
-        self.stage(name, steps);
-    }
-
-    /// A step of the stage is done.
-    pub fn advance(&self) {
-        self.step();
     }
 
     /// Unwinds where the work is to end.

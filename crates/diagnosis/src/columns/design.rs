@@ -136,7 +136,7 @@ impl Design {
         Beliefs { prior: &self.prior, bounds: &self.bounds }
     }
 
-    /// The runs, as what is asked for repeats.
+    /// The runs, to be asked which of them repeat a motion.
     pub fn repeated(&self) -> Runs<'_> {
         Runs { runs: &self.runs, rate_hz: self.rate_hz, moved: &self.moved }
     }
