@@ -10,6 +10,7 @@ mod design;
 mod diagnose;
 mod export;
 #[cfg(target_os = "linux")]
+#[cfg(target_os = "linux")]
 mod faults;
 mod figure;
 mod foreign_files;
