@@ -218,8 +218,8 @@ Examples:
   plumbline demo --seed 7 --out other
   plumbline demo --robot ur5e
 
-The scenario is scenarios/demo.toml of the repository, or that of the robot; it and the robot are in the program and are
-written to source/ in the output folder, which plumbline run --help describes.";
+The scenario is scenarios/demo.toml of the repository, or that of the robot; it and the robot are in
+the program and are written to source/ in the output folder, which plumbline run --help describes.";
 
 const TRIALS_EXIT_CODES: &str = "\
 Exit codes:
