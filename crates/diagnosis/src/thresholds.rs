@@ -10,8 +10,7 @@
 /// odds of 20 to 1.
 pub(crate) const EVIDENCE: f64 = 3.0;
 
-/// The same (nats) for an effect that some error elsewhere, or one of many trial shapes, may pass for,
-/// and half of what an effect must make less about the robot that has it.
+/// The same (nats) for an effect that some error elsewhere, or one of many trial shapes, may pass for.
 pub(crate) const EVIDENCE_OF_DOUBTFUL: f64 = 10.0;
 
 /// Fall of a joint's held-out mean square that counts, as a share of what was left, however
@@ -33,10 +32,6 @@ pub(crate) const RECOVERED: f64 = 0.5;
 
 /// Standard errors by which a model must do worse to be told apart.
 pub(crate) const TOLD_APART: f64 = 2.0;
-
-/// Rise of a joint's held-out error beyond which an effect of several joints is asked whether it
-/// predicts better at all of them together.
-pub(crate) const RISE: f64 = 1.01;
 
 // What is known.
 

@@ -72,6 +72,12 @@ pub trait Explain: Sync {
     /// Standard deviation of each weight before any data is seen.
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64>;
 
+    /// Log odds (nats) against an arm that has the effect there, beyond those against any effect.
+    fn rarity(&self, place: Place, robot: &Robot) -> f64 {
+        let _ = (place, robot);
+        0.0
+    }
+
     /// Lowest and highest physically possible value of each weight.
     fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)>;
 

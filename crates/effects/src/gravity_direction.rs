@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use nalgebra::{Rotation3, Vector3};
 use robot::Robot;
 
-use crate::motion::tilt_axes;
+use crate::rigid_bodies::tilt_axes;
 use crate::{
     Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
 };
@@ -37,7 +37,7 @@ impl Explain for GravityDirection {
             let part = |(joint, tilt): (usize, &[Vec<f64>; 2])| {
                 motion.carried(joint, tilt[axis].iter().copied())
             };
-            motion.tilt.iter().enumerate().map(part).collect()
+            motion.tilt().iter().enumerate().map(part).collect()
         };
         vec![column(0), column(1)]
     }

@@ -82,6 +82,11 @@ impl Hypothesis {
         self.model().map(|m| m.prior(self.place, robot, scale)).unwrap_or_default()
     }
 
+    /// See [`Explain::rarity`].
+    pub fn rarity(self, robot: &Robot) -> f64 {
+        self.model().map_or(0.0, |m| m.rarity(self.place, robot))
+    }
+
     /// See [`Explain::bounds`].
     pub fn bounds(self, robot: &Robot) -> Vec<(f64, f64)> {
         self.model().map(|m| m.bounds(self.place, robot)).unwrap_or_default()

@@ -33,7 +33,7 @@ impl Explain for InertialParameters {
         let Place::Link(link) = place else { return Vec::new() };
         let column = |parameter: usize| {
             let carriers =
-                motion.regressor.iter().enumerate().filter(|(_, row)| !row[link].is_empty());
+                motion.regressor().iter().enumerate().filter(|(_, row)| !row[link].is_empty());
             let part = |(joint, row): (usize, &Vec<Vec<Vec<f64>>>)| {
                 motion.carried(joint, row[link][parameter].iter().copied())
             };

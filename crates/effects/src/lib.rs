@@ -37,6 +37,7 @@ mod payload;
 mod position_dependent_friction;
 mod presliding_friction;
 mod remedy;
+mod rigid_bodies;
 mod rotor_inertia;
 mod scale;
 mod slopes;

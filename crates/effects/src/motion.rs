@@ -1,14 +1,13 @@
 use std::sync::OnceLock;
 
-use dynamics::{Dynamics, PARAMETERS_PER_LINK};
 use logs::{JointNoise, Prepared, rest_speeds};
-use nalgebra::{UnitVector3, Vector3};
 use robot::{Actuator, Robot, SensingSide};
 
 use crate::cable_loop::Loop;
 use crate::direction::{direction, stands};
 use crate::dry_friction::dry_friction;
 use crate::give::{Give, curvature, rate};
+use crate::rigid_bodies::{Regressor, loads, regressor, tilt};
 use crate::slopes::Slopes;
 use crate::timing::Timing;
 use crate::transmission::{Carried, Gap, Parted, corrected, play};
@@ -47,10 +46,10 @@ pub struct Motion {
     pub period_s: f64,
     /// Position, velocity and acceleration of the links.
     pub(crate) link: State,
-    /// `[joint][link]` to the ten regressor signals, empty where the joint does not carry the link.
-    pub(crate) regressor: Vec<Vec<Vec<Vec<f64>>>>,
-    /// `[joint][tilt]`: torque per radian of tilt about the two horizontal axes.
-    pub(crate) tilt: Vec<[Vec<f64>; 2]>,
+    /// What the parameters of links change, once it has been asked for.
+    regressor: OnceLock<Regressor>,
+    /// What tilting the base changes, once it has been asked for.
+    tilt: OnceLock<Vec<[Vec<f64>; 2]>>,
     /// What moving the links changes, once it has been asked for.
     slopes: OnceLock<Slopes>,
     /// The nominal robot.
@@ -154,6 +153,7 @@ impl Motion {
             drives[j].presliding.map_or_else(by_speed, |way| bristles(&q[j], way))
         });
         let direction = directions.collect();
+        let load = loads(robot, &link);
         let mut motion = Self {
             q,
             qd,
@@ -161,22 +161,21 @@ impl Motion {
             direction,
             qd_reported,
             rest_speed: frame.rest_speed.clone(),
-            load: vec![Vec::new(); joints],
+            load,
             torque: vec![Vec::new(); joints],
             effort: vec![Vec::new(); joints],
             centre: frame.centre.clone(),
             gain: drives.iter().map(|a| a.transmission_ratio * a.torque_gain).collect(),
             period_s,
             link,
-            regressor: Vec::new(),
-            tilt: Vec::new(),
+            regressor: OnceLock::new(),
+            tilt: OnceLock::new(),
             slopes: OnceLock::new(),
             robot: robot.clone(),
             drives,
             tight_load,
             gives,
         };
-        motion.rigid_body(robot);
         motion.drive();
         motion
     }
@@ -203,52 +202,20 @@ impl Motion {
         self.slopes.get_or_init(|| Slopes::new(&self.robot, &self.link)).by(j)
     }
 
-    /// Fills the regressor, the tilt signals and the rigid-body part of the load.
-    fn rigid_body(&mut self, robot: &Robot) {
-        let (n, samples) = (robot.joint_count(), self.samples());
-        let width = PARAMETERS_PER_LINK * n;
-        let carries = carries(robot);
-        let signals = |i: usize, j: usize| {
-            let count = if carries[i][j] { PARAMETERS_PER_LINK } else { 0 };
-            vec![vec![0.0; samples]; count]
-        };
-        self.regressor = (0..n).map(|i| (0..n).map(|j| signals(i, j)).collect()).collect();
-        self.tilt = vec![[vec![0.0; samples], vec![0.0; samples]]; n];
-        self.load = vec![vec![0.0; samples]; n];
-        let pi: Vec<f64> = robot.links().iter().flat_map(|l| l.inertia.parameters()).collect();
-        let gravity = robot.gravity_in_base();
-        let turned = tilt_axes(gravity).map(|axis| axis.cross(&gravity));
-        let dynamics = Dynamics::new(robot);
-        let mut ws = dynamics.workspace();
-        let (mut y, mut g) = (vec![0.0; n * width], vec![0.0; 3 * n]);
-        let mut state = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-        for t in 0..samples {
-            for (x, signal) in state.iter_mut().zip(&self.link) {
-                x.iter_mut().zip(signal).for_each(|(x, s)| *x = s[t]);
-            }
-            dynamics.torque_regressor_into(&mut ws, &state[0], &state[1], &state[2], &mut y);
-            dynamics.gravity_regressor_into(&mut ws, &state[0], &mut g);
-            for i in 0..n {
-                let row = &y[i * width..(i + 1) * width];
-                self.load[i][t] = row.iter().zip(&pi).map(|(y, p)| y * p).sum();
-                for (j, block) in self.regressor[i].iter_mut().enumerate() {
-                    let entries = &row[j * PARAMETERS_PER_LINK..];
-                    block.iter_mut().zip(entries).for_each(|(signal, y)| signal[t] = *y);
-                }
-                let weight = Vector3::from_row_slice(&g[3 * i..3 * i + 3]);
-                self.tilt[i].iter_mut().zip(&turned).for_each(|(s, v)| s[t] = weight.dot(v));
-            }
-        }
+    /// `[joint][link]`: the load per unit of the ten parameters of a link; none where the joint does not
+    /// carry it.
+    pub(crate) fn regressor(&self) -> &Regressor {
+        self.regressor.get_or_init(|| regressor(&self.robot, &self.link))
+    }
+
+    /// `[joint]`: the load per radian of tilt about the two horizontal axes.
+    pub(crate) fn tilt(&self) -> &[[Vec<f64>; 2]] {
+        self.tilt.get_or_init(|| tilt(&self.robot, &self.link))
     }
 
     /// Adds what the drives do, then gain, offset and time.
     fn drive(&mut self) {
         for (i, a) in self.drives.iter().enumerate() {
-            let spring = |(load, q): (&mut f64, &f64)| *load += spring_torque(a, *q);
-            self.load[i].iter_mut().zip(&self.link[0][i]).for_each(spring);
-            if let Some(dragged) = Loop::of(a, &self.link[0][i]) {
-                self.load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
-            }
             let torque = |t: usize| {
                 let (state, load) =
                     ([self.q[i][t], self.qd[i][t], self.qdd[i][t]], self.load[i][t]);
@@ -432,23 +399,4 @@ pub(crate) fn bristles(q: &[f64], way: f64) -> Vec<f64> {
         held
     };
     q.iter().map(step).collect()
-}
-
-/// Two horizontal axes, unit vectors orthogonal to gravity and to each other.
-pub(crate) fn tilt_axes(gravity: Vector3<f64>) -> [Vector3<f64>; 2] {
-    let down = UnitVector3::try_new(gravity, 1e-9).unwrap_or_else(|| -Vector3::z_axis());
-    // The base axis that is most nearly horizontal starts the pair: x for an upright arm.
-    let start = if down.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
-    let first = (start - down.into_inner() * down.dot(&start)).normalize();
-    [first, (-down.into_inner()).cross(&first)]
-}
-
-/// `[joint][link]`: whether the joint carries the link.
-fn carries(robot: &Robot) -> Vec<Vec<bool>> {
-    let n = robot.joint_count();
-    let carriers = |link: usize| -> Vec<usize> {
-        std::iter::successors(Some(link), |&at| robot.links()[at].parent).collect()
-    };
-    let carriers: Vec<Vec<usize>> = (0..n).map(carriers).collect();
-    (0..n).map(|joint| carriers.iter().map(|c| c.contains(&joint)).collect()).collect()
 }

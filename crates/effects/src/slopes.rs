@@ -2,6 +2,7 @@ use dynamics::Dynamics;
 use robot::Robot;
 
 use crate::motion::State;
+use crate::rigid_bodies::{along, samples};
 
 /// What moving the links changes in the loads of all joints.
 #[derive(Debug, Clone)]
@@ -16,18 +17,12 @@ impl Slopes {
     /// the loop of the spring, which has a past.
     pub fn new(robot: &Robot, link: &State) -> Self {
         let n = robot.joint_count();
-        let samples = link[0].first().map_or(0, Vec::len);
-        let mut of = vec![vec![[(); 3].map(|()| vec![0.0; samples]); n]; n];
+        let mut of = vec![vec![[(); 3].map(|()| vec![0.0; samples(link)]); n]; n];
         let dynamics = Dynamics::new(robot);
         let mut ws = dynamics.workspace();
-        let mut state = [(); 3].map(|()| vec![0.0; n]);
         let mut matrices = [(); 3].map(|()| vec![0.0; n * n]);
-        for t in 0..samples {
-            for (x, signal) in state.iter_mut().zip(link) {
-                x.iter_mut().zip(signal).for_each(|(x, s)| *x = s[t]);
-            }
+        along(link, |t, [q, qd, qdd]| {
             let [dq, dqd, dqdd] = &mut matrices;
-            let [q, qd, qdd] = &state;
             dynamics.inverse_dynamics_derivatives_into(&mut ws, [q, qd, qdd], [dq, dqd, dqdd]);
             for (j, link) in robot.links().iter().enumerate() {
                 let drive = &link.actuator;
@@ -39,7 +34,7 @@ impl Slopes {
                     slopes.iter_mut().zip(&matrices).for_each(|(s, m)| s[t] = m[i * n + j]);
                 }
             }
-        }
+        });
         Self { of }
     }
 

@@ -1,11 +1,10 @@
 use std::cell::LazyCell;
 
-use dynamics::Dynamics;
 use robot::{Actuator, Robot, SensingSide};
 
-use crate::cable_loop::Loop;
 use crate::give::{Give, curvature, rate};
 use crate::motion::{Link, State};
+use crate::rigid_bodies::loads;
 use crate::slopes::Slopes;
 
 /// The motion of the motors behind what their encoders report:
@@ -132,32 +131,6 @@ fn moved(state: &mut State, i: usize, change: &[f64], period_s: f64) {
     for (x, change) in state.iter_mut().zip(changes) {
         x[i].iter_mut().zip(change).for_each(|(x, change)| *x += change);
     }
-}
-
-/// Torque of the links of every joint along a motion.
-fn loads(robot: &Robot, state: &State) -> Vec<Vec<f64>> {
-    let n = robot.joint_count();
-    let samples = state[0].first().map_or(0, Vec::len);
-    let dynamics = Dynamics::new(robot);
-    let mut ws = dynamics.workspace();
-    let mut load = vec![vec![0.0; samples]; n];
-    let mut at = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-    let mut tau = vec![0.0; n];
-    for t in 0..samples {
-        for (x, signal) in at.iter_mut().zip(state) {
-            x.iter_mut().zip(signal).for_each(|(x, s)| *x = s[t]);
-        }
-        dynamics.inverse_dynamics_into(&mut ws, &at[0], &at[1], &at[2], &mut tau);
-        for (i, link) in robot.links().iter().enumerate() {
-            load[i][t] = tau[i] + crate::motion::spring_torque(&link.actuator, at[0][i]);
-        }
-    }
-    for (i, link) in robot.links().iter().enumerate() {
-        if let Some(dragged) = Loop::of(&link.actuator, &state[0][i]) {
-            load[i].iter_mut().zip(dragged.torque).for_each(|(load, h)| *load += h);
-        }
-    }
-    load
 }
 
 /// Periods for which a link stays where it has just met its motor: half the response of the low-pass

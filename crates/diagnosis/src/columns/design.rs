@@ -1,10 +1,14 @@
+use std::collections::BTreeSet;
+
 use effects::{Frame, Hypothesis, Scale, hypotheses};
 use logs::LogError;
 use nalgebra::DVector;
+use rayon::prelude::*;
 use robot::Robot;
 
 use crate::columns::beliefs::Beliefs;
 use crate::columns::evaluated::Evaluated;
+use crate::columns::readings::Readings;
 use crate::columns::repeats::{Runs, motions};
 use crate::columns::run_design::RunDesign;
 use crate::signals::along::Along;
@@ -60,11 +64,43 @@ impl Design {
 
     /// Evaluates some hypotheses about `robot` along the prepared runs.
     pub fn of(robot: &Robot, log: &Log, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
-        let (frame, scale) = (Frame::of_logs(log.prepared), Scale::of_logs(robot, log.prepared));
+        let frame = Frame::of_logs(log.prepared);
         let along = log.along(robot, &frame)?;
-        let evaluated = |along: &Along| Evaluated::new(along, hypotheses, log.look);
+        let readings: Vec<Readings> = along
+            .par_iter()
+            .map(|along| Readings::new(along, log.look))
+            .collect::<Result<_, LogError>>()?;
+        let mut design = Self::evaluated(robot, log, hypotheses, (frame, &along, readings))?;
+        design.moves = design.runs.iter().map(RunDesign::moves).collect();
+        design.motion = motions(design.repeated());
+        Ok(design)
+    }
+
+    /// Evaluates some hypotheses about another `robot` along the same runs.
+    pub fn about(
+        &self,
+        robot: &Robot,
+        log: &Log,
+        hypotheses: &[Hypothesis],
+    ) -> Result<Self, LogError> {
+        let along = log.along(robot, &self.frame)?;
+        let readings = self.runs.iter().map(RunDesign::readings).collect();
+        let evaluated = (self.frame.clone(), along.as_slice(), readings);
+        let design = Self::evaluated(robot, log, hypotheses, evaluated)?;
+        Ok(Self { moves: self.moves.clone(), motion: self.motion.clone(), ..design })
+    }
+
+    /// The same of runs along which the robot was evaluated, with what the logs say of them.
+    fn evaluated(
+        robot: &Robot,
+        log: &Log,
+        hypotheses: &[Hypothesis],
+        (frame, along, readings): (Frame, &[Along], Vec<Readings>),
+    ) -> Result<Self, LogError> {
+        let scale = Scale::of_logs(robot, log.prepared);
+        let evaluated = |(along, readings)| Evaluated::new(along, readings, hypotheses, log.look);
         let mut evaluated: Vec<Evaluated> =
-            along.iter().map(evaluated).collect::<Result<_, LogError>>()?;
+            along.par_iter().zip(readings).map(evaluated).collect::<Result<_, LogError>>()?;
         if let Some(described) = log.described {
             let described = log.along(described, &frame)?;
             evaluated.iter_mut().zip(&described).for_each(|(e, along)| e.measure_from(along));
@@ -84,9 +120,7 @@ impl Design {
             motion: Vec::new(),
         };
         let origins = design.lay_out(robot, hypotheses, &scale, &evaluated);
-        design.runs = evaluated.iter().map(|e| e.to_run(&design.local, &origins)).collect();
-        design.moves = design.runs.iter().map(RunDesign::moves).collect();
-        design.motion = motions(design.repeated());
+        design.runs = evaluated.into_iter().map(|e| e.into_run(&design.local, &origins)).collect();
         Ok(design)
     }
 
@@ -139,6 +173,13 @@ impl Design {
     /// The runs, to be asked which of them repeat a motion.
     pub fn repeated(&self) -> Runs<'_> {
         Runs { runs: &self.runs, rate_hz: self.rate_hz, moved: &self.moved }
+    }
+
+    /// The columns of some groups, in increasing order.
+    pub fn columns(&self, groups: &BTreeSet<usize>) -> Vec<usize> {
+        let all: BTreeSet<usize> =
+            groups.iter().flat_map(|&g| self.groups[g].columns.iter().copied()).collect();
+        all.into_iter().collect()
     }
 
     /// Number of joints.

@@ -3,6 +3,7 @@ use logs::LogError;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use crate::columns::readings::Readings;
 use crate::columns::run_design::{JointDesign, RunDesign};
 use crate::signals::along::{Along, less};
 use crate::signals::look::Look;
@@ -15,12 +16,10 @@ pub(crate) struct Evaluated {
     pub rate_hz: f64,
     name: String,
     time: Vec<f64>,
-    measured: Vec<Vec<f64>>,
+    readings: Readings,
     known: Vec<Vec<f64>>,
     nominal: Vec<Vec<f64>>,
     state: [Vec<Vec<f64>>; 3],
-    tells: Vec<Vec<bool>>,
-    slides: Vec<Vec<bool>>,
 }
 
 impl Evaluated {
@@ -28,7 +27,12 @@ impl Evaluated {
     ///
     /// Every signal passes the same filter: what is measured, the same of the nominal robot, and
     /// columns.
-    pub fn new(along: &Along, hypotheses: &[Hypothesis], look: Look) -> Result<Self, LogError> {
+    pub fn new(
+        along: &Along,
+        readings: Readings,
+        hypotheses: &[Hypothesis],
+        look: Look,
+    ) -> Result<Self, LogError> {
         let motion = &along.motion;
         let joints = motion.effort.len();
         let columns = |h: &Hypothesis| match look {
@@ -39,30 +43,19 @@ impl Evaluated {
             Look::Effort => along.expected(),
             Look::Twist => (0..joints).map(|j| along.finish(j, motion.twist(j))).collect(),
         };
-        let (measured, known) = match look {
-            Look::Effort => {
-                let measured = along.measured()?;
-                let known = along.known(&less(&measured, &nominal))?;
-                (measured, known)
-            }
-            Look::Twist => (along.twists()?, vec![Vec::new(); joints]),
-        };
-        let time = along.time();
-        let tells = |j: usize| match look {
-            Look::Effort => along.tells(j),
-            Look::Twist => vec![true; time.len()],
+        let known = match look {
+            Look::Effort => along.known(&less(&readings.measured, &nominal))?,
+            Look::Twist => vec![Vec::new(); joints],
         };
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
             rate_hz: along.rate_hz,
             name: along.name().to_owned(),
-            measured,
+            time: along.time(),
+            readings,
             known,
             nominal,
             state: [&motion.q, &motion.qd, &motion.qdd].map(|s| along.thin(s)),
-            tells: (0..joints).map(tells).collect(),
-            slides: (0..joints).map(|j| along.slides(j)).collect(),
-            time,
         })
     }
 
@@ -80,25 +73,27 @@ impl Evaluated {
 
     /// The columns sorted into one matrix a joint: `local[j]` are the columns that reach
     /// joint j, `origins` the hypothesis and weight of every column.
-    pub fn to_run(&self, local: &[Vec<usize>], origins: &[(usize, usize)]) -> RunDesign {
-        let joint = |j: usize| {
-            let mut x = DMatrix::zeros(self.time.len(), local[j].len());
+    pub fn into_run(self, local: &[Vec<usize>], origins: &[(usize, usize)]) -> RunDesign {
+        let Self { columns, name, time, readings, known, nominal, state, .. } = self;
+        let matrix = |j: usize| {
+            let mut x = DMatrix::zeros(time.len(), local[j].len());
             for (k, &index) in local[j].iter().enumerate() {
                 let (h, weight) = origins[index];
-                let parts = self.columns[h][weight].iter().filter(|p| p.joint == j);
+                let parts = columns[h][weight].iter().filter(|p| p.joint == j);
                 parts.for_each(|p| x.column_mut(k).copy_from_slice(&p.values));
             }
-            JointDesign {
-                x,
-                measured: self.measured[j].clone(),
-                known: self.known[j].clone(),
-                nominal: self.nominal[j].clone(),
-                state: [0, 1, 2].map(|s| self.state[s][j].clone()),
-                tells: self.tells[j].clone(),
-                slides: self.slides[j].clone(),
-            }
+            x
         };
-        let joints = (0..local.len()).map(joint).collect();
-        RunDesign { name: self.name.clone(), time: self.time.clone(), joints }
+        let Readings { measured, tells, slides } = readings;
+        let [q, qd, qdd] = state;
+        let states = q.into_iter().zip(qd).zip(qdd);
+        let told = tells.into_iter().zip(slides);
+        let efforts = measured.into_iter().zip(known).zip(nominal);
+        let joint = |(j, ((((measured, known), nominal), ((q, qd), qdd)), (tells, slides)))| {
+            let state = [q, qd, qdd];
+            JointDesign { x: matrix(j), measured, known, nominal, state, tells, slides }
+        };
+        let joints = efforts.zip(states).zip(told).enumerate().map(joint).collect();
+        RunDesign { name, time, joints }
     }
 }

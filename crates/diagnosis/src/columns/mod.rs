@@ -8,6 +8,7 @@
 pub(crate) mod beliefs;
 pub(crate) mod design;
 pub(crate) mod evaluated;
+pub(crate) mod readings;
 pub(crate) mod repeats;
 pub(crate) mod run_design;
 pub(crate) mod shapes;

@@ -1,5 +1,7 @@
 use nalgebra::DMatrix;
 
+use crate::columns::readings::Readings;
+
 /// One run of a [`crate::columns::design::Design`].
 #[derive(Debug, Clone)]
 pub(crate) struct RunDesign {
@@ -39,6 +41,16 @@ pub(crate) struct JointDesign {
 const MOVES: f64 = 0.05;
 
 impl RunDesign {
+    /// What the logs say of it.
+    pub fn readings(&self) -> Readings {
+        let joints = || self.joints.iter();
+        Readings {
+            measured: joints().map(|joint| joint.measured.clone()).collect(),
+            tells: joints().map(|joint| joint.tells.clone()).collect(),
+            slides: joints().map(|joint| joint.slides.clone()).collect(),
+        }
+    }
+
     /// Which joints move.
     pub fn moves(&self) -> Vec<bool> {
         let moves = |joint: &JointDesign| {

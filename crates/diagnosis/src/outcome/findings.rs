@@ -4,6 +4,7 @@ use catalogue::EffectKind;
 use effects::Hypothesis;
 
 use crate::outcome::effect_at::effect_at;
+use crate::outcome::unnamed::Unnamed;
 use crate::regression::fitted::Fitted;
 use crate::regression::problem::{HeldOut, Model, Problem};
 use crate::regression::uncertainty::Uncertainty;
@@ -46,6 +47,9 @@ impl Evidence<'_> {
         let problem = self.selection.problem;
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
+        let unnamed = Unnamed::new(self.selection, self.model, &fit);
+        let uncertainty =
+            uncertainty.widened(|columns| unnamed.about(fitted.problem.design, columns));
         let with = problem.held_out(self.model);
         let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
         let nominal = problem.held_out(&Model::new());

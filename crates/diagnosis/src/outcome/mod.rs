@@ -17,4 +17,5 @@ pub(crate) mod told;
 pub(crate) mod tone_finding;
 pub(crate) mod torque_noise;
 pub(crate) mod traces;
+pub(crate) mod unnamed;
 pub(crate) mod verdict;

@@ -7,9 +7,10 @@ use crate::progress::Progress;
 use crate::regression::blocks::Fold;
 use crate::regression::problem::Problem;
 use crate::regression::solved::{Solved, solved};
-use crate::search::conclusion::{Conclusion, Searched};
-use crate::search::failed::{Failed, rise};
+use crate::search::conclusion::Conclusion;
+use crate::search::failed::Failed;
 use crate::search::record::Record;
+use crate::search::searched::Searched;
 use crate::search::settled::Withheld;
 use crate::search::study::Study;
 
@@ -41,13 +42,6 @@ impl Study<'_> {
         let mut best = gain(&failed)?;
         while let Some(more) = failed.with_worse_joints(&best.inverse) {
             (best, failed) = (gain(&more)?, more);
-        }
-        for g in failed.suspects(record.design, &conclusion.model, &best.inverse) {
-            let less = failed.without(g);
-            let other = gain(&less)?;
-            if rise(&other.inverse) < rise(&best.inverse) {
-                (best, failed) = (other, less);
-            }
         }
         let model = failed.kept(&conclusion.problem, &conclusion.model);
         failed.dropped = conclusion.model.difference(&model).copied().collect();

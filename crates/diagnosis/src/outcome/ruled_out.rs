@@ -92,8 +92,6 @@ impl Evidence<'_> {
         } else if self.failed.drops(problem.design, g) && gain > 0.0 {
             "what was fitted here predicts efforts that took no part worse than the description"
                 .to_owned()
-        } else if problem.idle.contains(&g) {
-            "a robot that has it is no nearer to the logs".to_owned()
         } else if !self.selection.is_possible(&larger, g) {
             "its best size is not physically possible".to_owned()
         } else if gain < 3.0 {

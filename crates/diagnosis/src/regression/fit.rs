@@ -107,6 +107,11 @@ pub(crate) struct Complement {
 }
 
 impl Complement {
+    /// Covariance that one of the others gives the fit's own weights: `share covariance share'`.
+    pub fn taken(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+        &self.share * covariance * self.share.transpose()
+    }
+
     /// The part of a score (over all columns) that only the others can explain.
     pub fn project(&self, score: &DVector<f64>) -> DVector<f64> {
         pick(score, &self.others) - self.share.tr_mul(&pick(score, &self.own))

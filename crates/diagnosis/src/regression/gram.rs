@@ -32,7 +32,7 @@ impl JointGram {
     }
 
     /// Sum of squares left by the local weights `w`, each with its place: `yy - 2 w' xy + w' xx w`.
-    fn remaining(&self, w: &[(usize, f64)]) -> f64 {
+    pub fn remaining(&self, w: &[(usize, f64)]) -> f64 {
         let explained = |&(i, wi): &(usize, f64)| {
             let column = self.xx.column(i);
             wi * (2.0 * self.xy[i] - w.iter().map(|&(k, wk)| column[k] * wk).sum::<f64>())
@@ -97,6 +97,11 @@ impl Grams {
         }
     }
 
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.local.len()
+    }
+
     /// The statistics of joint `j` over the blocks `of`.
     pub fn joint(&self, j: usize, of: &[usize]) -> JointGram {
         let mut sum = JointGram::empty(self.local[j].len());
@@ -133,7 +138,7 @@ impl Grams {
     }
 
     /// The weights at joint `j` that are not zero, with their places: few of its columns are in a model.
-    fn local(&self, j: usize, w: &[f64]) -> Vec<(usize, f64)> {
+    pub fn local(&self, j: usize, w: &[f64]) -> Vec<(usize, f64)> {
         let all = self.local[j].iter().map(|&k| w[k]).enumerate();
         all.filter(|(_, w)| w.abs() > 0.0).collect()
     }

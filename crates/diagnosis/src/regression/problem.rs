@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::columns::design::Design;
 use crate::regression::blocks::{Block, Fold, Folding, folds};
 use crate::regression::fit::Fit;
-use crate::regression::gram::{Grams, Information};
+use crate::regression::gram::{Grams, Information, JointGram};
 use crate::regression::noise::Noise;
 use crate::signals::look::Look;
 
@@ -28,8 +28,8 @@ pub(crate) struct Problem<'a> {
     pub info: Information,
     /// Normal equations of each fold's training blocks.
     pub training: Vec<Information>,
-    /// Effects that are known to do less than their columns, and are not looked for.
-    pub idle: Model,
+    /// What each fold holds out, `[fold][joint]`.
+    tests: Vec<Vec<JointGram>>,
 }
 
 /// Squared held-out residuals of a model.
@@ -37,15 +37,8 @@ pub(crate) struct Problem<'a> {
 pub(crate) struct HeldOut {
     /// Mean square at each joint.
     pub mean_square: Vec<f64>,
-    /// Weighted sum of squares of each block of the problem.
-    pub deviance: Vec<f64>,
-}
-
-impl HeldOut {
-    /// Weighted sum of squares of all blocks.
-    pub fn total(&self) -> f64 {
-        self.deviance.iter().sum()
-    }
+    /// Weighted sum of squares of all joints.
+    pub deviance: f64,
 }
 
 impl<'a> Problem<'a> {
@@ -60,14 +53,13 @@ impl<'a> Problem<'a> {
         let folds = folds(design, blocks, of, Folding::ByMotion);
         let info = grams.information(of, &weight);
         let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
-        let idle = Model::new();
-        Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training, idle }
+        let tests = tests(grams, &folds);
+        Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training, tests }
     }
 
     /// The same problem with other weights.
     pub fn reweighted(&self, weight: Vec<f64>) -> Self {
-        let problem = Self::new(self.design, self.blocks, self.grams, &self.of, weight);
-        Self { idle: self.idle.clone(), ..problem }
+        Self::new(self.design, self.blocks, self.grams, &self.of, weight)
     }
 
     /// The same problem held out in another way.
@@ -75,7 +67,8 @@ impl<'a> Problem<'a> {
         let folds = folds(self.design, self.blocks, &self.of, folding);
         let information = |f: &Fold| self.grams.information(&f.train, &self.weight);
         let training = folds.iter().map(information).collect();
-        Self { folds, training, ..self.clone() }
+        let tests = tests(self.grams, &folds);
+        Self { folds, training, tests, ..self.clone() }
     }
 
     /// The blocks in groups that are independent of each other: where runs repeat a motion,
@@ -99,9 +92,7 @@ impl<'a> Problem<'a> {
 
     /// The columns of a model, in increasing order.
     pub fn columns(&self, model: &Model) -> Vec<usize> {
-        let all: BTreeSet<usize> =
-            model.iter().flat_map(|&g| self.design.groups[g].columns.iter().copied()).collect();
-        all.into_iter().collect()
+        self.design.columns(model)
     }
 
     /// The columns of `group` that `model` does not have.
@@ -126,20 +117,30 @@ impl<'a> Problem<'a> {
     pub fn held_out(&self, model: &Model) -> HeldOut {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
+        for (f, test) in self.tests.iter().enumerate() {
+            let w = self.fold_weights(model, f);
+            for (j, gram) in test.iter().enumerate() {
+                squares[j] += gram.remaining(&self.grams.local(j, &w));
+                counts[j] += gram.count;
+            }
+        }
+        let deviance = squares.iter().zip(&self.weight).map(|(s, weight)| weight * s).sum();
+        let mean = |(s, &n): (&f64, &usize)| s / n.max(1) as f64;
+        HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
+    }
+
+    /// The weighted sum of squares of every block, where it is held out.
+    pub fn held_out_by_block(&self, model: &Model) -> Vec<f64> {
         let mut deviance = vec![0.0; self.blocks.len()];
         for (f, fold) in self.folds.iter().enumerate() {
             let w = self.fold_weights(model, f);
             for &b in &fold.test {
-                for j in 0..joints {
-                    let (sum, n) = self.grams.remaining(j, &[b], &w);
-                    squares[j] += sum;
-                    counts[j] += n;
-                    deviance[b] += self.weight[j] * sum;
-                }
+                let joint =
+                    |(j, weight): (usize, &f64)| weight * self.grams.remaining(j, &[b], &w).0;
+                deviance[b] = self.weight.iter().enumerate().map(joint).sum();
             }
         }
-        let mean = |(s, &n): (&f64, &usize)| s / n.max(1) as f64;
-        HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
+        deviance
     }
 
     /// A signal of run `run` of which each block is taken from what its fold has; a block of no fold, from
@@ -224,4 +225,10 @@ impl<'a> Problem<'a> {
             |g: &usize| self.design.look == Look::Twist || !groups[*g].hypothesis.is_doubtful();
         (0..groups.len()).filter(firm).collect()
     }
+}
+
+/// What each fold holds out, `[fold][joint]`.
+fn tests(grams: &Grams, folds: &[Fold]) -> Vec<Vec<JointGram>> {
+    let of = |fold: &Fold| (0..grams.joints()).map(|j| grams.joint(j, &fold.test)).collect();
+    folds.iter().map(of).collect()
 }

@@ -5,7 +5,7 @@ use robot::{Inertia, Robot};
 use crate::columns::design::Design;
 use crate::regression::fit::{Fit, pick};
 use crate::regression::gram::Information;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::Model;
 
 /// Weight of the divergence from the nominal inertias, in units of the log-likelihood: a
 /// pseudo-inertia that differs by its own size counts like one standard deviation.
@@ -21,14 +21,13 @@ const SHARPEST: f64 = 1e-3;
 /// consistent inertias nearest in likelihood (see [`ConsistentFit`]), and the other
 /// columns are fitted again with the links held.
 pub(crate) fn settle(
-    problem: &Problem,
+    design: &Design,
     model: &Model,
     info: &Information,
     robot: &Robot,
 ) -> Vec<f64> {
-    let design = problem.design;
     let links = links(design, model);
-    let all = problem.columns(model);
+    let all = design.columns(model);
     if links.is_empty() {
         let fit = Fit::new(info, all, design.beliefs());
         return fit.map_or_else(|| vec![0.0; design.width], |f| f.expand(design.width));

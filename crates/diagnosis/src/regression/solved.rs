@@ -42,13 +42,12 @@ impl Refit {
         problem: &Problem,
         hypotheses: &[Hypothesis],
     ) -> Result<Self, LogError> {
-        let design = Design::of(&about, log, hypotheses)?;
+        let design = problem.design.about(&about, log, hypotheses)?;
         let grams = Grams::new(&design, problem.blocks);
         let model: Model = (0..design.groups.len()).collect();
-        let weight = problem.weight.clone();
-        let fit = Problem::new(&design, problem.blocks, &grams, &problem.of, weight);
-        let weights = settle(&fit, &model, &fit.info, &about);
-        let (left, expected) = (fit.info.yy, fit.info.deviance(&weights));
+        let info = grams.information(&problem.of, &problem.weight);
+        let weights = settle(&design, &model, &info, &about);
+        let (left, expected) = (info.yy, info.deviance(&weights));
         Ok(Self { about, design, grams, model, weights, left, expected })
     }
 
@@ -69,13 +68,6 @@ pub(crate) struct Solved {
 }
 
 impl Solved {
-    /// Weighted sum of squares that the robot leaves of the blocks of `first`, the problem about
-    /// the robot without findings.
-    pub fn left(&self, first: &Problem) -> f64 {
-        let columns = || first.info.deviance(&self.weights);
-        self.refit.as_ref().map_or_else(columns, |refit| refit.left)
-    }
-
     /// What is left of the effort of joint `j` in a run (N·m or N); `first` is the design about the
     /// robot without findings.
     pub fn remaining(&self, first: &Design, run: usize, j: usize) -> Vec<f64> {
@@ -106,7 +98,7 @@ pub(crate) fn solved(
     problem: &Problem,
     model: &Model,
 ) -> Result<Solved, LogError> {
-    let first = settle(problem, model, &problem.info, robot);
+    let first = settle(problem.design, model, &problem.info, robot);
     let hypotheses: Vec<Hypothesis> =
         model.iter().map(|&g| problem.design.groups[g].hypothesis).collect();
     if !hypotheses.iter().any(|h| h.is_tangent()) {

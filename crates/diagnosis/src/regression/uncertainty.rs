@@ -37,6 +37,14 @@ impl Uncertainty {
         Some(Self::new(fitted.problem, &fit, fitted.weights))
     }
 
+    /// The same with another covariance of its columns added to both.
+    pub fn widened(mut self, covariance: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
+        let more = covariance(&self.columns);
+        self.likelihood += &more;
+        self.blocks += more;
+        self
+    }
+
     /// The uncertainty of `fit`, whose weights are used as they stand in `weights`.
     fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
         // Weights held at a bound are uncertain too, on the side that is possible.

@@ -52,12 +52,7 @@ impl<'a> Record<'a> {
     /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by the noise
     /// that they leave.
     pub fn search(&self, of: &[usize]) -> (Problem<'a>, Model) {
-        self.search_on(self.problem(of), Model::new())
-    }
-
-    /// The same from a model on.
-    pub fn search_on(&self, problem: Problem<'a>, start: Model) -> (Problem<'a>, Model) {
-        let (mut problem, mut model) = (problem, start);
+        let (mut problem, mut model) = (self.problem(of), Model::new());
         for _ in 0..ROUNDS {
             let next = self.selection(&problem).run(model.clone());
             let settled = next == model;

@@ -1,4 +1,4 @@
-use crate::regression::problem::{HeldOut, Model, Problem};
+use crate::regression::problem::{Model, Problem};
 use crate::search::select::Selection;
 use crate::search::worse::Worse;
 use crate::thresholds::{EVIDENCE, RECOVERED};
@@ -9,23 +9,23 @@ const SHOWN: f64 = 1e-9;
 /// Hypotheses that explain the held-out data as well in place of `group`, block by block.
 pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
     let problem = selection.problem;
-    let with = problem.held_out(model);
-    let is_as_good = |rival: &HeldOut| {
-        !Worse::new(problem.of.iter().map(|&b| (with.deviance[b], rival.deviance[b])))
-            .is_told_apart()
+    let with = problem.held_out_by_block(model);
+    let is_as_good = |rival: &Model| {
+        let rival = problem.held_out_by_block(rival);
+        !Worse::new(problem.of.iter().map(|&b| (with[b], rival[b]))).is_told_apart()
     };
     let contenders = contenders(selection, model, group, |_| true).into_iter();
     contenders.filter(|(_, rival)| is_as_good(rival)).map(|(h, _)| h).collect()
 }
 
 /// Those of the hypotheses asked for that explain much of the held-out data in place of `group`, be it
-/// as well or not, and what they leave of it.
+/// as well or not, and the model with them.
 pub(crate) fn contenders(
     selection: &Selection,
     model: &Model,
     group: usize,
     is_asked_for: impl Fn(usize) -> bool,
-) -> Vec<(usize, HeldOut)> {
+) -> Vec<(usize, Model)> {
     let problem = selection.problem;
     let asked_for =
         |h: &usize| is_asked_for(*h) && !model.contains(h) && !is_special_case(problem, group, *h);
@@ -39,12 +39,12 @@ pub(crate) fn contenders(
     if candidates.is_empty() {
         return Vec::new();
     }
-    let bare = problem.held_out(&without).total();
-    let much = RECOVERED * (bare - problem.held_out(model).total());
+    let bare = problem.held_out(&without).deviance;
+    let much = RECOVERED * (bare - problem.held_out(model).deviance);
     let recovers = |h: usize| {
         let replaced = replaced(problem, &without, group, h);
         let left = selection.is_possible(&replaced, h).then(|| problem.held_out(&replaced))?;
-        (bare - left.total() > much).then_some((h, left))
+        (bare - left.deviance > much).then_some((h, replaced))
     };
     candidates.into_iter().filter_map(recovers).collect()
 }

@@ -138,7 +138,7 @@ impl Selection<'_> {
 
     /// The group of a hypothesis that may be looked for.
     fn find(&self, hypothesis: Hypothesis) -> Option<usize> {
-        self.problem.design.find(hypothesis).filter(|g| !self.problem.idle.contains(g))
+        self.problem.design.find(hypothesis)
     }
 
     fn forward(&self, model: &mut Model) {
@@ -204,7 +204,7 @@ impl Selection<'_> {
         let gain = |g: usize| {
             let columns = self.problem.new_columns(model, g);
             let prior = &self.problem.design.prior;
-            if columns.is_empty() || self.is_excluded(model, g) || self.problem.idle.contains(&g) {
+            if columns.is_empty() || self.is_excluded(model, g) {
                 f64::NEG_INFINITY
             } else if self.is_beside_the_plain(g) {
                 self.beyond_the_plain(model, g)
@@ -241,17 +241,15 @@ impl Selection<'_> {
     }
 
     /// Least gain in log evidence for hypothesis `g`.
-    fn least_evidence(&self, g: usize) -> f64 {
-        if self.problem.design.groups[g].hypothesis.is_doubtful() {
-            EVIDENCE_OF_DOUBTFUL
-        } else {
-            EVIDENCE
-        }
+    pub fn least_evidence(&self, g: usize) -> f64 {
+        let hypothesis = self.problem.design.groups[g].hypothesis;
+        let least = if hypothesis.is_doubtful() { EVIDENCE_OF_DOUBTFUL } else { EVIDENCE };
+        least + hypothesis.rarity(self.robot)
     }
 
     /// Whether the model already holds another name for the same change, unless `g` says
     /// more than that other (asymmetric friction holds Coulomb friction).
-    fn is_excluded(&self, model: &Model, g: usize) -> bool {
+    pub fn is_excluded(&self, model: &Model, g: usize) -> bool {
         let groups = &self.problem.design.groups;
         model.iter().any(|&m| {
             groups[m].hypothesis.excludes(groups[g].hypothesis)
@@ -286,7 +284,7 @@ impl Selection<'_> {
         without.remove(&g);
         let Some(fit) = problem.fit(&without) else { return false };
         let bare = problem.info.deviance(&fit.expand(design.width));
-        let settled = settle(problem, model, &problem.info, self.robot);
+        let settled = settle(design, model, &problem.info, self.robot);
         let gain = bare - problem.info.deviance(weights);
         bare - problem.info.deviance(&settled) >= KEPT_BY_BODIES * gain
     }
@@ -307,14 +305,14 @@ impl Selection<'_> {
             let fall = before.mean_square[j] - after.mean_square[j];
             fall > self.practical[j].powi(2).min(SHARE_OF_REST * before.mean_square[j])
         };
-        after.total() < before.total() && self.problem.design.groups[g].joints.iter().any(enough)
+        after.deviance < before.deviance && self.problem.design.groups[g].joints.iter().any(enough)
     }
 
     /// Replaces a hypothesis by one outside where that is more evident and no worse held out.
     fn exchange(&self, model: &mut Model) {
         for g in model.clone() {
             let Some(fit) = self.problem.fit(model) else { return };
-            let held_out = self.problem.held_out(model).total();
+            let held_out = self.problem.held_out(model).deviance;
             let mut best: Option<(f64, Model)> = None;
             for h in self.neighbours(g) {
                 let mut other = model.clone();
@@ -327,7 +325,7 @@ impl Selection<'_> {
                 let bar = best.as_ref().map_or(fit.evidence + 1.0, |(e, _)| *e);
                 if evidence > bar
                     && self.is_possible(&other, h)
-                    && self.problem.held_out(&other).total() < held_out
+                    && self.problem.held_out(&other).deviance < held_out
                 {
                     best = Some((evidence, other));
                 }
@@ -353,9 +351,7 @@ impl Selection<'_> {
     pub fn at_the_joints_of(&self, g: usize) -> Vec<usize> {
         let groups = &self.problem.design.groups;
         let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
-        (0..groups.len())
-            .filter(|h| *h != g && shares(h) && !self.problem.idle.contains(h))
-            .collect()
+        (0..groups.len()).filter(|h| *h != g && shares(h)).collect()
     }
 
     /// Takes out, one at a time, what no longer earns its place.
@@ -373,9 +369,9 @@ impl Selection<'_> {
                 } else {
                     f64::NEG_INFINITY
                 };
-                let idle = loss < self.least_evidence(g)
+                let is_spare = loss < self.least_evidence(g)
                     || !self.pays(&self.problem.held_out(&smaller), model, g);
-                if idle && worst.is_none_or(|(least, _)| loss < least) {
+                if is_spare && worst.is_none_or(|(least, _)| loss < least) {
                     worst = Some((loss, g));
                 }
             }

@@ -9,6 +9,7 @@ use crate::regression::uncertainty::untenable;
 use crate::search::constancy::{Variation, variation};
 use crate::search::contest::{Apart, Contest, Decided};
 use crate::search::record::Record;
+use crate::search::searched::Searched;
 use crate::search::select::Selection;
 use crate::search::study::Study;
 
@@ -27,42 +28,48 @@ pub(crate) struct Settled {
 }
 
 impl Study<'_> {
-    /// A model once no twin of a finding does better in its place, and the twins that do worse.
+    /// What a search came to once no twin of a finding does better in its place, and the twins that do
+    /// worse.
     pub fn contested(
         &self,
         record: &Record,
-        problem: &Problem,
-        model: Model,
+        Searched { problem, model, solution }: &Searched,
     ) -> Result<(Settled, Apart), DiagnosisError> {
         let selection = record.selection(problem);
         let contest = Contest { study: self, selection: &selection };
-        let mut settled = self.settled(&selection, model, Withheld::new())?;
+        let (model, solution) = (model.clone(), solution.clone());
+        let mut settled = self.settled(&selection, model, solution, Withheld::new())?;
         let mut left = EXCHANGES;
         loop {
             let Decided { apart, better } = contest.decide(&settled.model, &settled.solution)?;
             let has_name = |m: &Model| !m.iter().any(|g| settled.withheld.contains_key(g));
             match better.filter(|better| left > 0 && has_name(better)) {
-                Some(better) => settled = self.settled(&selection, better, settled.withheld)?,
+                Some(better) => {
+                    let solution = solved(self.robot, &self.log, problem, &better)?;
+                    settled = self.settled(&selection, better, solution, settled.withheld)?;
+                }
                 None => return Ok((settled, apart)),
             }
             left -= 1;
         }
     }
 
-    /// What is of a size that is decided and constant of a model. What falls leaves its place to what
-    /// says less.
+    /// What is of a size that is decided and constant of a model, of which `solution` is the robot. What falls
+    /// leaves its place to what says less.
     fn settled(
         &self,
         selection: &Selection,
         mut model: Model,
+        mut solution: Solved,
         mut withheld: Withheld,
     ) -> Result<Settled, DiagnosisError> {
         let problem = selection.problem;
+        let solve = |model: &Model| solved(self.robot, &self.log, problem, model);
         loop {
-            let solution = solved(self.robot, &self.log, problem, &model)?;
             let first = self.fitted(problem, &model, &solution);
             if let Some(g) = solution.tell(&first, |f| untenable(problem, &model, f)) {
                 model = selection.without(&model, g);
+                solution = solve(&model)?;
                 continue;
             }
             let varying = self.varying(problem, &model, &withheld, &solution)?;
@@ -71,6 +78,7 @@ impl Study<'_> {
             }
             model.retain(|g| !varying.contains_key(g));
             withheld.extend(varying);
+            solution = solve(&model)?;
         }
     }
 

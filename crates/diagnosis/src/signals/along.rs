@@ -1,4 +1,4 @@
-use effects::{Column, Encoders, Frame, Motion};
+use effects::{Column, Encoders, Frame, Motion, Part};
 use logs::{LogError, LowPass, PreparedJoint, PreparedRun, decimate};
 use nalgebra::Complex;
 use rayon::prelude::*;
@@ -170,11 +170,16 @@ impl<'a> Along<'a> {
 
     /// A signal of joint `j` where it counts, low-passed, at the rate of the regression.
     pub fn finish(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
+        self.count(j, &mut x);
+        self.low_pass.apply(&mut x);
+        decimate(&x, self.strides[1])
+    }
+
+    /// Leaves of a signal of joint `j` what counts.
+    fn count(&self, j: usize, x: &mut [f64]) {
         if let Some(counts) = self.counts.get(j) {
             x.iter_mut().zip(counts).for_each(|(x, counts)| *x *= counts);
         }
-        self.low_pass.apply(&mut x);
-        decimate(&x, self.strides[1])
     }
 
     /// How far a low-pass carries what is somewhere (samples of the motion).
@@ -241,14 +246,18 @@ impl<'a> Along<'a> {
     /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
     /// have in them: sizes of tones are fitted with those of all effects.
     pub fn finished(&self, columns: Vec<Column>) -> Vec<Column> {
-        let filtered = |mut column: Column| {
-            for part in &mut column {
-                let values = self.finish(part.joint, std::mem::take(&mut part.values));
-                part.values = self.without_heard(part.joint, values);
-            }
-            column
-        };
-        columns.into_iter().map(filtered).collect()
+        let mut columns = columns;
+        let mut parts: Vec<&mut Part> = columns.iter_mut().flatten().collect();
+        for part in &mut parts {
+            self.count(part.joint, &mut part.values);
+        }
+        let mut signals: Vec<&mut [f64]> =
+            parts.iter_mut().map(|part| part.values.as_mut_slice()).collect();
+        self.low_pass.apply_all(&mut signals);
+        for part in parts {
+            part.values = self.without_heard(part.joint, decimate(&part.values, self.strides[1]));
+        }
+        columns
     }
 
     /// The efforts of the log.

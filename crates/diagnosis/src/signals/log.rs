@@ -1,6 +1,7 @@
 use catalogue::EffectKind;
 use effects::{Frame, Hypothesis};
 use logs::{LogError, Prepared};
+use rayon::prelude::*;
 use robot::Robot;
 
 use crate::signals::along::Along;
@@ -62,7 +63,7 @@ impl<'a> Log<'a> {
             let along = if self.look == Look::Effort { along.while_moving() } else { along };
             along.hearing(self.tones)
         };
-        self.prepared.runs.iter().map(evaluated).collect()
+        self.prepared.runs.par_iter().map(evaluated).collect()
     }
 
     /// The same of whole runs.
@@ -70,6 +71,6 @@ impl<'a> Log<'a> {
         let cutoff_hz = self.prepared.cutoff_hz;
         let evaluated =
             |run| Along::new(robot, frame, run, cutoff_hz, self.limits)?.hearing(self.tones);
-        self.prepared.runs.iter().map(evaluated).collect()
+        self.prepared.runs.par_iter().map(evaluated).collect()
     }
 }

@@ -1,0 +1,72 @@
+use nalgebra::{Cholesky, DMatrix};
+
+use crate::columns::design::{Design, Group};
+use crate::regression::fit::Fit;
+use crate::regression::problem::Model;
+use crate::search::select::Selection;
+
+/// What effects without a name may change in the sizes of those with one.
+///
+/// Small errors are everywhere, and each that has no name leaves its torque to those that have. With `w_S` the
+/// weights of a model and `w_K = B^-1 u` those that an effect outside of it would have, which change them by
+/// `-share w_K` (see [`Fit::beyond`]), the model averaged over one such effect at a time has
+///
+/// ```text
+/// covariance  C = sum over effects of p share (B^-1 + w_K w_K') share'
+/// odds        p / (1 - p) = exp(gain - least)
+/// gain        (z² - k - k ln(z² / k)) / 2,  z² = u' B^-1 u > k weights, else 0
+/// ```
+///
+/// beside that of its own. `gain` is the log evidence of the effect at the size that the logs like best, since how
+/// small an error is nobody knows, and `least` what a name needs (Hoeting et al. 1999).
+#[derive(Debug, Clone)]
+pub(crate) struct Unnamed<'a> {
+    design: &'a Design,
+    /// The columns of the model.
+    columns: Vec<usize>,
+    covariance: DMatrix<f64>,
+}
+
+impl<'a> Unnamed<'a> {
+    /// What effects outside of `model` may change in `fit`, which is that of the model.
+    pub fn new(selection: &Selection<'a>, model: &Model, fit: &Fit) -> Self {
+        let problem = selection.problem;
+        let (design, info) = (problem.design, &problem.info);
+        let mut covariance = DMatrix::zeros(fit.columns.len(), fit.columns.len());
+        for h in 0..design.groups.len() {
+            let columns = problem.new_columns(model, h);
+            if columns.is_empty() || model.contains(&h) || selection.is_excluded(model, h) {
+                continue;
+            }
+            let (complement, u) = fit.beyond(info, &columns, &design.prior);
+            let Some(factor) = Cholesky::new(complement.b.clone()) else { continue };
+            let w = factor.solve(&u);
+            let (z2, k) = (u.dot(&w), columns.len() as f64);
+            let gain = if z2 > k { 0.5 * (z2 - k - k * (z2 / k).ln()) } else { 0.0 };
+            let p = (1.0 + (selection.least_evidence(h) - gain).exp()).recip();
+            covariance += complement.taken(&(factor.inverse() + &w * w.transpose())) * p;
+        }
+        Self { design, columns: fit.columns.clone(), covariance }
+    }
+
+    /// The same of the columns of a fit about another robot, zero for what only that has.
+    pub fn about(&self, design: &Design, columns: &[usize]) -> DMatrix<f64> {
+        let place: Vec<Option<usize>> =
+            columns.iter().map(|&column| self.place(design, column)).collect();
+        DMatrix::from_fn(columns.len(), columns.len(), |i, k| {
+            let entry = place[i].zip(place[k]);
+            entry.map_or(0.0, |at| self.covariance[at])
+        })
+    }
+
+    /// Where the weight of a column of another design stands.
+    fn place(&self, design: &Design, column: usize) -> Option<usize> {
+        let same = |g: &Group| {
+            let weight = g.columns.iter().position(|c| *c == column)?;
+            let own = &self.design.groups[self.design.find(g.hypothesis)?];
+            let known = *own.columns.get(weight)?;
+            self.columns.iter().position(|c| *c == known)
+        };
+        design.groups.iter().find_map(same)
+    }
+}
