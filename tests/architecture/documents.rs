@@ -10,13 +10,14 @@ use crate::workspace::{crates, packages};
 /// How a path that is named from the root starts.
 const PATHS: [&str; 5] = ["crates/", "robots/", "scenarios/", "tests/", ".ci/"];
 
-/// README files: of the root, of the map, and where a crate or a robot has one.
+/// What stands at the root, the map, and README files where the tests, a crate or a robot have one.
 fn documents() -> Vec<String> {
     let of = |folder: &'static str| {
         folders(folder).into_iter().map(move |name| format!("{folder}/{name}/README.md"))
     };
-    let two = ["README.md", "crates/README.md"].map(str::to_owned);
-    let all = two.into_iter().chain(of("crates")).chain(of("robots"));
+    let top = ["README.md", "CONTRIBUTING.md", "SECURITY.md"].map(str::to_owned);
+    let maps = ["crates/README.md", "tests/README.md"].map(str::to_owned);
+    let all = top.into_iter().chain(maps).chain(of("crates")).chain(of("robots"));
     all.filter(|path| root().join(path).exists()).collect()
 }
 

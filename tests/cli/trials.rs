@@ -270,7 +270,7 @@ fn a_campaign_is_its_content_wherever_it_lies() {
     assert!(!there.path().join("c").exists());
 }
 
-/// The command of the README.
+/// The command of `crates/evaluation/README.md`.
 #[test]
 fn the_trials_of_the_workspace_are_taken_in_any_clone() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,7 +1,7 @@
 //! Every constant that decides, with its unit, what it means and what it was chosen on.
 //!
 //! Two of them can be set: the practical share and the open share of [`crate::Settings`]. The others were tried at
-//! a few values on the panel (`scenarios/panel.toml`) and on the recorded arms that `README.md` names.
+//! a few values on the panel (`scenarios/panel.toml`) and on the recorded arms that the README of this crate names.
 
 // Search.
 
