@@ -243,8 +243,21 @@ impl Selection<'_> {
     /// Least gain in log evidence for hypothesis `g`.
     pub fn least_evidence(&self, g: usize) -> f64 {
         let hypothesis = self.problem.design.groups[g].hypothesis;
-        let least = if hypothesis.is_doubtful() { EVIDENCE_OF_DOUBTFUL } else { EVIDENCE };
-        least + hypothesis.rarity(self.robot)
+        if hypothesis.is_doubtful() { EVIDENCE_OF_DOUBTFUL } else { EVIDENCE }
+    }
+
+    /// The model with the plainer rivals of a hypothesis in its place, where it adds less to them than what few
+    /// arms have needs; none where no hypothesis does.
+    pub fn without_rare(&self, model: &Model) -> Option<Model> {
+        let is_rare = |g: &usize| {
+            let rarity = self.problem.design.groups[*g].hypothesis.rarity(self.robot);
+            let least = self.least_evidence(*g) + rarity;
+            rarity > 0.0 && self.beyond_the_plain(&without(model, *g), *g) < least
+        };
+        let g = model.iter().copied().find(is_rare)?;
+        let mut plain = without(model, g);
+        plain.extend(self.plainer_than(g));
+        Some(plain)
     }
 
     /// Whether the model already holds another name for the same change, unless `g` says
@@ -379,4 +392,11 @@ impl Selection<'_> {
             model.remove(&g);
         }
     }
+}
+
+/// A model without one of its hypotheses.
+fn without(model: &Model, g: usize) -> Model {
+    let mut smaller = model.clone();
+    smaller.remove(&g);
+    smaller
 }

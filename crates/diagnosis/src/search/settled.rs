@@ -65,6 +65,10 @@ impl Study<'_> {
     ) -> Result<Settled, DiagnosisError> {
         let problem = selection.problem;
         let solve = |model: &Model| solved(self.robot, &self.log, problem, model);
+        while let Some(plain) = selection.without_rare(&model) {
+            model = plain;
+            solution = solve(&model)?;
+        }
         loop {
             let first = self.fitted(problem, &model, &solution);
             if let Some(g) = solution.tell(&first, |f| untenable(problem, &model, f)) {
