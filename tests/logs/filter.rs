@@ -71,6 +71,24 @@ fn low_pass_keeps_a_straight_line_and_signals_of_any_length() {
     assert!(constant.iter().all(|v| (v - 2.5).abs() < 1e-9));
 }
 
+/// Of one, two and three sections; one to nine signals leave every number of them over from four.
+#[test]
+fn signals_side_by_side_pass_as_each_does_alone() {
+    let signal = |k: usize| -> Vec<f64> {
+        (0..300).map(|t| (0.03 * (k + 1) as f64 * t as f64).sin() + k as f64).collect()
+    };
+    for order in [2, 3, 4, 5] {
+        let low_pass = LowPass::new(order, 4.0, 100.0).unwrap();
+        for count in 1..10 {
+            let mut together: Vec<Vec<f64>> = (0..count).map(signal).collect();
+            let mut alone = together.clone();
+            low_pass.apply_all(&mut together);
+            alone.iter_mut().for_each(|x| low_pass.apply(x));
+            assert_eq!(together, alone, "{count} signals, order {order}");
+        }
+    }
+}
+
 #[test]
 fn low_pass_refuses_orders_and_cutoffs_it_cannot_have() {
     let highest = LowPass::HIGHEST_ORDER;
