@@ -45,9 +45,7 @@ pub(crate) fn step(x: &[f64]) -> Option<f64> {
     let candidates = ranked.flat_map(|gap| (1..=MULTIPLES).map(move |m| gap / f64::from(m)));
     let decimals = (1..=MOST_DECIMALS).map(|k| 0.1_f64.powi(k));
     let steps = candidates.map(|h| refined(h, &differences)).chain(decimals);
-    steps
-        .filter(|h| *h > least && coherence(*h, &differences) >= LEAST_COHERENCE)
-        .max_by(f64::total_cmp)
+    steps.filter(|h| *h > least && is_coherent(*h, &differences)).max_by(f64::total_cmp)
 }
 
 /// Least squares of `d = h n` with `n` the nearest whole numbers, over more and more steps: an
@@ -66,11 +64,19 @@ fn refined(mut h: f64, differences: &[f64]) -> f64 {
     h
 }
 
-/// Mean of `cos(2 pi d / h)`; a difference of less than half a step speaks against it.
-fn coherence(h: f64, differences: &[f64]) -> f64 {
-    let sum: f64 =
-        differences.iter().map(|d| if *d < 0.5 * h { -1.0 } else { (TAU * d / h).cos() }).sum();
-    sum / differences.len().max(1) as f64
+/// Whether the mean of `cos(2 pi d / h)` is large enough; a difference of less than half a step speaks against
+/// it. What is missing to the largest mean only grows, and a step that is none is told from a tenth of them.
+fn is_coherent(h: f64, differences: &[f64]) -> bool {
+    let most = (1.0 - LEAST_COHERENCE) * differences.len() as f64;
+    let mut missing = 0.0;
+    for d in differences {
+        let steps = d / h;
+        missing += if steps < 0.5 { 2.0 } else { 1.0 - (TAU * (steps - steps.round())).cos() };
+        if missing > most {
+            return false;
+        }
+    }
+    true
 }
 
 #[cfg(test)]
