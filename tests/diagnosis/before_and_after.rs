@@ -33,14 +33,10 @@ struct Change {
     half: f64,
 }
 
-/// How much wider intervals are for what has no name: it is in both logs of an arm, and in their difference it is
-/// not (`crates/diagnosis/README.md`, median of the panel).
-const SHARED: f64 = 2.5;
-
 impl Change {
     /// Whether it is what was put in, and not nothing.
     fn is(self, size: f64) -> bool {
-        (self.by - size).abs() <= self.half && self.by.abs() > self.half / SHARED
+        (self.by - size).abs() <= self.half && self.by.abs() > self.half
     }
 }
 
@@ -67,7 +63,7 @@ pub fn is_new(before: &Diagnosis, finding: &Finding) -> bool {
 fn is_changed(before: &Diagnosis, finding: &Finding) -> bool {
     let Some(same) = before.findings.iter().find(|f| f.at == finding.at) else { return true };
     let apart = |(a, b): (&Estimate, &Estimate)| {
-        a.determined && b.determined && (a.ci95[0] > b.ci95[1] || b.ci95[0] > a.ci95[1])
+        a.determined && b.determined && (a.noise95[0] > b.noise95[1] || b.noise95[0] > a.noise95[1])
     };
     finding.parameters.iter().zip(&same.parameters).any(apart)
 }
@@ -75,7 +71,7 @@ fn is_changed(before: &Diagnosis, finding: &Finding) -> bool {
 /// The size of a finding, half of its interval, and its nominal size.
 fn sized(finding: &Finding, size: Size) -> Option<[f64; 3]> {
     let of = |name: &str| finding.parameters.iter().find(|p| p.name == name);
-    let numbers = |e: &Estimate| [e.value, 0.5 * (e.ci95[1] - e.ci95[0]), e.nominal];
+    let numbers = |e: &Estimate| [e.value, 0.5 * (e.noise95[1] - e.noise95[0]), e.nominal];
     match size {
         Size::Of(name) => Some(numbers(of(name)?)),
         Size::Between(name, other) => {

@@ -102,6 +102,6 @@ fn blind_a_held_command_does_not_pass_for_friction() {
     let finding = &diagnosis.findings[0];
     println!("{} {:?}", finding.at.words(), finding.parameters);
     let viscous = &finding.parameters[0];
-    assert!((viscous.ci95[0]..=viscous.ci95[1]).contains(&2.36), "{viscous:?}");
+    assert!((viscous.noise95[0]..=viscous.noise95[1]).contains(&2.36), "{viscous:?}");
     assert!((viscous.value / 2.36 - 1.0).abs() < 0.005, "{viscous:?}");
 }

@@ -86,13 +86,13 @@ fn wrong_sizes(trial: &Trial, found: Option<&Finding>) -> Vec<String> {
 /// Whether the truth is near an estimate.
 fn holds(estimate: &Estimate, truth: f64) -> bool {
     let off = (estimate.value - truth).abs();
-    let half = 0.5 * (estimate.ci95[1] - estimate.ci95[0]);
+    let half = 0.5 * (estimate.noise95[1] - estimate.noise95[0]);
     off <= WIDENED * half || off <= CLOSE * truth.abs()
 }
 
 fn text_of(e: &Estimate) -> String {
     let open = if e.determined { "" } else { " (open)" };
-    format!("{} {:.4} [{:.4}, {:.4}]{open}", e.name, e.value, e.ci95[0], e.ci95[1])
+    format!("{} {:.4} [{:.4}, {:.4}]{open}", e.name, e.value, e.noise95[0], e.noise95[1])
 }
 
 #[test]

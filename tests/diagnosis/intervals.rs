@@ -1,11 +1,14 @@
 //! Coverage of the 95 per cent intervals.
 
-use checks::synthetic::Noise;
+use checks::synthetic::{Noise, State};
 use rayon::prelude::*;
 
-use crate::world::{World, against_nominal, finding, sign};
+use crate::world::{Torque, World, against_nominal, finding, sign};
 
 const LOGS: u64 = 80;
+
+/// Logs of the arm whose every joint is wrong.
+const SEEDS: u64 = 6;
 
 /// The causes in every log: words, parameter, true value.
 const CAUSES: [(&str, &str, f64); 3] = [
@@ -41,9 +44,11 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
             .collect();
         let count = estimates.len() as f64;
         let inside =
-            estimates.iter().filter(|e| (e.ci95[0]..=e.ci95[1]).contains(&truth)).count() as f64;
+            estimates.iter().filter(|e| (e.noise95[0]..=e.noise95[1]).contains(&truth)).count()
+                as f64;
         let mean = estimates.iter().map(|e| e.value).sum::<f64>() / count;
-        let half = estimates.iter().map(|e| 0.5 * (e.ci95[1] - e.ci95[0])).sum::<f64>() / count;
+        let half =
+            estimates.iter().map(|e| 0.5 * (e.noise95[1] - e.noise95[0])).sum::<f64>() / count;
         let text = format!(
             "{words}: found in {count} of {LOGS}, truth {truth} inside {inside} times \
              ({:.0} %), mean {mean:.4}, mean half width {half:.4}",
@@ -53,4 +58,48 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
         assert!(count >= FOUND * LOGS as f64, "{text}");
         assert!(inside >= LEAST * count, "{text}");
     }
+}
+
+/// Dry friction of every joint (N m).
+const LEVELS: [f64; 7] = [1.2, 1.0, 0.8, 0.6, 0.2, 0.2, 0.05];
+
+/// What is besides wrong with every joint and too small to be named: a share of that friction that goes with
+/// position, and one that goes with speed.
+const SMALL: [f64; 2] = [0.03, 0.02];
+
+/// Torque of joint `J`: its friction, and what has no name.
+fn rough<const J: usize>([q, qd, _]: State) -> f64 {
+    LEVELS[J] * (sign(qd) + SMALL[0] * (3.0 * q + J as f64).sin() + SMALL[1] * qd)
+}
+
+/// Small errors are everywhere; those without a name lean on the sizes of what has one.
+#[test]
+fn intervals_hold_the_truth_where_small_errors_have_no_name() {
+    let joints: [Torque; 7] =
+        [rough::<0>, rough::<1>, rough::<2>, rough::<3>, rough::<4>, rough::<5>, rough::<6>];
+    let world = joints.iter().enumerate().fold(World::nominal(), |w, (j, of)| w.torque(j, *of));
+    let answers: Vec<_> = (0..SEEDS)
+        .into_par_iter()
+        .map(|seed| {
+            against_nominal(&world.runs(3, 12.0, &Noise::of_a_wam(), 4000 + seed)).diagnosis
+        })
+        .collect();
+    let (mut count, mut whole, mut of_noise) = (0, 0, 0);
+    for answer in &answers {
+        for (j, level) in LEVELS.iter().enumerate() {
+            let words = format!("FR02 Coulomb friction at {}", answer.joints[j].name);
+            let Some(found) = finding(answer, &words) else { continue };
+            let e = &found.parameters[0];
+            let holds = |[low, high]: [f64; 2]| usize::from((low..=high).contains(level));
+            count += 1;
+            whole += holds(e.ci95);
+            of_noise += holds(e.noise95);
+        }
+    }
+    let text = format!("{count} sizes: {whole} hold, {of_noise} of noise alone");
+    println!("{text}");
+    assert!(count >= 35, "{text}");
+    assert!(whole as f64 >= LEAST * count as f64, "{text}");
+    // The logs are such that noise alone is too little.
+    assert!((of_noise as f64) < LEAST * count as f64, "{text}");
 }

@@ -21,6 +21,7 @@ mod repeatable;
 mod repeats;
 mod rivals;
 mod second_encoder;
+mod shared_motors;
 mod together;
 mod transplants;
 mod trials;

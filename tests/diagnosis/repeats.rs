@@ -38,7 +38,7 @@ fn repeated(count: u64) -> Vec<Run> {
 }
 
 fn half_width(found: &Finding) -> f64 {
-    0.5 * (found.parameters[0].ci95[1] - found.parameters[0].ci95[0])
+    0.5 * (found.parameters[0].noise95[1] - found.parameters[0].noise95[0])
 }
 
 /// Both are named each time, with intervals that hold them and never grow by more than a twentieth.

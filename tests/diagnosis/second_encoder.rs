@@ -63,7 +63,10 @@ fn find<'a>(diagnosis: &'a Diagnosis, effect: EffectKind, joint: &str) -> &'a Fi
 /// The error of an estimate, which must be small and within its interval.
 fn check(estimate: &Estimate, truth: f64) -> f64 {
     println!("{estimate:?}, {truth} was put in");
-    assert!((estimate.ci95[0]..=estimate.ci95[1]).contains(&truth), "{estimate:?}, not {truth}");
+    assert!(
+        (estimate.noise95[0]..=estimate.noise95[1]).contains(&truth),
+        "{estimate:?}, not {truth}"
+    );
     let error = (estimate.value / truth - 1.0).abs();
     assert!(error < CLOSE, "{estimate:?}, not {truth}");
     error
@@ -259,7 +262,7 @@ fn blind_intervals_of_springs_and_gaps_hold_the_truth() {
             let e = &find(&diagnosis, effect, joint).parameters[0];
             println!("{seed}: {e:?}, {truth} was put in");
             assert!((e.value / truth - 1.0).abs() < CLOSE, "{e:?}, not {truth}");
-            (e.ci95[0]..=e.ci95[1]).contains(&truth)
+            (e.noise95[0]..=e.noise95[1]).contains(&truth)
         };
         [
             holds(EffectKind::JointElasticity, "j2_shoulder_pitch", stiffness),

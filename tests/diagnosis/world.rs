@@ -1,6 +1,6 @@
 //! Worlds that differ from the nominal WAM by formulas written down in the tests.
 
-use checks::synthetic::{Noise, State, Truth, run, wam};
+use checks::synthetic::{Noise, State, Truth, run, run_paced, wam};
 use diagnosis::{Diagnosis, Finding, Outcome, Settings, Silent, diagnose};
 use logs::Run;
 use robot::Robot;
@@ -46,6 +46,11 @@ impl World {
 
     /// `count` runs of `seconds` with different motions; every number follows from the seed.
     pub fn runs(&self, count: u64, seconds: f64, noise: &Noise, seed: u64) -> Vec<Run> {
+        self.paced(&vec![1.0; count as usize], seconds, noise, seed)
+    }
+
+    /// A run for each of `paces`, whose motion is so many times as fast.
+    pub fn paced(&self, paces: &[f64], seconds: f64, noise: &Noise, seed: u64) -> Vec<Run> {
         let torque = |joint: usize, state: State| -> f64 {
             self.torque.iter().filter(|(j, _)| *j == joint).map(|(_, f)| f(state)).sum()
         };
@@ -54,7 +59,8 @@ impl World {
             here.fold(effort, |e, (_, f)| f(e))
         };
         let truth = Truth { robot: &self.robot, torque: &torque, reading: &reading };
-        (0..count).map(|k| run(&truth, noise, seconds, 10 * seed + k)).collect()
+        let numbered = paces.iter().zip(10 * seed..);
+        numbered.map(|(p, seed)| run_paced(&truth, noise, [seconds, 250.0, *p], seed)).collect()
     }
 
     /// Three runs of 20 s, as in [`checks::synthetic::log`].

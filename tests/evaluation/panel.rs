@@ -175,8 +175,15 @@ fn sizes_of_causes_that_a_finding_names_are_compared() {
     let mut sheet = sheet(&[(CoulombFriction, "elbow", SEEN)]);
     sheet.causes[0].truth.parameters.insert("level".to_owned(), 0.5);
     let ci95 = [0.5, 0.7];
-    let level =
-        Estimate { name: "level", value: 0.6, ci95, nominal: 0.0, unit: "N m", determined: true };
+    let level = Estimate {
+        name: "level",
+        value: 0.6,
+        ci95,
+        noise95: ci95,
+        nominal: 0.0,
+        unit: "N m",
+        determined: true,
+    };
     let mut named = finding(at(CoulombFriction, "elbow"), 0.6, &[]);
     named.parameters.push(level);
     let one = judge(&sheet, Verdict::Explained, vec![named]);

@@ -178,8 +178,15 @@ fn effects_that_are_not_looked_for_are_a_group_of_their_own() {
 fn the_sizes_of_the_finding_that_names_it_are_compared() {
     let level = |value: f64, determined: bool| {
         let ci95 = [value - 0.05, value + 0.05];
-        let estimate =
-            Estimate { name: "level", value, ci95, nominal: 0.25, unit: "N m", determined };
+        let estimate = Estimate {
+            name: "level",
+            value,
+            ci95,
+            noise95: ci95,
+            nominal: 0.25,
+            unit: "N m",
+            determined,
+        };
         let at = at_joint(CoulombFriction, ELBOW);
         Finding { parameters: vec![estimate], ..finding(at, 0.8, &[]) }
     };
@@ -284,6 +291,7 @@ fn the_largest_tables_are_within_120_columns() {
             name: p.name,
             value: 1e-3,
             ci95: [0.0, 1.0],
+            noise95: [0.0, 1.0],
             nominal: 0.0,
             unit: p.unit,
             determined: true,

@@ -90,8 +90,10 @@ impl Motion {
         Self { centre, amplitude, phase }
     }
 
-    fn at(&self, joint: usize, time: f64) -> State {
-        let (s, ds, dds) = path(time);
+    /// The state of a joint, with the path walked so many times as fast as in three seconds a step.
+    fn at(&self, joint: usize, time: f64, pace: f64) -> State {
+        let (s, ds, dds) = path(pace * time);
+        let (ds, dds) = (pace * ds, pace * pace * dds);
         let mut state = [self.centre[joint], 0.0, 0.0];
         for k in 0..4 {
             let w = std::f64::consts::TAU * 0.1 * (k + 1) as f64;
@@ -121,6 +123,11 @@ pub fn run(truth: &Truth, noise: &Noise, seconds: f64, seed: u64) -> Run {
 
 /// One run of so many seconds at so many hertz: every number follows from the seed.
 pub fn run_at(truth: &Truth, noise: &Noise, [seconds, hertz]: [f64; 2], seed: u64) -> Run {
+    run_paced(truth, noise, [seconds, hertz, 1.0], seed)
+}
+
+/// The same, with the motion so many times as fast.
+pub fn run_paced(truth: &Truth, noise: &Noise, [seconds, hertz, pace]: [f64; 3], seed: u64) -> Run {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let motion = Motion::new(truth.robot, &mut rng);
     let n = truth.robot.joint_count();
@@ -133,7 +140,7 @@ pub fn run_at(truth: &Truth, noise: &Noise, [seconds, hertz]: [f64; 2], seed: u6
     };
     let mut joints: Vec<Channels> = truth.robot.links().iter().map(channels).collect();
     for &t in &time {
-        let states: Vec<State> = (0..n).map(|j| motion.at(j, t)).collect();
+        let states: Vec<State> = (0..n).map(|j| motion.at(j, t, pace)).collect();
         let part = |k: usize| states.iter().map(|s| s[k]).collect::<Vec<_>>();
         let tau = dynamics.inverse_dynamics(&part(0), &part(1), &part(2)).unwrap();
         for (j, joint) in joints.iter_mut().enumerate() {

@@ -145,8 +145,10 @@ pub struct Estimate {
     pub name: &'static str,
     /// Best value.
     pub value: f64,
-    /// 95 per cent interval.
+    /// 95 per cent interval, with what effects without a name may change.
     pub ci95: [f64; 2],
+    /// The same of noise alone: of a change between two logs of one arm, whose effects without a name are in both.
+    pub noise95: [f64; 2],
     /// Value in the nominal model.
     pub nominal: f64,
     /// Unit.

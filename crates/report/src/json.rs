@@ -121,6 +121,7 @@ impl<'a> FindingByName<'a> {
 struct Value<'a> {
     value: f64,
     ci95: [f64; 2],
+    noise95: [f64; 2],
     nominal: f64,
     unit: &'a str,
     determined: bool,
@@ -128,8 +129,8 @@ struct Value<'a> {
 
 fn by_name<S: Serializer>(parameters: &[Estimate], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(parameters.iter().map(|p| {
-        let &Estimate { name, value, ci95, nominal, unit, determined } = p;
-        (name, Value { value, ci95, nominal, unit, determined })
+        let &Estimate { name, value, ci95, noise95, nominal, unit, determined } = p;
+        (name, Value { value, ci95, noise95, nominal, unit, determined })
     }))
 }
 

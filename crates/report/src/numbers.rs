@@ -114,6 +114,7 @@ mod tests {
             name: "level",
             value,
             ci95,
+            noise95: ci95,
             nominal: 0.0,
             unit,
             determined: true,

@@ -214,7 +214,7 @@ fn inertia(link: &str) -> Finding {
 }
 
 fn estimate(name: &'static str, value: f64, ci95: [f64; 2], unit: &'static str) -> Estimate {
-    Estimate { name, value, ci95, nominal: 0.0, unit, determined: true }
+    Estimate { name, value, ci95, noise95: ci95, nominal: 0.0, unit, determined: true }
 }
 
 fn ruled_out(joint: &str, smallest: Option<f64>) -> RuledOut {

@@ -49,7 +49,7 @@ impl Evidence<'_> {
         let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
         let unnamed = Unnamed::new(self.selection, self.model, &fit);
         let uncertainty =
-            uncertainty.widened(|columns| unnamed.about(fitted.problem.design, columns));
+            uncertainty.with_unnamed(|columns| unnamed.about(fitted.problem.design, columns));
         let with = problem.held_out(self.model);
         let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
         let nominal = problem.held_out(&Model::new());

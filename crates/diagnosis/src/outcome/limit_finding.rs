@@ -18,6 +18,7 @@ pub(crate) fn limit_finding(robot: &Robot, limit: &Limit) -> Finding {
             name: parameter.name,
             value: limit.limit,
             ci95: limit.ci95,
+            noise95: limit.ci95,
             nominal: link.joint.limits.effort.unwrap_or(f64::INFINITY),
             unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
             determined: true,

@@ -57,6 +57,7 @@ fn parameters(robot: &Robot, tone: &Tone) -> Vec<Estimate> {
         name: parameter.name,
         value,
         ci95: [value - HALF_WIDTH * error, value + HALF_WIDTH * error],
+        noise95: [value - HALF_WIDTH * error, value + HALF_WIDTH * error],
         nominal,
         unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
         determined: true,

@@ -21,11 +21,15 @@ const ROUNDING: f64 = 1e-10;
 /// likelihood  A^-1, where n correlated samples count as n / time
 /// blocks      A^-1 (sum_b s_b s_b') A^-1 B / (B - 1),  s_b the score of block b
 /// ```
+///
+/// These are of the noise. What effects without a name may change comes besides, where it is known.
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
     columns: Vec<usize>,
     likelihood: DMatrix<f64>,
     blocks: DMatrix<f64>,
+    /// What effects without a name may change.
+    unnamed: DMatrix<f64>,
     /// Half width of a 95 per cent interval in standard deviations.
     t: f64,
 }
@@ -37,11 +41,9 @@ impl Uncertainty {
         Some(Self::new(fitted.problem, &fit, fitted.weights))
     }
 
-    /// The same with another covariance of its columns added to both.
-    pub fn widened(mut self, covariance: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
-        let more = covariance(&self.columns);
-        self.likelihood += &more;
-        self.blocks += more;
+    /// The same with the covariance of its columns that effects without a name bring.
+    pub fn with_unnamed(mut self, of: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
+        self.unnamed = of(&self.columns);
         self
     }
 
@@ -62,7 +64,8 @@ impl Uncertainty {
         let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
         let t =
             StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0)).map_or(2.0, |d| d.inverse_cdf(0.975));
-        Self { columns, likelihood, blocks, t }
+        let unnamed = DMatrix::zeros(columns.len(), columns.len());
+        Self { columns, likelihood, blocks, unnamed, t }
     }
 
     /// The parameters of `hypothesis` as the user reads them, with intervals, where it and its
@@ -86,32 +89,47 @@ impl Uncertainty {
             own.iter().map(|&k| slope(&at, &here, weights, k, design.prior[k])).collect();
         let place: Vec<usize> =
             own.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
-        here.iter()
-            .enumerate()
-            .map(|(i, quantity)| {
-                let gradient = DVector::from_iterator(own.len(), slopes.iter().map(|s| s[i]));
-                let prior = pick(&DVector::from_column_slice(&design.prior), &own);
-                let sd = self.sd(&place, &gradient);
-                let before = gradient.component_mul(&prior).norm();
-                let mut estimate = estimate(quantity, sd * self.t, before * self.t);
-                let at = (quantity.value, weights);
-                clip(&mut estimate, (&own, &gradient), &design.bounds, at);
-                if hypothesis.nature().is_some_and(|n| n.weights == Weights::Reciprocal) {
-                    let half = self.t * self.sd(&place, &DVector::from_element(own.len(), 1.0));
-                    estimate.ci95 = between(estimate.value.recip(), half);
+        let is_reciprocal = hypothesis.nature().is_some_and(|n| n.weights == Weights::Reciprocal);
+        let estimate = |(i, quantity): (usize, &Quantity)| {
+            let gradient = DVector::from_iterator(own.len(), slopes.iter().map(|s| s[i]));
+            let interval = |with: f64| match is_reciprocal {
+                true => {
+                    let every = DVector::from_element(own.len(), 1.0);
+                    between(quantity.value.recip(), self.half(&place, &every, with))
                 }
-                estimate
-            })
-            .collect()
+                false => {
+                    let half = self.half(&place, &gradient, with);
+                    let whole = [quantity.value - half, quantity.value + half];
+                    let at = (quantity.value, weights);
+                    clipped(whole, (&own, &gradient), &design.bounds, at)
+                }
+            };
+            let prior = pick(&DVector::from_column_slice(&design.prior), &own);
+            let before = self.t * gradient.component_mul(&prior).norm();
+            let half = self.half(&place, &gradient, 0.0);
+            Estimate {
+                name: quantity.name,
+                value: quantity.value,
+                ci95: interval(1.0),
+                noise95: interval(0.0),
+                nominal: quantity.nominal,
+                unit: quantity.unit,
+                // A quantity that no weight moves is not determined.
+                determined: before > 1e-9 * quantity.value.abs() && half < DETERMINED * before,
+            }
+        };
+        here.iter().enumerate().map(estimate).collect()
     }
 
-    /// Standard deviation of `gradient' w` over the columns at `place`.
-    fn sd(&self, place: &[usize], gradient: &DVector<f64>) -> f64 {
+    /// Half the 95 per cent interval of `gradient' w` over the columns at `place`, with a share of what
+    /// effects without a name may change.
+    fn half(&self, place: &[usize], gradient: &DVector<f64>, share: f64) -> f64 {
         let variance = |all: &DMatrix<f64>| {
             let part = DMatrix::from_fn(place.len(), place.len(), |i, k| all[(place[i], place[k])]);
             gradient.dot(&(part * gradient))
         };
-        variance(&self.likelihood).max(variance(&self.blocks)).max(0.0).sqrt()
+        let noise = variance(&self.likelihood).max(variance(&self.blocks));
+        self.t * (noise + share * variance(&self.unnamed)).max(0.0).sqrt()
     }
 
     /// Whether a change of the weights of some columns is within their 95 per cent region:
@@ -230,37 +248,25 @@ fn slope(
     (0..here.len()).map(slope).collect()
 }
 
-/// Keeps an interval within what is physically possible, where its quantity follows one
+/// An interval kept within what is physically possible, where its quantity follows one
 /// bounded weight; `value` is the quantity at `weights`.
-fn clip(
-    estimate: &mut Estimate,
+fn clipped(
+    [low, high]: [f64; 2],
     (own, gradient): (&[usize], &DVector<f64>),
     bounds: &[(f64, f64)],
     (value, weights): (f64, &[f64]),
-) {
+) -> [f64; 2] {
     let mut followed = own.iter().zip(gradient.iter()).filter(|(_, g)| g.abs() > 0.0);
-    let (Some((&k, &slope)), None) = (followed.next(), followed.next()) else { return };
+    let (Some((&k, &slope)), None) = (followed.next(), followed.next()) else {
+        return [low, high];
+    };
     let at = |bound: f64| value + slope * (bound - weights[k]);
     let (a, b) = (at(bounds[k].0), at(bounds[k].1));
-    let [low, high] = estimate.ci95;
-    estimate.ci95 = [low.max(a.min(b)).min(estimate.value), high.min(a.max(b)).max(estimate.value)];
+    [low.max(a.min(b)).min(value), high.min(a.max(b)).max(value)]
 }
 
 /// Interval of the reciprocal of a number that is not negative and known to `half`: of a
 /// stiffness whose compliance is what the weights change.
 fn between(number: f64, half: f64) -> [f64; 2] {
     [(number + half).recip(), (number - half).max(0.0).recip()]
-}
-
-/// An estimate with the half width `half` of its interval, which was `before` without data.
-/// A quantity that no weight moves is not determined.
-fn estimate(quantity: &Quantity, half: f64, before: f64) -> Estimate {
-    Estimate {
-        name: quantity.name,
-        value: quantity.value,
-        ci95: [quantity.value - half, quantity.value + half],
-        nominal: quantity.nominal,
-        unit: quantity.unit,
-        determined: before > 1e-9 * quantity.value.abs() && half < DETERMINED * before,
-    }
 }

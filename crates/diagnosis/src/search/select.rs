@@ -252,10 +252,10 @@ impl Selection<'_> {
         let is_rare = |g: &usize| {
             let rarity = self.problem.design.groups[*g].hypothesis.rarity(self.robot);
             let least = self.least_evidence(*g) + rarity;
-            rarity > 0.0 && self.beyond_the_plain(&without(model, *g), *g) < least
+            rarity > 0.0 && self.beyond_the_plain(&removed(model, *g), *g) < least
         };
         let g = model.iter().copied().find(is_rare)?;
-        let mut plain = without(model, g);
+        let mut plain = removed(model, g);
         plain.extend(self.plainer_than(g));
         Some(plain)
     }
@@ -395,7 +395,7 @@ impl Selection<'_> {
 }
 
 /// A model without one of its hypotheses.
-fn without(model: &Model, g: usize) -> Model {
+fn removed(model: &Model, g: usize) -> Model {
     let mut smaller = model.clone();
     smaller.remove(&g);
     smaller

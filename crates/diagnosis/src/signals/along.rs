@@ -1,4 +1,4 @@
-use effects::{Column, Encoders, Frame, Motion, Part};
+use effects::{Column, Encoders, Frame, Motion};
 use logs::{LogError, LowPass, PreparedJoint, PreparedRun, decimate};
 use nalgebra::Complex;
 use rayon::prelude::*;
@@ -170,16 +170,23 @@ impl<'a> Along<'a> {
 
     /// A signal of joint `j` where it counts, low-passed, at the rate of the regression.
     pub fn finish(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
-        self.count(j, &mut x);
-        self.low_pass.apply(&mut x);
-        decimate(&x, self.strides[1])
+        self.finish_all([(j, &mut x)]);
+        x
     }
 
-    /// Leaves of a signal of joint `j` what counts.
-    fn count(&self, j: usize, x: &mut [f64]) {
-        if let Some(counts) = self.counts.get(j) {
-            x.iter_mut().zip(counts).for_each(|(x, counts)| *x *= counts);
-        }
+    /// The same of many signals, each with its joint.
+    fn finish_all<'x>(&self, signals: impl IntoIterator<Item = (usize, &'x mut Vec<f64>)>) {
+        let mut signals: Vec<&mut Vec<f64>> = signals
+            .into_iter()
+            .map(|(j, x)| {
+                if let Some(counts) = self.counts.get(j) {
+                    x.iter_mut().zip(counts).for_each(|(x, counts)| *x *= counts);
+                }
+                x
+            })
+            .collect();
+        self.low_pass.apply_all(&mut signals);
+        signals.into_iter().for_each(|x| *x = decimate(x, self.strides[1]));
     }
 
     /// How far a low-pass carries what is somewhere (samples of the motion).
@@ -245,17 +252,11 @@ impl<'a> Along<'a> {
 
     /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
     /// have in them: sizes of tones are fitted with those of all effects.
-    pub fn finished(&self, columns: Vec<Column>) -> Vec<Column> {
-        let mut columns = columns;
-        let mut parts: Vec<&mut Part> = columns.iter_mut().flatten().collect();
-        for part in &mut parts {
-            self.count(part.joint, &mut part.values);
-        }
-        let mut signals: Vec<&mut [f64]> =
-            parts.iter_mut().map(|part| part.values.as_mut_slice()).collect();
-        self.low_pass.apply_all(&mut signals);
-        for part in parts {
-            part.values = self.without_heard(part.joint, decimate(&part.values, self.strides[1]));
+    pub fn finished(&self, mut columns: Vec<Column>) -> Vec<Column> {
+        let parts = columns.iter_mut().flatten();
+        self.finish_all(parts.map(|part| (part.joint, &mut part.values)));
+        for part in columns.iter_mut().flatten() {
+            part.values = self.without_heard(part.joint, std::mem::take(&mut part.values));
         }
         columns
     }
@@ -335,8 +336,9 @@ impl<'a> Along<'a> {
 
     /// The efforts of the robot.
     pub fn expected(&self) -> Vec<Vec<f64>> {
-        let efforts = self.motion.effort.iter().enumerate();
-        efforts.map(|(j, effort)| self.finish(j, effort.clone())).collect()
+        let mut efforts = self.motion.effort.clone();
+        self.finish_all(efforts.iter_mut().enumerate());
+        efforts
     }
 
     /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects

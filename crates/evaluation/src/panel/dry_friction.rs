@@ -118,8 +118,15 @@ mod tests {
             cause(EffectKind::CoulombFriction, "elbow", &[("level", 2.0)]),
         ];
         let ci95 = [4.0, 5.0];
-        let level =
-            Estimate { name: "level", value: 4.5, ci95, nominal: 1.0, unit: "", determined: true };
+        let level = Estimate {
+            name: "level",
+            value: 4.5,
+            ci95,
+            noise95: ci95,
+            nominal: 1.0,
+            unit: "",
+            determined: true,
+        };
         let stated = DryFriction::beside(&causes[0], &causes).with(&causes[0].truth, &[level]);
         assert!((stated.parameters["share"] - 0.1).abs() < 1e-12);
         assert!((stated.parameters["level"] - 3.0).abs() < 1e-12);

@@ -28,6 +28,9 @@ pub struct Estimated {
     /// 95 per cent interval.
     #[serde(deserialize_with = "stored::interval")]
     pub ci95: [f64; 2],
+    /// The same of noise alone; none of what was scored before the two differed.
+    #[serde(default, deserialize_with = "stored::known_interval")]
+    pub noise95: Option<[f64; 2]>,
     /// Whether the logs narrow it down.
     pub determined: bool,
     /// Whether the interval holds the truth.
@@ -58,12 +61,14 @@ fn estimated(truth: &Truth, value: f64, estimate: &Estimate) -> Estimated {
     // The turn in which a phase lies means nothing.
     let turns = |number: f64| TAU * ((value - number) / TAU).round();
     let shift = if estimate.name == "phase" { turns(estimate.value) } else { 0.0 };
-    let [low, high] = estimate.ci95.map(|end| put_in(end) + shift);
+    let on_its_scale = |interval: [f64; 2]| interval.map(|end| put_in(end) + shift);
+    let [low, high] = on_its_scale(estimate.ci95);
     let best = put_in(estimate.value) + shift;
     let size = magnitude(truth, estimate.name);
     Estimated {
         value: best,
         ci95: [low, high],
+        noise95: Some(on_its_scale(estimate.noise95)),
         determined: estimate.determined,
         covers: (low..=high).contains(&value),
         relative_error: (size > 0.0).then(|| (best - value).abs() / size),
@@ -128,7 +133,7 @@ mod tests {
 
     fn estimate(name: &'static str, value: f64, nominal: f64) -> Estimate {
         let ci95 = [value - 0.1, value + 0.1];
-        Estimate { name, value, ci95, nominal, unit: "", determined: true }
+        Estimate { name, value, ci95, noise95: ci95, nominal, unit: "", determined: true }
     }
 
     fn only(truth: &Truth, estimates: &[Estimate]) -> Estimated {

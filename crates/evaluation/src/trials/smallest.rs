@@ -12,7 +12,7 @@ const SMALLEST_OVER_HALF: f64 = 3.65 / 1.96;
 /// How large an effect is beside the smallest that its logs would have shown:
 ///
 /// ```text
-/// size / (1.86 half)                where it is named, half its 95 per cent interval,
+/// size / (1.86 half)                where it is named, half its 95 per cent interval of noise,
 /// size / smallest detectable size   where the diagnosis says what it would have found
 /// ```
 ///
@@ -29,7 +29,8 @@ pub(super) fn of_smallest(
     }
     let named = sizes.iter().filter_map(|size| {
         let estimate = size.estimate.as_ref().filter(|estimate| estimate.determined)?;
-        let half = 0.5 * (estimate.ci95[1] - estimate.ci95[0]);
+        let [low, high] = estimate.noise95.unwrap_or(estimate.ci95);
+        let half = 0.5 * (high - low);
         Some(added(truth, &size.name)? / (SMALLEST_OVER_HALF * half))
     });
     let missed = ruled_out.iter().filter(|r| r.at == *at).filter_map(|ruled_out| {
@@ -87,7 +88,8 @@ mod tests {
         let truth = Truth::at_joint(EffectKind::CoulombFriction, "elbow", &[("level", 0.73)]);
         let estimate = |determined| Estimated {
             value: 0.7,
-            ci95: [0.504, 0.896],
+            ci95: [0.3, 1.1],
+            noise95: Some([0.504, 0.896]),
             determined,
             covers: true,
             relative_error: None,

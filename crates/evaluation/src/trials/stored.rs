@@ -47,6 +47,13 @@ pub(crate) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
+pub(crate) fn known_interval<'de, D: Deserializer<'de>>(
+    from: D,
+) -> Result<Option<[f64; 2]>, D::Error> {
+    let known = Option::<[Option<f64>; 2]>::deserialize(from)?;
+    Ok(known.map(|interval| interval.map(|end| end.unwrap_or(f64::NAN))))
+}
+
 pub(crate) fn interval<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
     Ok(<[Option<f64>; 2]>::deserialize(from)?.map(|end| end.unwrap_or(f64::NAN)))
 }

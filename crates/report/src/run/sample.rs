@@ -83,6 +83,7 @@ fn score() -> Score {
     let estimate = Estimated {
         value: 2.0,
         ci95: [1.8, 2.2],
+        noise95: Some([1.8, 2.2]),
         determined: true,
         covers: true,
         relative_error: Some(0.05),
