@@ -58,11 +58,12 @@ fn the_seconds_that_are_asked_for_give_what_a_log_gives_that_holds_no_others() {
     let compare = "compare --robot arm.urdf --before LOGS/run_0.csv --after LOGS/run_1.csv";
     let learn = "learn --robot arm.urdf --train LOGS/run_0.csv --test LOGS/run_1.csv --models rbd";
     let replay = "replay --robot arm.urdf --window-ms 200 --log LOGS/run_0.csv";
-    let of_a_diagnosis = ["/findings", "/joints", "/gain", "/data/samples", "/data/cutoff_hz"];
+    let of_a_diagnosis =
+        ["/findings", "/joints", "/gain", "/data/runs/0/samples", "/data/cutoff_hz"];
     let looked_at: [(&str, &str, &[&str]); 3] = [
         (diagnose, "diagnosis.json", &of_a_diagnosis),
         (compare, "after/diagnosis.json", &of_a_diagnosis),
-        (learn, "learning.json", &["/train/rows", "/test/rows"]),
+        (learn, "learning.json", &["/train/rows", "/test/rows", "/cutoff_hz"]),
     ];
     for (command, file, pointers) in looked_at {
         output(folder.path(), "whole", command, &SECONDS);
