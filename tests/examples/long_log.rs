@@ -6,7 +6,12 @@
 //! ```
 //!
 //! The arm has dry friction of 0.6 N m at two joints and 1 kg in its hand; every sample has noise of its own.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a program for the desk may stop")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a program for the desk may stop"
+)]
 
 use std::path::Path;
 
