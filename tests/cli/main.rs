@@ -8,6 +8,7 @@ mod commands;
 mod compare;
 mod design;
 mod diagnose;
+mod excerpt;
 mod export;
 #[cfg(target_os = "linux")]
 #[cfg(target_os = "linux")]

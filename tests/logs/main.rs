@@ -7,6 +7,7 @@ mod bags;
 mod damage;
 mod dialects;
 mod estimators;
+mod excerpt;
 mod files;
 mod filter;
 mod growing;

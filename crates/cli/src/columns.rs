@@ -2,10 +2,11 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use logs::{ColumnMap, LogError, ReadOptions, Recognised, Run};
+use logs::{ColumnMap, Excerpt, LogError, ReadOptions, Recognised, Run};
 use robot::Robot;
 
 use crate::error::CliError;
+use crate::input::seconds;
 use crate::output::warn;
 
 /// How the columns of logs are called.
@@ -24,6 +25,29 @@ pub struct ColumnArguments {
     /// Read a damaged log up to where it is damaged, and say where; without it, it is refused
     #[arg(long)]
     pub until_damage: bool,
+    /// Which part of each log is read
+    #[command(flatten)]
+    pub excerpt: ExcerptArguments,
+}
+
+/// Which part of each log is read.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct ExcerptArguments {
+    /// Read every log from so many seconds after its first row on
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub from_s: Option<f64>,
+    /// Read every log up to so many seconds after its first row
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    pub to_s: Option<f64>,
+}
+
+impl ExcerptArguments {
+    /// What of a log is read, where that is not the whole.
+    fn excerpt(self) -> Option<Excerpt> {
+        let Self { from_s, to_s } = self;
+        from_s.or(to_s)?;
+        Some(Excerpt { from_s: from_s.unwrap_or(0.0), to_s: to_s.unwrap_or(f64::INFINITY) })
+    }
 }
 
 impl ColumnArguments {
@@ -66,8 +90,9 @@ pub struct Reader<'a> {
 impl Reader<'_> {
     /// How a log is read with the map of a file, or without one.
     pub fn options(&self) -> ReadOptions<'_> {
-        let ColumnArguments { effort, topic, .. } = self.arguments;
-        ReadOptions { map: self.map.as_ref(), effort, topic: topic.as_deref() }
+        let ColumnArguments { effort, topic, excerpt, .. } = self.arguments;
+        let (topic, excerpt) = (topic.as_deref(), excerpt.excerpt());
+        ReadOptions { map: self.map.as_ref(), effort, topic, excerpt }
     }
 
     /// The run of a file.

@@ -4,8 +4,8 @@ use robot::{Loaded, LockedJoint, RobotWarning};
 /// Distance from the place of a locked joint within which a log confirms it (rad or m).
 const NEAR: f64 = 0.01;
 
-/// What a diagnosis holds of one sample of one joint (bytes), as measured on logs of 7 joints.
-const BYTES_PER_SAMPLE: f64 = 750.0;
+/// What a diagnosis holds of one sample of one joint (bytes), as measured on logs of 7 joints with two threads.
+const BYTES_PER_SAMPLE: f64 = 500.0;
 
 /// What the description of a robot leaves out of its motion, locked joints that a log has
 /// somewhere else, and logs that may need more memory than is free.
@@ -29,7 +29,7 @@ fn too_long(samples: usize, free: f64) -> Option<String> {
     (needed > free).then(|| {
         format!(
             "the logs need about {needed_gb} GB of memory and {free_gb} GB are free: \
-             give fewer logs, or logs of a lower rate"
+             read less of them with --from-s and --to-s, or give fewer logs, or logs of a lower rate"
         )
     })
 }
@@ -68,7 +68,12 @@ mod tests {
     fn logs_that_need_more_than_is_free_are_told() {
         assert_eq!(too_long(1_000_000, 1e9), None);
         let told = too_long(10_000_000, 1e9).unwrap();
-        assert!(told.contains("need about 7.50 GB of memory and 1.00 GB are free"), "{told}");
+        assert!(
+            told.contains(
+                "need about 5.00 GB of memory and 1.00 GB are free: read less of them with --from-s"
+            ),
+            "{told}"
+        );
     }
 
     fn said(logged: &[f64]) -> Option<String> {

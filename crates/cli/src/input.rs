@@ -146,6 +146,11 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text, |v| v > 0.0 && v.is_finite(), "a positive number was expected")
 }
 
+/// A time of an option, counted from a beginning (s).
+pub fn seconds(text: &str) -> Result<f64, String> {
+    number(text, |v| v >= 0.0 && v.is_finite(), "a number of seconds, 0 or more, was expected")
+}
+
 fn number(text: &str, fits: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
     text.parse().ok().filter(|&v| fits(v)).ok_or_else(|| expected.to_owned())
 }

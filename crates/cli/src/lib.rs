@@ -28,7 +28,7 @@ use crate::commands::{
     robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
 };
 
-pub use crate::columns::ColumnArguments;
+pub use crate::columns::{ColumnArguments, ExcerptArguments};
 pub use crate::commands::diagnose::{recorded as record_diagnosis, write as write_diagnosis};
 pub use crate::commands::explain::find as find_effect;
 pub use crate::doubts::doubts;

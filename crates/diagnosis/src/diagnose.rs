@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use effects::Frame;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
@@ -14,7 +16,7 @@ use crate::outcome::traces::{RunTraces, traces};
 use crate::progress::Progress;
 use crate::readiness::at_limits::at_limits;
 use crate::readiness::extent::{inadequate, without_unrecorded};
-use crate::readiness::inspected::{Inspected, inspected};
+use crate::readiness::inspected::inspected;
 use crate::readiness::second_encoders::without_idle_encoders;
 use crate::result::{Diagnosis, RunSummary};
 use crate::search::study::Study;
@@ -74,10 +76,11 @@ pub fn diagnose(
 ) -> Result<Outcome, DiagnosisError> {
     settings.check()?;
     progress.stage("preparing the logs", 2);
-    let (runs, mut warnings) = distinct(robot, runs)?;
-    let Inspected { runs, read, spoilt, warnings: seen } = inspected(robot, &runs);
-    warnings.extend(seen);
-    let mut prepared = prepare(&runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
+    let (given, mut warnings) = distinct(robot, runs)?;
+    let inspected = inspected(robot, &given);
+    let runs = inspected.runs(&given);
+    warnings.extend(inspected.warnings.iter().cloned());
+    let mut prepared = prepare(runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
     warnings.extend(without_unrecorded(robot, &mut prepared));
@@ -86,7 +89,7 @@ pub fn diagnose(
     progress.step();
     let unmoved = inadequate(robot, &prepared);
     let inadequate: Vec<Option<String>> =
-        spoilt.into_iter().zip(unmoved).map(|(spoilt, unmoved)| spoilt.or(unmoved)).collect();
+        inspected.spoilt.iter().cloned().zip(unmoved).map(|(s, unmoved)| s.or(unmoved)).collect();
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
     let quiet = Log { without: &settings.without, ..Log::new(&prepared, &moved) };
     let parted = between(robot, robot, settings, (&quiet, &inadequate))?;
@@ -100,7 +103,7 @@ pub fn diagnose(
         let log = Log { tones: &heard.tones, ..quiet };
         let (robot, nominal, design_of, inadequate) = (&sown, robot, &design, &inadequate);
         let study = Study { nominal, robot, settings, log, design: design_of, inadequate };
-        let now = listened(&study, &runs)?;
+        let now = listened(&study, runs)?;
         let is_quiet = now.tones.is_empty() && heard.tones.is_empty();
         heard = now;
         if is_quiet {
@@ -122,6 +125,7 @@ pub fn diagnose(
     let (mut diagnosis, traces, extended, held_out) = searched(&study, progress)?;
     diagnosis.data.runs = runs.iter().map(summary).collect();
     diagnosis.warnings = warnings;
+    let read = inspected.read;
     if read.is_some() {
         diagnosis.data.put_right = true;
         diagnosis.verdict = diagnosis.verdict.if_so_read();
@@ -192,28 +196,28 @@ fn words_for_ringing(robot: &Robot, (joint, hz): (usize, f64)) -> String {
     )
 }
 
-/// The runs without those that repeat another sample by sample.
-fn distinct(robot: &Robot, runs: &[Run]) -> Result<(Vec<Run>, Vec<String>), DiagnosisError> {
+/// The runs without those that repeat another sample by sample, and what is to be said of these.
+fn distinct<'a>(
+    robot: &Robot,
+    runs: &'a [Run],
+) -> Result<(Cow<'a, [Run]>, Vec<String>), DiagnosisError> {
     if runs.is_empty() {
         return Err(DiagnosisError::NoRuns);
     }
-    let (mut kept, mut warnings): (Vec<Run>, Vec<String>) = (Vec::new(), Vec::new());
     for run in runs {
         let (got, expected) = (run.joints.len(), robot.joint_count());
         if got != expected {
             return Err(DiagnosisError::WrongJoints { run: run.name.clone(), got, expected });
         }
     }
-    for (index, run) in runs.iter().enumerate() {
-        match duplicate_of(runs, index) {
-            Some(original) => warnings.push(format!(
-                "{} repeats {} sample by sample and was left out: held-out tests would not be honest with it",
-                run.name, runs[original].name
-            )),
-            None => kept.push(run.clone()),
-        }
-    }
-    Ok((kept, warnings))
+    let repeats = runs.iter().enumerate().filter_map(|(index, run)| {
+        let original = duplicate_of(runs, index)?;
+        Some(format!(
+            "{} repeats {} sample by sample and was left out: held-out tests would not be honest with it",
+            run.name, runs[original].name
+        ))
+    });
+    Ok((logs::distinct(runs), repeats.collect()))
 }
 
 fn summary(run: &Run) -> RunSummary {

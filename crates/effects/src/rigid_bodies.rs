@@ -42,7 +42,8 @@ pub(crate) fn regressor(robot: &Robot, motion: &State) -> Regressor {
     let carries = carries(robot);
     let signals = |i: usize, j: usize| {
         let count = if carries[i][j] { PARAMETERS_PER_LINK } else { 0 };
-        vec![Vec::with_capacity(samples(motion)); count]
+        // A clone of an empty vector has no room.
+        (0..count).map(|_| Vec::with_capacity(samples(motion))).collect()
     };
     let mut regressor: Regressor =
         (0..n).map(|i| (0..n).map(|j| signals(i, j)).collect()).collect();

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use diagnosis::{Outcome, Progress, RunTraces};
-use logs::{PrepareSettings, PreparedRun, Run, duplicate_of, prepare};
+use logs::{PrepareSettings, PreparedRun, Run, distinct, prepare};
 use recording::{Arm, Bar, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
 use robot::Loaded;
 
@@ -58,10 +58,8 @@ pub fn record_diagnosis(
     progress: &dyn Progress,
 ) -> Result<recording::Written, EvaluationError> {
     let Diagnosed { loaded, outcome, runs, .. } = *diagnosed;
-    let distinct = runs.iter().enumerate().filter(|(i, _)| duplicate_of(runs, *i).is_none());
-    let distinct: Vec<Run> = distinct.map(|(_, run)| run.clone()).collect();
     let cutoff_hz = Some(outcome.diagnosis.data.cutoff_hz);
-    let records = prepare(&distinct, &PrepareSettings { cutoff_hz })?.runs;
+    let records = prepare(&distinct(runs), &PrepareSettings { cutoff_hz })?.runs;
     let title = format!("{}: measured and simulated", loaded.robot.name());
     let mut recorder = Recorder::create(path, &scene(&title, loaded), Live::Off)?;
     let replayed = Replayed::of([&loaded.robot, &outcome.extended], &records, progress);

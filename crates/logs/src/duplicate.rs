@@ -1,4 +1,16 @@
+use std::borrow::Cow;
+
 use crate::Run;
+
+/// The runs without those that repeat an earlier one.
+pub fn distinct(runs: &[Run]) -> Cow<'_, [Run]> {
+    let kept: Vec<usize> =
+        (0..runs.len()).filter(|&index| duplicate_of(runs, index).is_none()).collect();
+    match kept.len() == runs.len() {
+        true => Cow::Borrowed(runs),
+        false => kept.into_iter().map(|index| runs[index].clone()).collect(),
+    }
+}
 
 /// Index of the first earlier run that is [`repeated`] by this one.
 pub fn duplicate_of(runs: &[Run], index: usize) -> Option<usize> {

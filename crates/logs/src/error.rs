@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use crate::{allowance::Exceeded, kind::Stranger};
+use crate::{Excerpt, allowance::Exceeded, kind::Stranger};
 
 /// Why a log cannot be used.
 ///
@@ -251,6 +251,18 @@ pub enum LogError {
     TooFewRows {
         /// The file.
         path: PathBuf,
+        /// Rows found.
+        found: usize,
+        /// Rows needed.
+        expected: usize,
+    },
+    /// There are too few rows in the seconds that were to be read.
+    #[error("{}, {excerpt} after its first row: {found} rows of data, at least {expected} were expected", path.display())]
+    ExcerptTooShort {
+        /// The file.
+        path: PathBuf,
+        /// What was to be read.
+        excerpt: Excerpt,
         /// Rows found.
         found: usize,
         /// Rows needed.

@@ -117,10 +117,12 @@ impl LogFile {
         match self {
             Self::Csv(csv) => csv.load(needed, damage),
             Self::Parquet(parquet) => parquet.load(needed),
-            Self::Numpy(numpy) => numpy.load(needed),
-            Self::Matlab(matlab) => matlab.load(needed),
+            Self::Numpy(numpy) => Ok(numpy.load(needed)?.excerpt(needed)),
+            Self::Matlab(matlab) => Ok(matlab.load(needed)?.excerpt(needed)),
             Self::Bag(bag) => bag.load(needed),
-            Self::Columns(columns) => Ok(Table { columns: columns.clone(), ..Table::default() }),
+            Self::Columns(columns) => {
+                Ok(Table { columns: columns.clone(), ..Table::default() }.excerpt(needed))
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use std::{
 };
 
 use arrow_array::{
-    Array, ArrowPrimitiveType,
+    Array, ArrowPrimitiveType, BooleanArray, RecordBatch,
     cast::AsArray,
     types::{
         Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
@@ -13,6 +13,7 @@ use arrow_array::{
     },
 };
 use arrow_schema::{DataType, Schema};
+use arrow_select::filter::filter_record_batch;
 use parquet::arrow::{
     ProjectionMask,
     arrow_reader::{ArrowReaderOptions, ParquetRecordBatchReaderBuilder},
@@ -20,6 +21,7 @@ use parquet::arrow::{
 
 use crate::{
     LogError,
+    excerpt::Excerpted,
     guarded::guarded,
     table::{Needed, Table},
 };
@@ -74,15 +76,30 @@ impl ParquetFile {
             .build()
             .map_err(|e| broken(path, &e))?;
         let mut columns: BTreeMap<String, Option<Vec<f64>>> = BTreeMap::new();
-        let mut rows = 0;
+        let mut excerpted = needed.excerpted.clone();
+        let (mut rows, mut rows_read) = (0, Vec::new());
         for batch in batches {
             let batch = batch.map_err(|e| broken(path, &e))?;
+            let first = rows + 1;
+            rows += batch.num_rows();
+            let is_read = |excerpted| is_read(&batch, needed.time, excerpted);
+            let (batch, before) = match excerpted.as_mut().and_then(is_read) {
+                None => (batch, first - 1),
+                Some(is_read) => {
+                    let before = rows_read.len();
+                    let own = (first..).zip(is_read.values()).filter(|(_, is_read)| *is_read);
+                    rows_read.extend(own.map(|(row, _)| row));
+                    (filter_record_batch(&batch, &is_read).map_err(|e| broken(path, &e))?, before)
+                }
+            };
             for (field, array) in batch.schema().fields().iter().zip(batch.columns()) {
                 let column =
                     columns.entry(field.name().clone()).or_insert_with(|| Some(Vec::new()));
                 if let Some(index) = first_null(array) {
                     if needed.contains(field.name()) {
-                        let (row, column) = (rows + index + 1, field.name().clone());
+                        let row = rows_read.get(before + index).copied();
+                        let row = row.unwrap_or(before + index + 1);
+                        let column = field.name().clone();
                         return Err(LogError::MissingValue { path: path.clone(), row, column });
                     }
                     *column = None;
@@ -91,15 +108,24 @@ impl ParquetFile {
                     append(array, samples);
                 }
             }
-            rows += batch.num_rows();
         }
         let whole = columns.into_iter().filter_map(|(name, column)| Some((name, column?)));
-        Ok(Table { columns: whole.collect(), ..Table::default() })
+        Ok(Table { columns: whole.collect(), rows: rows_read })
     }
 }
 
 fn broken(path: &Path, error: &dyn std::fmt::Display) -> LogError {
     LogError::broken(path, KIND, error)
+}
+
+/// Which rows of a batch are read, as far as it has their times.
+fn is_read(batch: &RecordBatch, time: &str, excerpted: &mut Excerpted) -> Option<BooleanArray> {
+    let array = batch.column_by_name(time)?;
+    let mut times = Vec::with_capacity(array.len());
+    append(array, &mut times);
+    let times = times.into_iter().enumerate();
+    let times = times.map(|(k, time)| if array.is_null(k) { f64::NAN } else { time });
+    Some(times.map(|time| Some(excerpted.reads(time))).collect())
 }
 
 /// Indices of the numeric columns; a needed one that is not numeric is an error.

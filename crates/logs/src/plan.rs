@@ -6,15 +6,19 @@ use std::{
 use robot::{Joint, Robot};
 
 use crate::{
-    Channel, Channels, ColumnMap, LogError, MappedColumn, Mend, ReadOptions,
+    Channel, Channels, ColumnMap, Excerpt, LogError, MappedColumn, Mend, ReadOptions,
     damage::Damage,
     degrees,
     error::nearest,
+    excerpt::Excerpted,
     impossible::{few, impossible},
     log_file::LogFile,
     table::{Needed, Table},
     turns::unwrapped,
 };
+
+/// Fewest rows of a log.
+const FEWEST_ROWS: usize = 2;
 
 /// Where one signal comes from.
 pub(crate) struct Source<'a> {
@@ -37,6 +41,7 @@ pub(crate) struct Plan<'a> {
     path: PathBuf,
     pub time: Source<'a>,
     pub joints: Vec<Vec<(Channel, Source<'a>)>>,
+    excerpt: Option<Excerpt>,
 }
 
 impl<'a> Plan<'a> {
@@ -55,7 +60,8 @@ impl<'a> Plan<'a> {
         }
         let joints: Result<_, _> =
             robot.joint_names().map(|joint| finder.joint(joint, robot)).collect();
-        Ok(Self { path: path.to_owned(), time: Source { column, mapped }, joints: joints? })
+        let (time, excerpt) = (Source { column, mapped }, options.excerpt);
+        Ok(Self { path: path.to_owned(), time, joints: joints?, excerpt })
     }
 
     fn sources(&self) -> impl Iterator<Item = &Source<'a>> {
@@ -66,7 +72,24 @@ impl<'a> Plan<'a> {
     /// The columns that become signals.
     pub(crate) fn needed(&self) -> Needed<'_> {
         let signals = self.joints.iter().flatten().map(|(_, source)| source.column.as_str());
-        Needed { time: &self.time.column, signals: signals.collect() }
+        let excerpted = self.excerpt.map(|excerpt| Excerpted::new(excerpt, self.time.mapped));
+        Needed { time: &self.time.column, signals: signals.collect(), excerpted }
+    }
+
+    /// Whether an excerpt that was asked for has two rows or more.
+    ///
+    /// # Errors
+    ///
+    /// [`LogError::ExcerptTooShort`].
+    pub(crate) fn check_excerpt(&self, table: &Table) -> Result<(), LogError> {
+        let found = table.columns.get(&self.time.column).map_or(0, Vec::len);
+        match self.excerpt.filter(|_| found < FEWEST_ROWS) {
+            None => Ok(()),
+            Some(excerpt) => {
+                let (path, expected) = (self.path.clone(), FEWEST_ROWS);
+                Err(LogError::ExcerptTooShort { path, excerpt, found, expected })
+            }
+        }
     }
 
     /// Two rows or more, finite numbers, time that increases; what is not is cut off with what
@@ -78,7 +101,6 @@ impl<'a> Plan<'a> {
             damage.take(error)?;
             table.truncate(sample);
         }
-        const FEWEST_ROWS: usize = 2;
         let path = || self.path.clone();
         let time = self.time.take(&table.columns);
         if time.len() < FEWEST_ROWS {

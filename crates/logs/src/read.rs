@@ -4,7 +4,7 @@ use std::path::Path;
 use robot::Robot;
 
 use crate::{
-    ColumnMap, LogError, Mend, Run,
+    ColumnMap, Excerpt, LogError, Mend, Run,
     damage::Damage,
     even_clock::{EvenClock, even_clock},
     log_file::LogFile,
@@ -24,11 +24,13 @@ pub struct ReadOptions<'a> {
     /// The topic of a bag whose joint states are read; `/joint_states` or the only one of the type
     /// where it is left out.
     pub topic: Option<&'a str>,
+    /// The seconds that are read; the whole log where they are left out. Rows outside of them are not looked at.
+    pub excerpt: Option<Excerpt>,
 }
 
 impl Default for ReadOptions<'_> {
     fn default() -> Self {
-        Self { map: None, effort: "effort", topic: None }
+        Self { map: None, effort: "effort", topic: None, excerpt: None }
     }
 }
 
@@ -151,6 +153,7 @@ fn checked(
 ) -> Result<Run, LogError> {
     let plan = Plan::new(path, file, robot, options)?;
     let mut table = file.load(&plan.needed(), damage)?;
+    plan.check_excerpt(&table)?;
     plan.check(&mut table, damage)?;
 
     let mut mended = plan.leave_out_impossible(robot, &mut table)?;

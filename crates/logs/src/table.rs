@@ -1,11 +1,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::excerpt::Excerpted;
+
 /// The columns of a log that become signals.
 pub(crate) struct Needed<'a> {
     /// The column of time.
     pub time: &'a str,
     /// The others.
     pub signals: BTreeSet<&'a str>,
+    /// The rows that are read, where those are not all.
+    pub excerpted: Option<Excerpted<'a>>,
 }
 
 impl Needed<'_> {
@@ -24,6 +28,19 @@ pub(crate) struct Table {
 }
 
 impl Table {
+    /// The same of the rows that are needed, where all were read.
+    pub(crate) fn excerpt(mut self, needed: &Needed) -> Self {
+        let (Some(mut excerpted), Some(time)) =
+            (needed.excerpted.clone(), self.columns.get(needed.time))
+        else {
+            return self;
+        };
+        let is_outside = |k: &usize| !excerpted.reads(time[*k]);
+        let outside: Vec<usize> = (0..time.len()).filter(is_outside).collect();
+        self.leave_out(&outside);
+        self
+    }
+
     /// Leaves the first samples alone.
     pub(crate) fn truncate(&mut self, samples: usize) {
         self.columns.values_mut().for_each(|column| column.truncate(samples));
@@ -60,7 +77,8 @@ pub(crate) enum Cell {
 /// A row in which all signals are empty is left out: it is one of another topic that was
 /// written between those of the joints. Of the columns that are not needed those stay in
 /// which every other row has a number.
-pub(crate) struct Rows {
+pub(crate) struct Rows<'a> {
+    excerpted: Option<Excerpted<'a>>,
     columns: Vec<Column>,
     rows: Vec<usize>,
 }
@@ -78,9 +96,9 @@ enum Use {
     Further,
 }
 
-impl Rows {
+impl<'a> Rows<'a> {
     /// Of columns with these names; one without a name is left out.
-    pub(crate) fn new(names: &[String], needed: &Needed) -> Self {
+    pub(crate) fn new(names: &[String], needed: &Needed<'a>) -> Self {
         let column = |name: &String| Column {
             name: name.clone(),
             use_of_it: match name.as_str() {
@@ -90,7 +108,8 @@ impl Rows {
             },
             samples: (!name.is_empty()).then(Vec::new),
         };
-        Self { columns: names.iter().map(column).collect(), rows: Vec::new() }
+        let columns = names.iter().map(column).collect();
+        Self { excerpted: needed.excerpted.clone(), columns, rows: Vec::new() }
     }
 
     /// Adds a row of the file, counted from 1: one cell a column.
@@ -103,8 +122,14 @@ impl Rows {
             let all = self.columns.iter().zip(cells);
             all.filter(move |(column, _)| column.use_of_it == use_of_it).map(|(_, cell)| *cell)
         };
+        let time = of(Use::Time).next();
         let is_another_topics = of(Use::Signal).all(|cell| cell == Cell::Empty);
         if is_another_topics && of(Use::Signal).next().is_some() {
+            return Ok(());
+        }
+        if let (Some(excerpted), Some(Cell::Number(time))) = (&mut self.excerpted, time)
+            && !excerpted.reads(time)
+        {
             return Ok(());
         }
         let wrong = |(column, cell): &(&Column, &Cell)| {
@@ -141,7 +166,7 @@ mod tests {
     #[test]
     fn rows_of_another_topic_are_left_out_and_the_others_keep_their_numbers() {
         let names = ["time", "q", "command", "note", ""].map(str::to_owned);
-        let needed = Needed { time: "time", signals: BTreeSet::from(["q"]) };
+        let needed = Needed { time: "time", signals: BTreeSet::from(["q"]), excerpted: None };
         let mut rows = Rows::new(&names, &needed);
         let (n, empty) = (Cell::Number, Cell::Empty);
         rows.push(1, &[n(0.0), n(1.0), n(5.0), Cell::Text, n(1.0)]).unwrap();

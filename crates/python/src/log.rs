@@ -1,7 +1,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use cli::ColumnArguments;
+use cli::{ColumnArguments, ExcerptArguments};
 use logs::{Channel, LogError, ReadOptions, Run};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
@@ -243,7 +243,8 @@ impl Log {
             return Err(raised(LogError::Missing { path }));
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let columns = ColumnArguments { map, effort: effort.to_owned(), topic, until_damage };
+        let (effort, excerpt) = (effort.to_owned(), ExcerptArguments::default());
+        let columns = ColumnArguments { map, effort, topic, until_damage, excerpt };
         Ok(Self { name, source: Source::File(columns, path) })
     }
 

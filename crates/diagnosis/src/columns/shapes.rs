@@ -11,6 +11,9 @@ use crate::columns::design::Design;
 use crate::signals::along::Along;
 use crate::signals::log::Log;
 
+/// Germs whose columns are there at once: before they are thinned they are as long as the motion.
+const AT_ONCE: usize = 8;
+
 /// The robot with the germ of every effect whose columns are not linear in one of its
 /// parameters, of the trial value that explains most of what all effects without germs leave.
 ///
@@ -38,9 +41,13 @@ pub(crate) fn sown(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
         .into_par_iter()
         .map(|j| moved[j].then(|| Left::new(&design, j))?)
         .collect();
-    let columns = columns(&germs, &mut runs);
-    let explained: Vec<f64> =
-        columns.par_iter().map(|runs| explained(&left, runs).unwrap_or(0.0)).collect();
+    let mut explained = Vec::with_capacity(germs.len());
+    for some in germs.chunks(AT_ONCE) {
+        let columns = columns(some, &mut runs);
+        let of_each =
+            columns.into_par_iter().map(|runs| self::explained(&left, &runs).unwrap_or(0.0));
+        explained.extend(of_each.collect::<Vec<f64>>());
+    }
     let mut best: BTreeMap<Hypothesis, (f64, Germ)> = BTreeMap::new();
     for (germ, explained) in germs.into_iter().zip(explained) {
         let known = best.entry(germ.hypothesis).or_insert((explained, germ));
@@ -53,7 +60,7 @@ pub(crate) fn sown(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
     Ok(sown)
 }
 
-/// The columns of every germ, `[germ][run][weight]`.
+/// The columns of some germs, `[germ][run][weight]`.
 fn columns(germs: &[Germ], runs: &mut [Along]) -> Vec<Vec<Vec<Column>>> {
     let mut all = vec![Vec::new(); germs.len()];
     for along in runs {
