@@ -6,6 +6,7 @@ mod bad_input;
 mod campaign;
 mod commands;
 mod compare;
+mod completions;
 mod design;
 mod diagnose;
 mod export;
