@@ -17,12 +17,14 @@ mod figure;
 mod foreign_files;
 mod impossible;
 mod learn;
+mod lerobot;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;
 mod program;
 mod replay;
 mod robot_init;
 mod run;
+mod servo;
 mod simulate;
 #[cfg(target_os = "linux")]
 mod slurm;
