@@ -4,7 +4,7 @@
 //! file -> read_run -> Run -> prepare -> q, qd, qdd, effort on a uniform clock
 //! ```
 //!
-//! A run is one file, or a bag of ROS 2, with the columns `time` (s) and, per joint,
+//! A run is one file, a bag of ROS 2 or an episode of a dataset of LeRobot, with the columns `time` (s) and, per joint,
 //! `<joint>.position`, `.velocity`, `.acceleration`, `.effort`, `.desired_position`,
 //! `.desired_velocity`, `.desired_acceleration`, `.commanded_effort` and, from a second
 //! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` have to
