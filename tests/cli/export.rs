@@ -14,6 +14,7 @@ fn a_robot_is_written_in_every_format_with_what_each_leaves_out() {
         "extended.urdf: 1 exact, 0 approximated, 1 dropped",
         "extended.xml: 2 exact",
         "extended.sdf: ",
+        "extended.usda: 2 exact, 0 approximated, 0 dropped",
     ] {
         assert!(answer.out.contains(expected), "{expected} is missing in\n{}", answer.out);
     }

@@ -6,6 +6,7 @@ mod bad_input;
 mod campaign;
 mod commands;
 mod compare;
+mod completions;
 mod design;
 mod diagnose;
 mod excerpt;
@@ -17,12 +18,14 @@ mod figure;
 mod foreign_files;
 mod impossible;
 mod learn;
+mod lerobot;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;
 mod program;
 mod replay;
 mod robot_init;
 mod run;
+mod servo;
 mod simulate;
 #[cfg(target_os = "linux")]
 mod slurm;

@@ -5,7 +5,6 @@ use diagnosis::{Settings, Silent, diagnose};
 use rayon::prelude::*;
 
 use crate::world::{World, against_nominal, finding, named, sign};
-use checks::synthetic::Noise;
 
 const SEEDS: std::ops::Range<u64> = 2000..2003;
 

@@ -19,7 +19,7 @@ fn fates(format: Format, at: &str) -> Vec<String> {
 #[test]
 fn every_quantity_has_a_fate_in_every_format() {
     let counts = Format::ALL.map(|format| written(format).fates.len());
-    assert_eq!(counts, [counts[0]; 3]);
+    assert_eq!(counts, [counts[0]; 4]);
     let elbow = [
         "rotor inertia 0.0346 kg·m²",
         "Coulomb friction 0.7 N·m",
@@ -33,6 +33,7 @@ fn every_quantity_has_a_fate_in_every_format() {
     assert_eq!(of(Format::Urdf), expected(["dropped", "exact", "dropped", "dropped"]));
     assert_eq!(of(Format::Mjcf), expected(["exact", "exact", "exact", "exact"]));
     assert_eq!(of(Format::Sdf), expected(["dropped", "exact", "dropped", "exact"]));
+    assert_eq!(of(Format::Isaac), expected(["exact", "exact", "dropped", "approximated"]));
 }
 
 #[test]
@@ -65,9 +66,43 @@ fn names_are_escaped() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("arm.urdf"), &urdf).unwrap();
     let loaded = robot::Robot::load(&folder.path().join("arm.urdf")).unwrap();
-    for format in Format::ALL {
+    for format in [Format::Urdf, Format::Mjcf, Format::Sdf] {
         let text = export(&loaded, &urdf, format).unwrap().text;
         assert!(text.contains("a&lt;b &quot;c&quot;"), "{text}");
         assert!(!text.contains("a<b"), "{text}");
+    }
+    let text = export(&loaded, &urdf, Format::Isaac).unwrap().text;
+    assert!(text.contains(r#"plumbline:name = "a<b \"c\"""#), "{text}");
+    assert!(text.contains("def PhysicsRevoluteJoint \"a_b__c__2\""), "{text}");
+}
+
+/// Angles are in degrees in USD, and so are speeds of the viscous friction: 1 rad = 57.29578 deg.
+#[test]
+fn a_usd_layer_has_bodies_and_joints_with_friction_per_degree() {
+    let text = written(Format::Isaac).text;
+    assert!(text.starts_with("#usda 1.0\n(\n    defaultPrim = "), "{text}");
+    let opened = text.matches('{').count();
+    assert_eq!(
+        (opened, text.matches("def PhysicsRevoluteJoint").count()),
+        (text.matches('}').count(), 7)
+    );
+    assert_eq!(text.matches("\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"").count(), 7);
+    let number = |key: &str| -> Vec<f64> {
+        let lines = text.lines().filter(|line| line.contains(key));
+        lines.map(|line| line.rsplit(" = ").next().unwrap().parse().unwrap()).collect()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let loaded = wam_with(folder.path(), DRIVES);
+    for (k, link) in loaded.robot.links().iter().enumerate() {
+        let a = &link.actuator;
+        let mean = 0.5 * (a.coulomb_forward + a.coulomb_backward);
+        assert!((number(":dynamicFrictionEffort")[k] - mean.max(0.0)).abs() < 1e-12);
+        assert!((number(":armature")[k] - a.rotor_inertia).abs() < 1e-12);
+        let viscous = number(":viscousFrictionCoefficient")[k] * 57.29577951308232;
+        assert!((viscous - a.viscous.max(0.0)).abs() < 1e-12, "{viscous}");
+        assert!((number("physics:mass")[k] - link.inertia.mass).abs() < 1e-12);
+        let (low, _) = link.joint.limits.position.unwrap();
+        let offset = a.encoder_offset;
+        assert!((number("physics:lowerLimit")[k] - (low + offset).to_degrees()).abs() < 1e-9);
     }
 }

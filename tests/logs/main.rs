@@ -13,6 +13,7 @@ mod filter;
 mod growing;
 mod info;
 mod kinds;
+mod lerobot;
 mod link_lag;
 mod maps;
 mod matlab;

@@ -68,7 +68,7 @@ fn mistakes_are_shown_where_they_stand() {
 fn found(header: &str, name: Option<&str>) -> Option<(&'static str, Run)> {
     let file = Scratch::new("run.csv", format!("{header}\n{ROWS}"));
     let arm = two_joints();
-    let found = recognised(&file.path, &arm, name, None).unwrap()?;
+    let found = recognised(&file.path, &arm, name, &ReadOptions::default()).unwrap()?;
     let options = ReadOptions { map: Some(&found.map), ..ReadOptions::default() };
     Some((found.name, read_run(&file.path, &arm, &options).unwrap()))
 }

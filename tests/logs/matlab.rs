@@ -62,7 +62,7 @@ fn the_given_file_is_recognised_and_read() {
     let arm = robot(&joints);
     for copied in ["run.mat", "run.csv"] {
         let file = Scratch::new(copied, fs::read(&path).unwrap());
-        let found = recognised(&file.path, &arm, None, None).unwrap().unwrap();
+        let found = recognised(&file.path, &arm, None, &ReadOptions::default()).unwrap().unwrap();
         assert_eq!(found.name, "numpy");
         let options = ReadOptions { map: Some(&found.map), ..ReadOptions::default() };
         let run = read_run(&file.path, &arm, &options).unwrap();

@@ -3,8 +3,10 @@
 use std::fmt::Write as _;
 use std::io::{Cursor, Read, Write as _};
 use std::path::Path;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
+use arrow_array::types::Float64Type;
+use arrow_array::{ArrayRef, Float64Array, ListArray, RecordBatch};
 use checks::arms::workspace_root;
 use checks::mutated;
 use flate2::Compression;
@@ -13,6 +15,7 @@ use flate2::write::{GzEncoder, ZlibEncoder};
 use logs::{
     ColumnMap, PrepareSettings, ReadOptions, log_info, prepare, read_run, read_run_until_damage,
 };
+use parquet::arrow::ArrowWriter;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
@@ -31,6 +34,7 @@ pub fn readers() -> Vec<Reader> {
         of("gzip", |_| vec![gzip(csv().as_bytes())], packed),
         of("zstd", |_| vec![zstd(csv().as_bytes())], packed),
         of("Parquet", parquet, tables::changed),
+        arrays("Parquet of lists", parquet_of_lists, tables::changed),
         of("MCAP", |_| golden(&["mcap_none.mcap", "mcap_zstd.mcap", "mcap_lz4.mcap"]), binary),
         arrays("npy", |_| golden(&["numpy_records.npy"]), array),
         arrays("npz", |_| golden(&["numpy_plain.npz", "numpy_turned.npz"]), archive),
@@ -69,6 +73,24 @@ fn parquet(folder: &Path) -> Vec<Vec<u8>> {
     std::fs::write(&path, csv()).unwrap();
     let run = read_run(&path, &ROBOT, &ReadOptions::default()).unwrap();
     logs::write_parquet(&path, &run).unwrap();
+    vec![std::fs::read(&path).unwrap()]
+}
+
+/// The joints are entries of the lists `q` and `tau`.
+fn parquet_of_lists(folder: &Path) -> Vec<Vec<u8>> {
+    let path = folder.join("run.parquet");
+    let time: Vec<f64> = (0..150).map(|k| 0.01 * f64::from(k)).collect();
+    let lists = |scale: f64| -> ArrayRef {
+        let row = |t: &f64| Some([(5.0 * t).sin(), (7.0 * t).cos()].map(|x| Some(scale * x)));
+        Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(time.iter().map(row)))
+    };
+    let columns = [("q", lists(1.0)), ("tau", lists(3.0))];
+    let clock: ArrayRef = Arc::new(Float64Array::from(time.clone()));
+    let batch = RecordBatch::try_from_iter([("time", clock)].into_iter().chain(columns)).unwrap();
+    let file = std::fs::File::create(&path).unwrap();
+    let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();
+    writer.write(&batch).unwrap();
+    writer.close().unwrap();
     vec![std::fs::read(&path).unwrap()]
 }
 

@@ -7,6 +7,7 @@
 
 pub mod arms;
 pub mod golden;
+pub mod lerobot;
 pub mod mutated;
 pub mod recorded;
 pub mod round;

@@ -1,8 +1,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    compare, demo, design, diagnose, effects, explain, export, learn, log_info, replay,
-    robot_check, robot_init, run, schema, simulate, track, trials, view,
+    compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
+    replay, robot_check, robot_init, run, schema, simulate, track, trials, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -83,13 +83,14 @@ Exit codes:
 const EXPORT_EXAMPLES: &str = "\
 Examples:
   plumbline export out
-  plumbline export out --to mjcf --out models
+  plumbline export out --to mjcf,isaac --out models
   plumbline export robot.toml --to urdf,sdf --out models
 
 The folder holds
   extended.urdf  the user's own URDF with friction, inertias and origins as found
   extended.xml   an MJCF for MuJoCo, with rotors, springs and the actuators' delays as well
   extended.sdf   an SDF for Gazebo
+  extended.usda  a USD layer of bodies and joints for Isaac Sim
 
 Every quantity is printed with its fate: exact, approximated (how), dropped (why).";
 
@@ -221,6 +222,16 @@ Examples:
 The scenario is scenarios/demo.toml of the repository, or that of the robot; it and the robot are in
 the program and are written to source/ in the output folder, which plumbline run --help describes.";
 
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  plumbline completions bash > ~/.local/share/bash-completion/completions/plumbline
+  plumbline completions zsh > ~/.zfunc/_plumbline
+  plumbline completions fish > ~/.config/fish/completions/plumbline.fish";
+
+const MAN_EXAMPLES: &str = "\
+Examples:
+  plumbline man --out ~/.local/share/man/man1";
+
 const TRIALS_EXIT_CODES: &str = "\
 Exit codes:
   0  done
@@ -278,7 +289,7 @@ pub enum Command {
     /// Searches the motion that tells apart what a diagnosis could not, within the robot's limits
     #[command(after_help = format!("{DESIGN_EXAMPLES}\n\n{DESIGN_EXIT_CODES}"))]
     Design(design::Arguments),
-    /// Writes the robot with its findings as URDF, MJCF and SDF, and says what each leaves out
+    /// Writes the robot with its findings as URDF, MJCF, SDF and USD, and says what each leaves out
     #[command(after_help = format!("{EXPORT_EXAMPLES}\n\n{EXPORT_EXIT_CODES}"))]
     Export(export::Arguments),
     /// Looks at a robot description: joints, limits, masses, consistency
@@ -311,6 +322,12 @@ pub enum Command {
     View(view::Arguments),
     /// Prints the JSON schema of scenario files
     Schema(schema::Arguments),
+    /// Prints the script with which a shell completes commands and options
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions(completions::Arguments),
+    /// Writes a manual page for the program and for every command
+    #[command(after_help = MAN_EXAMPLES)]
+    Man(man::Arguments),
 }
 
 /// Commands on a robot description.

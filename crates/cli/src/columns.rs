@@ -1,4 +1,5 @@
 use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -13,7 +14,7 @@ use crate::output::warn;
 #[derive(Debug, clap::Args)]
 pub struct ColumnArguments {
     /// Names and units of columns that are called otherwise: a file (TOML), or ur, franka,
-    /// plotjuggler or numpy for what these programs write
+    /// plotjuggler, lerobot or numpy for what these programs write
     #[arg(long, value_name = "FILE|NAME")]
     pub map: Option<PathBuf>,
     /// The effort is read from the columns `<joint>.COLUMN`
@@ -22,6 +23,9 @@ pub struct ColumnArguments {
     /// The topic of a bag whose joint states are read [default: /joint_states, or the only one]
     #[arg(long, value_name = "NAME")]
     pub topic: Option<String>,
+    /// Episodes of a dataset of LeRobot, such as 0-4,7; each is a run [default: all]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = episodes)]
+    pub episodes: Vec<RangeInclusive<u64>>,
     /// Read a damaged log up to where it is damaged, and say where; without it, it is refused
     #[arg(long)]
     pub until_damage: bool,
@@ -58,7 +62,32 @@ impl ColumnArguments {
     /// [`CliError::Log`] of the first file that cannot be used, or of the map.
     pub fn read_runs(&self, paths: &[PathBuf], robot: &Robot) -> Result<Vec<Run>, CliError> {
         let reader = self.reader()?;
-        paths.iter().map(|path| reader.read(path, robot)).collect()
+        let mut runs = Vec::new();
+        for path in paths {
+            for episode in self.episodes_of(path)? {
+                runs.push(reader.read(path, episode, robot)?);
+            }
+        }
+        Ok(runs)
+    }
+
+    /// The runs at a path: of a dataset of LeRobot the episodes that are asked for, of any other log
+    /// one, which is no episode.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Log`], and [`CliError::NoEpisode`] where episodes are asked for that are not there.
+    pub fn episodes_of(&self, path: &Path) -> Result<Vec<Option<u64>>, CliError> {
+        let all = logs::episodes(path)?;
+        if self.episodes.is_empty() {
+            return Ok(all);
+        }
+        let is_asked = |episode: u64| self.episodes.iter().any(|range| range.contains(&episode));
+        let asked: Vec<_> = all.iter().copied().filter(|e| e.is_some_and(is_asked)).collect();
+        if asked.is_empty() {
+            return Err(CliError::NoEpisode { path: path.to_owned() });
+        }
+        Ok(asked)
     }
 
     /// The file of the map, if it is one.
@@ -88,26 +117,26 @@ pub struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// How a log is read with the map of a file, or without one.
-    pub fn options(&self) -> ReadOptions<'_> {
+    /// How a log, or an episode of a dataset, is read with the map of a file, or without one.
+    pub fn options(&self, episode: Option<u64>) -> ReadOptions<'_> {
         let ColumnArguments { effort, topic, excerpt, .. } = self.arguments;
         let (topic, excerpt) = (topic.as_deref(), excerpt.excerpt());
-        ReadOptions { map: self.map.as_ref(), effort, topic, excerpt }
+        ReadOptions { map: self.map.as_ref(), effort, topic, excerpt, episode }
     }
 
-    /// The run of a file.
+    /// The run of a file, or of an episode of a dataset.
     ///
     /// Where the usual columns are not there and those of a program that is known are, these are
     /// read, and said.
-    pub fn read(&self, path: &Path, robot: &Robot) -> Result<Run, CliError> {
-        let topic = self.arguments.topic.as_deref();
+    pub fn read(&self, path: &Path, episode: Option<u64>, robot: &Robot) -> Result<Run, CliError> {
+        let options = self.options(episode);
         if let Some(name) = self.arguments.preset() {
-            let Some(found) = logs::recognised(path, robot, Some(name), topic)? else {
-                return Ok(self.read_with(path, robot, &self.options())?);
+            let Some(found) = logs::recognised(path, robot, Some(name), &options)? else {
+                return Ok(self.read_with(path, robot, &options)?);
             };
-            return self.read_as(path, robot, &found);
+            return self.read_as(path, robot, &options, &found);
         }
-        let error = match self.read_with(path, robot, &self.options()) {
+        let error = match self.read_with(path, robot, &options) {
             Ok(run) => return Ok(run),
             Err(error) => error,
         };
@@ -115,17 +144,23 @@ impl Reader<'_> {
         if self.map.is_some() || !is_named {
             return Err(error.into());
         }
-        match logs::recognised(path, robot, None, topic)? {
+        match logs::recognised(path, robot, None, &options)? {
             Some(found) => {
                 self.tell(&found);
-                self.read_as(path, robot, &found)
+                self.read_as(path, robot, &options, &found)
             }
             None => Err(error.into()),
         }
     }
 
-    fn read_as(&self, path: &Path, robot: &Robot, found: &Recognised) -> Result<Run, CliError> {
-        let options = ReadOptions { map: Some(&found.map), ..self.options() };
+    fn read_as(
+        &self,
+        path: &Path,
+        robot: &Robot,
+        options: &ReadOptions,
+        found: &Recognised,
+    ) -> Result<Run, CliError> {
+        let options = ReadOptions { map: Some(&found.map), ..*options };
         Ok(self.read_with(path, robot, &options)?)
     }
 
@@ -153,4 +188,13 @@ impl Reader<'_> {
             anstream::eprintln!("note: {note}");
         }
     }
+}
+
+/// Episodes of an option: one, or those from one to another.
+fn episodes(text: &str) -> Result<RangeInclusive<u64>, String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    let number = |text: &str| text.trim().parse::<u64>().ok();
+    let range = number(first).zip(number(last)).filter(|(first, last)| first <= last);
+    let (first, last) = range.ok_or("a number or FIRST-LAST was expected")?;
+    Ok(first..=last)
 }

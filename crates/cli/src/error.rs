@@ -130,6 +130,12 @@ pub enum CliError {
         /// The folder.
         path: PathBuf,
     },
+    /// A log has none of the episodes that were asked for.
+    #[error("{}: it has none of the episodes that --episodes asks for; a dataset of LeRobot that has them was expected", path.display())]
+    NoEpisode {
+        /// The log.
+        path: PathBuf,
+    },
     /// A file that may have been worked on is there.
     #[error("{}: it is there already", path.display())]
     Exists {
@@ -258,6 +264,7 @@ impl CliError {
             | Self::NoJoints { .. }
             | Self::Unlisted { .. }
             | Self::Exchange(_)
+            | Self::NoEpisode { .. }
             | Self::NothingToExport { .. }
             | Self::NothingToView { .. }
             | Self::OtherRobot { .. } => 3,

@@ -24,8 +24,8 @@ use clap::Parser;
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
-    compare, demo, design, diagnose, effects, explain, export, learn, log_info, replay,
-    robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
+    compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
+    replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
 };
 
 pub use crate::columns::{ColumnArguments, ExcerptArguments};
@@ -81,5 +81,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Trials(action) => trials::run(action),
         Command::View(arguments) => view::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
+        Command::Completions(arguments) => completions::run(arguments),
+        Command::Man(arguments) => man::run(arguments),
     }
 }

@@ -4,7 +4,7 @@ use crate::error::ExchangeError;
 use crate::fate::{Fate, Fated};
 use crate::quantity::{Quantity, quantities};
 use crate::reported::as_reported;
-use crate::{mjcf, sdf, urdf, urdf_written};
+use crate::{mjcf, sdf, urdf, urdf_written, usda, usda_joint};
 
 /// A format of robot descriptions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,11 +15,13 @@ pub enum Format {
     Mjcf,
     /// The Simulation Description Format of Gazebo.
     Sdf,
+    /// A text layer of Universal Scene Description with the schemas of PhysX, for Isaac Sim.
+    Isaac,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Urdf, Self::Mjcf, Self::Sdf];
+    pub const ALL: [Self; 4] = [Self::Urdf, Self::Mjcf, Self::Sdf, Self::Isaac];
 
     /// Its name in small letters.
     pub fn name(self) -> &'static str {
@@ -27,6 +29,7 @@ impl Format {
             Self::Urdf => "urdf",
             Self::Mjcf => "mjcf",
             Self::Sdf => "sdf",
+            Self::Isaac => "isaac",
         }
     }
 
@@ -36,6 +39,7 @@ impl Format {
             Self::Urdf => "urdf",
             Self::Mjcf => "xml",
             Self::Sdf => "sdf",
+            Self::Isaac => "usda",
         }
     }
 }
@@ -65,6 +69,7 @@ pub fn export(loaded: &Loaded, source: &str, format: Format) -> Result<Export, E
         Format::Urdf => urdf_written::written(loaded, &robot),
         Format::Mjcf => mjcf::written(loaded, &robot),
         Format::Sdf => sdf::written(loaded, &robot),
+        Format::Isaac => usda::written(loaded, &robot),
     };
     Ok(Export { text, fates: fates(loaded, format) })
 }
@@ -79,12 +84,14 @@ fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
             Format::Urdf => Fate::dropped("a URDF has no gravity: turn the base by as much"),
             Format::Mjcf => Fate::exact("<option gravity>"),
             Format::Sdf => Fate::near("<pose> of the model; its length is the world's"),
+            Format::Isaac => Fate::exact("gravityDirection, gravityMagnitude of a PhysicsScene"),
         };
         let what = format!("gravity ({x}, {y}, {z}) m/s²");
         fates.push(Fated { at: "robot".to_owned(), what, fate });
     }
     for (link, old) in robot.links().iter().zip(loaded.robot_in_urdf.links()) {
-        let is_impossible = format == Format::Mjcf && !link.inertia.defects().is_empty();
+        let is_told = matches!(format, Format::Mjcf | Format::Isaac);
+        let is_impossible = is_told && !link.inertia.defects().is_empty();
         if link.inertia != old.inertia || is_impossible {
             fates.push(inertia(link, format));
         }
@@ -93,6 +100,7 @@ fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
                 Format::Urdf => urdf::fate(quantity),
                 Format::Mjcf => mjcf::fate(quantity, link),
                 Format::Sdf => sdf::fate(quantity),
+                Format::Isaac => usda_joint::fate(quantity, link),
             };
             fates.push(Fated { at: link.joint.name.clone(), what, fate });
         }
@@ -117,6 +125,10 @@ fn inertia(link: &Link, format: Format) -> Fated {
         (Format::Mjcf, false) => {
             Fate::near("no body has such moments: they are raised to what MuJoCo takes")
         }
+        (Format::Isaac, false) => Fate::near(
+            "no body has such moments: those below 0 are written as 0, which PhysX fills in",
+        ),
+        (Format::Isaac, true) => Fate::exact("PhysicsMassAPI"),
         _ => Fate::exact("<inertial>"),
     };
     let what = format!("mass {} kg, centre, moments", crate::numbers::size(link.inertia.mass));

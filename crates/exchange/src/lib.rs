@@ -1,7 +1,7 @@
 //! A robot in the files of other programs.
 //!
 //! ```text
-//! Loaded (robot.urdf + robot.toml) -> export -> text of a URDF, an MJCF or an SDF
+//! Loaded (robot.urdf + robot.toml) -> export -> text of a URDF, an MJCF, an SDF or a USD layer
 //!                                           \-> fates: exact, approximated, dropped
 //! ```
 //!
@@ -21,6 +21,9 @@ mod sheet;
 mod urdf;
 mod urdf_joint;
 mod urdf_written;
+mod usd_text;
+mod usda;
+mod usda_joint;
 
 pub use error::ExchangeError;
 pub use export::{Export, Format, export};

@@ -98,6 +98,16 @@ pub enum LogError {
         /// The topics.
         found: Vec<String>,
     },
+    /// A dataset has another number of episodes than one, or none of the number that was asked for.
+    #[error("{}: {}, it has {}", path.display(), asked_episode(*asked), episodes(found))]
+    Episode {
+        /// The folder.
+        path: PathBuf,
+        /// The episode that was asked for.
+        asked: Option<u64>,
+        /// The episodes that there are.
+        found: Vec<u64>,
+    },
     /// A message of a bag cannot be read.
     #[error("{}: message {message} of {topic} cannot be read: {reason}", path.display())]
     BadMessage {
@@ -426,6 +436,22 @@ fn hint(nearest: Option<&str>) -> String {
     // A message stays one line, whatever the names in the file hold.
     let plain = |name: &str| name.replace(char::is_control, " ");
     nearest.map(|name| format!("; did you mean {}?", plain(name))).unwrap_or_default()
+}
+
+fn asked_episode(asked: Option<u64>) -> String {
+    match asked {
+        Some(episode) => format!("there is no episode {episode}"),
+        None => "a run is one episode of the dataset".to_owned(),
+    }
+}
+
+/// Episodes in their order, in a few words.
+fn episodes(found: &[u64]) -> String {
+    match found {
+        [] => "none".to_owned(),
+        [only] => only.to_string(),
+        [first, .., last] => format!("{} from {first} to {last}", found.len()),
+    }
 }
 
 /// A number in at most some twenty characters.

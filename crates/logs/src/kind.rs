@@ -113,6 +113,12 @@ pub(crate) const NO_MCAP: Stranger =
 pub(crate) const NOT_MCAP: Stranger =
     Stranger { found: "CSV or another kind of log", advice: "in a bag MCAP was expected" };
 
+/// What stands in a dataset of LeRobot under the name of a Parquet file.
+pub(crate) const NOT_PARQUET: Stranger = Stranger {
+    found: "CSV or another kind of log",
+    advice: "in a dataset of LeRobot Parquet was expected",
+};
+
 /// What a zip archive is that holds no array of NumPy, by the names of its entries.
 pub(crate) fn of_archive(names: &[String]) -> Stranger {
     let known = |(ends, ..): &&(&str, &str, &str)| names.iter().any(|name| name.ends_with(ends));

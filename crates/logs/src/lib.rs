@@ -4,7 +4,7 @@
 //! file -> read_run -> Run -> prepare -> q, qd, qdd, effort on a uniform clock
 //! ```
 //!
-//! A run is one file, or a bag of ROS 2, with the columns `time` (s) and, per joint,
+//! A run is one file, a bag of ROS 2 or an episode of a dataset of LeRobot, with the columns `time` (s) and, per joint,
 //! `<joint>.position`, `.velocity`, `.acceleration`, `.effort`, `.desired_position`,
 //! `.desired_velocity`, `.desired_acceleration`, `.commanded_effort` and, from a second
 //! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` have to
@@ -18,11 +18,14 @@
 
 mod agreement;
 mod allowance;
+mod array_numbers;
 mod bag;
 mod cdr;
 mod choice;
 mod clock;
+mod collected;
 mod column_map;
+mod content;
 mod csv_file;
 mod cutoff;
 mod damage;
@@ -43,7 +46,9 @@ mod joint_state;
 mod joint_states;
 mod kind;
 mod lattice;
+mod lerobot;
 mod link_lag;
+mod list_column;
 mod literal;
 mod log_file;
 mod map_entry;
@@ -61,6 +66,7 @@ mod numpy_array;
 mod numpy_file;
 mod parquet_file;
 mod plan;
+mod position_loop;
 mod prepare;
 mod prepared;
 mod presets;
@@ -95,7 +101,7 @@ pub use noise::{ChannelNoise, JointNoise, NoiseSource};
 pub use prepare::{PrepareSettings, prepare};
 pub use prepared::{Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide};
 pub use presets::{Recognised, preset_names, recognised};
-pub use read::{ReadOptions, read_run, read_run_until_damage, run_of_columns};
+pub use read::{ReadOptions, episodes, read_run, read_run_until_damage, run_of_columns};
 pub use rest::rest_speeds;
 pub use run::{Channel, Channels, Run};
 pub use unit::Unit;

@@ -2,7 +2,7 @@ use std::{
     collections::{BTreeMap, BTreeSet},
     fs::{self, File},
     io::{self, Read},
-    path::Path,
+    path::{Path, PathBuf},
 };
 
 use sha2::{Digest, Sha256};
@@ -10,14 +10,15 @@ use sha2::{Digest, Sha256};
 use crate::{
     LogError, ReadOptions,
     bag::{self, Bag},
+    content::content,
     csv_file::CsvFile,
     damage::Damage,
-    kind::{FIRST_BYTES, Kind, NOT_MCAP, TWICE, UNKNOWN},
+    kind::{Kind, NOT_MCAP, TWICE},
+    lerobot::{self, LeRobot},
     matlab_file::MatlabFile,
     numpy_file::NumpyFile,
-    parquet_file::{self, ParquetFile},
+    parquet_file::ParquetFile,
     table::{Needed, Table},
-    unpacked::unpacked,
 };
 
 /// A log that is opened, by its kind.
@@ -27,12 +28,13 @@ pub(crate) enum LogFile {
     Numpy(NumpyFile),
     Matlab(MatlabFile),
     Bag(Bag),
+    LeRobot(LeRobot),
     /// Columns that were never a file.
     Columns(BTreeMap<String, Vec<f64>>),
 }
 
 impl LogFile {
-    /// Opens a file, or the folder of a bag; a kind is seen from the first bytes.
+    /// Opens a file, or the folder of a bag or a dataset; a kind is seen from the first bytes.
     pub(crate) fn open(
         path: &Path,
         options: &ReadOptions,
@@ -69,6 +71,9 @@ impl LogFile {
         options: &ReadOptions,
         damage: &mut Damage,
     ) -> Result<Self, LogError> {
+        if lerobot::is_dataset(path) {
+            return Ok(Self::LeRobot(LeRobot::open(path, options.episode)?));
+        }
         let mut files = Vec::new();
         for path in bag::files_of(path)? {
             match content(&path)? {
@@ -87,6 +92,7 @@ impl LogFile {
             Self::Numpy(numpy) => numpy.names(),
             Self::Matlab(matlab) => matlab.names(),
             Self::Bag(bag) => bag.names().to_vec(),
+            Self::LeRobot(dataset) => dataset.names().to_vec(),
             Self::Columns(columns) => columns.keys().cloned().collect(),
         };
         let mut seen = BTreeSet::new();
@@ -103,7 +109,11 @@ impl LogFile {
         match self {
             Self::Csv(csv) => csv.is_unnamed(),
             Self::Numpy(numpy) => numpy.is_unnamed(),
-            Self::Parquet(_) | Self::Matlab(_) | Self::Bag(_) | Self::Columns(_) => false,
+            Self::Parquet(_)
+            | Self::Matlab(_)
+            | Self::Bag(_)
+            | Self::LeRobot(_)
+            | Self::Columns(_) => false,
         }
     }
 
@@ -120,16 +130,22 @@ impl LogFile {
             Self::Numpy(numpy) => Ok(numpy.load(needed)?.excerpt(needed)),
             Self::Matlab(matlab) => Ok(matlab.load(needed)?.excerpt(needed)),
             Self::Bag(bag) => bag.load(needed),
+            Self::LeRobot(dataset) => dataset.load(needed),
             Self::Columns(columns) => {
                 Ok(Table { columns: columns.clone(), ..Table::default() }.excerpt(needed))
             }
         }
     }
 
-    /// SHA-256 of the file at `path`, in hexadecimal; of columns that were never one, that of their
-    /// names and numbers.
+    /// SHA-256 of the file at `path`, or of the files of a bag or an episode one after the other, in
+    /// hexadecimal; of columns that were never a file, that of their names and numbers.
     pub(crate) fn sha256(&self, path: &Path) -> Result<String, LogError> {
-        let Self::Columns(columns) = self else { return sha256(path) };
+        let columns = match self {
+            Self::Columns(columns) => columns,
+            Self::LeRobot(dataset) => return sha256_of(dataset.paths().map(Path::to_owned)),
+            _ if path.is_dir() => return sha256_of(bag::files_of(path)?.into_iter()),
+            _ => return sha256_of(std::iter::once(path.to_owned())),
+        };
         let mut hasher = Sha256::new();
         for (name, samples) in columns {
             hasher.update(format!("{name} {}\n", samples.len()));
@@ -139,39 +155,10 @@ impl LogFile {
     }
 }
 
-/// What is in a file: itself, or what was packed.
-fn content(path: &Path) -> Result<(Kind, File), LogError> {
-    let file = File::open(path).map_err(|e| LogError::unreadable(path, &e))?;
-    let mut first = Vec::new();
-    (&file)
-        .take(FIRST_BYTES)
-        .read_to_end(&mut first)
-        .map_err(|e| LogError::unreadable(path, &e))?;
-    match kind(path, &first)? {
-        Kind::Packed(packing) => unpacked(path, file, packing, |first| kind(path, first)),
-        kind => Ok((kind, file)),
-    }
-}
-
-/// The kind of a file that begins with these bytes.
-fn kind(path: &Path, first: &[u8]) -> Result<Kind, LogError> {
-    if first.is_empty() {
-        return Err(LogError::Empty { path: path.to_owned() });
-    }
-    let called_parquet = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"));
-    Kind::of(first).map_err(|stranger| {
-        if stranger == UNKNOWN && called_parquet {
-            return LogError::broken(path, parquet_file::KIND, &"it does not begin with PAR1");
-        }
-        LogError::other_kind(path, stranger)
-    })
-}
-
-/// SHA-256 of a file, or of the files of a bag one after the other, in hexadecimal.
-fn sha256(path: &Path) -> Result<String, LogError> {
+/// SHA-256 of files one after the other, in hexadecimal.
+fn sha256_of(files: impl Iterator<Item = PathBuf>) -> Result<String, LogError> {
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
-    let files = if path.is_dir() { bag::files_of(path)? } else { vec![path.to_owned()] };
     for path in files {
         let mut file = File::open(&path).map_err(|e| LogError::unreadable(&path, &e))?;
         loop {

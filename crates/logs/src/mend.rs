@@ -1,6 +1,6 @@
 use std::fmt;
 
-/// What was put right in a run while it was read.
+/// What was put right in a run, or computed for it, while it was read.
 ///
 /// Rows are those of the file, counted from 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,8 @@ pub enum Mend {
         /// How far a stamp was off it at most (s).
         largest_s: f64,
     },
+    /// Efforts that are not in the log: those of the position loop of `robot.toml`.
+    FromPositionLoop,
     /// Full turns by which a position jumps, which are taken out.
     Turns {
         /// The column.
@@ -51,6 +53,11 @@ impl fmt::Display for Mend {
                 "its stamps are up to {:.3} ms off an even clock of {:.4} ms, which is taken instead of them",
                 1e3 * largest_s,
                 1e3 * step_s
+            ),
+            Self::FromPositionLoop => f.write_str(
+                "no effort was measured: it is taken as kp (goal - q) - kd qd with the gains of effort_source in \
+                 robot.toml. Every size in N m is one in units of these gains: the scale of all efforts cannot be \
+                 known from such a log, and a torque constant is the error of a gain as well as that of a motor",
             ),
             Self::Turns { column, row, count } => {
                 let more =

@@ -1,28 +1,25 @@
 use std::{
-    collections::BTreeMap,
+    collections::BTreeSet,
     fs::File,
+    ops::Range,
     path::{Path, PathBuf},
 };
 
-use arrow_array::{
-    Array, ArrowPrimitiveType, BooleanArray, RecordBatch,
-    cast::AsArray,
-    types::{
-        Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
-        UInt32Type, UInt64Type,
-    },
-};
+use arrow_array::{Array, BooleanArray, RecordBatch};
 use arrow_schema::{DataType, Schema};
 use arrow_select::filter::filter_record_batch;
 use parquet::arrow::{
     ProjectionMask,
-    arrow_reader::{ArrowReaderOptions, ParquetRecordBatchReaderBuilder},
+    arrow_reader::{ArrowReaderOptions, ParquetRecordBatchReaderBuilder, RowSelection},
 };
 
 use crate::{
     LogError,
+    array_numbers::{append, is_number},
+    collected::Collected,
     excerpt::Excerpted,
     guarded::guarded,
+    list_column,
     table::{Needed, Table},
 };
 
@@ -31,6 +28,13 @@ const BATCH_ROWS: usize = 4096;
 
 /// What a damaged file is called.
 pub(crate) const KIND: &str = "Parquet";
+
+/// What becomes of columns of numbers that are not needed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Further {
+    Read,
+    LeftOut,
+}
 
 type Builder = ParquetRecordBatchReaderBuilder<File>;
 
@@ -45,17 +49,64 @@ impl ParquetFile {
         Self { path: path.to_owned(), file }
     }
 
-    /// Names of the columns, in the order of the file.
+    /// The file.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Names of the columns, in the order of the file. A column `q` of lists is `q[0]`, `q[1]` and
+    /// so on, as many as the list of the first row has numbers.
     pub(crate) fn names(&self) -> Result<Vec<String>, LogError> {
-        guarded(&self.path, KIND, || {
-            Ok(self.builder()?.schema().fields().iter().map(|f| f.name().clone()).collect())
-        })
+        guarded(&self.path, KIND, || self.read_names())
+    }
+
+    fn read_names(&self) -> Result<Vec<String>, LogError> {
+        let builder = self.builder()?;
+        let schema = builder.schema().clone();
+        let lists = (0..schema.fields().len()).filter(|&k| is_list(schema.field(k).data_type()));
+        let mask = ProjectionMask::roots(builder.parquet_schema(), lists);
+        let first = builder.with_projection(mask).with_limit(1).build();
+        let first = first.map_err(|e| broken(&self.path, &e))?.next().transpose();
+        let first = first.map_err(|e| broken(&self.path, &e))?;
+        let numbers = |name: &str| list_column::width(first.as_ref()?.column_by_name(name)?);
+        let mut names = Vec::new();
+        for field in schema.fields() {
+            match numbers(field.name()) {
+                Some(width) => {
+                    names.extend((0..width).map(|k| list_column::part_name(field.name(), k)));
+                }
+                None => names.push(field.name().clone()),
+            }
+        }
+        Ok(names)
     }
 
     /// Columns by name: those that are needed, which must be numeric and without nulls, and of
-    /// the rest those that are.
+    /// the rest those that are. Of columns of lists those are read that something is needed of.
     pub(crate) fn load(&self, needed: &Needed) -> Result<Table, LogError> {
-        guarded(&self.path, KIND, || self.decode(needed))
+        self.load_rows(needed, None)
+    }
+
+    /// Likewise, of some rows of the file alone.
+    pub(crate) fn load_rows(
+        &self,
+        needed: &Needed,
+        rows: Option<&[Range<usize>]>,
+    ) -> Result<Table, LogError> {
+        guarded(&self.path, KIND, || self.decode(needed, rows, Further::Read))
+    }
+
+    /// One column of numbers alone.
+    pub(crate) fn load_column(&self, column: &str) -> Result<Vec<f64>, LogError> {
+        let absent = || LogError::NoColumn {
+            path: self.path.clone(),
+            column: column.to_owned(),
+            purpose: "the episode of every row was expected there".to_owned(),
+            nearest: None,
+        };
+        let needed = Needed { time: column, signals: BTreeSet::new(), excerpted: None };
+        let mut table = guarded(&self.path, KIND, || self.decode(&needed, None, Further::LeftOut))?;
+        table.columns.remove(column).ok_or_else(absent)
     }
 
     fn builder(&self) -> Result<Builder, LogError> {
@@ -66,51 +117,52 @@ impl ParquetFile {
         Builder::try_new_with_options(file, options).map_err(|e| broken(&self.path, &e))
     }
 
-    fn decode(&self, needed: &Needed) -> Result<Table, LogError> {
-        let (path, builder) = (&self.path, self.builder()?);
-        let wanted = wanted(path, builder.schema(), needed)?;
+    fn decode(
+        &self,
+        needed: &Needed,
+        rows: Option<&[Range<usize>]>,
+        further: Further,
+    ) -> Result<Table, LogError> {
+        let (path, mut builder) = (&self.path, self.builder()?);
+        let mut wanted = wanted(path, builder.schema(), needed)?;
+        if further == Further::LeftOut {
+            wanted.retain(|&index| needed.contains(builder.schema().field(index).name()));
+        }
         let mask = ProjectionMask::roots(builder.parquet_schema(), wanted);
+        if let Some(rows) = rows {
+            let all = usize::try_from(builder.metadata().file_metadata().num_rows()).unwrap_or(0);
+            let selected = RowSelection::from_consecutive_ranges(rows.iter().cloned(), all);
+            builder = builder.with_row_selection(selected);
+        }
         let batches = builder
             .with_projection(mask)
             .with_batch_size(BATCH_ROWS)
             .build()
             .map_err(|e| broken(path, &e))?;
-        let mut columns: BTreeMap<String, Option<Vec<f64>>> = BTreeMap::new();
         let mut excerpted = needed.excerpted.clone();
-        let (mut rows, mut rows_read) = (0, Vec::new());
+        let mut collected = Collected::default();
         for batch in batches {
             let batch = batch.map_err(|e| broken(path, &e))?;
-            let first = rows + 1;
-            rows += batch.num_rows();
-            let is_read = |excerpted| is_read(&batch, needed.time, excerpted);
-            let (batch, before) = match excerpted.as_mut().and_then(is_read) {
-                None => (batch, first - 1),
+            let is_read = excerpted.as_mut().and_then(|e| is_read(&batch, needed.time, e));
+            collected.see(batch.num_rows(), is_read.as_ref());
+            let batch = match is_read {
+                None => batch,
                 Some(is_read) => {
-                    let before = rows_read.len();
-                    let own = (first..).zip(is_read.values()).filter(|(_, is_read)| *is_read);
-                    rows_read.extend(own.map(|(row, _)| row));
-                    (filter_record_batch(&batch, &is_read).map_err(|e| broken(path, &e))?, before)
+                    filter_record_batch(&batch, &is_read).map_err(|e| broken(path, &e))?
                 }
             };
             for (field, array) in batch.schema().fields().iter().zip(batch.columns()) {
-                let column =
-                    columns.entry(field.name().clone()).or_insert_with(|| Some(Vec::new()));
-                if let Some(index) = first_null(array) {
-                    if needed.contains(field.name()) {
-                        let row = rows_read.get(before + index).copied();
-                        let row = row.unwrap_or(before + index + 1);
-                        let column = field.name().clone();
-                        return Err(LogError::MissingValue { path: path.clone(), row, column });
-                    }
-                    *column = None;
-                }
-                if let Some(samples) = column {
-                    append(array, samples);
+                let parts = list_column::parts(field.name(), array).map_err(|found| {
+                    let (path, column) = (path.clone(), field.name().clone());
+                    LogError::ColumnType { path, column, found }
+                })?;
+                for (name, array) in parts {
+                    collected.add(path, &name, &array, needed)?;
                 }
             }
+            collected.next(batch.num_rows());
         }
-        let whole = columns.into_iter().filter_map(|(name, column)| Some((name, column?)));
-        Ok(Table { columns: whole.collect(), rows: rows_read })
+        collected.finish(path, needed)
     }
 }
 
@@ -132,7 +184,11 @@ fn is_read(batch: &RecordBatch, time: &str, excerpted: &mut Excerpted) -> Option
 fn wanted(path: &Path, schema: &Schema, needed: &Needed) -> Result<Vec<usize>, LogError> {
     let mut wanted = Vec::new();
     for (index, field) in schema.fields().iter().enumerate() {
-        if field.data_type().is_integer() || is_float(field.data_type()) {
+        let is_needed_list = || {
+            let parts = format!("{}[", field.name());
+            is_list(field.data_type()) && needed.signals.iter().any(|s| s.starts_with(&parts))
+        };
+        if is_number(field.data_type()) || is_needed_list() {
             wanted.push(index);
         } else if needed.contains(field.name()) {
             return Err(LogError::ColumnType {
@@ -145,36 +201,7 @@ fn wanted(path: &Path, schema: &Schema, needed: &Needed) -> Result<Vec<usize>, L
     Ok(wanted)
 }
 
-fn is_float(kind: &DataType) -> bool {
-    matches!(kind, DataType::Float32 | DataType::Float64)
-}
-
-fn first_null(array: &dyn Array) -> Option<usize> {
-    let nulls = array.nulls().filter(|n| n.null_count() > 0)?;
-    nulls.iter().position(|valid| !valid)
-}
-
-/// Appends an array of one of the types that [`wanted`] lets through.
-fn append(array: &dyn Array, samples: &mut Vec<f64>) {
-    match array.data_type() {
-        DataType::Float64 => extend::<Float64Type>(array, samples, |x| x),
-        DataType::Float32 => extend::<Float32Type>(array, samples, f64::from),
-        DataType::Int8 => extend::<Int8Type>(array, samples, f64::from),
-        DataType::Int16 => extend::<Int16Type>(array, samples, f64::from),
-        DataType::Int32 => extend::<Int32Type>(array, samples, f64::from),
-        DataType::Int64 => extend::<Int64Type>(array, samples, |x| x as f64),
-        DataType::UInt8 => extend::<UInt8Type>(array, samples, f64::from),
-        DataType::UInt16 => extend::<UInt16Type>(array, samples, f64::from),
-        DataType::UInt32 => extend::<UInt32Type>(array, samples, f64::from),
-        DataType::UInt64 => extend::<UInt64Type>(array, samples, |x| x as f64),
-        _ => {}
-    }
-}
-
-fn extend<T: ArrowPrimitiveType>(
-    array: &dyn Array,
-    samples: &mut Vec<f64>,
-    convert: fn(T::Native) -> f64,
-) {
-    samples.extend(array.as_primitive::<T>().values().iter().map(|&x| convert(x)));
+/// Whether these are lists of numbers.
+fn is_list(kind: &DataType) -> bool {
+    matches!(kind, DataType::List(entry) if is_number(entry.data_type()))
 }

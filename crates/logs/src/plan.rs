@@ -3,7 +3,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use robot::{Joint, Robot};
+use robot::{Joint, Link, Robot};
 
 use crate::{
     Channel, Channels, ColumnMap, Excerpt, LogError, MappedColumn, Mend, ReadOptions,
@@ -13,6 +13,7 @@ use crate::{
     excerpt::Excerpted,
     impossible::{few, impossible},
     log_file::LogFile,
+    position_loop,
     table::{Needed, Table},
     turns::unwrapped,
 };
@@ -42,6 +43,8 @@ pub(crate) struct Plan<'a> {
     pub time: Source<'a>,
     pub joints: Vec<Vec<(Channel, Source<'a>)>>,
     excerpt: Option<Excerpt>,
+    /// Whether efforts are those of the position loop of the robot.
+    pub is_effort_computed: bool,
 }
 
 impl<'a> Plan<'a> {
@@ -60,8 +63,13 @@ impl<'a> Plan<'a> {
         }
         let joints: Result<_, _> =
             robot.joint_names().map(|joint| finder.joint(joint, robot)).collect();
-        let (time, excerpt) = (Source { column, mapped }, options.excerpt);
-        Ok(Self { path: path.to_owned(), time, joints: joints?, excerpt })
+        Ok(Self {
+            path: path.to_owned(),
+            time: Source { column, mapped },
+            joints: joints?,
+            excerpt: options.excerpt,
+            is_effort_computed: finder.is_effort_computed(robot),
+        })
     }
 
     fn sources(&self) -> impl Iterator<Item = &Source<'a>> {
@@ -135,14 +143,18 @@ impl<'a> Plan<'a> {
 
     /// The signals of every joint.
     pub(crate) fn channels(&self, robot: &Robot, table: &Table) -> Vec<Channels> {
-        let of = |(joint, sources): (&str, &Vec<(Channel, Source)>)| {
-            let mut channels = Channels { name: joint.to_owned(), ..Channels::default() };
+        let time = self.time.take(&table.columns);
+        let of = |(link, sources): (&Link, &Vec<(Channel, Source)>)| {
+            let mut channels = Channels { name: link.joint.name.clone(), ..Channels::default() };
             for (channel, source) in sources {
                 channels.set(*channel, source.take(&table.columns));
             }
+            if let Some(gain) = link.actuator.position_loop.filter(|_| self.is_effort_computed) {
+                channels.effort = position_loop::effort(gain, &time, &channels);
+            }
             channels
         };
-        robot.joint_names().zip(&self.joints).map(of).collect()
+        robot.links().iter().zip(&self.joints).map(of).collect()
     }
 
     /// Leaves out the rows with samples that cannot be.
@@ -261,21 +273,44 @@ struct Finder<'f, 'a> {
 impl<'a> Finder<'_, 'a> {
     fn joint(&self, joint: &str, robot: &Robot) -> Result<Vec<(Channel, Source<'a>)>, LogError> {
         let mut sources = Vec::new();
-        for channel in Channel::ALL {
+        let is_computed = self.is_effort_computed(robot);
+        for channel in Channel::ALL.into_iter().filter(|c| !is_computed || *c != Channel::Effort) {
             let source = self.source(joint, channel);
             if self.names.contains(&source.column) {
                 sources.push((channel, source));
             } else if source.mapped.is_some() {
                 let purpose = format!(
-                    "the column map names it for the {} of joint {joint}",
-                    channel.suffix()
+                    "the column map names it for the {} of joint {joint}{}",
+                    channel.suffix(),
+                    self.other_effort(joint, channel)
                 );
                 return Err(self.no_column(&source.column, &purpose));
             } else if channel.is_required() {
                 return Err(self.absent(joint, channel, source.column, robot));
+            } else if is_computed && channel == Channel::DesiredPosition {
+                let purpose = format!(
+                    "the goal of joint {joint}, which effort_source in robot.toml computes its effort from, was expected there"
+                );
+                return Err(self.no_column(&source.column, &purpose));
             }
         }
         Ok(sources)
+    }
+
+    /// Whether the robot's efforts are those of a position loop, and no other effort is asked for.
+    fn is_effort_computed(&self, robot: &Robot) -> bool {
+        self.options.effort == Channel::Effort.suffix()
+            && robot.links().iter().all(|link| link.actuator.position_loop.is_some())
+    }
+
+    /// What there is instead of an effort that is missing beside a goal.
+    fn other_effort(&self, joint: &str, channel: Channel) -> &'static str {
+        let goal = self.source(joint, Channel::DesiredPosition).column;
+        if channel == Channel::Effort && self.names.contains(&goal) {
+            ", or effort_source in robot.toml for servos whose logs hold none"
+        } else {
+            ""
+        }
     }
 
     fn source(&self, joint: &str, channel: Channel) -> Source<'a> {
@@ -297,7 +332,11 @@ impl<'a> Finder<'_, 'a> {
         let prefix = format!("{joint}.");
         let own = |name: &&String| name.starts_with(&prefix);
         if channel != Channel::Position || self.names.iter().any(|n| own(&n)) {
-            let purpose = format!("the {} of joint {joint} was expected there", channel.suffix());
+            let purpose = format!(
+                "the {} of joint {joint} was expected there{}",
+                channel.suffix(),
+                self.other_effort(joint, channel)
+            );
             // A column of another joint is no misspelling of this one's.
             let nearest = nearest(&column, self.names.iter().filter(own).map(String::as_str));
             return LogError::NoColumn { path: self.path.to_owned(), column, purpose, nearest };

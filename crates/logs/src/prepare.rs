@@ -1,7 +1,7 @@
 #[cfg(doc)]
 use crate::{Agreement, JointNoise, LowPass, differentiate};
 use crate::{
-    LogError, LogWarning, Prepared, PreparedJoint, PreparedLink, PreparedRun, Run, Wide,
+    LogError, LogWarning, Mend, Prepared, PreparedJoint, PreparedLink, PreparedRun, Run, Wide,
     choice::choose,
     clock::Fill,
     duplicate_of,
@@ -143,7 +143,11 @@ fn about_runs(runs: &[Run], pieces: &[UniformRun], fill: Fill, cutoff_hz: f64) -
     for (index, run) in runs.iter().enumerate() {
         let name = || run.name.clone();
         warnings.extend(run.is_torn.then(|| LogWarning::TornLastRow { run: name() }));
-        let mended = run.mended.iter().cloned();
+        let is_said = |mend: &&Mend| {
+            **mend == Mend::FromPositionLoop
+                && runs[..index].iter().any(|r| r.mended.contains(mend))
+        };
+        let mended = run.mended.iter().filter(|mend| !is_said(mend)).cloned();
         warnings.extend(mended.map(|mend| LogWarning::Mended { run: name(), mend }));
         let unknown = unknown_joints(run).into_iter();
         warnings.extend(unknown.map(|joint| LogWarning::UnknownJoint { run: name(), joint }));

@@ -17,7 +17,7 @@ struct Preset {
 }
 
 /// Files that other programs write, the fuller map of a name first.
-const PRESETS: [Preset; 9] = [
+const PRESETS: [Preset; 11] = [
     Preset {
         name: "ur",
         words: "RTDE of Universal Robots, efforts in N m",
@@ -53,6 +53,23 @@ const PRESETS: [Preset; 9] = [
         text: "time = \"__time\"\nposition = \"/joint_states/position[{i}]\"\n\
                velocity = \"/joint_states/velocity[{i}]\"\n\
                effort = \"/joint_states/effort[{i}]\"\n",
+        is_certain: false,
+    },
+    Preset {
+        name: "lerobot",
+        words: "a dataset of LeRobot, joints by name, radians and N m",
+        text: "time = \"timestamp\"\nposition = \"observation.state[{joint}]\"\n\
+               velocity = \"observation.velocity[{joint}]\"\n\
+               effort = \"observation.effort[{joint}]\"\n\
+               desired_position = \"action[{joint}]\"\n",
+        is_certain: true,
+    },
+    Preset {
+        name: "lerobot",
+        words: "a dataset of LeRobot, joints in the order of the robot, radians and N m",
+        text: "time = \"timestamp\"\nposition = \"observation.state[{i}]\"\n\
+               velocity = \"observation.velocity[{i}]\"\neffort = \"observation.effort[{i}]\"\n\
+               desired_position = \"action[{i}]\"\n",
         is_certain: false,
     },
     Preset {
@@ -104,6 +121,8 @@ pub fn preset_names() -> Vec<&'static str> {
 /// `name`, or any that tells the joints for certain. A file that has its columns under their usual
 /// names needs none.
 ///
+/// Of what is `asked` the topic and the episode count.
+///
 /// With a name, the first of that name comes back where none fits, so that reading says what is
 /// missing.
 ///
@@ -114,12 +133,12 @@ pub fn recognised(
     path: &Path,
     robot: &Robot,
     name: Option<&str>,
-    topic: Option<&str>,
+    asked: &ReadOptions,
 ) -> Result<Option<Recognised>, LogError> {
-    let (mut first, mut without_velocity) = (None, None);
+    let (mut first, mut without_velocity, mut without_effort) = (None, None, None);
     for preset in PRESETS.iter().filter(|p| name.map_or(p.is_certain, |name| p.name == name)) {
         let map = ColumnMap::from_text(preset.name, preset.text)?;
-        let options = ReadOptions { map: Some(&map), topic, ..ReadOptions::default() };
+        let options = ReadOptions { map: Some(&map), ..*asked };
         let file = match LogFile::open(path, &options, &mut Damage::default()) {
             Ok(file) => file,
             // Reading says the same of a file that is none.
@@ -133,17 +152,23 @@ pub fn recognised(
         let whole = map.for_robot(robot)?;
         let has = |channel| has_all(&names, &whole, robot, channel);
         let has_time = names.iter().any(|n| n == options.time());
-        let fits = has_time && has(Channel::Position) && has(Channel::Effort);
+        let is_computed = robot.links().iter().all(|link| link.actuator.position_loop.is_some());
+        let has_goal = has(Channel::Position) && has(Channel::DesiredPosition);
+        let has_effort = has(Channel::Effort) || (is_computed && has_goal);
+        let fits = has_time && has(Channel::Position) && has_effort;
         let has_velocity = has(Channel::Velocity);
-        let map = if has_velocity { map } else { map.without(Channel::Velocity) };
+        let absent = [Channel::Velocity, Channel::DesiredPosition].into_iter().filter(|c| !has(*c));
+        let map = absent.fold(map, |map, channel| map.without(channel));
         let found = Recognised { name: preset.name, words: preset.words, map };
         match (fits, has_velocity) {
             (true, true) => return Ok(Some(found)),
             (true, false) => without_velocity = without_velocity.or(Some(found)),
+            // Reading says that the effort is missing, and what there may be instead.
+            _ if has_time && has_goal => without_effort = without_effort.or(Some(found)),
             (false, _) => first = first.or(Some(found)),
         }
     }
-    Ok(without_velocity.or(first.filter(|_| name.is_some())))
+    Ok(without_velocity.or(without_effort).or(first.filter(|_| name.is_some())))
 }
 
 /// Whether a file has positions under their usual names.

@@ -7,8 +7,10 @@ use crate::{
     ColumnMap, Excerpt, LogError, Mend, Run,
     damage::Damage,
     even_clock::{EvenClock, even_clock},
+    lerobot,
     log_file::LogFile,
     plan::Plan,
+    position_loop,
     turns::on_the_turn_of,
 };
 
@@ -26,11 +28,13 @@ pub struct ReadOptions<'a> {
     pub topic: Option<&'a str>,
     /// The seconds that are read; the whole log where they are left out. Rows outside of them are not looked at.
     pub excerpt: Option<Excerpt>,
+    /// The episode of a dataset of LeRobot; one that has a single episode needs none.
+    pub episode: Option<u64>,
 }
 
 impl Default for ReadOptions<'_> {
     fn default() -> Self {
-        Self { map: None, effort: "effort", topic: None, excerpt: None }
+        Self { map: None, effort: "effort", topic: None, excerpt: None, episode: None }
     }
 }
 
@@ -39,6 +43,19 @@ impl<'a> ReadOptions<'a> {
     pub(crate) fn time(&self) -> &'a str {
         self.map.and_then(ColumnMap::time).map_or("time", |mapped| &mapped.column)
     }
+}
+
+/// What [`ReadOptions::episode`] has to be for each of the runs at a path: the episodes of a dataset of LeRobot,
+/// and one `None` for any other log.
+///
+/// # Errors
+///
+/// Those of reading the column `episode_index`.
+pub fn episodes(path: &Path) -> Result<Vec<Option<u64>>, LogError> {
+    if !lerobot::is_dataset(path) {
+        return Ok(vec![None]);
+    }
+    Ok(lerobot::episodes(path)?.into_iter().map(Some).collect())
 }
 
 /// Reads one run from a file and checks it.
@@ -63,6 +80,12 @@ impl<'a> ReadOptions<'a> {
 /// `sensor_msgs/msg/JointState` of one topic are read, joints by the names in each message; one that
 /// is about none of the robot's joints is left out. Time is that of the stamps, counted from the
 /// first one. In errors a row is a message of the topic.
+///
+/// A dataset of LeRobot, a folder with `meta/info.json`, is a run an episode; its lists are the columns
+/// `observation.state[0]` and so on, and `observation.state[elbow]` where `meta/info.json` names it.
+///
+/// Of a robot whose efforts are those of a position loop (`effort_source` in its `robot.toml`) efforts are computed
+/// from `desired_position`, whether the log holds others or not; [`ReadOptions::effort`] still asks for those.
 ///
 /// A CSV file may lack its last newline. Its last row was torn, and is left out, when it does
 /// not end in a number in quotes as the row before it does: such are the files of a
@@ -175,9 +198,20 @@ fn checked(
             channels.link_position = link.map(|link| on_the_turn_of(&channels.position, link));
         }
     }
+    if plan.is_effort_computed {
+        for (link, channels) in robot.links().iter().zip(&mut joints) {
+            let Some(gain) = link.actuator.position_loop else { continue };
+            channels.effort = position_loop::effort(gain, &time, channels);
+        }
+        mended.push(Mend::FromPositionLoop);
+    }
     let needed = plan.needed();
     table.columns.retain(|name, _| !needed.contains(name));
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = match options.episode {
+        Some(episode) => format!("{stem}_episode_{episode}"),
+        None => stem.into_owned(),
+    };
     let (sha256, is_torn) = (file.sha256(path)?, file.is_torn());
     Ok(Run {
         name,

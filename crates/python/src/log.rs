@@ -46,10 +46,13 @@ impl Log {
         let joints: Vec<&str> = robot.joint_names().collect();
         match &self.source {
             Source::File(columns, path) => {
-                let runs = columns.read_runs(std::slice::from_ref(path), robot).map_err(raised)?;
-                runs.into_iter()
-                    .next()
-                    .ok_or_else(|| raised(LogError::Missing { path: path.clone() }))
+                let episodes = columns.episodes_of(path).map_err(raised)?;
+                let [episode] = episodes[..] else {
+                    let (path, found) = (path.clone(), episodes.into_iter().flatten().collect());
+                    return Err(raised(LogError::Episode { path, asked: None, found }));
+                };
+                let reader = columns.reader().map_err(raised)?;
+                reader.read(path, episode, robot).map_err(raised)
             }
             Source::Run(run) => {
                 if run.joints.iter().map(|c| c.name.as_str()).eq(joints.iter().copied()) {
@@ -231,12 +234,14 @@ impl Log {
 
     /// A log in a file, which is read when it is used with a robot.
     #[staticmethod]
-    #[pyo3(signature = (path, *, map=None, effort=DEFAULT_EFFORT, topic=None, until_damage=false))]
+    #[pyo3(signature = (path, *, map=None, effort=DEFAULT_EFFORT, topic=None, episode=None,
+        until_damage=false))]
     fn read_file(
         path: PathBuf,
         map: Option<PathBuf>,
         effort: &str,
         topic: Option<String>,
+        episode: Option<u64>,
         until_damage: bool,
     ) -> PyResult<Self> {
         if !path.exists() {
@@ -244,7 +249,8 @@ impl Log {
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let (effort, excerpt) = (effort.to_owned(), ExcerptArguments::default());
-        let columns = ColumnArguments { map, effort, topic, until_damage, excerpt };
+        let episodes = episode.map(|episode| episode..=episode).into_iter().collect();
+        let columns = ColumnArguments { map, effort, topic, episodes, until_damage, excerpt };
         Ok(Self { name, source: Source::File(columns, path) })
     }
 

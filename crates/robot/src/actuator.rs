@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use crate::Gain;
+
 /// Where the position of a joint is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -190,6 +192,9 @@ pub struct Actuator {
     pub sensing: SensingSide,
     /// What the log's effort is.
     pub torque_source: TorqueSource,
+    /// Gains of the position loop that efforts are computed from, `kp (goal - q) - kd qd`, of a drive whose logs
+    /// hold none; `None` where efforts are logged.
+    pub position_loop: Option<Gain>,
 }
 
 impl Default for Actuator {
@@ -223,6 +228,7 @@ impl Default for Actuator {
             effort_skew_s: 0.0,
             sensing: SensingSide::default(),
             torque_source: TorqueSource::default(),
+            position_loop: None,
         }
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::joint_entry::{JointEntry, gain};
 use crate::part::Part;
 use crate::range::{Range, in_range};
-use crate::{Inertia, Loaded, RobotError, RobotWarning, SensingSide, TorqueSource};
+use crate::{Gain, Inertia, Loaded, RobotError, RobotWarning, SensingSide, TorqueSource};
 
 /// The keys of `robot.toml`: what a URDF cannot say.
 ///
@@ -29,6 +29,9 @@ pub(crate) struct Description {
     /// What the efforts of a log are, unless a joint says otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_source: Option<TorqueSource>,
+    /// Where efforts come from that logs do not hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub effort_source: Option<EffortSourceEntry>,
     /// Pairs of joints that two motors drive together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub differentials: Vec<[String; 2]>,
@@ -51,6 +54,14 @@ pub(crate) struct Description {
 pub(crate) struct GainEntry {
     pub kp_nm_per_rad: Vec<f64>,
     pub kd_nm_s_per_rad: Vec<f64>,
+}
+
+/// `effort_source`
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum EffortSourceEntry {
+    /// `{ position_loop = { kp_nm_per_rad = [...], kd_nm_s_per_rad = [...] } }`
+    PositionLoop(GainEntry),
 }
 
 /// `[link.<name>]`
@@ -120,7 +131,19 @@ impl Description {
         }
         self.link.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))?;
         loaded.control.differentials = self.pairs(loaded)?;
-        self.gains.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))
+        if let Some(EffortSourceEntry::PositionLoop(entry)) = &self.effort_source {
+            let gains = entry.gains("effort_source.position_loop", loaded.robot.joint_count())?;
+            for (index, gain) in gains.into_iter().enumerate() {
+                if let Some(link) = loaded.robot.link_mut(index) {
+                    link.actuator.position_loop = Some(gain);
+                }
+            }
+        }
+        self.gains.iter().try_for_each(|(name, entry)| {
+            let set = entry.gains(&format!("gains {name}"), loaded.robot.joint_count())?;
+            loaded.control.gain_sets.insert(name.clone(), set);
+            Ok(())
+        })
     }
 
     /// The pairs of joints by index; no joint stands in them twice. A pair with a locked joint is
@@ -149,14 +172,14 @@ impl Description {
 }
 
 impl GainEntry {
-    fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), RobotError> {
-        let (thing, expected) = (format!("gains {name}"), loaded.robot.joint_count());
+    /// One pair of gains a joint.
+    fn gains(&self, thing: &str, expected: usize) -> Result<Vec<Gain>, RobotError> {
         for (quantity, list) in
             [("kp_nm_per_rad", &self.kp_nm_per_rad), ("kd_nm_s_per_rad", &self.kd_nm_s_per_rad)]
         {
             if list.len() != expected {
                 return Err(RobotError::WrongLength {
-                    thing,
+                    thing: thing.to_owned(),
                     quantity,
                     found: list.len(),
                     expected,
@@ -164,9 +187,7 @@ impl GainEntry {
             }
         }
         let pairs = self.kp_nm_per_rad.iter().zip(&self.kd_nm_s_per_rad);
-        let set = pairs.map(|(&kp, &kd)| gain(&thing, kp, kd)).collect::<Result<_, _>>()?;
-        loaded.control.gain_sets.insert(name.to_owned(), set);
-        Ok(())
+        pairs.map(|(&kp, &kd)| gain(thing, kp, kd)).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
 
-use crate::description::{Description, GainEntry, InertiaEntry, LinkEntry};
+use crate::description::{Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry};
 use crate::joint_entry::{CouplingEntry, JointEntry, RippleEntry, WaveEntry};
 use crate::{Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource};
 
@@ -36,6 +36,7 @@ impl Loaded {
             locked: self.part.locked.clone(),
             gravity_m_per_s2: gravity(robot, old),
             control_rate_hz: control.rate_hz,
+            effort_source: effort_source(robot),
             differentials: control.differentials.iter().map(|p| p.map(joint_name)).collect(),
             ..Description::default()
         };
@@ -50,14 +51,25 @@ impl Loaded {
             }
         }
         for (name, set) in &control.gain_sets {
-            let entry = GainEntry {
-                kp_nm_per_rad: set.iter().map(|g| g.kp).collect(),
-                kd_nm_s_per_rad: set.iter().map(|g| g.kd).collect(),
-            };
-            description.gains.insert(name.clone(), entry);
+            description.gains.insert(name.clone(), gain_entry(set));
         }
         description
     }
+}
+
+fn gain_entry(gains: &[Gain]) -> GainEntry {
+    GainEntry {
+        kp_nm_per_rad: gains.iter().map(|g| g.kp).collect(),
+        kd_nm_s_per_rad: gains.iter().map(|g| g.kd).collect(),
+    }
+}
+
+/// The position loop, which all joints have or none.
+fn effort_source(robot: &Robot) -> Option<EffortSourceEntry> {
+    let gains = robot.links().iter().map(|link| link.actuator.position_loop);
+    gains
+        .collect::<Option<Vec<Gain>>>()
+        .map(|gains| EffortSourceEntry::PositionLoop(gain_entry(&gains)))
 }
 
 /// Refuses a change that no key can say.

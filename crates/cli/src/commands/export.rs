@@ -38,6 +38,8 @@ enum Target {
     Mjcf,
     /// The format of Gazebo: extended.sdf
     Sdf,
+    /// A USD layer with the schemas of PhysX, for Isaac Sim and Isaac Lab: extended.usda
+    Isaac,
 }
 
 impl Target {
@@ -46,6 +48,7 @@ impl Target {
             Self::Urdf => Format::Urdf,
             Self::Mjcf => Format::Mjcf,
             Self::Sdf => Format::Sdf,
+            Self::Isaac => Format::Isaac,
         }
     }
 }

@@ -13,7 +13,8 @@ use crate::output::{print, print_json, shown, table};
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
+    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each, and datasets of LeRobot, one
+    /// run an episode
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// The robot, for names, order, types and limits of the joints
@@ -35,19 +36,26 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let described = described.transpose()?;
     let mut runs: Vec<Run> = Vec::new();
     let mut infos = Vec::new();
+    let mut asked = Vec::new();
     for path in &arguments.files {
+        let episodes = arguments.columns.episodes_of(path)?;
+        asked.extend(episodes.into_iter().map(|episode| (path, episode)));
+    }
+    for (path, episode) in asked {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
             None if arguments.part.joints.is_empty() => {
-                robot_from_columns(path, &reader.options())?
+                robot_from_columns(path, &reader.options(episode))?
             }
             None => robot_of(&arguments.part.joints)?,
         };
-        let run = reader.read(path, &robot)?;
+        let run = reader.read(path, episode, &robot)?;
         let info = logs::log_info(&run, &robot);
         runs.push(run);
         let repeats = logs::duplicate_of(&runs, runs.len() - 1).map(|i| shown(&runs[i].source));
-        infos.push(Info { path: shown(path), info, repeats });
+        let of = |episode| format!("{} (episode {episode})", shown(path));
+        let path = episode.map_or_else(|| shown(path), of);
+        infos.push(Info { path, info, repeats });
     }
     if arguments.json {
         let files: Vec<FileInfo> = infos.iter().map(FileInfo::new).collect();

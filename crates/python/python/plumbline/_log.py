@@ -77,15 +77,23 @@ class Log:
         map: Optional[Union[str, PathLike[str]]] = None,
         effort: str = "effort",
         topic: Optional[str] = None,
+        episode: Optional[int] = None,
         until_damage: bool = False,
     ) -> Log:
-        """A log in a file: CSV, Parquet, NumPy, MATLAB, or a bag of ROS 2, as the program reads it.
+        """A log in a file: CSV, Parquet, NumPy, MATLAB, a bag of ROS 2, an episode of a dataset of LeRobot.
 
         ``map`` names a column map or one that the program knows, ``effort`` the column of the torque,
-        ``topic`` that of a bag; with ``until_damage`` a damaged file is read up to there. The file is read
-        when it is used with a robot. Raises ``PlumblineError`` where there is no file.
+        ``topic`` that of a bag, ``episode`` that of a dataset with several; with ``until_damage`` a damaged file
+        is read up to there. The file is read when it is used with a robot. Raises ``PlumblineError`` where there
+        is no file.
         """
-        options = {"map": map, "effort": effort, "topic": topic, "until_damage": until_damage}
+        options = {
+            "map": map,
+            "effort": effort,
+            "topic": topic,
+            "episode": episode,
+            "until_damage": until_damage,
+        }
         return cls._of(_plumbline.Log.read_file(path, **options))  # type: ignore[arg-type]
 
     @classmethod

@@ -63,6 +63,7 @@ class Log:
         map: Optional[_Path] = None,
         effort: str = ...,
         topic: Optional[str] = None,
+        episode: Optional[int] = None,
         until_damage: bool = False,
     ) -> Log: ...
     @staticmethod
