@@ -25,7 +25,7 @@ pub struct Arguments {
     robot: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// The first logs (CSV, Parquet, NumPy, bags of ROS 2), one run each
+    /// The first logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     before: Vec<PathBuf>,
     /// The logs in which something may have changed

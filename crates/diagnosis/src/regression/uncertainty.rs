@@ -106,7 +106,7 @@ impl Uncertainty {
             };
             let prior = pick(&DVector::from_column_slice(&design.prior), &own);
             let before = self.t * gradient.component_mul(&prior).norm();
-            let half = self.half(&place, &gradient, 0.0);
+            let half = self.half(&place, &gradient, 1.0);
             Estimate {
                 name: quantity.name,
                 value: quantity.value,
