@@ -177,7 +177,10 @@ impl<'a> Plan<'a> {
                 let Some(first) = found.first() else { continue };
                 let (row, count) = (table.row(first.sample), found.len());
                 let source = sources.iter().find(|(c, _)| *c == channel);
-                let column = source.map(|(_, source)| source.column.clone()).unwrap_or_default();
+                let column = source.map_or_else(
+                    || format!("{}.{} (of effort_source)", joint.name, channel.suffix()),
+                    |(_, source)| source.column.clone(),
+                );
                 let value = channels.get(channel).map_or(f64::NAN, |x| x[first.sample]);
                 let expectation = first.expectation.clone();
                 if count > few(time.len()) {
