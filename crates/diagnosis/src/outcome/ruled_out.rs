@@ -84,22 +84,32 @@ impl Evidence<'_> {
         else {
             return (None, "these logs cannot show it".to_owned());
         };
-        let mut larger = self.model.clone();
-        larger.insert(g);
-        let gain = fit.evidence_of(&problem.info, &columns, &problem.design.prior);
-        let because = if let Some(variation) = self.withheld.get(&g) {
+        (Some(sharpest), self.reason(g, fit))
+    }
+
+    /// Why a hypothesis whose size the logs would show is no finding: the first of the tests of the search that
+    /// it fails, or what it was replaced by.
+    fn reason(&self, g: usize, fit: &Fit) -> String {
+        let (selection, problem) = (self.selection, self.selection.problem);
+        let gain = selection.evidence_gain(self.model, fit, g);
+        let least = selection.least_evidence(g);
+        let larger = selection.joined(self.model, g);
+        if let Some(variation) = self.withheld.get(&g) {
             self.words(variation)
         } else if self.failed.drops(problem.design, g) && gain > 0.0 {
             "what was fitted here predicts efforts that took no part worse than the description"
                 .to_owned()
-        } else if !self.selection.is_possible(&larger, g) {
+        } else if selection.is_excluded(self.model, g) {
+            "a finding changes the same numbers by another name".to_owned()
+        } else if gain < least {
+            format!("it adds {gain:.1} to the log evidence, {least:.0} are needed")
+        } else if !selection.is_possible(&larger, g) {
             "its best size is not physically possible".to_owned()
-        } else if gain < 3.0 {
-            format!("it adds {gain:.1} to the log evidence, 3 are needed")
-        } else {
+        } else if !selection.pays(&problem.held_out(self.model), &larger, g) {
             "it adds nothing on held-out data that counts".to_owned()
-        };
-        (Some(sharpest), because)
+        } else {
+            "the search ended with other causes that do its work".to_owned()
+        }
     }
 
     /// Why an effect whose size would have to vary is no finding.

@@ -201,23 +201,26 @@ impl Selection<'_> {
 
     /// Hypotheses outside the model with enough evidence, the most evident first.
     fn ranked(&self, model: &Model, fit: &Fit) -> Vec<usize> {
-        let gain = |g: usize| {
-            let columns = self.problem.new_columns(model, g);
-            let prior = &self.problem.design.prior;
-            if columns.is_empty() || self.is_excluded(model, g) {
-                f64::NEG_INFINITY
-            } else if self.is_beside_the_plain(g) {
-                self.beyond_the_plain(model, g)
-            } else {
-                fit.evidence_of(&self.problem.info, &columns, prior)
-            }
-        };
         let all = 0..self.problem.design.groups.len();
-        let mut ranked: Vec<(usize, f64)> =
-            all.filter(|g| !model.contains(g)).map(|g| (g, gain(g))).collect();
+        let mut ranked: Vec<(usize, f64)> = all
+            .filter(|g| !model.contains(g))
+            .map(|g| (g, self.evidence_gain(model, fit, g)))
+            .collect();
         ranked.retain(|(g, gain)| *gain > self.least_evidence(*g));
         ranked.sort_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(Ordering::Equal));
         ranked.into_iter().map(|(g, _)| g).collect()
+    }
+
+    /// What `g` adds to the log evidence of a model, of which `fit` is the fit.
+    pub fn evidence_gain(&self, model: &Model, fit: &Fit, g: usize) -> f64 {
+        let columns = self.problem.new_columns(model, g);
+        if columns.is_empty() || self.is_excluded(model, g) {
+            f64::NEG_INFINITY
+        } else if self.is_beside_the_plain(g) {
+            self.beyond_the_plain(model, g)
+        } else {
+            fit.evidence_of(&self.problem.info, &columns, &self.problem.design.prior)
+        }
     }
 
     /// What `g` adds to the log evidence of the model with all its plainer rivals: friction of
@@ -271,7 +274,7 @@ impl Selection<'_> {
     }
 
     /// The model with `g`, without what `g` says more than.
-    fn joined(&self, model: &Model, g: usize) -> Model {
+    pub fn joined(&self, model: &Model, g: usize) -> Model {
         let hypothesis = |g: usize| self.problem.design.groups[g].hypothesis;
         let mut larger = model.clone();
         larger.retain(|&m| !hypothesis(m).excludes(hypothesis(g)));
@@ -312,7 +315,7 @@ impl Selection<'_> {
 
     /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`: by
     /// what counts in practice, or by a share of what was left.
-    fn pays(&self, before: &HeldOut, larger: &Model, g: usize) -> bool {
+    pub fn pays(&self, before: &HeldOut, larger: &Model, g: usize) -> bool {
         let after = self.problem.held_out(larger);
         let enough = |&j: &usize| {
             let fall = before.mean_square[j] - after.mean_square[j];
