@@ -114,7 +114,7 @@ fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
          `stribeck_excess_nm`, `stribeck_velocity_rad_per_s`, `load_friction`, `presliding_rad`, \
          `presliding_damping_nm_s_per_rad`, `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `effort_skew_ms`, \
          `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`, `friction_wave`, \
-         `torque_ripple`, `coupling`"
+         `torque_ripple`, `counterbalance`, `coupling`"
     );
     assert_eq!(
         refused("[joint.elbow]\ntorque_gain = \"one\""),

@@ -8,6 +8,7 @@ mod backlash;
 mod cable_spring;
 mod chain;
 mod coulomb_friction;
+mod counterbalance;
 mod described;
 mod differential_coupling;
 mod draws;

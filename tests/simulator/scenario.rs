@@ -5,7 +5,7 @@ use simulator::SimulatorError;
 use simulator::scenario::Scenario;
 
 /// One effect of every kind, as it may stand on the WAM.
-pub const EFFECTS: [&str; 26] = [
+pub const EFFECTS: [&str; 27] = [
     "viscous_friction = { joint = 'j4_elbow_pitch', viscous_nm_s_per_rad = 0.5 }",
     "coulomb_friction = { joint = 'j4_elbow_pitch', level_nm = 0.5 }",
     "asymmetric_friction = { joint = 'j4_elbow_pitch', forward_nm = 0.5, backward_nm = 0.7 }",
@@ -32,6 +32,7 @@ pub const EFFECTS: [&str; 26] = [
     "transmission_ratio = { joint = 'j4_elbow_pitch', ratio = 1.02 }",
     "time_skew = { joint = 'j4_elbow_pitch', skew_ms = 3.0 }",
     "external_disturbance.push = { link = 'palm', force_n = [0.0, 5.0, 0.0], start_s = 0.1, duration_s = 0.1 }",
+    "counterbalance = { joint = 'j4_elbow_pitch', amplitude_nm = 2.0, phase_rad = 0.5 }",
 ];
 
 /// The other form of a disturbance.
@@ -216,7 +217,8 @@ fn time_zero_is_the_start_of_the_log_for_effects_too() {
         let run = simulator::simulate(&scenario, &|| {}).unwrap().runs.remove(0);
         run.time.into_iter().zip(run.joints[3].effort.clone()).collect::<Vec<(f64, f64)>>()
     };
-    let push = EFFECTS.last().unwrap().replace("start_s = 0.1", "start_s = 0.2");
+    let is_push = |effect: &&&str| effect.starts_with("external_disturbance");
+    let push = EFFECTS.iter().find(is_push).unwrap().replace("start_s = 0.1", "start_s = 0.2");
     let (with, without) = (effort(&format!("[[effect]]\n{push}")), effort(""));
     let first = with.iter().zip(&without).find(|((_, a), (_, b))| (a - b).abs() > 1e-9);
     let ((time_s, _), _) = first.unwrap();

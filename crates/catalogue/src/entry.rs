@@ -78,6 +78,7 @@ impl EffectKind {
             Self::TransmissionRatio => &transmission::TRANSMISSION_RATIO,
             Self::TimeSkew => &sensing::TIME_SKEW,
             Self::ExternalDisturbance => &environment::EXTERNAL_DISTURBANCE,
+            Self::Counterbalance => &environment::COUNTERBALANCE,
         }
     }
 }

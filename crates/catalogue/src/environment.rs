@@ -1,9 +1,9 @@
 //! Environment: how the arm is mounted, and what pulls and pushes it from outside.
 
 use crate::EffectKind::{
-    AsymmetricFriction, CableSpring, EncoderOffset, ExternalDisturbance, GravityDirection,
-    InertialParameters, Payload, PositionDependentFriction, PreslidingFriction, TorqueOffset,
-    TorqueRipple, TorqueSaturation,
+    AsymmetricFriction, CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance,
+    GravityDirection, InertialParameters, Payload, PositionDependentFriction, PreslidingFriction,
+    TorqueOffset, TorqueRipple, TorqueSaturation,
 };
 use crate::entry::{POSITION, TORQUE, always, parameter, phase};
 use crate::{Entry, Family};
@@ -55,6 +55,7 @@ pub(crate) const CABLE_SPRING: Entry = Entry {
         AsymmetricFriction,
         PreslidingFriction,
         PositionDependentFriction,
+        Counterbalance,
     ],
     told_apart_by: "a sweep over the whole range, \
                     where gravity follows a sine and a spring does not",
@@ -99,4 +100,24 @@ pub(crate) const EXTERNAL_DISTURBANCE: Entry = Entry {
     confused_with: &[Payload, TorqueRipple, TorqueSaturation],
     told_apart_by: "the same motion begun anew at other times, and at another speed",
     source: "virtual work of the force",
+};
+
+pub(crate) const COUNTERBALANCE: Entry = Entry {
+    kind: Counterbalance,
+    code: "EN04",
+    family: Family::Environment,
+    name: "counterbalance",
+    words: "counterbalance",
+    summary: "a spring or counterweight that carries part of the weight",
+    equation: "amplitude sin(q + phase)",
+    parameters: &[
+        parameter("amplitude", TORQUE, "largest torque that it gives", (0.5, 30.0)),
+        phase("its phase at position zero"),
+    ],
+    signature: "the residual follows a sine of the joint's own position, and no acceleration",
+    needs: "half a turn of the joint, fast and slow",
+    confused_with: &[InertialParameters, Payload, CableSpring],
+    told_apart_by: "fast and slow motion of the joints before it, \
+                    to which a wrong mass adds inertia and a counterbalance none",
+    source: "Herder 2001: a spring of no free length between two points balances a weight exactly",
 };

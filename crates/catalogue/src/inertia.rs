@@ -1,8 +1,8 @@
 //! Inertia: what has to be moved and carried.
 
 use crate::EffectKind::{
-    CableSpring, EncoderOffset, ExternalDisturbance, GravityDirection, InertialParameters, Payload,
-    RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
+    CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance, GravityDirection,
+    InertialParameters, Payload, RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
 };
 use crate::entry::{always, parameter};
 use crate::{Entry, Family, Parameter};
@@ -34,6 +34,7 @@ pub(crate) const PAYLOAD: Entry = Entry {
         GravityDirection,
         TorqueConstant,
         ExternalDisturbance,
+        Counterbalance,
     ],
     told_apart_by: "the same motion before and after the load is put on",
     source: "Gautier & Khalil 1990",
@@ -59,6 +60,7 @@ pub(crate) const INERTIAL_PARAMETERS: Entry = Entry {
         GravityDirection,
         TorqueConstant,
         EncoderOffset,
+        Counterbalance,
     ],
     told_apart_by: "an exciting motion over the whole range of every joint",
     source: "Gautier & Khalil 1990; Wensing, Kim & Slotine 2018",

@@ -64,11 +64,13 @@ pub enum EffectKind {
     TimeSkew,
     /// A force from outside: periodic at a joint, or a push at the last link.
     ExternalDisturbance,
+    /// A spring or weight that carries part of the weight of what a joint lifts.
+    Counterbalance,
 }
 
 impl EffectKind {
     /// Every effect, in the order in which random draws count them.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 27] = [
         Self::ViscousFriction,
         Self::CoulombFriction,
         Self::AsymmetricFriction,
@@ -95,6 +97,7 @@ impl EffectKind {
         Self::TransmissionRatio,
         Self::TimeSkew,
         Self::ExternalDisturbance,
+        Self::Counterbalance,
     ];
 
     /// The code that stands beside the name: two letters of the family and two digits.
@@ -169,7 +172,7 @@ mod tests {
     use super::*;
 
     /// Never to be changed, only added to: see [`EffectKind::code`].
-    const CODES: [(&str, &str); 26] = [
+    const CODES: [(&str, &str); 27] = [
         ("FR01", "viscous_friction"),
         ("FR02", "coulomb_friction"),
         ("FR03", "asymmetric_friction"),
@@ -196,6 +199,7 @@ mod tests {
         ("EN01", "gravity_direction"),
         ("EN02", "cable_spring"),
         ("EN03", "external_disturbance"),
+        ("EN04", "counterbalance"),
     ];
 
     fn read(name: &str) -> Result<EffectKind, Error> {

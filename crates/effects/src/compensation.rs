@@ -17,7 +17,7 @@ const CROSSING_ACCELERATION: f64 = 1.0;
 ///
 /// ```text
 /// tau_link  = M(q) qdd + C(q, qd) qd + g(q) + spring_stiffness x + spring_cubic x³
-///             + spring_hysteresis tanh(qd / rest_speed),   x = q - spring_rest
+///             + spring_hysteresis tanh(qd / rest_speed) + counterbalance(q),   x = q - spring_rest
 /// q_motor   = q + tau_link / elasticity + (backlash / 2) tanh(tau_link / tau_0)
 /// tau_motor = tau_link + rotor_inertia qdd_motor + viscous qd_motor + ripple(q_motor)
 ///             + level(q_motor, qd_motor, tau_link) direction + friction of shared motors(qd)

@@ -16,6 +16,7 @@ mod cable_loop;
 mod cable_spring;
 mod compensation;
 mod coulomb_friction;
+mod counterbalance;
 mod differential_coupling;
 mod direction;
 mod dry_friction;

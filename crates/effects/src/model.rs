@@ -3,7 +3,7 @@ use catalogue::EffectKind;
 use crate::Explain;
 
 /// The effects that have a model, in the order in which hypotheses are laid out.
-pub const MODELLED: [EffectKind; 22] = [
+pub const MODELLED: [EffectKind; 23] = [
     EffectKind::ViscousFriction,
     EffectKind::CoulombFriction,
     EffectKind::AsymmetricFriction,
@@ -17,6 +17,7 @@ pub const MODELLED: [EffectKind; 22] = [
     EffectKind::Payload,
     EffectKind::InertialParameters,
     EffectKind::CableSpring,
+    EffectKind::Counterbalance,
     EffectKind::GravityDirection,
     EffectKind::TorqueConstant,
     EffectKind::LoadDependentFriction,
@@ -50,6 +51,7 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
         EffectKind::InertialParameters => &crate::inertial_parameters::InertialParameters,
         EffectKind::Payload => &crate::payload::Payload,
         EffectKind::CableSpring => &crate::cable_spring::CableSpring,
+        EffectKind::Counterbalance => &crate::counterbalance::Counterbalance,
         EffectKind::GravityDirection => &crate::gravity_direction::GravityDirection,
         EffectKind::TorqueConstant => &crate::torque_constant::TorqueConstant,
         EffectKind::LoadDependentFriction => &crate::load_dependent_friction::LoadDependentFriction,

@@ -116,7 +116,7 @@ impl Motion {
     ///
     /// ```text
     /// q = transmission_ratio (q reported - encoder_offset)
-    /// load   = Y pi + stiffness x + cubic x³ + loop,   x = q_link - rest
+    /// load   = Y pi + stiffness x + cubic x³ + loop + counterbalance(q_link),   x = q_link - rest
     /// torque = load + rotor_inertia qdd + viscous qd + dry friction
     /// effort(t) = transmission_ratio torque_gain torque(t + delay - skew) + torque_offset
     /// ```
@@ -349,7 +349,7 @@ impl Motion {
 /// `q, qd, qdd`, with `direction` of motion in [-1, 1] and `tau_rb` the rigid bodies' torque:
 ///
 /// ```text
-/// load = tau_rb + stiffness x + cubic x³ + hysteresis direction,   x = q - rest
+/// load = tau_rb + stiffness x + cubic x³ + hysteresis direction + counterbalance(q),   x = q - rest
 /// load - tau_rb + rotor_inertia qdd + viscous qd + dry friction(q, qd, direction, load) + ripple(q)
 /// ```
 pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f64) -> f64 {
@@ -376,10 +376,22 @@ pub(crate) fn bending(qd: f64, s: f64) -> f64 {
     qd - qd.abs() * s
 }
 
-/// The torque of a joint's spring without its loop (N·m or N): `stiffness x + cubic x³`.
+/// The torque of a joint's spring without its loop and of its counterbalance (N·m or N):
+///
+/// ```text
+/// stiffness x + cubic x³ + amplitude sin(q + phase),   x = q - rest
+/// ```
 pub(crate) fn spring_torque(drive: &Actuator, q: f64) -> f64 {
     let x = q - drive.spring_rest;
-    drive.spring_stiffness * x + drive.spring_cubic * x.powi(3)
+    let balance = drive.counterbalance.map_or(0.0, |c| c.amplitude * (q + c.phase).sin());
+    drive.spring_stiffness * x + drive.spring_cubic * x.powi(3) + balance
+}
+
+/// Its derivative by the position (N·m/rad or N/m).
+pub(crate) fn spring_slope(drive: &Actuator, q: f64) -> f64 {
+    let x = q - drive.spring_rest;
+    let balance = drive.counterbalance.map_or(0.0, |c| c.amplitude * (q + c.phase).cos());
+    drive.spring_stiffness + 3.0 * drive.spring_cubic * x * x + balance
 }
 
 /// The share of dry friction that bristles hold, in [-1, 1], of a joint that follows `q`:

@@ -67,6 +67,13 @@ pub enum Relation {
     PlainerHere(EffectKind),
     /// The same of that effect at the joint that carries the link.
     PlainerAtTheJoint(EffectKind),
+    /// The same of these of the joint and of the link that it carries: what it explains is what it adds to them.
+    PlainerOfJointAndLink {
+        /// Of the joint.
+        joint: &'static [EffectKind],
+        /// Of the link.
+        link: &'static [EffectKind],
+    },
     /// The same of these at every joint that it reaches: what it explains is what it adds to them.
     PlainerAtEveryJoint(&'static [EffectKind]),
 }
@@ -100,9 +107,12 @@ impl Nature {
         Self { linearity, law, seat, weights, relations }
     }
 
-    /// Whether what it explains is what it adds to its plainer rivals at every joint.
+    /// Whether what it explains is what it adds to its plainer rivals together.
     pub fn adds_to_the_plain(self) -> bool {
-        self.relations.iter().any(|r| matches!(r, Relation::PlainerAtEveryJoint(_)))
+        let adds = |r: &Relation| {
+            matches!(r, Relation::PlainerAtEveryJoint(_) | Relation::PlainerOfJointAndLink { .. })
+        };
+        self.relations.iter().any(adds)
     }
 
     /// Effects that together are this one.

@@ -32,6 +32,7 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
         K::CableSpring => {
             Ok("the torque of its spring at the position of the link, and the level of its loop")
         }
+        K::Counterbalance => Ok("its torque at the position of the link"),
         K::TorqueConstant => Ok("asking for as much more or less"),
         K::TorqueOffset => Ok("asking for the offset as well"),
         K::ActuatorDelay => Ok("asking for the torque of the motion that much ahead"),
@@ -51,7 +52,7 @@ pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
-    use robot::{Actuator, Coupling, Ripple, Robot, Stribeck, Wave};
+    use robot::{Actuator, Counterbalance, Coupling, Ripple, Robot, Stribeck, Wave};
 
     use super::*;
     use crate::{Compensated, Compensation};
@@ -79,6 +80,9 @@ mod tests {
             K::JointElasticity => |a| a.elasticity = Some(300.0),
             K::RotorInertia => |a| a.rotor_inertia = 0.1,
             K::CableSpring => |a| a.spring_stiffness = 0.7,
+            K::Counterbalance => {
+                |a| a.counterbalance = Some(Counterbalance { amplitude: 0.7, phase: 0.3 })
+            }
             K::TorqueConstant => |a| a.torque_gain = 1.1,
             // One joint stands for both.
             K::DifferentialCoupling => |a| {

@@ -1,7 +1,7 @@
 use dynamics::Dynamics;
 use robot::Robot;
 
-use crate::motion::State;
+use crate::motion::{State, spring_slope};
 use crate::rigid_bodies::{along, samples};
 
 /// What moving the links changes in the loads of all joints.
@@ -25,9 +25,7 @@ impl Slopes {
             let [dq, dqd, dqdd] = &mut matrices;
             dynamics.inverse_dynamics_derivatives_into(&mut ws, [q, qd, qdd], [dq, dqd, dqdd]);
             for (j, link) in robot.links().iter().enumerate() {
-                let drive = &link.actuator;
-                let x = q[j] - drive.spring_rest;
-                matrices[0][j * n + j] += drive.spring_stiffness + 3.0 * drive.spring_cubic * x * x;
+                matrices[0][j * n + j] += spring_slope(&link.actuator, q[j]);
             }
             for (j, moved) in of.iter_mut().enumerate() {
                 for (i, slopes) in moved.iter_mut().enumerate() {

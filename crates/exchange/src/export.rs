@@ -144,6 +144,7 @@ pub(crate) fn unknown_friction(quantity: Quantity) -> Fate {
         Q::Presliding => "dry friction of the format is there at once",
         Q::FrictionWave => "dry friction of the format has one level at all positions",
         Q::Ripple => "torque of the format does not depend on the motor's position",
+        Q::Counterbalance => "springs of the format are linear in the position",
         Q::SpringHysteresis => "springs of the format have no loop",
         Q::Ratio => "divide positions by it before they are compared",
         Q::Skew => "it is one of the log: move its efforts by as much",

@@ -31,6 +31,8 @@ pub enum Quantity {
     SpringCubic,
     /// Its loop.
     SpringHysteresis,
+    /// Spring or weight that carries part of the weight.
+    Counterbalance,
     /// Reported effort per torque.
     EffortGain,
     /// Effort at no torque.
@@ -87,6 +89,13 @@ pub fn quantities(robot: &Robot, link: &Link) -> Vec<(Quantity, String)> {
     add(Q::Spring, a.spring_stiffness, 0.0, "spring", &format!("{nm}/{rad}"));
     add(Q::SpringCubic, a.spring_cubic, 0.0, "spring, cubic", &format!("{nm}/{rad}³"));
     add(Q::SpringHysteresis, a.spring_hysteresis, 0.0, "hysteresis of the spring", nm);
+    add(
+        Q::Counterbalance,
+        a.counterbalance.map_or(0.0, |c| c.amplitude),
+        0.0,
+        "counterbalance",
+        nm,
+    );
     add(Q::EffortGain, a.torque_gain, 1.0, "effort per torque", "");
     add(Q::EffortOffset, a.torque_offset, 0.0, "effort at no torque", nm);
     add(Q::Backlash, a.backlash, 0.0, "play", rad);

@@ -76,6 +76,23 @@ pub struct Ripple {
     pub phase: f64,
 }
 
+/// A spring or counterweight at the link that carries part of its weight.
+///
+/// ```text
+/// amplitude sin(q + phase)
+/// ```
+///
+/// A spring of stiffness `k` and no free length between points at `a` and `b` from the axis gives
+/// `amplitude = k a b`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Counterbalance {
+    /// Largest torque that the drive gives against it (N·m).
+    pub amplitude: f64,
+    /// Phase at position zero (rad).
+    pub phase: f64,
+}
+
 /// A differential: two motors that drive this joint and another one together.
 ///
 /// ```text
@@ -103,7 +120,7 @@ pub struct Coupling {
 /// The effort that the model expects in a log is, with `tau_rb` the rigid-body torque,
 ///
 /// ```text
-/// load   = tau_rb + spring_stiffness x + spring_cubic x³ + h,   x = q - spring_rest
+/// load   = tau_rb + spring_stiffness x + spring_cubic x³ + h + counterbalance(q),   x = q - spring_rest
 /// dh     = spring_stiffness dq while |h| < spring_hysteresis, else 0
 /// tau    = load + rotor_inertia qdd + viscous qd + level s + ripple(q)
 ///          + presliding_damping (qd - |qd| s)
@@ -114,8 +131,8 @@ pub struct Coupling {
 /// s       = sign(qd), 0 at rest; with presliding ds = (dq - |dq| s) / presliding
 /// ```
 ///
-/// `friction_wave(q) = share cos(periods q + phase)`: [`Wave`], [`Stribeck`] and [`Ripple`] hold
-/// the rest. All but `tau_rb` and the spring acts at the motor.
+/// `friction_wave(q) = share cos(periods q + phase)`: [`Wave`], [`Stribeck`], [`Ripple`] and
+/// [`Counterbalance`] hold the rest. All but `tau_rb`, the spring and the counterbalance acts at the motor.
 ///
 /// Between motor and link may lie a transmission that gives way, and between command and
 /// torque some time. With `theta` the motor's position seen at the joint,
@@ -167,6 +184,8 @@ pub struct Actuator {
     pub spring_cubic: f64,
     /// Half the width of the loop of its torque over position (N·m or N), not below 0.
     pub spring_hysteresis: f64,
+    /// Spring or weight that carries part of the weight; `None` without.
+    pub counterbalance: Option<Counterbalance>,
     /// Reported effort per unit of true torque.
     pub torque_gain: f64,
     /// Effort reported at zero torque (N·m or N).
@@ -216,6 +235,7 @@ impl Default for Actuator {
             spring_rest: 0.0,
             spring_cubic: 0.0,
             spring_hysteresis: 0.0,
+            counterbalance: None,
             torque_gain: 1.0,
             torque_offset: 0.0,
             backlash: 0.0,

@@ -2,7 +2,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::range::{Range, in_range};
 use crate::{
-    Actuator, Coupling, Gain, Loaded, Ripple, RobotError, SensingSide, Stribeck, TorqueSource, Wave,
+    Actuator, Counterbalance, Coupling, Gain, Loaded, Ripple, RobotError, SensingSide, Stribeck,
+    TorqueSource, Wave,
 };
 
 /// `[joint.<name>]`
@@ -86,6 +87,8 @@ pub(crate) struct JointEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_ripple: Option<RippleEntry>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub counterbalance: Option<CounterbalanceEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<CouplingEntry>,
 }
 
@@ -117,6 +120,15 @@ pub(crate) struct WaveEntry {
     pub phase_rad: f64,
 }
 
+/// `counterbalance`: a spring or weight that carries part of the weight.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CounterbalanceEntry {
+    pub amplitude_nm: f64,
+    #[serde(default)]
+    pub phase_rad: f64,
+}
+
 /// `torque_ripple`: torque that the position of the motor decides.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -138,6 +150,10 @@ impl JointEntry {
         let coupling = self.coupling(&thing, index, loaded)?;
         let Some(link) = loaded.robot.link_mut(index) else { return Ok(()) };
         self.actuate(&thing, &mut link.actuator)?;
+        if link.actuator.counterbalance.is_some() && !link.joint.kind.is_rotation() {
+            let found = "counterbalance is at a joint that slides";
+            return lonely(&thing, found, "one that turns");
+        }
         link.actuator.coupling = coupling.or(link.actuator.coupling);
         if let Some(limit) = self.torque_limit_nm {
             let unknown = limit.is_infinite() && limit > 0.0;
@@ -194,6 +210,7 @@ impl JointEntry {
         a.stribeck = self.stribeck(thing)?.or(a.stribeck);
         a.friction_wave = self.wave(thing)?.or(a.friction_wave);
         a.ripple = self.ripple(thing)?.or(a.ripple);
+        a.counterbalance = self.counterbalance(thing)?.or(a.counterbalance);
         a.sensing = self.sensing.unwrap_or(a.sensing);
         a.torque_source = self.torque_source.unwrap_or(a.torque_source);
         Ok(())
@@ -304,6 +321,15 @@ impl JointEntry {
         in_range(thing, "torque_ripple.periods_per_turn", periods_per_turn, Range::NotNegative)?;
         in_range(thing, "torque_ripple.phase_rad", phase_rad, Range::Finite)?;
         Ok(Some(Ripple { amplitude: amplitude_nm, periods: periods_per_turn, phase: phase_rad }))
+    }
+
+    fn counterbalance(&self, thing: &str) -> Result<Option<Counterbalance>, RobotError> {
+        let Some(CounterbalanceEntry { amplitude_nm, phase_rad }) = self.counterbalance else {
+            return Ok(None);
+        };
+        in_range(thing, "counterbalance.amplitude_nm", amplitude_nm, Range::NotNegative)?;
+        in_range(thing, "counterbalance.phase_rad", phase_rad, Range::Finite)?;
+        Ok(Some(Counterbalance { amplitude: amplitude_nm, phase: phase_rad }))
     }
 
     fn coupling(

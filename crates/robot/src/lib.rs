@@ -34,7 +34,9 @@ mod urdf;
 mod warning;
 mod write;
 
-pub use actuator::{Actuator, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Wave};
+pub use actuator::{
+    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Wave,
+};
 pub use control::{ControlSettings, Gain};
 pub use error::RobotError;
 pub use inertia::{Inertia, InertiaDefect};

@@ -148,5 +148,7 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
         a.coupling.map(|c| [c.ratio, c.level[0], c.level[1], c.viscous[0], c.viscous[1]]);
     let given = given.chain(coupling.as_slice().as_flattened());
     let given = given.chain(wave.as_slice().as_flattened());
+    let balance = a.counterbalance.map(|c| [c.amplitude, c.phase]);
+    let given = given.chain(balance.as_slice().as_flattened());
     finite(&joint, "actuator parameter", given.chain(ripple.as_slice().as_flattened()))
 }

@@ -1,7 +1,7 @@
 use nalgebra::Vector3;
 
 use crate::description::{Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry};
-use crate::joint_entry::{CouplingEntry, JointEntry, RippleEntry, WaveEntry};
+use crate::joint_entry::{CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WaveEntry};
 use crate::{Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource};
 
 impl Loaded {
@@ -148,6 +148,9 @@ fn joint_entry([new, old]: [&Link; 2], names: &[&str], gain: Option<Gain>) -> Jo
             viscous_sum_nm_s_per_rad: c.viscous[0],
             viscous_difference_nm_s_per_rad: c.viscous[1],
         }),
+        counterbalance: a
+            .counterbalance
+            .map(|c| CounterbalanceEntry { amplitude_nm: c.amplitude, phase_rad: c.phase }),
         torque_ripple: a.ripple.map(|r| RippleEntry {
             amplitude_nm: r.amplitude,
             periods_per_turn: r.periods,

@@ -13,7 +13,7 @@ pub(super) struct Instant {
 /// Effort that a described drive is expected to report, from what has no memory in it:
 ///
 /// ```text
-/// load   = body + stiffness x + cubic x³,   x = q - rest
+/// load   = body + stiffness x + cubic x³ + counterbalance sin(q + phase),   x = q - rest
 /// level  = coulomb (1 + wave(q)) + stribeck(qd) + load_friction |load|
 /// effort = ratio gain (load + rotor qdd + viscous qd + level s + ripple(q)) + offset
 /// ```
@@ -21,7 +21,8 @@ pub(super) struct Instant {
 /// Hysteresis, presliding, play, elasticity, delay, lag and shared motors are left out.
 pub(super) fn effort(a: &Actuator, at: &Instant) -> f64 {
     let x = at.q - a.spring_rest;
-    let load = at.body + a.spring_stiffness * x + a.spring_cubic * x * x * x;
+    let balance = a.counterbalance.map_or(0.0, |c| c.amplitude * (at.q + c.phase).sin());
+    let load = at.body + a.spring_stiffness * x + a.spring_cubic * x * x * x + balance;
     let coulomb = if at.sign > 0.0 { a.coulomb_forward } else { a.coulomb_backward };
     let wave = a.friction_wave.map_or(0.0, |w| w.share * (w.periods * at.q + w.phase).cos());
     let stribeck = a.stribeck.map_or(0.0, |s| s.excess * (-(at.qd / s.velocity).powi(2)).exp());

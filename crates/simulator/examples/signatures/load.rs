@@ -1,6 +1,8 @@
 use nalgebra::{Rotation3, Vector3};
 use robot::Robot;
-use simulator::effects::{CableSpring, GravityDirection, InertialParameters, Payload};
+use simulator::effects::{
+    CableSpring, Counterbalance, GravityDirection, InertialParameters, Payload,
+};
 
 use crate::panel::{Panel, Series, curve, linear, points, range, steps};
 use crate::record::Record;
@@ -86,6 +88,18 @@ pub fn cable(record: &Record, effect: &CableSpring) -> Panel {
         name: "cable spring",
         note: format!("{k} N·m/rad, loop of ±{half} N·m"),
         expected: vec![curve(&at, up), curve(&at, down)],
+        ..over_position(record, joint, &record.robot)
+    }
+}
+
+pub fn counterbalance(record: &Record, effect: &Counterbalance) -> Panel {
+    let joint = record.joint(&effect.joint);
+    let (low, high) = range(record.with.joints[joint].position.iter().copied());
+    let torque = |q: f64| effect.amplitude_nm * (q + effect.phase_rad).sin();
+    Panel {
+        name: "counterbalance",
+        note: format!("{} N·m", effect.amplitude_nm),
+        expected: vec![curve(&steps(low, high, 100), torque)],
         ..over_position(record, joint, &record.robot)
     }
 }

@@ -41,7 +41,10 @@ const FAMILIES: [(&str, &[&str]); 5] = [
         ],
     ),
     ("Transmission", &["backlash", "joint_elasticity", "rotor_inertia", "differential_coupling"]),
-    ("Load", &["payload", "inertial_parameters", "gravity_direction", "cable_spring"]),
+    (
+        "Load",
+        &["payload", "inertial_parameters", "gravity_direction", "cable_spring", "counterbalance"],
+    ),
     (
         "Drive",
         &[
@@ -94,6 +97,7 @@ fn panel(record: &Record) -> Panel {
         E::InertialParameters(effect) => load::inertial_parameters(record, effect),
         E::GravityDirection(effect) => load::gravity_direction(record, effect),
         E::CableSpring(effect) => load::cable(record, effect),
+        E::Counterbalance(effect) => load::counterbalance(record, effect),
         E::TorqueRipple(effect) => drive::ripple(record, effect),
         E::TorqueConstant(effect) => drive::constant(record, effect),
         E::TorqueOffset(effect) => drive::offset(record, effect),

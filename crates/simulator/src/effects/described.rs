@@ -1,9 +1,9 @@
 use robot::{Actuator, Robot};
 
 use super::{
-    actuator_delay, actuator_lag, cable_spring, differential_coupling, encoder_offset,
-    load_dependent_friction, position_dependent_friction, presliding_friction, stribeck_friction,
-    torque_ripple, transmission_ratio,
+    actuator_delay, actuator_lag, cable_spring, counterbalance, differential_coupling,
+    encoder_offset, load_dependent_friction, position_dependent_friction, presliding_friction,
+    stribeck_friction, torque_ripple, transmission_ratio,
 };
 use crate::Inject;
 
@@ -38,6 +38,7 @@ pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> 
             }),
             a.ripple.map(|ripple| torque_ripple::acting(joint, ripple)),
             cable_spring::beyond_linear(robot, joint, a),
+            a.counterbalance.map(|balance| counterbalance::acting(joint, balance)),
             a.coupling
                 .map(|c| differential_coupling::acting(joint, [joint, c.other].map(rotor), c)),
             ratio.map(|ratio| transmission_ratio::acting(joint, ratio)),

@@ -112,4 +112,6 @@ effects! {
     TimeSkew,
     /// A torque or force from the world around.
     ExternalDisturbance,
+    /// A spring or weight that carries part of the weight of what a joint lifts.
+    Counterbalance,
 }
