@@ -5,17 +5,16 @@ use crate::figures::figures_of;
 use crate::forward::{ForwardTable, drift_chart, forward_table};
 use crate::html_grid::rendered;
 use crate::numbers::{percent, significant};
-use crate::places::listed;
+use crate::page::page;
+use crate::places::{joint_anchor, joint_of, listed};
 use crate::residual::{ResidualRow, residual_rows};
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::spectra::spectra;
 use crate::tables::{
-    Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, negligible, ruled_out,
+    Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, name_beside_joint,
+    negligible, ruled_out,
 };
 use crate::{Chart, Provenance, Report, ReportError, ResidualModel, json};
-
-/// Joints whose figures are shown without a click; never one whose data are inadequate.
-const OPEN_JOINTS: usize = 3;
 
 /// `report.html`: one file that opens offline and without scripts.
 ///
@@ -23,8 +22,8 @@ const OPEN_JOINTS: usize = 3;
 ///
 /// [`ReportError::Format`].
 pub fn html(report: &Report) -> Result<String, ReportError> {
-    let page = Page::new(report)?;
-    page.render().map_err(|e| ReportError::Format { format: "HTML", reason: e.to_string() })
+    let provenance = report.provenance.without_places();
+    page(&Page::new(&Report { provenance: &provenance, ..*report })?)
 }
 
 /// The sections of the page that say what was found, what is left, what every joint shows and what
@@ -67,8 +66,11 @@ struct Page<'a> {
 /// The figures of one joint.
 struct JointSection {
     name: String,
+    anchor: String,
     verdict: &'static str,
     class: &'static str,
+    /// The effects that were found at it, for which its figures are shown without a click.
+    findings: Vec<String>,
     is_open: bool,
     time: Vec<Figure>,
     residual: Vec<Figure>,
@@ -142,14 +144,17 @@ fn sections(report: &Report) -> Vec<JointSection> {
     let joints = report.diagnosis.joints.iter().enumerate();
     let (adequate, inadequate): (Vec<_>, Vec<_>) =
         joints.partition(|(_, joint)| joint.verdict != Verdict::DataInadequate);
-    let open = adequate.len().min(OPEN_JOINTS);
-    let sections = adequate.into_iter().chain(inadequate).enumerate().map(|(place, (i, joint))| {
+    let sections = adequate.into_iter().chain(inadequate).map(|(i, joint)| {
         let figures = figures_of(report, i);
+        let at_it = report.diagnosis.findings.iter().filter(|f| joint_of(report, &f.at) == Some(i));
+        let findings: Vec<String> = at_it.map(|f| name_beside_joint(&f.at)).collect();
         JointSection {
             name: joint.name.clone(),
+            anchor: joint_anchor(i),
             verdict: joint.verdict.words(),
             class: class_of(joint.verdict),
-            is_open: place < open,
+            is_open: !findings.is_empty(),
+            findings,
             time: figures.time.into_iter().map(Figure::from).collect(),
             residual: figures.residual.into_iter().map(Figure::from).collect(),
         }
@@ -221,14 +226,49 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_that_the_log_does_not_show_is_grey_and_comes_last_and_closed() {
+    fn a_joint_that_the_log_does_not_show_is_grey_and_comes_last() {
         let mut sample = sample::arm();
         sample.diagnosis.joints[0].verdict = diagnosis::Verdict::DataInadequate;
         let page = super::html(&sample.report()).unwrap();
         assert!(page.contains(r#"<tr class="open"><th scope="row">shoulder"#));
         let sections: Vec<&str> = page.split(r#"<details class="joint""#).skip(1).collect();
-        assert!(sections[0].starts_with(" open><summary>elbow"));
-        assert!(sections[1].starts_with("><summary>shoulder"));
+        assert!(sections[0].contains("<summary id=\"joint-2\">elbow"));
+        assert!(sections[1].contains("<summary id=\"joint-1\">shoulder"));
+    }
+
+    #[test]
+    fn joints_with_findings_are_open_and_the_others_folded() {
+        let mut sample = sample::arm();
+        let open = |sample: &sample::Sample| -> Vec<bool> {
+            let page = super::html(&sample.report()).unwrap();
+            let sections = page.split(r#"<details class="joint""#).skip(1);
+            sections.map(|section| section.starts_with(" open>")).collect()
+        };
+        assert_eq!(open(&sample), [true, true], "friction at one, the link of the other");
+        sample.diagnosis.findings.remove(0);
+        assert_eq!(open(&sample), [false, true]);
+        sample.diagnosis.findings.clear();
+        assert_eq!(open(&sample), [false, false]);
+    }
+
+    #[test]
+    fn the_contents_lead_to_every_section_and_every_link_has_its_place() {
+        let page = super::html(&sample::arm().report()).unwrap();
+        let links: Vec<&str> =
+            page.split("href=\"#").skip(1).filter_map(|link| link.split('"').next()).collect();
+        assert!(links.contains(&"joint-by-joint") && links.contains(&"joint-1"), "{links:?}");
+        for link in links {
+            assert_eq!(page.matches(&format!("id=\"{link}\"")).count(), 1, "{link}");
+        }
+    }
+
+    #[test]
+    fn no_folder_of_the_machine_is_told() {
+        let mut sample = sample::arm();
+        sample.provenance.files[0].path = "/home/me/x/../arm.urdf".into();
+        sample.provenance.command.push("/home/me/x/../arm.urdf".into());
+        let page = super::html(&sample.report()).unwrap();
+        assert!(page.contains(">arm.urdf<") && !page.contains("/home"));
     }
 
     #[test]

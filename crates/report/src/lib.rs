@@ -32,6 +32,7 @@ mod log_axis;
 mod markdown;
 mod notebook;
 mod numbers;
+mod page;
 mod paper;
 mod places;
 mod poster;

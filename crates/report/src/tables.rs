@@ -3,7 +3,7 @@ use diagnosis::{EffectAt, Estimate, Finding, Negligible, NoiseFloorSource, Ruled
 
 use crate::Report;
 use crate::numbers::{interval, percent, significant, unit};
-use crate::places::{JointUnits, joint_of};
+use crate::places::{JointUnits, joint_anchor, joint_of};
 
 /// One row of the table before and after, as text.
 pub(crate) struct JointRow {
@@ -115,6 +115,8 @@ pub(crate) struct Cause {
     pub code: &'static str,
     pub effect: &'static str,
     pub place: String,
+    /// Where the page has the figures of its joint.
+    pub anchor: Option<String>,
     pub equation: &'static str,
     pub signature: &'static str,
     pub parameters: Vec<ParameterRow>,
@@ -148,6 +150,7 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
         code: finding.at.effect.code(),
         effect: finding.at.effect.words(),
         place: place(&finding.at),
+        anchor: joint_of(report, &finding.at).map(joint_anchor),
         equation: entry.equation,
         signature: entry.signature,
         parameters: finding

@@ -45,7 +45,8 @@ impl PredictionTimeFigureReport<'_> {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let times = self.times;
+        let provenance = self.times.provenance.without_places();
+        let times = &PredictionTimes { provenance, ..self.times.clone() };
         let (labels, columns) = times.table();
         let drawing = Drawing {
             title: "Time of one prediction".to_owned(),
@@ -64,7 +65,7 @@ impl PredictionTimeFigureReport<'_> {
             drawings: vec![drawing],
             remarks: &times.remarks,
             provenance: &times.provenance,
-            json: ("figure_prediction_time", self.json()?),
+            json: ("figure_prediction_time", PredictionTimeFigureReport { times, claims: self.claims }.json()?),
         })
     }
 

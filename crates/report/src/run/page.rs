@@ -10,6 +10,7 @@ use crate::grid::{Cell, DIGITS};
 use crate::html::inert;
 use crate::html_grid::{Grid, rendered};
 use crate::numbers::significant;
+use crate::page::page as whole;
 use crate::paper::{ClaimRow, claim_rows};
 use crate::{Provenance, ReportError};
 
@@ -50,6 +51,7 @@ impl RunReport<'_> {
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
         let (metrics, told) = (self.metrics, self.told);
+        let provenance = self.provenance.without_places();
         let page = Page {
             robot: &metrics.robot,
             class: &told.class,
@@ -71,10 +73,10 @@ impl RunReport<'_> {
             sections: &told.sections,
             motions: &told.motions,
             next: self.next,
-            provenance: self.provenance,
+            provenance: &provenance,
             json: inert(&self.json()?),
         };
-        rendered(&page)
+        whole(&page)
     }
 
     /// Every number joint by joint, one column a model.

@@ -5,6 +5,7 @@ use crate::grid::{Cell, DIGITS, marked};
 use crate::html::inert;
 use crate::html_grid::{Grid, rendered};
 use crate::numbers::significant;
+use crate::page::page;
 use crate::sheet::Place;
 use crate::{Provenance, ReportError};
 
@@ -48,7 +49,9 @@ impl TrackingComparison {
         let shown = self.shown_joints();
         let others: Vec<usize> = (0..self.joints.len()).filter(|i| !shown.contains(i)).collect();
         let errors = |model: &TrackedModel, joint| 1e3 * model.error(joint);
-        let page = Page {
+        let provenance = self.provenance.without_places();
+        let shared = Self { provenance: provenance.clone(), ..self.clone() };
+        let whole = Page {
             robot: &self.robot,
             circumstances: self.circumstances(),
             sentence: self.sentence(),
@@ -67,10 +70,10 @@ impl TrackingComparison {
             tables: self.more_tables()?,
             models: self.models.iter().map(|m| (m.name.as_str(), m.words.as_str())).collect(),
             gains: self.gain_table()?,
-            provenance: &self.provenance,
-            json: inert(&self.json()?),
+            provenance: &provenance,
+            json: inert(&shared.json()?),
         };
-        rendered(&page)
+        page(&whole)
     }
 
     /// One row a joint and one column a model.

@@ -4,7 +4,7 @@ use evaluation::{Failure, Group, KindCount, Merged};
 use super::confusion_figure::confusion_figure;
 use super::table::table;
 use crate::html::inert;
-use crate::html_grid::rendered;
+use crate::page::page;
 use crate::{Provenance, ReportError};
 
 #[derive(Template)]
@@ -41,7 +41,7 @@ pub fn trials_page(
     let json = serde_json::to_string_pretty(merged)
         .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
     let [shares, sizes] = merged.tally.tables();
-    rendered(&Page {
+    page(&Page {
         campaign: merged.campaign.get(..8).unwrap_or(&merged.campaign),
         sentence: sentence(merged),
         doubts,
@@ -53,7 +53,7 @@ pub fn trials_page(
         sizes: table(sizes)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
-        provenance,
+        provenance: &provenance.without_places(),
         json: inert(&json),
     })
 }

@@ -4,7 +4,7 @@ use evaluation::{Failure, KindCount, MergedPanel};
 use super::corner_figure::corner_figure;
 use super::table::table;
 use crate::html::inert;
-use crate::html_grid::rendered;
+use crate::page::page;
 use crate::{Provenance, ReportError};
 
 #[derive(Template)]
@@ -46,7 +46,7 @@ pub fn panel_page(
         .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
     let [names, verdicts, predictions, baselines, kinds, strangers, slowest] =
         merged.tally.tables();
-    rendered(&Page {
+    page(&Page {
         campaign: merged.campaign.get(..8).unwrap_or(&merged.campaign),
         sentence: sentence(merged),
         doubts,
@@ -61,7 +61,7 @@ pub fn panel_page(
         slowest: table(slowest)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
-        provenance,
+        provenance: &provenance.without_places(),
         json: inert(&json),
     })
 }
