@@ -1,9 +1,10 @@
 use askama::Template;
 
 use crate::ReportError;
+use crate::inks::{Colours, Place};
 use crate::log_axis::{LogAxis, Tick, rounded};
 use crate::numbers::significant;
-use crate::sheet::{CHARACTER, EDGES, Key, Place, Sheet};
+use crate::sheet::{CHARACTER, EDGES, Key, Sheet};
 use crate::wrap::shortened;
 
 /// Height of a panel of bars, and of what stands between two panels (px).
@@ -88,21 +89,21 @@ struct Bar {
     y: f64,
     width: f64,
     height: f64,
-    colour: &'static str,
+    colour: String,
     words: String,
 }
 
 impl Drawing {
     fn new(bars: &Bars, place: Place) -> Self {
         let sheet = Sheet::new(&bars.title, &bars.subtitle, bars.keys.clone(), place);
-        let panels = panels(bars, sheet.bottom() + 22.0);
+        let panels = panels(bars, sheet.bottom() + 22.0, &place.colours());
         let bottom = panels.last().map_or(sheet.bottom(), |panel| panel.bottom);
         Self { sheet: sheet.down_to(bottom + BETWEEN), edges: EDGES, axis: bars.axis, panels }
     }
 }
 
 /// The joints in panels of about the same number, all with the same axis.
-fn panels(bars: &Bars, top: f64) -> Vec<Panel> {
+fn panels(bars: &Bars, top: f64, colours: &Colours) -> Vec<Panel> {
     let joints = bars.joints.len();
     let rows = joints.div_ceil(MOST_JOINTS).max(1);
     let columns = joints.div_ceil(rows).max(1);
@@ -118,14 +119,21 @@ fn panels(bars: &Bars, top: f64) -> Vec<Panel> {
             bottom: top + PANEL,
             ticks: axis.ticks(),
             mark: bars.mark.filter(|m| axis.holds(m.0)).map(|(at, words)| (axis.at(at), words)),
-            groups: groups.map(|(i, j)| group(&bars.keys, j, &axis, [left(i), width])).collect(),
+            groups: groups
+                .map(|(i, j)| group((&bars.keys, colours), j, &axis, [left(i), width]))
+                .collect(),
         })
     });
     panels.collect()
 }
 
 /// The bars of one joint between `left` and `left + width`.
-fn group(keys: &[Key], joint: &JointBars, axis: &LogAxis, [left, width]: [f64; 2]) -> Group {
+fn group(
+    (keys, colours): (&[Key], &Colours),
+    joint: &JointBars,
+    axis: &LogAxis,
+    [left, width]: [f64; 2],
+) -> Group {
     let step = (FILLED * width / keys.len() as f64).min(WIDEST);
     let start = left + 0.5 * (width - step * keys.len() as f64);
     let floor = axis.at(0.0);
@@ -135,7 +143,7 @@ fn group(keys: &[Key], joint: &JointBars, axis: &LogAxis, [left, width]: [f64; 2
         y: axis.at(value),
         width: rounded(0.88 * step),
         height: rounded(floor - axis.at(value)),
-        colour: key.colour,
+        colour: colours.of(key.ink),
         words: format!("{}, {}: {}", joint.name, key.name, significant(value, 3)),
     });
     let fits = ((width - 6.0) / CHARACTER) as usize;
@@ -164,18 +172,18 @@ fn two_lines(name: &str, most: usize) -> [String; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sheet::COLOURS;
+    use crate::chart::Ink;
 
     /// Two joints and three models, one of which knows nothing of the second joint.
     fn bars() -> Bars {
-        let key = |(name, colour): (&str, _)| Key { name: name.into(), colour };
+        let key = |(index, name): (usize, &str)| Key { name: name.into(), ink: Ink::Model(index) };
         let joint =
             |name: &str, values: [f64; 3]| JointBars { name: name.into(), values: values.to_vec() };
         Bars {
             title: "t".into(),
             subtitle: "s".into(),
             axis: "nMSE",
-            keys: ["rbd", "gp", "gp-rbd"].into_iter().zip(COLOURS).map(key).collect(),
+            keys: ["rbd", "gp", "gp-rbd"].into_iter().enumerate().map(key).collect(),
             joints: vec![
                 joint("shoulder", [0.1, 0.01, 0.001]),
                 joint("elbow", [f64::NAN, 0.02, 0.02]),

@@ -2,11 +2,12 @@ use diagnosis::{JointTraces, RunTraces};
 
 use crate::decimate::{bands, columns};
 use crate::places::JointUnits;
-use crate::{Axis, Chart, Report, Role, Series, Shape};
+use crate::{Axis, Chart, Report, Series, Shape};
+use colours::Role;
 
 /// Size of a figure over time and of one of three beside each other (px).
-const WIDE: (f64, f64) = (1040.0, 230.0);
-const NARROW: (f64, f64) = (345.0, 240.0);
+const WIDE: (f64, f64) = (1040.0, 180.0);
+const NARROW: (f64, f64) = (345.0, 180.0);
 
 /// Length of the stretch that is shown enlarged (s).
 const DETAIL_S: f64 = 8.0;
@@ -68,7 +69,7 @@ pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
         (nominal.as_str(), units.effort, |t| &t.nominal),
     ];
     let residual = against.into_iter().map(|(label, unit, signal)| {
-        let x = Axis { label: label.to_owned(), unit };
+        let x = Axis::new(label, unit);
         residual_against(format!("Residual of {name} against {label}"), x, units, &runs, signal)
     });
     JointFigures { time, residual: residual.filter(|chart| !chart.is_empty()).collect() }
@@ -102,13 +103,14 @@ fn over_time(title: String, units: JointUnits, stretch: Stretch, width: usize) -
     let line = |(role, torque): (Role, &[f64])| {
         let points: Vec<[f64; 2]> =
             stretch.time.iter().zip(torque).map(|(&t, &tau)| [t, tau]).collect();
-        Series { role, shape: Shape::Line(columns(&points, width)) }
+        Series::of(role, Shape::Line(columns(&points, width)))
     };
     Chart {
         title,
-        x: Axis { label: "time".to_owned(), unit: "s" },
-        y: Axis { label: units.load.to_owned(), unit: units.effort },
+        x: Axis::new("time", "s"),
+        y: Axis::new(units.load, units.effort),
         series: stretch.torques.into_iter().map(line).collect(),
+        floor: None,
         size: WIDE,
     }
 }
@@ -170,12 +172,12 @@ fn residual_against(
         let bands = bands(&signal, &left, SLICES);
         let area = bands.iter().map(|&[x, low, _, high]| [x, low, high]).collect();
         let line = bands.iter().map(|&[x, _, middle, _]| [x, middle]).collect();
-        areas.push(Series { role, shape: Shape::Band(area) });
-        lines.push(Series { role, shape: Shape::Line(line) });
+        areas.push(Series::of(role, Shape::Band(area)));
+        lines.push(Series::of(role, Shape::Line(line)));
     }
     areas.append(&mut lines);
-    let y = Axis { label: "measured − model".to_owned(), unit: units.effort };
-    Chart { title, x, y, series: areas, size: NARROW }
+    let y = Axis::new("measured − model", units.effort);
+    Chart { title, x, y, series: areas, floor: None, size: NARROW }
 }
 
 #[cfg(test)]

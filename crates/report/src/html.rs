@@ -2,7 +2,7 @@ use askama::Template;
 use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 
 use crate::figures::figures_of;
-use crate::forward::{ForwardTable, drift_chart, forward_table};
+use crate::forward::{ForwardTable, drift_in_page, forward_table};
 use crate::html_grid::rendered;
 use crate::numbers::{percent, significant};
 use crate::page::page;
@@ -82,9 +82,9 @@ struct Figure {
     svg: String,
 }
 
-impl From<Chart> for Figure {
-    fn from(chart: Chart) -> Self {
-        Self { svg: chart.svg(), title: chart.title }
+impl Figure {
+    fn new(chart: Chart) -> Result<Self, ReportError> {
+        Ok(Self { svg: chart.in_page()?, title: chart.title })
     }
 }
 
@@ -123,10 +123,10 @@ impl<'a> Page<'a> {
             spectra: spectra(report)?,
             folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
             forward: forward_table(report),
-            drift: report.forward.and_then(drift_chart).map_or_else(String::new, |c| c.svg()),
+            drift: drift_in_page(report.forward)?,
             causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
             negligible: negligible(report),
-            figures: sections(report),
+            figures: sections(report)?,
             left: left(diagnosis),
             residual: report.residual,
             residual_rows: residual_rows(report),
@@ -140,7 +140,7 @@ impl<'a> Page<'a> {
 }
 
 /// The joints with adequate data first.
-fn sections(report: &Report) -> Vec<JointSection> {
+fn sections(report: &Report) -> Result<Vec<JointSection>, ReportError> {
     let joints = report.diagnosis.joints.iter().enumerate();
     let (adequate, inadequate): (Vec<_>, Vec<_>) =
         joints.partition(|(_, joint)| joint.verdict != Verdict::DataInadequate);
@@ -148,18 +148,22 @@ fn sections(report: &Report) -> Vec<JointSection> {
         let figures = figures_of(report, i);
         let at_it = report.diagnosis.findings.iter().filter(|f| joint_of(report, &f.at) == Some(i));
         let findings: Vec<String> = at_it.map(|f| name_beside_joint(&f.at)).collect();
-        JointSection {
+        Ok(JointSection {
             name: joint.name.clone(),
             anchor: joint_anchor(i),
             verdict: joint.verdict.words(),
             class: class_of(joint.verdict),
             is_open: !findings.is_empty(),
             findings,
-            time: figures.time.into_iter().map(Figure::from).collect(),
-            residual: figures.residual.into_iter().map(Figure::from).collect(),
-        }
+            time: drawn(figures.time)?,
+            residual: drawn(figures.residual)?,
+        })
     });
     sections.collect()
+}
+
+fn drawn(charts: Vec<Chart>) -> Result<Vec<Figure>, ReportError> {
+    charts.into_iter().map(Figure::new).collect()
 }
 
 fn left(diagnosis: &Diagnosis) -> Vec<Left> {
@@ -222,7 +226,7 @@ mod tests {
             page.contains("&lt;at&gt;") || page.contains("&#60;at&#62;"),
             "evidence is not escaped"
         );
-        assert_eq!(page.matches("<svg").count(), 2 * (3 + 3));
+        assert_eq!(page.matches("<svg class=\"plot\"").count(), 2 * (3 + 3));
     }
 
     #[test]

@@ -17,7 +17,6 @@
 mod bars;
 mod chart;
 mod decimate;
-mod draw;
 mod error;
 mod figures;
 mod files;
@@ -25,6 +24,7 @@ mod forward;
 mod grid;
 mod html;
 mod html_grid;
+mod inks;
 mod json;
 mod learning;
 mod linear_axis;
@@ -35,6 +35,7 @@ mod numbers;
 mod page;
 mod paper;
 mod places;
+mod plot;
 mod poster;
 mod provenance;
 mod residual;
@@ -50,7 +51,6 @@ mod tracking;
 mod trials;
 mod wrap;
 
-pub use chart::{Axis, Chart, Role, Series, Shape};
 pub use error::ReportError;
 pub use files::{sha256_of, write_folder};
 pub use html::html;
@@ -79,6 +79,8 @@ pub use tracking::{
 };
 pub use trials::{panel_page, trials_page};
 pub use wrap::packed;
+
+use chart::{Axis, Chart, Series, Shape};
 
 /// Everything that a report shows.
 #[derive(Debug, Clone, Copy)]

@@ -1,19 +1,17 @@
 use super::comparison::Comparison;
 use crate::ReportError;
 use crate::bars::{Bars, JointBars};
-use crate::sheet::{COLOURS, Key, Place};
+use crate::inks::Place;
+use crate::sheet::Key;
 
 impl Comparison {
     /// `figure.svg`: the error of every model at every joint as bars on a logarithmic axis, as
     /// in figure 2 of Nguyen-Tuong & Peters 2010, in a drawing that stands alone.
     ///
-    /// Shows the first ten models.
-    ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn figure(&self) -> Result<String, ReportError> {
-        let keys = self.models.iter().zip(COLOURS);
         let joints = self.joints.iter().enumerate().map(|(i, joint)| JointBars {
             name: joint.name.clone(),
             values: self
@@ -30,7 +28,7 @@ impl Comparison {
                 self.test.points, self.train.points, self.train.rows
             ),
             axis: "nMSE",
-            keys: keys.map(|(model, colour)| Key { name: model.name.clone(), colour }).collect(),
+            keys: Key::of_models(self.models.iter().map(|model| model.name.as_str())),
             joints: joints.collect(),
             mark: Some((1.0, "as far off as the mean effort")),
         };

@@ -3,8 +3,9 @@ use evaluation::{LearningErrors, ModelErrors};
 use crate::ReportError;
 use crate::bars::{Bars, JointBars};
 use crate::grid::{Cell, Column, DIGITS, marked};
+use crate::inks::Place;
 use crate::numbers::significant;
-use crate::sheet::{COLOURS, Key, Place};
+use crate::sheet::Key;
 
 /// The errors of some models on some data.
 pub(super) struct ErrorTable<'a> {
@@ -33,7 +34,6 @@ impl ErrorTable<'_> {
 
     /// The errors as bars on a logarithmic axis.
     pub fn bars(&self, place: Place) -> Result<String, ReportError> {
-        let keys = self.models.iter().zip(COLOURS);
         let joints = self.joints.iter().enumerate().map(|(j, joint)| JointBars {
             name: joint.clone(),
             values: self.models.iter().map(|model| nmse(model, j)).collect(),
@@ -42,7 +42,7 @@ impl ErrorTable<'_> {
             title: self.title.clone(),
             subtitle: format!("{}; logarithmic, lower is better", self.words),
             axis: "nMSE",
-            keys: keys.map(|(model, colour)| Key { name: model.model.clone(), colour }).collect(),
+            keys: Key::of_models(self.models.iter().map(|model| model.model.as_str())),
             joints: joints.collect(),
             mark: Some((1.0, "mean torque")),
         };

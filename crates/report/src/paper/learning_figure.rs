@@ -5,8 +5,8 @@ use super::claims::{Quantity, claim_text, claims_sentence};
 use super::error_tables::{ErrorTable, worse_than_named};
 use super::page::{Contents, Drawing, page, table};
 use crate::grid::{Column, grid};
+use crate::inks::Place;
 use crate::json::with_schema;
-use crate::sheet::Place;
 use crate::terminal::{BOLD, entry};
 use crate::{Provenance, ReportError};
 

@@ -3,8 +3,8 @@ use serde::Serialize;
 
 use super::claims::{Quantity, claim_text, claims_sentence};
 use super::page::{Contents, Drawing, page, table};
+use crate::inks::Place;
 use crate::json::with_schema;
-use crate::sheet::Place;
 use crate::terminal::BOLD;
 use crate::{PredictionTimes, ReportError};
 
@@ -65,7 +65,10 @@ impl PredictionTimeFigureReport<'_> {
             drawings: vec![drawing],
             remarks: &times.remarks,
             provenance: &times.provenance,
-            json: ("figure_prediction_time", PredictionTimeFigureReport { times, claims: self.claims }.json()?),
+            json: (
+                "figure_prediction_time",
+                PredictionTimeFigureReport { times, claims: self.claims }.json()?,
+            ),
         })
     }
 

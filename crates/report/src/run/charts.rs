@@ -2,10 +2,8 @@ use super::RunReport;
 use super::rows::{JointNumbers, joint_numbers};
 use crate::ReportError;
 use crate::bars::{Bars, JointBars};
-use crate::sheet::{COLOURS as MODEL_COLOURS, Key, Place};
-
-/// Colours of the nominal and the extended model in a page.
-const COLOURS: [(&str, &str); 2] = [("nominal", "var(--nominal)"), ("extended", "var(--extended)")];
+use crate::inks::Place;
+use crate::sheet::Key;
 
 /// A chart of the page, with what it shows.
 pub(crate) struct GainChart {
@@ -24,7 +22,7 @@ impl RunReport<'_> {
                 title: format!("{}: {title}", self.metrics.robot),
                 subtitle: String::new(),
                 axis,
-                keys: COLOURS.map(|(name, colour)| Key { name: name.to_owned(), colour }).to_vec(),
+                keys: Key::of_models(["nominal", "extended"].into_iter()),
                 joints: joints
                     .map(|(name, n)| JointBars { name: name.clone(), values: of(n).to_vec() })
                     .collect(),
@@ -68,7 +66,6 @@ impl RunReport<'_> {
 
     /// The errors of the tracking with everything that was fed forward, as bars.
     pub(crate) fn all_tracked(&self) -> Result<String, ReportError> {
-        let runs = self.metrics.tracking.iter().zip(MODEL_COLOURS);
         let error = |rms: &Option<Vec<f64>>, j: usize| {
             let rms = rms.as_ref().and_then(|rms| rms.get(j)).copied();
             1e3 * rms.unwrap_or(f64::NAN)
@@ -81,7 +78,7 @@ impl RunReport<'_> {
             title: format!("{}: error of the tracking with every model", self.metrics.robot),
             subtitle: String::new(),
             axis: self.position_units()[1],
-            keys: runs.map(|(run, colour)| Key { name: run.model.clone(), colour }).collect(),
+            keys: Key::of_models(self.metrics.tracking.iter().map(|run| run.model.as_str())),
             joints: joints.collect(),
             mark: None,
         };

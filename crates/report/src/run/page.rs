@@ -5,7 +5,7 @@ use super::RunReport;
 use super::charts::GainChart;
 use super::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
 use super::rows::{GainRow, gain_rows};
-use crate::forward::{drift_chart, drifts};
+use crate::forward::{drift_in_page, drifts};
 use crate::grid::{Cell, DIGITS};
 use crate::html::inert;
 use crate::html_grid::{Grid, rendered};
@@ -65,7 +65,7 @@ impl RunReport<'_> {
             gains: gain_rows(metrics),
             remarks: self.remarks(),
             charts: self.charts()?,
-            drift: drift_chart(&metrics.forward).map_or_else(String::new, |c| c.svg()),
+            drift: drift_in_page(Some(&metrics.forward))?,
             tables: self.tables()?,
             motion: self.motion,
             claims: claim_rows(&metrics.claims, self.tracked_quantity()),

@@ -1,13 +1,13 @@
 use super::comparison::TrackingComparison;
 use crate::ReportError;
 use crate::bars::{Bars, JointBars};
-use crate::sheet::Place;
+use crate::inks::Place;
 
 impl TrackingComparison {
     /// `figure3.svg`: the error of every run at every joint as bars on a logarithmic axis,
     /// after figure 3 of Nguyen-Tuong & Peters 2010, in a drawing that stands alone.
     ///
-    /// Shows the first ten models. A run that was stopped has no bars.
+    /// A run that was stopped has no bars.
     ///
     /// # Errors
     ///
@@ -19,7 +19,7 @@ impl TrackingComparison {
     pub(crate) fn errors_drawn(&self, place: Place) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(i, joint)| JointBars {
             name: joint.name.clone(),
-            values: self.keyed().map(|(model, _)| 1e3 * model.error(i)).collect(),
+            values: self.models.iter().map(|model| 1e3 * model.error(i)).collect(),
         });
         let bars = Bars {
             title: format!("{}: tracking error by joint", self.robot),

@@ -4,9 +4,9 @@ use super::comparison::{TrackedModel, TrackingComparison};
 use crate::grid::{Cell, DIGITS, marked};
 use crate::html::inert;
 use crate::html_grid::{Grid, rendered};
+use crate::inks::Place;
 use crate::numbers::significant;
 use crate::page::page;
-use crate::sheet::Place;
 use crate::{Provenance, ReportError};
 
 #[derive(Template)]
@@ -192,7 +192,7 @@ mod tests {
         let page = comparison.page().unwrap();
         assert!(!page.contains("http://") && !page.contains("https://"));
         assert!(page.contains("default-src 'none'") && !page.contains("<script>"));
-        assert_eq!(page.matches("<svg").count(), 3);
+        assert_eq!(page.matches("<svg class=\"plot\"").count(), 2);
         for expected in [
             "RMS error of the end effector",
             "<td class=\"n best\">5.00</td>",
@@ -213,7 +213,7 @@ mod tests {
         comparison.sweep = None;
         let page = comparison.page().unwrap();
         assert_eq!(page.matches("</script>").count(), 1);
-        assert!(!page.contains("<img>") && page.matches("<svg").count() == 2);
+        assert!(!page.contains("<img>") && !page.contains("How low can the gains be"));
         comparison.models.clear();
         comparison.joints.clear();
         assert!(comparison.page().unwrap().contains("No run came to its end."));
