@@ -74,6 +74,8 @@ pub enum Ink {
     Role(Role),
     /// That of one of several models, counted from 0.
     Model(usize),
+    /// That of letters, for the noise.
+    Noise,
 }
 
 impl Ink {

@@ -155,11 +155,17 @@ fn sections(report: &Report) -> Result<Vec<JointSection>, ReportError> {
             class: class_of(joint.verdict),
             is_open: !findings.is_empty(),
             findings,
-            time: drawn(figures.time)?,
+            time: figures.time.into_iter().map(over_time).collect::<Result<_, _>>()?,
             residual: drawn(figures.residual)?,
         })
     });
     sections.collect()
+}
+
+/// Torque over time and what is left of it below, on one axis of time.
+fn over_time([torque, left]: [Chart; 2]) -> Result<Figure, ReportError> {
+    let title = torque.title.clone();
+    Ok(Figure { svg: torque.in_page()? + &left.in_page()?, title })
 }
 
 fn drawn(charts: Vec<Chart>) -> Result<Vec<Figure>, ReportError> {
@@ -226,7 +232,7 @@ mod tests {
             page.contains("&lt;at&gt;") || page.contains("&#60;at&#62;"),
             "evidence is not escaped"
         );
-        assert_eq!(page.matches("<svg class=\"plot\"").count(), 2 * (3 + 3));
+        assert_eq!(page.matches("<svg class=\"plot\"").count(), 2 * (3 + 2 * 3));
     }
 
     #[test]

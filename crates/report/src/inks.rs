@@ -50,6 +50,7 @@ impl Colours {
     /// The colour of a series.
     pub fn of(&self, ink: Ink) -> String {
         match (self.place, ink) {
+            (_, Ink::Noise) => self.ink.to_owned(),
             (Place::Page, Ink::Role(role)) => format!("var(--{})", role.name()),
             (Place::Page, Ink::Model(index)) => format!("var(--model{})", index % MODELS.len()),
             (Place::Alone, Ink::Role(role)) => role.colour().on_white.to_string(),

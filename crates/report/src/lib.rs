@@ -14,9 +14,9 @@
 //! None of them holds a date or a random number: the same input gives the same
 //! bytes.
 
-mod bars;
 mod chart;
 mod decimate;
+mod dots;
 mod error;
 mod figures;
 mod files;

@@ -40,6 +40,11 @@ pub struct Key {
 }
 
 impl Key {
+    /// Whether it is that of the noise, which is a line across.
+    pub fn is_noise(&self) -> bool {
+        self.ink == Ink::Noise
+    }
+
     /// The names of models with the colours that they have everywhere.
     pub fn of_models<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<Self> {
         let inks = Ink::of_models(names.clone());

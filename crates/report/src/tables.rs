@@ -1,5 +1,7 @@
 use catalogue::EffectKind;
-use diagnosis::{EffectAt, Estimate, Finding, Negligible, NoiseFloorSource, RuledOut, Verdict};
+use diagnosis::{
+    EffectAt, Estimate, Finding, JointReport, Negligible, NoiseFloorSource, RuledOut, Verdict,
+};
 
 use crate::Report;
 use crate::numbers::{interval, percent, significant, unit};
@@ -59,6 +61,13 @@ pub(crate) fn joint_rows(report: &Report) -> Vec<JointRow> {
 
 fn length_of_bar(share: f64) -> f64 {
     if share.is_finite() { (1000.0 * share.clamp(0.0, 1.0)).round() / 10.0 } else { 0.0 }
+}
+
+/// RMS of the noise at a joint (N m or N), where the logs tell it.
+pub(crate) fn known_floor(joint: &JointReport) -> Option<f64> {
+    let floor = joint.noise_floor_rms_nm;
+    (joint.noise_floor_from != NoiseFloorSource::Unknown && floor > 0.0 && floor.is_finite())
+        .then_some(floor)
 }
 
 /// Class of a verdict in the style sheet.

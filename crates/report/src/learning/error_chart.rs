@@ -1,26 +1,27 @@
 use super::comparison::Comparison;
 use crate::ReportError;
-use crate::bars::{Bars, JointBars};
+use crate::dots::{Dots, JointDots};
 use crate::inks::Place;
 use crate::sheet::Key;
 
 impl Comparison {
-    /// `figure.svg`: the error of every model at every joint as bars on a logarithmic axis, as
+    /// `figure.svg`: the error of every model at every joint as dots on a logarithmic axis, as
     /// in figure 2 of Nguyen-Tuong & Peters 2010, in a drawing that stands alone.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn figure(&self) -> Result<String, ReportError> {
-        let joints = self.joints.iter().enumerate().map(|(i, joint)| JointBars {
+        let joints = self.joints.iter().enumerate().map(|(i, joint)| JointDots {
             name: joint.name.clone(),
             values: self
                 .models
                 .iter()
                 .map(|model| model.nmse.get(i).copied().unwrap_or(f64::NAN))
                 .collect(),
+            floor: None,
         });
-        let bars = Bars {
+        let dots = Dots {
             title: format!("{}: error of learned models by joint", self.robot),
             subtitle: format!(
                 "MSE over variance of the effort on {} held-out samples, trained on {} of {}; \
@@ -32,7 +33,7 @@ impl Comparison {
             joints: joints.collect(),
             mark: Some((1.0, "as far off as the mean effort")),
         };
-        bars.svg(Place::Alone)
+        dots.drawn(Place::Alone)
     }
 }
 

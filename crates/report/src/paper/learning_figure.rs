@@ -51,9 +51,9 @@ impl LearningFigureReport<'_> {
     pub fn figures(&self) -> Result<[(&'static str, String); 3], ReportError> {
         let [simulated, real, outside] = self.tables();
         Ok([
-            ("figure2b_simulated.svg", simulated.bars(Place::Alone)?),
-            ("figure2c_real.svg", real.bars(Place::Alone)?),
-            ("outside.svg", outside.bars(Place::Alone)?),
+            ("figure2b_simulated.svg", simulated.dots(Place::Alone)?),
+            ("figure2c_real.svg", real.dots(Place::Alone)?),
+            ("outside.svg", outside.dots(Place::Alone)?),
         ])
     }
 
@@ -66,7 +66,7 @@ impl LearningFigureReport<'_> {
     pub fn page(&self) -> Result<String, ReportError> {
         let drawings = self.tables().into_iter().zip(self.more()).map(|(errors, more)| {
             Ok(Drawing {
-                svg: errors.bars(Place::Page)?,
+                svg: errors.dots(Place::Page)?,
                 table: table("nMSE", errors.joints, &errors.columns(more))?,
                 title: errors.title,
                 words: format!("{}.", errors.words),
