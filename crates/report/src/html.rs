@@ -16,7 +16,7 @@ use crate::tables::{
 };
 use crate::{Chart, Provenance, Report, ReportError, ResidualModel, json};
 
-/// `report.html`: one file that opens offline and without scripts.
+/// `report.html`: one file that opens offline, and without scripts too.
 ///
 /// # Errors
 ///
@@ -57,6 +57,7 @@ struct Page<'a> {
     residual: Option<&'a ResidualModel>,
     residual_rows: Vec<ResidualRow>,
     ruled_out: Vec<(String, Vec<RuledOutRow>)>,
+    descriptions: &'a [(exchange::Format, exchange::Export)],
     data: &'a DataSummary,
     held_out: &'a str,
     provenance: &'a Provenance,
@@ -131,6 +132,7 @@ impl<'a> Page<'a> {
             residual: report.residual,
             residual_rows: residual_rows(report),
             ruled_out: ruled_out(report),
+            descriptions: report.descriptions,
             data: &diagnosis.data,
             held_out: &diagnosis.gain.inverse.held_out,
             provenance: report.provenance,
@@ -217,7 +219,7 @@ mod tests {
         let sample = sample::arm();
         let page = super::html(&sample.report()).unwrap();
         assert!(!page.contains("http://") && !page.contains("https://"));
-        assert!(page.contains("default-src 'none'") && !page.contains("<script>"));
+        assert!(page.contains("default-src 'none'") && page.matches("<script>").count() == 1);
         for expected in [
             "Partly explained:",
             "<code>FR02</code> Coulomb friction",
@@ -326,11 +328,23 @@ mod tests {
     }
 
     #[test]
+    fn the_extended_robot_can_be_copied_with_what_its_format_leaves_out() {
+        let sample = sample::arm();
+        assert!(!super::html(&sample.report()).unwrap().contains("with what was found"));
+        let export = exchange::Export { text: "<robot name=\"arm\"/>".into(), fates: Vec::new() };
+        let descriptions = [(exchange::Format::Urdf, export)];
+        let report = crate::Report { descriptions: &descriptions, ..sample.report() };
+        let page = super::html(&report).unwrap();
+        assert!(page.contains("<summary>URDF <small>extended.urdf</small></summary>"), "{page}");
+        assert!(page.contains("<pre>&#60;robot name=&#34;arm&#34;/&#62;</pre>"));
+    }
+
+    #[test]
     fn a_name_cannot_end_the_embedded_json() {
         let mut sample = sample::arm();
         sample.diagnosis.robot = "</script><img>".into();
         let page = super::html(&sample.report()).unwrap();
-        assert_eq!(page.matches("</script>").count(), 1);
+        assert_eq!(page.matches("</script>").count(), 2);
         assert!(!page.contains("<img>"));
     }
 

@@ -42,6 +42,7 @@ mod residual;
 mod run;
 #[cfg(test)]
 mod sample;
+mod script;
 mod sentence;
 mod sheet;
 mod spectra;
@@ -95,6 +96,8 @@ pub struct Report<'a> {
     pub residual: Option<&'a ResidualModel>,
     /// How far simulations drift from the logs, where that was measured.
     pub forward: Option<&'a evaluation::ForwardGap>,
+    /// The extended robot in files of other programs, and what became of every quantity.
+    pub descriptions: &'a [(exchange::Format, exchange::Export)],
     /// Where the answer comes from.
     pub provenance: &'a Provenance,
 }
@@ -107,6 +110,14 @@ impl<'a> Report<'a> {
         provenance: &'a Provenance,
     ) -> Self {
         let diagnosis::Outcome { diagnosis, traces, .. } = outcome;
-        Self { diagnosis, traces, robot, residual: None, forward: None, provenance }
+        Self {
+            diagnosis,
+            traces,
+            robot,
+            residual: None,
+            forward: None,
+            descriptions: &[],
+            provenance,
+        }
     }
 }

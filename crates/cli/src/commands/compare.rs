@@ -92,7 +92,11 @@ fn write(
         let map = arguments.columns.map_file();
         let mut provenance = provenance(&arguments.robot, loaded, map)?;
         provenance.files.extend(hashes_of(runs));
-        let report = Report::new(outcome, &loaded.robot, &provenance);
+        let descriptions = diagnose::descriptions(loaded, outcome)?;
+        let report = Report {
+            descriptions: &descriptions,
+            ..Report::new(outcome, &loaded.robot, &provenance)
+        };
         let json = report::json(&report)?;
         diagnose::write(&arguments.out.join(name), loaded, outcome, (&report, &json), None)?;
     }

@@ -58,7 +58,7 @@ impl LearningFigureReport<'_> {
     }
 
     /// `report.html`: the claims, the three figures and the tables behind them in one file that
-    /// opens offline and without scripts.
+    /// opens offline, and without scripts too.
     ///
     /// # Errors
     ///

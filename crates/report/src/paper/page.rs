@@ -47,7 +47,7 @@ struct Page<'a> {
     json: String,
 }
 
-/// One file that opens offline and without scripts.
+/// One file that opens offline, and without scripts too.
 pub(super) fn page(contents: Contents) -> Result<String, ReportError> {
     let (id, json) = contents.json;
     whole(&Page {

@@ -39,7 +39,7 @@ impl PredictionTimeFigureReport<'_> {
     }
 
     /// `report.html`: the claims, the figure and the table behind it in one file that opens
-    /// offline and without scripts.
+    /// offline, and without scripts too.
     ///
     /// # Errors
     ///

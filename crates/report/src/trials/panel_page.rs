@@ -29,8 +29,8 @@ struct Page<'a> {
 }
 
 /// `report.html` of trials of a population: how well causes are named, how often a trial is falsely called
-/// well, what the findings predict, beside two baselines, corner by corner, in one file that opens offline
-/// and without scripts.
+/// well, what the findings predict, beside two baselines, corner by corner, in one file that opens offline,
+/// and without scripts too.
 ///
 /// `doubts` are sentences about what is missing.
 ///
