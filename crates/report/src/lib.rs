@@ -2,10 +2,12 @@
 //!
 //! ```text
 //! Report { diagnosis, traces, robot, forward, .. }      -> json(), html(), notebook(), figure(), text(), markdown()
-//! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
+//! Comparison { joints, models, data, .. } of learning  -> json(), page(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
 //! RunReport { metrics, told, .. } of a run             -> json(), page(), text()
+//! ReplayReport { runs, .. } of logs in simulation      -> json(), page()
+//! diagnosis::Comparison of two sets of logs            -> change_page()
 //! LearningFigureReport, PredictionTimeFigureReport     -> json(), page(), figures, text()
 //! evaluation::Merged { counts, tally, power } of trials -> trials_page()
 //! evaluation::MergedPanel { counts, tally } of trials   -> panel_page()
@@ -14,6 +16,7 @@
 //! None of them holds a date or a random number: the same input gives the same
 //! bytes.
 
+mod change;
 mod chart;
 mod decimate;
 mod dots;
@@ -38,6 +41,7 @@ mod places;
 mod plot;
 mod poster;
 mod provenance;
+mod replay;
 mod residual;
 mod run;
 #[cfg(test)]
@@ -52,6 +56,7 @@ mod tracking;
 mod trials;
 mod wrap;
 
+pub use change::{change_page, change_sentence};
 pub use error::ReportError;
 pub use files::{sha256_of, write_folder};
 pub use html::html;
@@ -69,6 +74,7 @@ pub use paper::{
 };
 pub use poster::figure;
 pub use provenance::{FileHash, Provenance, quoted};
+pub use replay::{REPLAY_SCHEMA, ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 pub use residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use run::{RUN_SCHEMA, RunReport, Told, told};
 pub use sentence::{bottom_line, verdict_sentence};

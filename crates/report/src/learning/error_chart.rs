@@ -12,6 +12,10 @@ impl Comparison {
     ///
     /// [`ReportError::Format`].
     pub fn figure(&self) -> Result<String, ReportError> {
+        self.drawn(Place::Alone)
+    }
+
+    pub(crate) fn drawn(&self, place: Place) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(i, joint)| JointDots {
             name: joint.name.clone(),
             values: self
@@ -33,7 +37,7 @@ impl Comparison {
             joints: joints.collect(),
             mark: Some((1.0, "as far off as the mean effort")),
         };
-        dots.drawn(Place::Alone)
+        dots.drawn(place)
     }
 }
 
