@@ -4,7 +4,7 @@ use diagnosis::{Comparison, Finding};
 use crate::html::inert;
 use crate::json::json;
 use crate::page::page;
-use crate::tables::{Cause, cause, class_of, name_beside_joint, sizes};
+use crate::tables::{Cause, cause, class_of, sizes};
 use crate::{Report, ReportError};
 
 #[derive(Template)]
@@ -17,8 +17,8 @@ struct Page<'a> {
     causes: Vec<Cause>,
     /// The changes with their size in the first logs.
     first: Vec<[String; 2]>,
-    alike: Vec<[String; 2]>,
-    held: Vec<[String; 2]>,
+    /// What is no change, each with what it is.
+    unchanged: Vec<(&'static str, Vec<[String; 2]>)>,
     sides: [Side; 2],
     provenance: &'a crate::Provenance,
     json: String,
@@ -57,8 +57,7 @@ pub fn change_page(comparison: &Comparison, after: &Report) -> Result<String, Re
         warnings: before.warnings.iter().chain(&changed.warnings).collect(),
         causes: changed.findings.iter().map(|finding| unlinked(cause(&report, finding))).collect(),
         first: changed.findings.iter().filter_map(|finding| first(comparison, finding)).collect(),
-        alike: comparison.alike.iter().map(row).collect(),
-        held: before.findings.iter().map(row).collect(),
+        unchanged: unchanged(comparison),
         sides: [
             side("before", "what the first logs say of the robot", before),
             side("after", "what the others say of the robot as the first found it", changed),
@@ -78,6 +77,15 @@ pub fn change_sentence(comparison: &Comparison) -> String {
     }
 }
 
+/// Findings that are no change, those of the same size in both logs apart from those of the first.
+fn unchanged(comparison: &Comparison) -> Vec<(&'static str, Vec<[String; 2]>)> {
+    let rows = |findings: &[Finding]| findings.iter().map(row).collect::<Vec<_>>();
+    let alike = ("Of the same size before, and so no change", rows(&comparison.alike));
+    let held = rows(&comparison.before.diagnosis.findings);
+    let held = ("Found before, and held where nothing above is said of it", held);
+    [alike, held].into_iter().filter(|(_, rows)| !rows.is_empty()).collect()
+}
+
 /// A finding and its sizes.
 fn row(finding: &Finding) -> [String; 2] {
     [finding.at.words(), sizes(finding).join("; ")]
@@ -87,14 +95,7 @@ fn row(finding: &Finding) -> [String; 2] {
 fn first(comparison: &Comparison, finding: &Finding) -> Option<[String; 2]> {
     let size = comparison.first.iter().find(|size| size.at == finding.at)?;
     let known = Finding { parameters: size.parameters.clone(), ..finding.clone() };
-    Some([
-        format!(
-            "{} at {}",
-            name_beside_joint(&finding.at),
-            finding.at.joint.as_deref().unwrap_or("the robot")
-        ),
-        sizes(&known).join("; "),
-    ])
+    Some(row(&known))
 }
 
 /// A finding on a page that has no figures of its joint.
@@ -115,6 +116,15 @@ mod tests {
             traces: Vec::new(),
             extended: sample.robot.clone(),
             read: None,
+            prepared: logs::Prepared {
+                runs: Vec::new(),
+                cutoff_hz: 10.0,
+                cutoff_reason: String::new(),
+                motion_hz: 1.0,
+                noise: Vec::new(),
+                warnings: Vec::new(),
+            },
+            held_out: Vec::new(),
         };
         let mut comparison = Comparison {
             before: outcome.clone(),

@@ -16,6 +16,8 @@
 //! None of them holds a date or a random number: the same input gives the same
 //! bytes.
 
+#[cfg(test)]
+mod browser;
 mod change;
 mod chart;
 mod decimate;

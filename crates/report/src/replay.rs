@@ -126,11 +126,9 @@ impl ReplayReport {
             let drift = window.drift_rms.as_ref().and_then(|rms| rms.get(joint));
             drift.copied().unwrap_or(f64::NAN)
         };
-        self.dots(run, "drift of the simulation", "RMS drift (rad or m)", {
-            (run.windows.iter().enumerate().map(key).collect(), &|joint| {
-                run.windows.iter().map(|window| at(window, joint)).collect()
-            })
-        })
+        let keys = run.windows.iter().enumerate().map(key).collect();
+        let values = |joint| run.windows.iter().map(|window| at(window, joint)).collect();
+        self.dots(run, "drift of the simulation", "RMS drift (rad or m)", (keys, &values))
     }
 
     /// The torque of a run as dots: how far off it is, beside how large it is.
@@ -138,12 +136,11 @@ impl ReplayReport {
         let Some(torque) = &run.torque else { return Ok(String::new()) };
         let key = |name: &str, role| Key { name: name.to_owned(), ink: Ink::Role(role) };
         let at = |values: &[f64], joint: usize| values.get(joint).copied().unwrap_or(f64::NAN);
-        self.dots(run, "torque along the measured motion", "RMS torque (N·m or N)", {
-            (
-                vec![key("simulated minus measured", Role::Error), key("measured", Role::Measured)],
-                &|joint| vec![at(&torque.error_rms_nm, joint), at(&torque.measured_rms_nm, joint)],
-            )
-        })
+        let keys =
+            vec![key("simulated minus measured", Role::Error), key("measured", Role::Measured)];
+        let values =
+            |joint| vec![at(&torque.error_rms_nm, joint), at(&torque.measured_rms_nm, joint)];
+        self.dots(run, "torque along the measured motion", "RMS torque (N·m or N)", (keys, &values))
     }
 
     fn dots(
@@ -192,38 +189,40 @@ impl ReplayReport {
     }
 }
 
+/// A run of a two-joint arm, for the tests of this crate.
+#[cfg(test)]
+pub fn sample() -> ReplayReport {
+    let window = |window_ms, drift_rms| ReplayedWindow { window_ms, drift_rms };
+    ReplayReport {
+        robot: "arm".into(),
+        joints: vec!["shoulder".into(), "<elbow>".into()],
+        runs: vec![ReplayedRun {
+            name: "run_1".into(),
+            windows: vec![window(50.0, Some(vec![0.001, 0.002])), window(200.0, None)],
+            torque: Some(ReplayedTorque {
+                error_rms_nm: vec![0.5, 0.25],
+                measured_rms_nm: vec![12.0, 3.0],
+            }),
+            remarks: vec!["a joint ran away".into()],
+        }],
+        warnings: Vec::new(),
+        provenance: Provenance {
+            program: "plumbline",
+            version: "0.1.0",
+            command: vec!["plumbline".into(), "replay".into()],
+            files: Vec::new(),
+            seed: None,
+        },
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn report() -> ReplayReport {
-        let window = |window_ms, drift_rms| ReplayedWindow { window_ms, drift_rms };
-        ReplayReport {
-            robot: "arm".into(),
-            joints: vec!["shoulder".into(), "<elbow>".into()],
-            runs: vec![ReplayedRun {
-                name: "run_1".into(),
-                windows: vec![window(50.0, Some(vec![0.001, 0.002])), window(200.0, None)],
-                torque: Some(ReplayedTorque {
-                    error_rms_nm: vec![0.5, 0.25],
-                    measured_rms_nm: vec![12.0, 3.0],
-                }),
-                remarks: vec!["a joint ran away".into()],
-            }],
-            warnings: Vec::new(),
-            provenance: Provenance {
-                program: "plumbline",
-                version: "0.1.0",
-                command: vec!["plumbline".into(), "replay".into()],
-                files: Vec::new(),
-                seed: None,
-            },
-        }
-    }
-
     #[test]
     fn the_page_tells_drift_and_torque_of_every_run() {
-        let page = report().page().unwrap();
+        let page = sample().page().unwrap();
         for expected in [
             "<h2 id=\"run-1\">run_1</h2>",
             "&#60;elbow&#62;, 50 ms: 0.00200",
@@ -239,7 +238,7 @@ mod tests {
 
     #[test]
     fn a_robot_without_gains_has_no_torque() {
-        let mut report = report();
+        let mut report = sample();
         report.runs[0].torque = None;
         let page = report.page().unwrap();
         assert!(!page.contains("Torque along") && page.contains("kp_nm_per_rad"));

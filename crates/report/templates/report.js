@@ -164,7 +164,7 @@
     const key = (row, column) => {
       const text = row.cells[column]?.textContent.trim() ?? "";
       const number = parseFloat(text.replace("−", "-").replace(/^[<>≥≤≈~]\s*/, ""));
-      return [Number.isNaN(number), number, text];
+      return [!isFinite(number), number, text];
     };
     const order = (a, b) => a[0] - b[0] || (a[0] ? a[2].localeCompare(b[2]) : a[1] - b[1]);
     heads.forEach((head, column) => {

@@ -162,7 +162,7 @@ mod tests {
         sample.errors.joints[1] = "</script><b>".into();
         let page = sample.report().page().unwrap();
         assert!(!page.contains("http://") && !page.contains("https://") && !page.contains("<b>"));
-        assert_eq!((page.matches("<svg").count(), page.matches("</script>").count()), (3, 1));
+        assert_eq!((page.matches("<svg").count(), page.matches("</script>").count()), (3, 2));
         for expected in ["does not hold", "20.0x", "plumbline.figure_learning/1", "a far motion."] {
             assert!(page.contains(expected), "{expected} is missing");
         }
