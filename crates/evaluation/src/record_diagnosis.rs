@@ -34,9 +34,9 @@ pub struct Diagnosed<'a> {
 /// residuals, the runs one after the other on one timeline.
 ///
 /// ```text
-/// measured ---> arm, q, qd, tau                                  solid, orange
-/// nominal  ---> arm, q under the measured tau; tau; tau - tau_nominal     red
-/// extended ---> arm, q under the measured tau; tau; tau - tau_extended    green
+/// measured ---> arm, q, qd, tau                                  solid, white
+/// nominal  ---> arm, q under the measured tau; tau; tau - tau_nominal     orange
+/// extended ---> arm, q under the measured tau; tau; tau - tau_extended    blue
 /// ```
 ///
 /// A model starts from the measured state again and again, after 1, 0.5, 0.2 or 0.1 s: the
@@ -91,18 +91,18 @@ fn scene<'a>(title: &'a str, loaded: &'a Loaded) -> Scene<'a> {
         looks: &loaded.looks,
         arms: vec![
             Arm { name: "measured", role: Role::Actual },
-            Arm { name: "nominal", role: Role::Error },
+            Arm { name: "nominal", role: Role::Nominal },
             Arm { name: "extended", role: Role::Predicted },
         ],
         signals: vec![
             signal(Position, "measured", Role::Actual),
-            signal(Position, "nominal", Role::Error),
+            signal(Position, "nominal", Role::Nominal),
             signal(Position, "extended", Role::Predicted),
             signal(Velocity, "measured", Role::Actual),
             signal(Torque, "measured", Role::Actual),
-            signal(Torque, "nominal", Role::Error),
+            signal(Torque, "nominal", Role::Nominal),
             signal(Torque, "extended", Role::Predicted),
-            signal(Residual, "nominal", Role::Error),
+            signal(Residual, "nominal", Role::Nominal),
             signal(Residual, "extended", Role::Predicted),
         ],
     }
@@ -112,7 +112,7 @@ fn scene<'a>(title: &'a str, loaded: &'a Loaded) -> Scene<'a> {
 fn legend(outcome: &Outcome, replayed: &Replayed) -> String {
     let data = &outcome.diagnosis.data;
     format!(
-        "---\n**Orange** was measured. **Red** is the nominal model, **green** the extended one, \
+        "---\n**White** was measured. **Orange** is the nominal model, **blue** the extended one, \
          both moved by the measured torque. They start anew from the measured state every \
          {} s, so a step back is no motion. The first {:.0} s of every run are simulated, in \
          steps of {} ms.\n\n\
@@ -141,7 +141,7 @@ fn found(recorder: &mut Recorder, outcome: &Outcome) -> Result<(), EvaluationErr
     let gain = &diagnosis.gain.inverse;
     let bar = |name, role, values| Bar { name, role, values };
     let bars = [
-        bar("nominal", Role::Error, &gain.rms_before_nm[..]),
+        bar("nominal", Role::Nominal, &gain.rms_before_nm[..]),
         bar("extended", Role::Predicted, &gain.rms_after_nm),
     ];
     Ok(recorder.bars("RMS error (N m or N)", &bars)?)

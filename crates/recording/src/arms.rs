@@ -1,3 +1,4 @@
+use colours::Rgb;
 use nalgebra::{Isometry3, Vector3};
 use rerun::{
     EntityPath, EntityPathPart, LineStrips3D, RecordingStream, RecordingStreamResult, TimeColumn,
@@ -199,12 +200,12 @@ impl Brush<'_> {
         &self,
         path: &EntityPath,
         visuals: &[Visual],
-        own: colour::Rgb,
+        own: Rgb,
     ) -> RecordingStreamResult<bool> {
         let mut drawn = false;
         for (i, visual) in visuals.iter().enumerate() {
             let given = visual.color_rgba.filter(|_| self.role == Role::Actual);
-            let rgb = given.map_or(own, |[r, g, b, _]| [r, g, b].map(|c| (255.0 * c) as u8));
+            let rgb = given.map_or(own, |[r, g, b, _]| Rgb([r, g, b].map(|c| (255.0 * c) as u8)));
             let paint = Paint::on_arm(rgb, self.role);
             drawn |= shapes::draw(self.stream, &below(path, &format!("shape{i}")), visual, paint)?;
         }

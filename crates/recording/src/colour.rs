@@ -1,43 +1,33 @@
+use colours::Rgb;
 use rerun::{Color, FillMode};
 
 use crate::Role;
 
-/// Red, green and blue.
-pub(crate) type Rgb = [u8; 3];
-
-/// Colours of models and of joints side by side; none is that of another role.
-const SERIES: [Rgb; 8] = [
-    [0xc3, 0x8f, 0xff],
-    [0xff, 0xd1, 0x4f],
-    [0x4f, 0xd8, 0xe8],
-    [0xff, 0x7e, 0xb6],
-    [0xa8, 0xd5, 0x4a],
-    [0x8f, 0xa8, 0xc8],
-    [0xd9, 0xa0, 0x6b],
-    [0xe8, 0xe8, 0xe8],
-];
 /// Links that stand still.
-pub(crate) const BASE: Rgb = [0x6b, 0x72, 0x80];
+pub(crate) const BASE: Rgb = Rgb([0x6b, 0x72, 0x80]);
 /// Opacity of the meshes of an arm that is not the actual one.
 const GHOST: u8 = 40;
 
+/// The colour of a role, on the dark ground of the viewer.
 pub(crate) fn rgb(role: Role) -> Rgb {
-    match role {
-        Role::Desired => [0x4c, 0x9a, 0xff],
-        Role::Actual => [0xff, 0x8b, 0x3d],
-        Role::Predicted => [0x57, 0xd9, 0xa3],
-        Role::Error => [0xff, 0x56, 0x30],
-        Role::Model(index) => series(index),
-    }
+    let role = match role {
+        Role::Desired => colours::Role::Desired,
+        Role::Actual => colours::Role::Measured,
+        Role::Nominal => colours::Role::Nominal,
+        Role::Predicted => colours::Role::Extended,
+        Role::Error => colours::Role::Error,
+        Role::Model(index) => return series(index),
+    };
+    role.colour().on_dark
 }
 
 /// Colour of one of several of the same kind.
 pub(crate) fn series(index: usize) -> Rgb {
-    SERIES[index % SERIES.len()]
+    colours::model(index).on_dark
 }
 
 /// A colour that hides what is behind it.
-pub(crate) fn solid([r, g, b]: Rgb) -> Color {
+pub(crate) fn solid(Rgb([r, g, b]): Rgb) -> Color {
     Color::from_rgb(r, g, b)
 }
 

@@ -27,6 +27,7 @@ mod plots;
 mod properties;
 mod recorder;
 mod scene;
+mod seen;
 mod shapes;
 mod signals;
 mod sinks;

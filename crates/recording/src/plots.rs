@@ -1,7 +1,7 @@
 use rerun::blueprint::TimeSeriesView;
 use rerun::external::re_sdk_types::blueprint::datatypes::VisualizerComponentMapping;
 use rerun::external::re_sdk_types::{VisualizableArchetype, Visualizer};
-use rerun::{Color, EntityPath, SeriesLines};
+use rerun::{EntityPath, SeriesLines};
 use robot::JointKind;
 
 use crate::arms::part;
@@ -13,7 +13,12 @@ pub(crate) struct Plots {
     pub joints: Vec<(String, JointKind)>,
     /// Signals that share their times; the first ones are those of the scene.
     sets: Vec<Vec<Line>>,
+    /// Least and largest number of every signal of the sets, joint by joint.
+    ends: Vec<Vec<Vec<[f64; 2]>>>,
 }
+
+/// Ends between which nothing was seen.
+const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 /// A signal as a line.
 #[derive(Debug, Clone)]
@@ -25,14 +30,54 @@ struct Line {
 
 impl Plots {
     pub fn new(joints: Vec<(String, JointKind)>, signals: &[Signal<'_>]) -> Self {
-        Self { joints, sets: vec![lines(signals)] }
+        let ends = vec![vec![vec![NOTHING; joints.len()]; signals.len()]];
+        Self { joints, sets: vec![lines(signals)], ends }
+    }
+
+    /// Takes the numbers of the signals of a set, row-major with a number a joint.
+    pub fn see(&mut self, set: usize, signals: &[&[f64]]) {
+        let joints = self.joints.len();
+        let ends = self.ends.get_mut(set).into_iter().flatten();
+        for (ends, values) in ends.zip(signals) {
+            for row in values.chunks_exact(joints.max(1)) {
+                for ([low, high], value) in ends.iter_mut().zip(row).filter(|(_, v)| v.is_finite())
+                {
+                    (*low, *high) = (low.min(*value), high.max(*value));
+                }
+            }
+        }
+    }
+
+    /// Least and largest number of a quantity of one joint, as it is shown; none before there is any.
+    pub fn ends_of(&self, joint: &str, quantity: Quantity) -> Option<[f64; 2]> {
+        let joint = self.joints.iter().position(|(name, _)| name == joint)?;
+        let all = self.sets.iter().flatten().zip(self.ends.iter().flatten());
+        let own = all.filter(|(line, _)| line.quantity == quantity).map(|(_, ends)| ends[joint]);
+        shown(own, quantity)
+    }
+
+    /// The same of what [`Self::of_all`] shows.
+    pub fn ends_of_all(&self, quantity: Quantity) -> Option<[f64; 2]> {
+        let signal = self.last_of(quantity)?;
+        shown(self.ends.first()?.get(signal)?.iter().copied(), quantity)
+    }
+
+    /// Index of the last signal of the scene with this quantity.
+    fn last_of(&self, quantity: Quantity) -> Option<usize> {
+        self.sets.first()?.iter().rposition(|line| line.quantity == quantity)
     }
 
     /// Adds signals with times of their own; returns their entities, one a joint.
     pub fn add(&mut self, signals: &[Signal<'_>]) -> Vec<EntityPath> {
         self.sets.push(lines(signals));
+        self.ends.push(vec![vec![NOTHING; self.joints.len()]; signals.len()]);
         let set = self.sets.len() - 1;
         self.joints.iter().map(|(joint, _)| path(joint, set)).collect()
+    }
+
+    /// Index of the signals that were added last.
+    pub fn last_set(&self) -> usize {
+        self.sets.len() - 1
     }
 
     /// Whether there are signals with times of their own.
@@ -78,33 +123,38 @@ impl Plots {
         view.with_contents(contents)
     }
 
-    /// One quantity of all joints: a colour a joint, or where there are several signals the
-    /// colour of their role.
+    /// The last signal of a quantity of all joints, such as what the extended model leaves: a name
+    /// and a colour a joint.
     pub fn of_all(&self, quantity: Quantity) -> TimeSeriesView {
         let lines = self.sets.first().into_iter().flatten();
         let own: Vec<&Line> = lines.filter(|line| line.quantity == quantity).collect();
         let same = self.joints.windows(2).all(|w| w[0].1.is_rotation() == w[1].1.is_rotation());
         let kind = self.joints.first().filter(|_| same).map(|(_, kind)| *kind);
         let title = kind.map_or_else(|| mixed(quantity), |kind| quantity.title(kind));
-        let mut view = TimeSeriesView::new(format!("{title} of all joints"))
+        let of = match own.as_slice() {
+            [.., last] if own.len() > 1 => format!("{}, {title} of all joints", last.name),
+            _ => format!("{title} of all joints"),
+        };
+        let mut view = TimeSeriesView::new(of)
             .with_origin("joints")
             .with_contents(self.joint_paths().map(|path| path.to_string()));
-        let color = |i: usize, role: Role| -> Color {
-            colour::solid(if own.len() == 1 { colour::series(i) } else { colour::rgb(role) })
-        };
         for (i, (joint, _)) in self.joints.iter().enumerate() {
-            let name = |signal: &str| match own.len() {
-                1 => joint.clone(),
-                _ => format!("{joint} {signal}"),
-            };
+            let is_last = |place: usize| place + 1 == own.len();
             let lines = SeriesLines::new()
-                .with_names(own.iter().map(|line| name(&line.name)))
-                .with_colors(own.iter().map(|line| color(i, line.role)))
-                .with_widths(own.iter().map(|_| 1.0_f32));
+                .with_names(own.iter().map(|_| joint.as_str()))
+                .with_colors(own.iter().map(|_| colour::solid(colour::series(i))))
+                .with_widths(own.iter().map(|_| 1.0_f32))
+                .with_visible_series((0..own.len()).map(is_last));
             view = view.with_override(path(joint, 0), reading(&lines, quantity));
         }
         view
     }
+}
+
+/// All ends together, as they are shown.
+fn shown(ends: impl Iterator<Item = [f64; 2]>, quantity: Quantity) -> Option<[f64; 2]> {
+    let [low, high] = ends.fold(NOTHING, |[low, high], [a, b]| [low.min(a), high.max(b)]);
+    (low <= high).then_some([low, high].map(|end| quantity.scale() * end))
 }
 
 fn lines(signals: &[Signal<'_>]) -> Vec<Line> {
@@ -125,8 +175,8 @@ fn mixed(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Position => "position (rad, m)",
         Quantity::Velocity => "velocity (rad/s, m/s)",
-        Quantity::Torque => "torque (N m), force (N)",
-        Quantity::Residual => "residual (N m, N)",
+        Quantity::Torque => "torque (N·m), force (N)",
+        Quantity::Residual => "residual (N·m, N)",
         Quantity::Error => "error (mrad, mm)",
     }
 }

@@ -13,6 +13,7 @@ use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
 use crate::pace::Pace;
 use crate::plots::Plots;
+use crate::seen::Seen;
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
@@ -105,6 +106,7 @@ impl Recorder {
         let layout = Layout {
             title: scene.title.to_owned(),
             reach_m: skeleton.reach_m,
+            seen: Seen::default(),
             plots: Plots::new(joints.collect(), &scene.signals),
             bars: vec![],
             opened: None,
@@ -146,9 +148,12 @@ impl Recorder {
             for ((_, arm), q) in self.arms.iter_mut().zip(rows.arms) {
                 let at = (time_s, &q[row * joints..][..joints]);
                 arm.push(&self.stream, at, &self.skeleton).map_err(refused)?;
+                let poses = self.skeleton.parent_from_child(at.1);
+                self.layout.seen.push(&self.skeleton.points_in_world(&poses));
             }
         }
         self.signals.push(rows.time_s, rows.signals);
+        self.layout.plots.see(0, rows.signals);
         self.last_s = rows.time_s.last().copied().unwrap_or(self.last_s);
         self.rows += rows.time_s.len() as u64;
         if self.signals.span_s() >= WAIT_S { self.write().map_err(refused) } else { Ok(()) }
@@ -177,6 +182,7 @@ impl Recorder {
         increasing(time_s, f64::NEG_INFINITY)?;
         let (signals, values): (Vec<Signal<'_>>, Vec<&[f64]>) = signals.iter().copied().unzip();
         let paths = self.layout.plots.add(&signals);
+        self.layout.plots.see(self.layout.plots.last_set(), &values);
         let mut written = Signals::new(paths, &signals);
         written.push(time_s, &values);
         written.flush(&self.stream).map_err(refused)
@@ -256,7 +262,7 @@ impl Recorder {
     pub fn finish(mut self) -> Result<Written, RecordingError> {
         self.write().map_err(refused)?;
         let Layout { bars, plots, opened, .. } = &self.layout;
-        if !bars.is_empty() || plots.has_further() || opened.is_some() {
+        if self.rows > 0 || !bars.is_empty() || plots.has_further() || opened.is_some() {
             self.layout.send(&self.stream)?;
         }
         let cannot = |reason: String| unwritable(&self.path, reason);

@@ -36,16 +36,18 @@ pub struct Signal<'a> {
     pub role: Role,
 }
 
-/// What something is beside the rest; one colour everywhere.
+/// What something is beside the rest; one colour everywhere, that of [`colours::Role`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// Asked for: blue.
+    /// Asked for.
     Desired,
-    /// What happened, measured or applied: orange.
+    /// What happened, measured or applied.
     Actual,
-    /// Predicted or simulated: green.
+    /// What the model as given predicts.
+    Nominal,
+    /// What a model with findings, or a learned one, predicts.
     Predicted,
-    /// A difference: red.
+    /// A difference.
     Error,
     /// One of several models side by side, in a colour of its own.
     Model(usize),
@@ -89,9 +91,9 @@ impl Quantity {
             (Self::Position, false) => "position (m)",
             (Self::Velocity, true) => "velocity (rad/s)",
             (Self::Velocity, false) => "velocity (m/s)",
-            (Self::Torque, true) => "torque (N m)",
+            (Self::Torque, true) => "torque (N·m)",
             (Self::Torque, false) => "force (N)",
-            (Self::Residual, true) => "residual torque (N m)",
+            (Self::Residual, true) => "residual torque (N·m)",
             (Self::Residual, false) => "residual force (N)",
             (Self::Error, true) => "error (mrad)",
             (Self::Error, false) => "error (mm)",

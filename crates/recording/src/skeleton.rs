@@ -67,6 +67,18 @@ impl Skeleton {
         self.world_from_base * point.coords
     }
 
+    /// The joints and the tip in the world, from the poses of the links in their parents.
+    pub fn points_in_world(&self, parent_from_child: &[Isometry3<f64>]) -> Vec<Vector3<f64>> {
+        let mut base_from_link: Vec<Isometry3<f64>> = Vec::with_capacity(parent_from_child.len());
+        for (pose, parent) in parent_from_child.iter().zip(&self.parents) {
+            let above = parent.and_then(|p| base_from_link.get(p)).copied();
+            base_from_link.push(above.unwrap_or_default() * pose);
+        }
+        let tip = base_from_link.get(self.last).map(|pose| pose * Point3::from(self.tip_in_last));
+        let joints = base_from_link.iter().map(|pose| Point3::from(pose.translation.vector));
+        joints.chain(tip).map(|point| self.world_from_base * point.coords).collect()
+    }
+
     /// Where the joints on a link sit, in its frame; `None` is the base.
     pub fn joints_on(&self, link: Option<usize>) -> Vec<Vector3<f64>> {
         let on = self.joints.iter().zip(&self.parents).filter(|(_, parent)| **parent == link);
@@ -125,6 +137,12 @@ mod tests {
             let by_hand =
                 Vector3::new(out * f64::cos(a), out * f64::sin(a), 0.5 - 0.5 * f64::sin(b));
             assert!((tip - by_hand).norm() < 1e-12, "{tip} {by_hand}");
+            let points = skeleton.points_in_world(&skeleton.parent_from_child(&[a, b]));
+            assert_eq!(points.len(), 3);
+            assert!(
+                (points[0] - Vector3::new(0.0, 0.0, 0.5)).norm() < 1e-12
+                    && (points[2] - tip).norm() < 1e-12
+            );
         }
     }
 

@@ -1,3 +1,5 @@
+use colours::Role;
+
 use crate::numbers::significant;
 
 /// A figure: what is drawn, not how.
@@ -11,7 +13,9 @@ pub struct Chart {
     pub y: Axis,
     /// What is drawn, the first at the back.
     pub series: Vec<Series>,
-    /// Width and height (px).
+    /// RMS of the noise, drawn as an area about zero.
+    pub floor: Option<f64>,
+    /// Width of a figure that stands alone, and height (px).
     pub size: (f64, f64),
 }
 
@@ -22,9 +26,30 @@ pub struct Axis {
     pub label: String,
     /// Its unit.
     pub unit: &'static str,
+    /// Where it begins.
+    pub begin: Begin,
+}
+
+/// Where an axis begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Begin {
+    /// At the least number.
+    Least,
+    /// At zero.
+    Zero,
 }
 
 impl Axis {
+    /// An axis that begins at the least number.
+    pub fn new(label: &str, unit: &'static str) -> Self {
+        Self { label: label.to_owned(), unit, begin: Begin::Least }
+    }
+
+    /// An axis that begins at zero.
+    pub fn from_zero(label: &str, unit: &'static str) -> Self {
+        Self { begin: Begin::Zero, ..Self::new(label, unit) }
+    }
+
     /// Quantity and unit, as they stand at the axis.
     pub fn text(&self) -> String {
         format!("{} ({})", self.label, self.unit)
@@ -34,31 +59,61 @@ impl Axis {
 /// One curve or area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// What it is, which decides its colour.
-    pub role: Role,
+    /// Its name, in a legend and in the text that stands for the figure.
+    pub name: String,
+    /// What it shows, which decides its colour.
+    pub ink: Ink,
     /// Its points.
     pub shape: Shape,
 }
 
-/// What a series shows.
+/// Whose colour a series has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    /// The log.
-    Measured,
-    /// The model as given.
-    Nominal,
-    /// The model with the findings.
-    Extended,
+pub enum Ink {
+    /// That of a role.
+    Role(Role),
+    /// That of one of several models, counted from 0.
+    Model(usize),
+    /// That of letters, for the noise.
+    Noise,
 }
 
-impl Role {
-    /// The name in the legend and in the text that stands for the figure.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Measured => "measured",
-            Self::Nominal => "nominal model",
-            Self::Extended => "extended model",
+impl Ink {
+    /// The ink of a model by its name, `index` among those that are neither the robot as described
+    /// nor the one with the findings.
+    pub fn of_model(name: &str, index: usize) -> Self {
+        match name {
+            "cad" | "nominal" => Self::Role(Role::Nominal),
+            "named" | "extended" => Self::Role(Role::Extended),
+            _ => Self::Model(index),
         }
+    }
+
+    /// The inks of models side by side.
+    pub fn of_models<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Self> {
+        let mut index = 0;
+        let ink = |name| {
+            let ink = Self::of_model(name, index);
+            index += usize::from(matches!(ink, Self::Model(_)));
+            ink
+        };
+        names.map(ink).collect()
+    }
+}
+
+impl Series {
+    /// A series under the name of its role.
+    pub fn of(role: Role, shape: Shape) -> Self {
+        Self { name: words(role).to_owned(), ink: Ink::Role(role), shape }
+    }
+}
+
+/// The name of a role in a legend.
+pub fn words(role: Role) -> &'static str {
+    match role {
+        Role::Nominal => "nominal model",
+        Role::Extended => "extended model",
+        Role::Measured | Role::Desired | Role::Error => role.name(),
     }
 }
 
@@ -94,7 +149,7 @@ impl Chart {
             let Shape::Line(points) = &series.shape else { continue };
             let [low, high] = range(points.iter().map(|p| p[1]));
             let (low, high) = (significant(low, 3), significant(high, 3));
-            parts.push(format!("{} {low} to {high} {}", series.role.words(), self.y.unit));
+            parts.push(format!("{} {low} to {high} {}", series.name, self.y.unit));
         }
         let [start, end] = self.ranges()[0];
         format!(
@@ -129,17 +184,22 @@ mod tests {
     fn the_text_for_a_figure_is_computed_from_its_data() {
         let chart = Chart {
             title: "Torque of elbow".into(),
-            x: Axis { label: "time".into(), unit: "s" },
-            y: Axis { label: "torque".into(), unit: "N·m" },
-            series: vec![Series {
-                role: Role::Measured,
-                shape: Shape::Line(vec![[0.0, -1.5], [2.0, 3.25]]),
-            }],
+            x: Axis::new("time", "s"),
+            y: Axis::new("torque", "N·m"),
+            series: vec![Series::of(Role::Measured, Shape::Line(vec![[0.0, -1.5], [2.0, 3.25]]))],
+            floor: None,
             size: (300.0, 200.0),
         };
         assert_eq!(
             chart.alt_text(),
             "Torque of elbow: torque against time from 0 to 2.00 s; measured -1.50 to 3.25 N·m"
         );
+    }
+
+    #[test]
+    fn the_described_and_the_extended_robot_have_the_colours_of_their_roles_among_models() {
+        let inks = Ink::of_models(["none", "cad", "gp", "named"].into_iter());
+        let [nominal, extended] = [Role::Nominal, Role::Extended].map(Ink::Role);
+        assert_eq!(inks, [Ink::Model(0), nominal, Ink::Model(1), extended]);
     }
 }

@@ -2,11 +2,19 @@ use diagnosis::{JointTraces, RunTraces};
 
 use crate::decimate::{bands, columns};
 use crate::places::JointUnits;
-use crate::{Axis, Chart, Report, Role, Series, Shape};
+use crate::tables::known_floor;
+use crate::{Axis, Chart, Report, Series, Shape};
+use colours::Role;
 
 /// Size of a figure over time and of one of three beside each other (px).
-const WIDE: (f64, f64) = (1040.0, 230.0);
-const NARROW: (f64, f64) = (345.0, 240.0);
+const WIDE: (f64, f64) = (1040.0, 180.0);
+const NARROW: (f64, f64) = (345.0, 180.0);
+
+/// Height of what is left over time (px).
+const LOW: f64 = 110.0;
+
+/// A stretch that begins within this share of its end is shown from zero.
+const NEAR: f64 = 0.1;
 
 /// Length of the stretch that is shown enlarged (s).
 const DETAIL_S: f64 = 8.0;
@@ -19,9 +27,9 @@ const SLICES: usize = 40;
 
 /// The figures of one joint.
 pub(crate) struct JointFigures {
-    /// The worst stretch enlarged, if the runs are longer than it, then torque over time
-    /// run by run.
-    pub time: Vec<Chart>,
+    /// The worst stretch enlarged, if the runs are longer than it, then run by run: torque over
+    /// time, and below it what the models leave of it.
+    pub time: Vec<[Chart; 2]>,
     /// What is left against velocity, position and load, over all runs.
     pub residual: Vec<Chart>,
 }
@@ -39,9 +47,12 @@ pub(crate) fn worst_of<'a>(report: &Report<'a>, joint: usize) -> Option<(Chart, 
     let runs = runs_of(report, joint);
     let (run, trace, part) = worst_stretch(&runs).or_else(|| worst_run(&runs))?;
     let units = JointUnits::of(report.robot, name);
-    let title = format!("Torque of {name}, where the nominal model errs most: {}", run.name);
-    let chart = over_time(title, units, slice_of(run, trace, part), 400);
+    let chart = over_time(worst_title(name, run), units, slice_of(run, trace, part), 400);
     (!chart.is_empty()).then_some((chart, run.name.as_str()))
+}
+
+fn worst_title(joint: &str, run: &RunTraces) -> String {
+    format!("Torque of {joint}, where the nominal model errs most: {}", run.name)
 }
 
 /// The figures of the joint with this index; those without data are left out.
@@ -53,13 +64,19 @@ pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
     let curves = 6 * report.traces.len().max(1) * report.diagnosis.joints.len();
     let width = (POINTS_IN_ALL / curves).clamp(60, 400);
     let runs = runs_of(report, joint);
-    let detail = worst_stretch(&runs).and_then(|_| worst_of(report, joint)).map(|(chart, _)| chart);
+    let floor = report.diagnosis.joints.get(joint).and_then(known_floor);
+    let both = |title: String, stretch: Stretch| {
+        let left = left_over_time(units, &stretch, (width, floor));
+        [over_time(title, units, stretch, width), left]
+    };
+    let detail = worst_stretch(&runs)
+        .map(|(run, trace, part)| both(worst_title(name, run), slice_of(run, trace, part)));
     let whole = runs.iter().map(|(run, trace)| {
         let title = format!("Torque of {name}: {}", run.name);
-        over_time(title, units, slice_of(run, trace, 0..run.time.len()), width)
+        both(title, slice_of(run, trace, 0..run.time.len()))
     });
-    let mut time: Vec<Chart> = detail.into_iter().chain(whole).collect();
-    time.retain(|chart| !chart.is_empty());
+    let mut time: Vec<[Chart; 2]> = detail.into_iter().chain(whole).collect();
+    time.retain(|[torque, _]| !torque.is_empty());
 
     let nominal = format!("nominal {}", units.load);
     let against: [(&str, &'static str, Signal); 3] = [
@@ -68,7 +85,7 @@ pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
         (nominal.as_str(), units.effort, |t| &t.nominal),
     ];
     let residual = against.into_iter().map(|(label, unit, signal)| {
-        let x = Axis { label: label.to_owned(), unit };
+        let x = Axis::new(label, unit);
         residual_against(format!("Residual of {name} against {label}"), x, units, &runs, signal)
     });
     JointFigures { time, residual: residual.filter(|chart| !chart.is_empty()).collect() }
@@ -98,18 +115,52 @@ fn slice_of<'a>(
     }
 }
 
+/// The axis of time: from zero where the stretch begins near it.
+fn time_axis(time: &[f64]) -> Axis {
+    match (time.first(), time.last()) {
+        (Some(first), Some(last)) if *first > 0.0 && *first < NEAR * last => {
+            Axis::from_zero("time", "s")
+        }
+        _ => Axis::new("time", "s"),
+    }
+}
+
 fn over_time(title: String, units: JointUnits, stretch: Stretch, width: usize) -> Chart {
     let line = |(role, torque): (Role, &[f64])| {
         let points: Vec<[f64; 2]> =
             stretch.time.iter().zip(torque).map(|(&t, &tau)| [t, tau]).collect();
-        Series { role, shape: Shape::Line(columns(&points, width)) }
+        Series::of(role, Shape::Line(columns(&points, width)))
     };
     Chart {
         title,
-        x: Axis { label: "time".to_owned(), unit: "s" },
-        y: Axis { label: units.load.to_owned(), unit: units.effort },
+        x: time_axis(stretch.time),
+        y: Axis::new(units.load, units.effort),
         series: stretch.torques.into_iter().map(line).collect(),
+        floor: None,
         size: WIDE,
+    }
+}
+
+/// Measured minus nominal and measured minus extended torque, with the noise about zero.
+fn left_over_time(
+    units: JointUnits,
+    stretch: &Stretch,
+    (width, floor): (usize, Option<f64>),
+) -> Chart {
+    let [(_, measured), models @ ..] = stretch.torques;
+    let line = |(role, predicted): (Role, &[f64])| {
+        let left = measured.iter().zip(predicted).map(|(m, p)| m - p);
+        let points: Vec<[f64; 2]> =
+            stretch.time.iter().copied().zip(left).map(Into::into).collect();
+        Series::of(role, Shape::Line(columns(&points, width)))
+    };
+    Chart {
+        title: format!("What the models leave of the {}", units.load),
+        x: time_axis(stretch.time),
+        y: Axis::new("measured − model", units.effort),
+        series: models.into_iter().map(line).collect(),
+        floor,
+        size: (WIDE.0, LOW),
     }
 }
 
@@ -170,12 +221,12 @@ fn residual_against(
         let bands = bands(&signal, &left, SLICES);
         let area = bands.iter().map(|&[x, low, _, high]| [x, low, high]).collect();
         let line = bands.iter().map(|&[x, _, middle, _]| [x, middle]).collect();
-        areas.push(Series { role, shape: Shape::Band(area) });
-        lines.push(Series { role, shape: Shape::Line(line) });
+        areas.push(Series::of(role, Shape::Band(area)));
+        lines.push(Series::of(role, Shape::Line(line)));
     }
     areas.append(&mut lines);
-    let y = Axis { label: "measured − model".to_owned(), unit: units.effort };
-    Chart { title, x, y, series: areas, size: NARROW }
+    let y = Axis::new("measured − model", units.effort);
+    Chart { title, x, y, series: areas, floor: None, size: NARROW }
 }
 
 #[cfg(test)]
@@ -189,9 +240,38 @@ mod tests {
         let figures = figures_of(&sample.report(), 0);
         assert_eq!(figures.time.len(), 3, "one enlarged, two runs");
         assert_eq!(figures.residual.len(), 3);
-        let Shape::Line(measured) = &figures.time[1].series[0].shape else { panic!("no line") };
+        let Shape::Line(measured) = &figures.time[1][0].series[0].shape else { panic!("no line") };
         let highest = measured.iter().map(|p| p[1]).fold(0.0, f64::max);
         assert!(highest > 10.0, "{highest}");
+    }
+
+    #[test]
+    fn what_is_left_stands_below_the_torque_with_the_noise() {
+        let mut sample = sample::arm();
+        sample.diagnosis.joints[0].noise_floor_from = diagnosis::NoiseFloorSource::Effort;
+        sample.diagnosis.joints[0].noise_floor_rms_nm = 0.02;
+        let trace = &mut sample.traces[0].joints[0];
+        trace.measured.iter_mut().for_each(|m| *m = 3.0);
+        trace.nominal.iter_mut().for_each(|n| *n = 1.0);
+        trace.extended.iter_mut().for_each(|e| *e = 2.5);
+        let [torque, left] = &figures_of(&sample.report(), 0).time[1];
+        let values: Vec<f64> = left
+            .series
+            .iter()
+            .map(|series| match &series.shape {
+                Shape::Line(points) => points[0][1],
+                Shape::Band(_) => f64::NAN,
+            })
+            .collect();
+        assert_eq!((values, left.floor, torque.floor), (vec![2.0, 0.5], Some(0.02), None));
+    }
+
+    #[test]
+    fn time_begins_at_zero_where_a_run_does() {
+        let begin = |time: &[f64]| time_axis(time).begin;
+        assert_eq!(begin(&[0.33, 15.0]), crate::chart::Begin::Zero);
+        assert_eq!(begin(&[7.0, 15.0]), crate::chart::Begin::Least);
+        assert_eq!(begin(&[]), crate::chart::Begin::Least);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 use evaluation::{Drift, ForwardGap, ForwardWindow};
 
 use crate::numbers::significant;
-use crate::{Axis, Chart, Report, Role, Series, Shape};
+use crate::{Axis, Chart, Report, ReportError, Series, Shape};
+use colours::Role;
 
 /// How far both simulations drift in some lengths of time, as text.
 pub(crate) struct ForwardTable {
@@ -60,16 +61,26 @@ pub(crate) fn drift_chart(gap: &ForwardGap) -> Option<Chart> {
         let step_ms = 1e3 * window.window_s / course.len() as f64;
         let grown = course.iter().enumerate().map(|(k, m)| [step_ms * (k + 1) as f64, 1e3 * m]);
         let points = std::iter::once([0.0, 0.0]).chain(grown).collect();
-        Series { role, shape: Shape::Line(points) }
+        Series::of(role, Shape::Line(points))
     };
     let roles = [Role::Nominal, Role::Extended].into_iter().zip(drifts(window));
     Some(Chart {
         title: "Drift of the simulated tip".to_owned(),
-        x: Axis { label: "time since the measured state".to_owned(), unit: "ms" },
-        y: Axis { label: "drift of the tip, RMS".to_owned(), unit: "mm" },
+        x: Axis::from_zero("time since the measured state", "ms"),
+        y: Axis::from_zero("drift of the tip, RMS", "mm"),
         series: roles.map(line).collect(),
-        size: (720.0, 240.0),
+        floor: None,
+        size: (720.0, 180.0),
     })
+}
+
+/// The drift of the tip for a page; empty where there is nothing to draw.
+///
+/// # Errors
+///
+/// [`ReportError::Format`].
+pub(crate) fn drift_in_page(gap: Option<&ForwardGap>) -> Result<String, ReportError> {
+    gap.and_then(drift_chart).map_or_else(|| Ok(String::new()), |chart| chart.in_page())
 }
 
 /// What was left out of the drifts, in sentences.

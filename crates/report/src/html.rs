@@ -2,29 +2,28 @@ use askama::Template;
 use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 
 use crate::figures::figures_of;
-use crate::forward::{ForwardTable, drift_chart, forward_table};
+use crate::forward::{ForwardTable, drift_in_page, forward_table};
 use crate::html_grid::rendered;
 use crate::numbers::{percent, significant};
-use crate::places::listed;
+use crate::page::page;
+use crate::places::{joint_anchor, joint_of, listed};
 use crate::residual::{ResidualRow, residual_rows};
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::spectra::spectra;
 use crate::tables::{
-    Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, negligible, ruled_out,
+    Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, name_beside_joint,
+    negligible, ruled_out,
 };
 use crate::{Chart, Provenance, Report, ReportError, ResidualModel, json};
 
-/// Joints whose figures are shown without a click; never one whose data are inadequate.
-const OPEN_JOINTS: usize = 3;
-
-/// `report.html`: one file that opens offline and without scripts.
+/// `report.html`: one file that opens offline, and without scripts too.
 ///
 /// # Errors
 ///
 /// [`ReportError::Format`].
 pub fn html(report: &Report) -> Result<String, ReportError> {
-    let page = Page::new(report)?;
-    page.render().map_err(|e| ReportError::Format { format: "HTML", reason: e.to_string() })
+    let provenance = report.provenance.without_places();
+    page(&Page::new(&Report { provenance: &provenance, ..*report })?)
 }
 
 /// The sections of the page that say what was found, what is left, what every joint shows and what
@@ -58,6 +57,7 @@ struct Page<'a> {
     residual: Option<&'a ResidualModel>,
     residual_rows: Vec<ResidualRow>,
     ruled_out: Vec<(String, Vec<RuledOutRow>)>,
+    descriptions: &'a [(exchange::Format, exchange::Export)],
     data: &'a DataSummary,
     held_out: &'a str,
     provenance: &'a Provenance,
@@ -67,8 +67,11 @@ struct Page<'a> {
 /// The figures of one joint.
 struct JointSection {
     name: String,
+    anchor: String,
     verdict: &'static str,
     class: &'static str,
+    /// The effects that were found at it, for which its figures are shown without a click.
+    findings: Vec<String>,
     is_open: bool,
     time: Vec<Figure>,
     residual: Vec<Figure>,
@@ -80,9 +83,9 @@ struct Figure {
     svg: String,
 }
 
-impl From<Chart> for Figure {
-    fn from(chart: Chart) -> Self {
-        Self { svg: chart.svg(), title: chart.title }
+impl Figure {
+    fn new(chart: Chart) -> Result<Self, ReportError> {
+        Ok(Self { svg: chart.in_page()?, title: chart.title })
     }
 }
 
@@ -121,14 +124,15 @@ impl<'a> Page<'a> {
             spectra: spectra(report)?,
             folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
             forward: forward_table(report),
-            drift: report.forward.and_then(drift_chart).map_or_else(String::new, |c| c.svg()),
+            drift: drift_in_page(report.forward)?,
             causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
             negligible: negligible(report),
-            figures: sections(report),
+            figures: sections(report)?,
             left: left(diagnosis),
             residual: report.residual,
             residual_rows: residual_rows(report),
             ruled_out: ruled_out(report),
+            descriptions: report.descriptions,
             data: &diagnosis.data,
             held_out: &diagnosis.gain.inverse.held_out,
             provenance: report.provenance,
@@ -138,23 +142,36 @@ impl<'a> Page<'a> {
 }
 
 /// The joints with adequate data first.
-fn sections(report: &Report) -> Vec<JointSection> {
+fn sections(report: &Report) -> Result<Vec<JointSection>, ReportError> {
     let joints = report.diagnosis.joints.iter().enumerate();
     let (adequate, inadequate): (Vec<_>, Vec<_>) =
         joints.partition(|(_, joint)| joint.verdict != Verdict::DataInadequate);
-    let open = adequate.len().min(OPEN_JOINTS);
-    let sections = adequate.into_iter().chain(inadequate).enumerate().map(|(place, (i, joint))| {
+    let sections = adequate.into_iter().chain(inadequate).map(|(i, joint)| {
         let figures = figures_of(report, i);
-        JointSection {
+        let at_it = report.diagnosis.findings.iter().filter(|f| joint_of(report, &f.at) == Some(i));
+        let findings: Vec<String> = at_it.map(|f| name_beside_joint(&f.at)).collect();
+        Ok(JointSection {
             name: joint.name.clone(),
+            anchor: joint_anchor(i),
             verdict: joint.verdict.words(),
             class: class_of(joint.verdict),
-            is_open: place < open,
-            time: figures.time.into_iter().map(Figure::from).collect(),
-            residual: figures.residual.into_iter().map(Figure::from).collect(),
-        }
+            is_open: !findings.is_empty(),
+            findings,
+            time: figures.time.into_iter().map(over_time).collect::<Result<_, _>>()?,
+            residual: drawn(figures.residual)?,
+        })
     });
     sections.collect()
+}
+
+/// Torque over time and what is left of it below, on one axis of time.
+fn over_time([torque, left]: [Chart; 2]) -> Result<Figure, ReportError> {
+    let title = torque.title.clone();
+    Ok(Figure { svg: torque.in_page()? + &left.in_page()?, title })
+}
+
+fn drawn(charts: Vec<Chart>) -> Result<Vec<Figure>, ReportError> {
+    charts.into_iter().map(Figure::new).collect()
 }
 
 fn left(diagnosis: &Diagnosis) -> Vec<Left> {
@@ -202,7 +219,7 @@ mod tests {
         let sample = sample::arm();
         let page = super::html(&sample.report()).unwrap();
         assert!(!page.contains("http://") && !page.contains("https://"));
-        assert!(page.contains("default-src 'none'") && !page.contains("<script>"));
+        assert!(page.contains("default-src 'none'") && page.matches("<script>").count() == 1);
         for expected in [
             "Partly explained:",
             "<code>FR02</code> Coulomb friction",
@@ -217,18 +234,53 @@ mod tests {
             page.contains("&lt;at&gt;") || page.contains("&#60;at&#62;"),
             "evidence is not escaped"
         );
-        assert_eq!(page.matches("<svg").count(), 2 * (3 + 3));
+        assert_eq!(page.matches("<svg class=\"plot\"").count(), 2 * (3 + 2 * 3));
     }
 
     #[test]
-    fn a_joint_that_the_log_does_not_show_is_grey_and_comes_last_and_closed() {
+    fn a_joint_that_the_log_does_not_show_is_grey_and_comes_last() {
         let mut sample = sample::arm();
         sample.diagnosis.joints[0].verdict = diagnosis::Verdict::DataInadequate;
         let page = super::html(&sample.report()).unwrap();
         assert!(page.contains(r#"<tr class="open"><th scope="row">shoulder"#));
         let sections: Vec<&str> = page.split(r#"<details class="joint""#).skip(1).collect();
-        assert!(sections[0].starts_with(" open><summary>elbow"));
-        assert!(sections[1].starts_with("><summary>shoulder"));
+        assert!(sections[0].contains("<summary id=\"joint-2\">elbow"));
+        assert!(sections[1].contains("<summary id=\"joint-1\">shoulder"));
+    }
+
+    #[test]
+    fn joints_with_findings_are_open_and_the_others_folded() {
+        let mut sample = sample::arm();
+        let open = |sample: &sample::Sample| -> Vec<bool> {
+            let page = super::html(&sample.report()).unwrap();
+            let sections = page.split(r#"<details class="joint""#).skip(1);
+            sections.map(|section| section.starts_with(" open>")).collect()
+        };
+        assert_eq!(open(&sample), [true, true], "friction at one, the link of the other");
+        sample.diagnosis.findings.remove(0);
+        assert_eq!(open(&sample), [false, true]);
+        sample.diagnosis.findings.clear();
+        assert_eq!(open(&sample), [false, false]);
+    }
+
+    #[test]
+    fn the_contents_lead_to_every_section_and_every_link_has_its_place() {
+        let page = super::html(&sample::arm().report()).unwrap();
+        let links: Vec<&str> =
+            page.split("href=\"#").skip(1).filter_map(|link| link.split('"').next()).collect();
+        assert!(links.contains(&"joint-by-joint") && links.contains(&"joint-1"), "{links:?}");
+        for link in links {
+            assert_eq!(page.matches(&format!("id=\"{link}\"")).count(), 1, "{link}");
+        }
+    }
+
+    #[test]
+    fn no_folder_of_the_machine_is_told() {
+        let mut sample = sample::arm();
+        sample.provenance.files[0].path = "/home/me/x/../arm.urdf".into();
+        sample.provenance.command.push("/home/me/x/../arm.urdf".into());
+        let page = super::html(&sample.report()).unwrap();
+        assert!(page.contains(">arm.urdf<") && !page.contains("/home"));
     }
 
     #[test]
@@ -276,11 +328,23 @@ mod tests {
     }
 
     #[test]
+    fn the_extended_robot_can_be_copied_with_what_its_format_leaves_out() {
+        let sample = sample::arm();
+        assert!(!super::html(&sample.report()).unwrap().contains("with what was found"));
+        let export = exchange::Export { text: "<robot name=\"arm\"/>".into(), fates: Vec::new() };
+        let descriptions = [(exchange::Format::Urdf, export)];
+        let report = crate::Report { descriptions: &descriptions, ..sample.report() };
+        let page = super::html(&report).unwrap();
+        assert!(page.contains("<summary>URDF <small>extended.urdf</small></summary>"), "{page}");
+        assert!(page.contains("<pre>&#60;robot name=&#34;arm&#34;/&#62;</pre>"));
+    }
+
+    #[test]
     fn a_name_cannot_end_the_embedded_json() {
         let mut sample = sample::arm();
         sample.diagnosis.robot = "</script><img>".into();
         let page = super::html(&sample.report()).unwrap();
-        assert_eq!(page.matches("</script>").count(), 1);
+        assert_eq!(page.matches("</script>").count(), 2);
         assert!(!page.contains("<img>"));
     }
 

@@ -2,10 +2,12 @@
 //!
 //! ```text
 //! Report { diagnosis, traces, robot, forward, .. }      -> json(), html(), notebook(), figure(), text(), markdown()
-//! Comparison { joints, models, data, .. } of learning  -> json(), figure(), text()
+//! Comparison { joints, models, data, .. } of learning  -> json(), page(), figure(), text()
 //! PredictionTimes { curves, .. }                       -> json(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
 //! RunReport { metrics, told, .. } of a run             -> json(), page(), text()
+//! ReplayReport { runs, .. } of logs in simulation      -> json(), page()
+//! diagnosis::Comparison of two sets of logs            -> change_page()
 //! LearningFigureReport, PredictionTimeFigureReport     -> json(), page(), figures, text()
 //! evaluation::Merged { counts, tally, power } of trials -> trials_page()
 //! evaluation::MergedPanel { counts, tally } of trials   -> panel_page()
@@ -14,10 +16,12 @@
 //! None of them holds a date or a random number: the same input gives the same
 //! bytes.
 
-mod bars;
+#[cfg(test)]
+mod browser;
+mod change;
 mod chart;
 mod decimate;
-mod draw;
+mod dots;
 mod error;
 mod figures;
 mod files;
@@ -25,6 +29,7 @@ mod forward;
 mod grid;
 mod html;
 mod html_grid;
+mod inks;
 mod json;
 mod learning;
 mod linear_axis;
@@ -32,14 +37,18 @@ mod log_axis;
 mod markdown;
 mod notebook;
 mod numbers;
+mod page;
 mod paper;
 mod places;
+mod plot;
 mod poster;
 mod provenance;
+mod replay;
 mod residual;
 mod run;
 #[cfg(test)]
 mod sample;
+mod script;
 mod sentence;
 mod sheet;
 mod spectra;
@@ -49,7 +58,7 @@ mod tracking;
 mod trials;
 mod wrap;
 
-pub use chart::{Axis, Chart, Role, Series, Shape};
+pub use change::{change_page, change_sentence};
 pub use error::ReportError;
 pub use files::{sha256_of, write_folder};
 pub use html::html;
@@ -67,6 +76,7 @@ pub use paper::{
 };
 pub use poster::figure;
 pub use provenance::{FileHash, Provenance, quoted};
+pub use replay::{REPLAY_SCHEMA, ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 pub use residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use run::{RUN_SCHEMA, RunReport, Told, told};
 pub use sentence::{bottom_line, verdict_sentence};
@@ -78,6 +88,8 @@ pub use tracking::{
 };
 pub use trials::{panel_page, trials_page};
 pub use wrap::packed;
+
+use chart::{Axis, Chart, Series, Shape};
 
 /// Everything that a report shows.
 #[derive(Debug, Clone, Copy)]
@@ -92,6 +104,8 @@ pub struct Report<'a> {
     pub residual: Option<&'a ResidualModel>,
     /// How far simulations drift from the logs, where that was measured.
     pub forward: Option<&'a evaluation::ForwardGap>,
+    /// The extended robot in files of other programs, and what became of every quantity.
+    pub descriptions: &'a [(exchange::Format, exchange::Export)],
     /// Where the answer comes from.
     pub provenance: &'a Provenance,
 }
@@ -104,6 +118,14 @@ impl<'a> Report<'a> {
         provenance: &'a Provenance,
     ) -> Self {
         let diagnosis::Outcome { diagnosis, traces, .. } = outcome;
-        Self { diagnosis, traces, robot, residual: None, forward: None, provenance }
+        Self {
+            diagnosis,
+            traces,
+            robot,
+            residual: None,
+            forward: None,
+            descriptions: &[],
+            provenance,
+        }
     }
 }

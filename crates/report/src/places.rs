@@ -40,6 +40,11 @@ impl JointUnits {
     }
 }
 
+/// Name of the place of a joint in a page, by its index.
+pub(crate) fn joint_anchor(joint: usize) -> String {
+    format!("joint-{}", joint + 1)
+}
+
 /// Index of the joint where an effect acts; none when it acts on the whole robot.
 pub(crate) fn joint_of(report: &Report, at: &EffectAt) -> Option<usize> {
     let by_joint = at.joint.as_deref();

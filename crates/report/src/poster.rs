@@ -1,15 +1,15 @@
 use askama::Template;
 use diagnosis::{Estimate, Finding, Verdict};
 
-use crate::draw::Colours;
 use crate::figures::worst_of;
+use crate::inks::{Colours, Place};
 use crate::numbers::value;
 use crate::places::{JointUnits, acting_on, listed};
 use crate::sentence::{short_bottom_line, title};
 use crate::sheet::{Placed, placed};
 use crate::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
 use crate::wrap::{packed, shortened, wrapped};
-use crate::{Report, ReportError};
+use crate::{Chart, Report, ReportError};
 
 /// Width of the right panel (px); the left one stands in the template.
 const RIGHT: f64 = 452.0;
@@ -46,8 +46,9 @@ const VISIBLE: f64 = 0.1;
 ///
 /// [`ReportError::Format`].
 pub fn figure(report: &Report) -> Result<String, ReportError> {
-    let poster = Poster::new(report);
-    poster.render().map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
+    Poster::new(report)?
+        .render()
+        .map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
 }
 
 #[derive(Template)]
@@ -68,8 +69,6 @@ struct Best {
     run: String,
     load: &'static str,
     chart: String,
-    /// Size of the chart (px).
-    size: (f64, f64),
     lines: Vec<Placed<TextLine>>,
 }
 
@@ -81,7 +80,7 @@ struct TextLine {
 }
 
 impl Poster {
-    fn new(report: &Report) -> Self {
+    fn new(report: &Report) -> Result<Self, ReportError> {
         let (joints, notes) = rows(report);
         let best = best(report);
         let lines = best.map(|joint| lines(&acting_on(report, joint))).unwrap_or_default();
@@ -93,15 +92,18 @@ impl Poster {
         let row = ((LEAST_CHART + text - notes_height) / count).clamp(ROW[0], ROW[1]);
         let left = row * joints.len() as f64 + notes_height;
         let chart = (left - text).max(LEAST_CHART);
-        Self {
+        Ok(Self {
             height: TOP + left.max(chart + text) + 14.0,
-            colours: Colours::ON_WHITE,
+            colours: Place::Alone.colours(),
             title: shortened(&title(report.diagnosis), TITLE_CHARACTERS),
             subtitle: short_bottom_line(report),
             notes: placed(notes, TOP + row * joints.len() as f64 + 12.0, LINE),
             joints: placed(joints, TOP, row),
-            best: best.and_then(|joint| Best::new(report, joint, (RIGHT, chart), lines)),
-        }
+            best: match best {
+                Some(joint) => Best::new(report, joint, (RIGHT, chart), lines)?,
+                None => None,
+            },
+        })
     }
 }
 
@@ -150,18 +152,24 @@ fn best(report: &Report) -> Option<usize> {
 }
 
 impl Best {
-    fn new(report: &Report, joint: usize, size: (f64, f64), lines: Vec<TextLine>) -> Option<Self> {
-        let name = &report.diagnosis.joints.get(joint)?.name;
-        let (mut chart, run) = worst_of(report, joint)?;
-        chart.size = size;
-        Some(Self {
+    fn new(
+        report: &Report,
+        joint: usize,
+        size: (f64, f64),
+        lines: Vec<TextLine>,
+    ) -> Result<Option<Self>, ReportError> {
+        let name = report.diagnosis.joints.get(joint).map(|joint| &joint.name);
+        let Some((name, (chart, run))) = name.zip(worst_of(report, joint)) else {
+            return Ok(None);
+        };
+        let chart = Chart { size, ..chart };
+        Ok(Some(Self {
             joint: shortened(name, NAME_CHARACTERS),
             run: shortened(run, NAME_CHARACTERS),
             load: JointUnits::of(report.robot, name).load,
-            chart: chart.drawn(&Colours::ON_WHITE),
-            size,
+            chart: chart.placed([0.0, 150.0], Place::Alone)?,
             lines: placed(lines, TOP + size.1 + 16.0, LINE),
-        })
+        }))
     }
 }
 

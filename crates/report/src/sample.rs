@@ -28,6 +28,7 @@ impl Sample {
             robot: &self.robot,
             residual: None,
             forward: None,
+            descriptions: &[],
             provenance: &self.provenance,
         }
     }

@@ -1,14 +1,9 @@
 use askama::Template;
 
-use crate::draw::Colours;
+use crate::chart::Ink;
+use crate::inks::{Colours, Place};
 use crate::log_axis::rounded;
 use crate::wrap::{shortened, wrapped};
-
-/// Colours of up to ten models, told apart by eyes that see few colours (Petroff 2021).
-pub const COLOURS: [&str; 10] = [
-    "#3f90da", "#ffa90e", "#bd1f01", "#832db6", "#a96b59", "#92dadd", "#e76300", "#b9ac70",
-    "#94a4a2", "#717581",
-];
 
 /// Width of a character of the text of a figure, on the wide side (px).
 pub const CHARACTER: f64 = 6.7;
@@ -27,25 +22,6 @@ const LEGEND_IN_PAGE: f64 = 30.0;
 const TITLE_CHARACTERS: usize = 68;
 const LINE_CHARACTERS: usize = 118;
 
-/// Where a figure is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// In a file of its own, on white.
-    Alone,
-    /// In a page, which defines its colours for light and dark.
-    Page,
-}
-
-impl Place {
-    /// The colours of a figure that is shown there.
-    pub fn colours(self) -> Colours {
-        match self {
-            Self::Alone => Colours::ON_WHITE,
-            Self::Page => Colours::OF_PAGE,
-        }
-    }
-}
-
 /// Something at a height of a drawing (px).
 pub struct Placed<T> {
     /// Its height.
@@ -59,15 +35,29 @@ pub struct Placed<T> {
 pub struct Key {
     /// The name.
     pub name: String,
-    /// The colour.
-    pub colour: &'static str,
+    /// Whose colour.
+    pub ink: Ink,
+}
+
+impl Key {
+    /// Whether it is that of the noise, which is a line across.
+    pub fn is_noise(&self) -> bool {
+        self.ink == Ink::Noise
+    }
+
+    /// The names of models with the colours that they have everywhere.
+    pub fn of_models<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<Self> {
+        let inks = Ink::of_models(names.clone());
+        names.zip(inks).map(|(name, ink)| Self { name: name.to_owned(), ink }).collect()
+    }
 }
 
 /// A name of the legend with its place (px).
 pub struct PlacedKey {
     x: f64,
     y: f64,
-    key: Key,
+    name: String,
+    colour: String,
 }
 
 /// The opening of every figure: a background, a title, lines below it and a legend.
@@ -97,11 +87,12 @@ impl Sheet {
             Place::Alone => LEGEND + LINE * (subtitle.len() as f64 - 1.0),
             Place::Page => LEGEND_IN_PAGE,
         };
-        let legend = legend(keys, top);
+        let colours = place.colours();
+        let legend = legend(keys, top, &colours);
         Self {
             height: legend.last().map_or(top - LINE, |entry| entry.y),
             place,
-            colours: place.colours(),
+            colours,
             title: shortened(title, TITLE_CHARACTERS),
             subtitle: placed(subtitle, 60.0, LINE),
             legend,
@@ -126,14 +117,14 @@ pub fn placed<T>(items: Vec<T>, top: f64, step: f64) -> Vec<Placed<T>> {
 }
 
 /// Names on as many lines as they need.
-fn legend(keys: Vec<Key>, top: f64) -> Vec<PlacedKey> {
+fn legend(keys: Vec<Key>, top: f64, colours: &Colours) -> Vec<PlacedKey> {
     let (mut x, mut y) = (LEFT, top);
     let place = |key: Key| {
         let width = 25.0 + CHARACTER * key.name.chars().count() as f64 + 18.0;
         if x > LEFT && x + width > EDGES[1] {
             (x, y) = (LEFT, y + LINE);
         }
-        let entry = PlacedKey { x: rounded(x), y, key };
+        let entry = PlacedKey { x: rounded(x), y, colour: colours.of(key.ink), name: key.name };
         x += width;
         entry
     };
@@ -147,7 +138,7 @@ mod tests {
     #[test]
     fn a_legend_takes_the_lines_that_it_needs() {
         let keys =
-            |count, letters| vec![Key { name: "x".repeat(letters), colour: COLOURS[0] }; count];
+            |count, letters| vec![Key { name: "x".repeat(letters), ink: Ink::Model(0) }; count];
         // 25 + 10 x 6.7 + 18 = 110 px each, seven of them between 24 and 876 px.
         let sheet = Sheet::new("t", "s", keys(8, 10), Place::Alone);
         let places: Vec<[f64; 2]> = sheet.legend.iter().map(|k| [k.x, k.y]).collect();

@@ -1,8 +1,8 @@
 use askama::Template;
 use diagnosis::{JointReport, Verdict};
 
-use crate::draw::Colours;
 use crate::html_grid::rendered;
+use crate::inks::{Colours, Place};
 use crate::log_axis::{LogAxis, Tick};
 use crate::numbers::significant;
 use crate::places::JointUnits;
@@ -80,7 +80,7 @@ fn panel(joint: &JointReport, unit: &'static str, hz: LogAxis) -> Option<Panel> 
             span(noise),
             span(&spectrum.hz)
         ),
-        colours: Colours::OF_PAGE,
+        colours: Place::Page.colours(),
         x: X,
         y: Y,
         x_ticks: ticks_hz(&hz),

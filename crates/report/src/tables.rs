@@ -1,9 +1,11 @@
 use catalogue::EffectKind;
-use diagnosis::{EffectAt, Estimate, Finding, Negligible, NoiseFloorSource, RuledOut, Verdict};
+use diagnosis::{
+    EffectAt, Estimate, Finding, JointReport, Negligible, NoiseFloorSource, RuledOut, Verdict,
+};
 
 use crate::Report;
 use crate::numbers::{interval, percent, significant, unit};
-use crate::places::{JointUnits, joint_of};
+use crate::places::{JointUnits, joint_anchor, joint_of};
 
 /// One row of the table before and after, as text.
 pub(crate) struct JointRow {
@@ -61,6 +63,13 @@ fn length_of_bar(share: f64) -> f64 {
     if share.is_finite() { (1000.0 * share.clamp(0.0, 1.0)).round() / 10.0 } else { 0.0 }
 }
 
+/// RMS of the noise at a joint (N m or N), where the logs tell it.
+pub(crate) fn known_floor(joint: &JointReport) -> Option<f64> {
+    let floor = joint.noise_floor_rms_nm;
+    (joint.noise_floor_from != NoiseFloorSource::Unknown && floor > 0.0 && floor.is_finite())
+        .then_some(floor)
+}
+
 /// Class of a verdict in the style sheet.
 pub(crate) fn class_of(verdict: Verdict) -> &'static str {
     match verdict {
@@ -115,6 +124,8 @@ pub(crate) struct Cause {
     pub code: &'static str,
     pub effect: &'static str,
     pub place: String,
+    /// Where the page has the figures of its joint.
+    pub anchor: Option<String>,
     pub equation: &'static str,
     pub signature: &'static str,
     pub parameters: Vec<ParameterRow>,
@@ -148,6 +159,7 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
         code: finding.at.effect.code(),
         effect: finding.at.effect.words(),
         place: place(&finding.at),
+        anchor: joint_of(report, &finding.at).map(joint_anchor),
         equation: entry.equation,
         signature: entry.signature,
         parameters: finding

@@ -31,7 +31,7 @@ pub struct Arguments {
     /// The logs in which something may have changed
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     after: Vec<PathBuf>,
-    /// Folder for the two diagnoses, before and after
+    /// Folder for report.html and the two diagnoses, before and after
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
@@ -42,6 +42,9 @@ pub struct Arguments {
     #[arg(long)]
     quiet: bool,
 }
+
+/// What changed, beside the folders of the two diagnoses.
+const PAGE: &str = "report.html";
 
 /// Folders of the two diagnoses.
 const SIDES: [&str; 2] = ["before", "after"];
@@ -58,10 +61,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if !arguments.quiet {
         doubts(&loaded, runs.iter().flatten()).iter().for_each(|doubt| warn(doubt));
     }
+    let given = || [&arguments.robot, &loaded.urdf_path].into_iter().chain(&arguments.columns.map);
+    let inputs = || given().chain(&arguments.before).chain(&arguments.after).map(PathBuf::as_path);
+    keep_inputs(out, &[PAGE], inputs())?;
     for side in SIDES {
-        let given = [&arguments.robot, &loaded.urdf_path].into_iter().chain(&arguments.columns.map);
-        let inputs = given.chain(&arguments.before).chain(&arguments.after);
-        keep_inputs(&out.join(side), &diagnose::FILES, inputs.map(PathBuf::as_path))?;
+        keep_inputs(&out.join(side), &diagnose::FILES, inputs())?;
     }
     let settings = arguments.search.settings(&loaded);
     let bar = Bar::new();
@@ -92,22 +96,25 @@ fn write(
         let map = arguments.columns.map_file();
         let mut provenance = provenance(&arguments.robot, loaded, map)?;
         provenance.files.extend(hashes_of(runs));
-        let report = Report::new(outcome, &loaded.robot, &provenance);
+        let descriptions = diagnose::descriptions(loaded, outcome)?;
+        let report = Report {
+            descriptions: &descriptions,
+            ..Report::new(outcome, &loaded.robot, &provenance)
+        };
         let json = report::json(&report)?;
         diagnose::write(&arguments.out.join(name), loaded, outcome, (&report, &json), None)?;
+        if name == after {
+            let page = report::change_page(comparison, &report)?;
+            report::write_folder(&arguments.out, &[(PAGE, page.as_bytes())])?;
+        }
     }
     Ok(())
 }
 
 /// What changed and what is wrong in both, a line or a few each.
 fn words(comparison: &Comparison) -> String {
-    let diagnosis = &comparison.after.diagnosis;
-    let changes = &diagnosis.findings;
-    let mut text = match changes.len() {
-        0 => format!("Nothing that these logs could show has changed in {}.\n", diagnosis.robot),
-        1 => format!("Changed: 1 named effect of {}.\n", diagnosis.robot),
-        n => format!("Changed: {n} named effects of {}.\n", diagnosis.robot),
-    };
+    let changes = &comparison.after.diagnosis.findings;
+    let mut text = format!("{}.\n", report::change_sentence(comparison));
     for finding in changes {
         text.push_str(&lines(finding));
         text.push_str(&first(comparison, finding));
@@ -158,9 +165,11 @@ fn first(comparison: &Comparison, finding: &Finding) -> String {
 fn closing(out: &Path) -> String {
     let at = |name: &str| shown(&out.join(name));
     format!(
-        "before         {} (what the first logs say of the robot)\n\
+        "report         {} (open it in a browser)\n\
+         before         {} (what the first logs say of the robot)\n\
          after          {} (what the others say of the robot as the first found it)\n\
          extended model {} (for --robot)\n",
+        at(PAGE),
         at("before/report.html"),
         at("after/report.html"),
         at("after/extended.toml")

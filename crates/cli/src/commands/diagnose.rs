@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use diagnosis::{Diagnosis, Progress, Silent, Verdict};
 use evaluation::{Diagnosed, EvaluationError, ForwardGap};
-use exchange::Format;
+use exchange::{Export, Format};
 use logs::Run;
 use recording::RecordingError;
 use report::{Report, ReportError};
@@ -114,6 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let report = Report {
         residual: residual.as_ref().map(|learned| &learned.said),
         forward: forward.as_ref(),
+        descriptions: &descriptions(&loaded, &outcome)?,
         ..Report::new(&outcome, &loaded.robot, &provenance)
     };
     let json = report::json(&report)?;
@@ -150,6 +151,37 @@ fn forward(
     gap.inspect_err(|error| warn(error)).ok()
 }
 
+/// The text of the URDF. A description that includes others is whole: they do not lie beside it.
+fn source(loaded: &Loaded) -> Result<Vec<u8>, ReportError> {
+    match &loaded.expanded {
+        Some(text) => Ok(text.clone().into_bytes()),
+        None => read(&loaded.urdf_path),
+    }
+}
+
+/// The extended robot in the file of another program.
+fn exported(
+    loaded: &Loaded,
+    outcome: &diagnosis::Outcome,
+    format: Format,
+) -> Result<Export, CliError> {
+    let robot = Loaded { robot: outcome.extended.clone(), ..loaded.clone() };
+    Ok(exchange::export(&robot, &String::from_utf8_lossy(&source(loaded)?), format)?)
+}
+
+/// The extended robot as a report shows it.
+///
+/// # Errors
+///
+/// [`CliError::Report`] and [`CliError::Exchange`].
+pub fn descriptions(
+    loaded: &Loaded,
+    outcome: &diagnosis::Outcome,
+) -> Result<Vec<(Format, Export)>, CliError> {
+    let all = [Format::Urdf, Format::Mjcf].into_iter();
+    all.map(|format| Ok((format, exported(loaded, outcome, format)?))).collect()
+}
+
 /// Writes an output folder, all but the recording.
 ///
 /// # Errors
@@ -164,19 +196,18 @@ pub fn write(
 ) -> Result<(), CliError> {
     let extended = extended_toml(loaded, &outcome.extended, &outcome.diagnosis)?;
     let (html, figure) = (report::html(report)?, report::figure(report)?);
-    // A description that includes others is written whole: they do not lie beside it.
-    let urdf = match &loaded.expanded {
-        Some(text) => text.clone().into_bytes(),
-        None => read(&loaded.urdf_path)?,
+    let urdf = source(loaded)?;
+    let extended_urdf = match report.descriptions.iter().find(|(format, _)| *format == Format::Urdf)
+    {
+        Some((_, export)) => export.text.clone(),
+        None => exported(loaded, outcome, Format::Urdf)?.text,
     };
-    let robot = Loaded { robot: outcome.extended.clone(), ..loaded.clone() };
-    let extended_urdf = exchange::export(&robot, &String::from_utf8_lossy(&urdf), Format::Urdf)?;
     let mut files = vec![
         ("diagnosis.json", json.as_bytes()),
         ("report.html", html.as_bytes()),
         ("figure.svg", figure.as_bytes()),
         ("extended.toml", extended.as_bytes()),
-        ("extended.urdf", extended_urdf.text.as_bytes()),
+        ("extended.urdf", extended_urdf.as_bytes()),
         ("robot.urdf", &urdf),
     ];
     files.extend(residual.map(|learned| (residual::FILE, learned.bytes.as_slice())));

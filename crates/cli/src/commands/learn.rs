@@ -82,7 +82,7 @@ pub struct Arguments {
     /// Time one prediction against the number of points instead of learning
     #[arg(long, conflicts_with_all = ["train", "test", "regression", "named"])]
     benchmark: bool,
-    /// Folder for learning.json, figure.svg and the models; of the benchmark, for
+    /// Folder for report.html, learning.json, figure.svg and the models; of the benchmark, for
     /// prediction_times.json and figure1.svg
     #[arg(long, value_name = "DIR", required_unless_present = "benchmark")]
     out: Option<PathBuf>,

@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use inspection::Mended;
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
+use report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
@@ -9,7 +10,7 @@ use crate::Outcome;
 use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
-use crate::input::{PartArguments, positive};
+use crate::input::{PartArguments, hashes_of, positive, provenance};
 use crate::output::{create_folder, print, shown, table, warn};
 
 /// Arguments of `replay`.
@@ -23,7 +24,7 @@ pub struct Arguments {
     /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
-    /// Folder for the simulated motion and torque of every run
+    /// Folder for report.html, replay.json and the simulated motion and torque of every run
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Lengths of time that the simulation is rolled forward, with commas between them
@@ -37,25 +38,39 @@ pub struct Arguments {
 /// says how far both are from the record.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
-    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
-    doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
-    let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, &runs);
+    let given = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
+    doubts(&loaded, &given).iter().for_each(|doubt| warn(doubt));
+    let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, &given);
     for seen in &mended {
-        let sentence = seen.sentence(&loaded.robot, &runs);
+        let sentence = seen.sentence(&loaded.robot, &given);
         warn(&format!("{sentence} Until then the logs are read so."));
     }
-    let runs = read.unwrap_or(runs);
-    let prepared = logs::prepare(&runs, &PrepareSettings::default())?;
+    let runs = read.as_ref().unwrap_or(&given);
+    let prepared = logs::prepare(runs, &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =
         prepared.runs.iter().map(|record| Replay::of(arguments, &loaded, record)).collect();
+    let mut replayed = Vec::new();
     for (index, (record, replay)) in prepared.runs.iter().zip(&replays?).enumerate() {
         let namesakes = prepared.runs[..index].iter().filter(|r| r.name == record.name).count();
         let ending = if namesakes == 0 { String::new() } else { format!("_{}", namesakes + 1) };
         let name = record.name.replace(' ', "_") + &ending;
         replay.write(&arguments.out, &name)?;
         print(&text(&loaded.robot, &name, record, replay))?;
+        replayed.push(replay.told(name, record));
     }
+    let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map_file())?;
+    provenance.files.extend(hashes_of(&given));
+    let report = ReplayReport {
+        robot: loaded.robot.name().to_owned(),
+        joints: loaded.robot.joint_names().map(str::to_owned).collect(),
+        runs: replayed,
+        warnings: of_rows(&prepared).map(ToString::to_string).collect(),
+        provenance,
+    };
+    let (page, json) = (report.page()?, report.json()?);
+    let files = [("report.html", page.as_bytes()), ("replay.json", json.as_bytes())];
+    report::write_folder(&arguments.out, &files)?;
     print(&closing(arguments, &prepared))?;
     Ok(Outcome::Good)
 }
@@ -84,6 +99,33 @@ impl Replay {
         Ok(Self { forward, motion: motion.transpose()? })
     }
 
+    /// What a page tells of it.
+    fn told(&self, name: String, record: &PreparedRun) -> ReplayedRun {
+        let window = |f: &ForwardReplay| ReplayedWindow {
+            window_ms: (1e6 * f.window_s).round() / 1e3,
+            drift_rms: f.drift_rms.clone(),
+        };
+        let torque = self.motion.as_ref().map(|motion| ReplayedTorque {
+            error_rms_nm: motion.torque_error_rms.clone(),
+            measured_rms_nm: measured_rms(record),
+        });
+        let ran_away = self.forward.iter().filter_map(|f| Some((f, f.runaways.first()?)));
+        let remarks = ran_away.map(|(f, first)| {
+            format!(
+                "A joint ran away in {} of {} windows of {} ms, which are left out; the first: {first}",
+                f.runaways.len(),
+                f.windows,
+                milliseconds(f)
+            )
+        });
+        ReplayedRun {
+            name,
+            windows: self.forward.iter().map(window).collect(),
+            torque,
+            remarks: remarks.collect(),
+        }
+    }
+
     fn write(&self, folder: &Path, name: &str) -> Result<(), LogError> {
         for forward in &self.forward {
             let window_ms = milliseconds(forward);
@@ -109,6 +151,13 @@ const NO_GAINS: &str =
  joint in a robot.toml
 ";
 
+/// What was done to the clocks of the logs.
+fn of_rows(prepared: &Prepared) -> impl Iterator<Item = &LogWarning> {
+    use LogWarning as W;
+    let of_rows = |w: &&W| matches!(w, W::Mended { .. } | W::Resampled { .. } | W::Split { .. });
+    prepared.warnings.iter().filter(of_rows)
+}
+
 /// What the columns mean, what was done to their clocks, and where the files are.
 fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
     let mut text = String::from(
@@ -117,16 +166,28 @@ fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
          torque  simulated minus measured along the measured motion, RMS, beside the RMS of the\n        \
          measured (N·m or N)\n",
     );
-    use LogWarning as W;
-    let of_rows = |w: &&W| matches!(w, W::Mended { .. } | W::Resampled { .. } | W::Split { .. });
-    for warning in prepared.warnings.iter().filter(of_rows) {
+    for warning in of_rows(prepared) {
         text.push_str(&format!("warning: {warning}\n"));
     }
-    text + &format!("\nsimulated motion and torque {}\n", shown(&arguments.out))
+    text + &format!(
+        "\nreport                      {} (open it in a browser)\nsimulated motion and torque {}\n",
+        shown(&arguments.out.join("report.html")),
+        shown(&arguments.out)
+    )
+}
+
+/// RMS of the measured effort by joint (N m or N).
+fn measured_rms(record: &PreparedRun) -> Vec<f64> {
+    let rms = |effort: &[f64]| {
+        let squares = effort.iter().map(|tau| tau * tau);
+        (squares.sum::<f64>() / record.time.len() as f64).sqrt()
+    };
+    record.joints.iter().map(|joint| rms(&joint.effort)).collect()
 }
 
 fn text(robot: &Robot, name: &str, record: &PreparedRun, replay: &Replay) -> String {
     let Replay { forward, motion } = replay;
+    let measured = measured_rms(record);
     let mut header = vec!["joint".to_owned()];
     header.extend(forward.iter().map(|f| format!(">{} ms", milliseconds(f))));
     header.extend(motion.iter().flat_map(|_| [">torque".to_owned(), ">measured".to_owned()]));
@@ -135,10 +196,8 @@ fn text(robot: &Robot, name: &str, record: &PreparedRun, replay: &Replay) -> Str
         let drift = |f: &ForwardReplay| f.drift_rms.as_ref().map(|d| format!("{:.2e}", d[j]));
         row.extend(forward.iter().map(|f| drift(f).unwrap_or_else(|| "-".to_owned())));
         if let Some(motion) = motion {
-            let squares = record.joints[j].effort.iter().map(|tau| tau * tau);
-            let rms = (squares.sum::<f64>() / record.time.len() as f64).sqrt();
             row.push(report::significant(motion.torque_error_rms[j], 3));
-            row.push(report::significant(rms, 3));
+            row.push(report::significant(measured[j], 3));
         }
         row
     });

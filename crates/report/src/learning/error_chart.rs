@@ -1,28 +1,31 @@
 use super::comparison::Comparison;
 use crate::ReportError;
-use crate::bars::{Bars, JointBars};
-use crate::sheet::{COLOURS, Key, Place};
+use crate::dots::{Dots, JointDots};
+use crate::inks::Place;
+use crate::sheet::Key;
 
 impl Comparison {
-    /// `figure.svg`: the error of every model at every joint as bars on a logarithmic axis, as
+    /// `figure.svg`: the error of every model at every joint as dots on a logarithmic axis, as
     /// in figure 2 of Nguyen-Tuong & Peters 2010, in a drawing that stands alone.
-    ///
-    /// Shows the first ten models.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn figure(&self) -> Result<String, ReportError> {
-        let keys = self.models.iter().zip(COLOURS);
-        let joints = self.joints.iter().enumerate().map(|(i, joint)| JointBars {
+        self.drawn(Place::Alone)
+    }
+
+    pub(crate) fn drawn(&self, place: Place) -> Result<String, ReportError> {
+        let joints = self.joints.iter().enumerate().map(|(i, joint)| JointDots {
             name: joint.name.clone(),
             values: self
                 .models
                 .iter()
                 .map(|model| model.nmse.get(i).copied().unwrap_or(f64::NAN))
                 .collect(),
+            floor: None,
         });
-        let bars = Bars {
+        let dots = Dots {
             title: format!("{}: error of learned models by joint", self.robot),
             subtitle: format!(
                 "MSE over variance of the effort on {} held-out samples, trained on {} of {}; \
@@ -30,11 +33,11 @@ impl Comparison {
                 self.test.points, self.train.points, self.train.rows
             ),
             axis: "nMSE",
-            keys: keys.map(|(model, colour)| Key { name: model.name.clone(), colour }).collect(),
+            keys: Key::of_models(self.models.iter().map(|model| model.name.as_str())),
             joints: joints.collect(),
             mark: Some((1.0, "as far off as the mean effort")),
         };
-        bars.svg(Place::Alone)
+        dots.drawn(place)
     }
 }
 

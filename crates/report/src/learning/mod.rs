@@ -2,6 +2,7 @@
 
 mod comparison;
 mod error_chart;
+mod page;
 #[cfg(test)]
 pub(crate) mod sample;
 mod table;

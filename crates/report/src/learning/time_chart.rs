@@ -2,8 +2,10 @@ use askama::Template;
 
 use super::times::{Curve, Maker, PredictionTimes};
 use crate::ReportError;
+use crate::chart::Ink;
+use crate::inks::{Colours, Place};
 use crate::log_axis::{LogAxis, Tick, rounded};
-use crate::sheet::{CHARACTER, COLOURS, Place, Sheet};
+use crate::sheet::{CHARACTER, Sheet};
 use crate::wrap::shortened;
 
 /// Height of the figure, edges of the curves (px): left, right, upper, lower.
@@ -29,9 +31,6 @@ const MOST_DECADES: i32 = 9;
 /// Dashes of the curves of peers, one after the other.
 const DASHES: [&str; 3] = ["7 4", "2 3", "9 3 2 3"];
 
-/// Colour of what is not ours, and of words beside.
-const GREY: &str = "#59636e";
-
 #[derive(Template)]
 #[template(path = "times.svg")]
 struct Drawing {
@@ -52,7 +51,7 @@ struct Line {
     end: [f64; 2],
     name: String,
     name_y: f64,
-    colour: &'static str,
+    colour: String,
     dashes: &'static str,
 }
 
@@ -95,15 +94,21 @@ impl Drawing {
             x_ticks: x.map(|axis| axis.ticks()).unwrap_or_default(),
             y_ticks: y.map(|axis| axis.ticks()).unwrap_or_default(),
             period: y.filter(|axis| axis.holds(PERIOD_US)).map(|axis| axis.at(PERIOD_US)),
-            lines: axes.map(|axes| lines(&times.curves, axes, lower)).unwrap_or_default(),
+            lines: axes
+                .map(|axes| lines(&times.curves, axes, (lower, &place.colours())))
+                .unwrap_or_default(),
             names: NAMES,
         }
     }
 }
 
 /// The curves that have points, their names far enough apart.
-fn lines(curves: &[Curve], (x, y): (LogAxis, LogAxis), lower: f64) -> Vec<Line> {
-    let (mut colours, mut dashes) = (COLOURS.iter().cycle(), DASHES.iter().cycle());
+fn lines(
+    curves: &[Curve],
+    (x, y): (LogAxis, LogAxis),
+    (lower, colours): (f64, &Colours),
+) -> Vec<Line> {
+    let (mut models, mut dashes) = (0.., DASHES.iter().cycle());
     let mut lines: Vec<Line> = curves
         .iter()
         .filter_map(|curve| {
@@ -112,8 +117,10 @@ fn lines(curves: &[Curve], (x, y): (LogAxis, LogAxis), lower: f64) -> Vec<Line> 
             let path: Vec<String> =
                 curve.points.iter().map(at).map(|[x, y]| format!("{x},{y}")).collect();
             let (colour, dashes) = match curve.maker {
-                Maker::Plumbline => (colours.next().copied().unwrap_or(GREY), ""),
-                Maker::Peer => (GREY, dashes.next().copied().unwrap_or_default()),
+                Maker::Plumbline => (colours.of(Ink::Model(models.next().unwrap_or(0))), ""),
+                Maker::Peer => {
+                    (colours.soft.to_owned(), dashes.next().copied().unwrap_or_default())
+                }
             };
             let name = shortened(&curve.name, NAME_CHARACTERS);
             Some(Line { path: path.join(" "), end, name, name_y: end[1], colour, dashes })

@@ -1,10 +1,11 @@
 use evaluation::{LearningErrors, ModelErrors};
 
 use crate::ReportError;
-use crate::bars::{Bars, JointBars};
+use crate::dots::{Dots, JointDots};
 use crate::grid::{Cell, Column, DIGITS, marked};
+use crate::inks::Place;
 use crate::numbers::significant;
-use crate::sheet::{COLOURS, Key, Place};
+use crate::sheet::Key;
 
 /// The errors of some models on some data.
 pub(super) struct ErrorTable<'a> {
@@ -31,22 +32,22 @@ impl ErrorTable<'_> {
         columns.chain(more).collect()
     }
 
-    /// The errors as bars on a logarithmic axis.
-    pub fn bars(&self, place: Place) -> Result<String, ReportError> {
-        let keys = self.models.iter().zip(COLOURS);
-        let joints = self.joints.iter().enumerate().map(|(j, joint)| JointBars {
+    /// The errors as dots on a logarithmic axis.
+    pub fn dots(&self, place: Place) -> Result<String, ReportError> {
+        let joints = self.joints.iter().enumerate().map(|(j, joint)| JointDots {
             name: joint.clone(),
             values: self.models.iter().map(|model| nmse(model, j)).collect(),
+            floor: None,
         });
-        let bars = Bars {
+        let dots = Dots {
             title: self.title.clone(),
             subtitle: format!("{}; logarithmic, lower is better", self.words),
             axis: "nMSE",
-            keys: keys.map(|(model, colour)| Key { name: model.model.clone(), colour }).collect(),
+            keys: Key::of_models(self.models.iter().map(|model| model.model.as_str())),
             joints: joints.collect(),
             mark: Some((1.0, "mean torque")),
         };
-        bars.svg(place)
+        dots.drawn(place)
     }
 }
 
@@ -82,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bars_are_xml_that_stands_alone() {
+    fn the_dots_are_xml_that_stands_alone() {
         let errors = sample::errors();
         let table = ErrorTable {
             title: "t".into(),
@@ -90,7 +91,7 @@ mod tests {
             joints: &errors.joints,
             models: &errors.outside,
         };
-        let text = text_of_xml(&table.bars(Place::Alone).unwrap());
+        let text = text_of_xml(&table.dots(Place::Alone).unwrap());
         for expected in ["nMSE", "shoulder, gp-rbd: 0.200", "named", "mean torque"] {
             assert!(text.contains(expected), "{expected} is missing in {text}");
         }

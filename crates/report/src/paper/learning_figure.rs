@@ -5,8 +5,8 @@ use super::claims::{Quantity, claim_text, claims_sentence};
 use super::error_tables::{ErrorTable, worse_than_named};
 use super::page::{Contents, Drawing, page, table};
 use crate::grid::{Column, grid};
+use crate::inks::Place;
 use crate::json::with_schema;
-use crate::sheet::Place;
 use crate::terminal::{BOLD, entry};
 use crate::{Provenance, ReportError};
 
@@ -51,14 +51,14 @@ impl LearningFigureReport<'_> {
     pub fn figures(&self) -> Result<[(&'static str, String); 3], ReportError> {
         let [simulated, real, outside] = self.tables();
         Ok([
-            ("figure2b_simulated.svg", simulated.bars(Place::Alone)?),
-            ("figure2c_real.svg", real.bars(Place::Alone)?),
-            ("outside.svg", outside.bars(Place::Alone)?),
+            ("figure2b_simulated.svg", simulated.dots(Place::Alone)?),
+            ("figure2c_real.svg", real.dots(Place::Alone)?),
+            ("outside.svg", outside.dots(Place::Alone)?),
         ])
     }
 
     /// `report.html`: the claims, the three figures and the tables behind them in one file that
-    /// opens offline and without scripts.
+    /// opens offline, and without scripts too.
     ///
     /// # Errors
     ///
@@ -66,7 +66,7 @@ impl LearningFigureReport<'_> {
     pub fn page(&self) -> Result<String, ReportError> {
         let drawings = self.tables().into_iter().zip(self.more()).map(|(errors, more)| {
             Ok(Drawing {
-                svg: errors.bars(Place::Page)?,
+                svg: errors.dots(Place::Page)?,
                 table: table("nMSE", errors.joints, &errors.columns(more))?,
                 title: errors.title,
                 words: format!("{}.", errors.words),
@@ -162,7 +162,7 @@ mod tests {
         sample.errors.joints[1] = "</script><b>".into();
         let page = sample.report().page().unwrap();
         assert!(!page.contains("http://") && !page.contains("https://") && !page.contains("<b>"));
-        assert_eq!((page.matches("<svg").count(), page.matches("</script>").count()), (3, 1));
+        assert_eq!((page.matches("<svg").count(), page.matches("</script>").count()), (3, 2));
         for expected in ["does not hold", "20.0x", "plumbline.figure_learning/1", "a far motion."] {
             assert!(page.contains(expected), "{expected} is missing");
         }

@@ -5,6 +5,7 @@ use super::claims::{ClaimRow, Quantity, claim_rows, claims_sentence};
 use crate::grid::Column;
 use crate::html::inert;
 use crate::html_grid::{Grid, rendered};
+use crate::page::page as whole;
 use crate::{Provenance, ReportError};
 
 /// What the page of a figure shows.
@@ -46,17 +47,17 @@ struct Page<'a> {
     json: String,
 }
 
-/// One file that opens offline and without scripts.
+/// One file that opens offline, and without scripts too.
 pub(super) fn page(contents: Contents) -> Result<String, ReportError> {
     let (id, json) = contents.json;
-    rendered(&Page {
+    whole(&Page {
         kicker: contents.kicker,
         sentence: claims_sentence(contents.claims),
         claims: claim_rows(contents.claims, contents.quantity),
         drawings: contents.drawings,
         remarks: contents.remarks,
         id,
-        provenance: contents.provenance,
+        provenance: &contents.provenance.without_places(),
         json: inert(&json),
     })
 }

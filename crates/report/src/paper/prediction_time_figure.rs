@@ -3,8 +3,8 @@ use serde::Serialize;
 
 use super::claims::{Quantity, claim_text, claims_sentence};
 use super::page::{Contents, Drawing, page, table};
+use crate::inks::Place;
 use crate::json::with_schema;
-use crate::sheet::Place;
 use crate::terminal::BOLD;
 use crate::{PredictionTimes, ReportError};
 
@@ -39,13 +39,14 @@ impl PredictionTimeFigureReport<'_> {
     }
 
     /// `report.html`: the claims, the figure and the table behind it in one file that opens
-    /// offline and without scripts.
+    /// offline, and without scripts too.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let times = self.times;
+        let provenance = self.times.provenance.without_places();
+        let times = &PredictionTimes { provenance, ..self.times.clone() };
         let (labels, columns) = times.table();
         let drawing = Drawing {
             title: "Time of one prediction".to_owned(),
@@ -64,7 +65,10 @@ impl PredictionTimeFigureReport<'_> {
             drawings: vec![drawing],
             remarks: &times.remarks,
             provenance: &times.provenance,
-            json: ("figure_prediction_time", self.json()?),
+            json: (
+                "figure_prediction_time",
+                PredictionTimeFigureReport { times, claims: self.claims }.json()?,
+            ),
         })
     }
 

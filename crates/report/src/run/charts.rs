@@ -1,11 +1,12 @@
 use super::RunReport;
 use super::rows::{JointNumbers, joint_numbers};
 use crate::ReportError;
-use crate::bars::{Bars, JointBars};
-use crate::sheet::{COLOURS as MODEL_COLOURS, Key, Place};
+use crate::dots::{Dots, JointDots};
+use crate::inks::Place;
+use crate::sheet::Key;
 
-/// Colours of the nominal and the extended model in a page.
-const COLOURS: [(&str, &str); 2] = [("nominal", "var(--nominal)"), ("extended", "var(--extended)")];
+/// Title of the chart of the torque.
+const TORQUE: &str = "error of the torque";
 
 /// A chart of the page, with what it shows.
 pub(crate) struct GainChart {
@@ -15,22 +16,28 @@ pub(crate) struct GainChart {
 }
 
 impl RunReport<'_> {
-    /// The numbers before and after, joint by joint, as bars.
+    /// The numbers before and after, joint by joint, as dots.
     pub(crate) fn charts(&self) -> Result<Vec<GainChart>, ReportError> {
         let numbers = joint_numbers(self.metrics);
+        let floors = &self.told.noise_floor_nm;
+        let floor = |joint: usize| floors.get(joint).copied().flatten();
         let chart = |title: &'static str, axis: &'static str, of: fn(&JointNumbers) -> [f64; 2]| {
-            let joints = self.metrics.joints.iter().zip(&numbers);
-            let bars = Bars {
+            let joints = self.metrics.joints.iter().zip(&numbers).enumerate();
+            let dots = Dots {
                 title: format!("{}: {title}", self.metrics.robot),
                 subtitle: String::new(),
                 axis,
-                keys: COLOURS.map(|(name, colour)| Key { name: name.to_owned(), colour }).to_vec(),
+                keys: Key::of_models(["nominal", "extended"].into_iter()),
                 joints: joints
-                    .map(|(name, n)| JointBars { name: name.clone(), values: of(n).to_vec() })
+                    .map(|(j, (name, numbers))| JointDots {
+                        name: name.clone(),
+                        values: of(numbers).to_vec(),
+                        floor: if title == TORQUE { floor(j) } else { None },
+                    })
                     .collect(),
                 mark: None,
             };
-            bars.svg(Place::Page)
+            dots.drawn(Place::Page)
         };
         let unseen = self.test_runs();
         let [unit, thousandth] = self.position_units();
@@ -38,10 +45,10 @@ impl RunReport<'_> {
             GainChart {
                 title: "Torque",
                 words: format!(
-                    "Mean square of measured minus predicted torque over the variance of the \
-                     measured torque, on {unseen}."
+                    "Measured minus predicted torque, RMS, on {unseen}. The noise floor is that of \
+                     the logs of the diagnosis."
                 ),
-                svg: chart("error of the torque", "nMSE", |n| n.nmse)?,
+                svg: chart(TORQUE, "RMS error (N·m or N)", |n| n.torque)?,
             },
             GainChart {
                 title: "Simulation",
@@ -66,25 +73,25 @@ impl RunReport<'_> {
         ])
     }
 
-    /// The errors of the tracking with everything that was fed forward, as bars.
+    /// The errors of the tracking with everything that was fed forward, as dots.
     pub(crate) fn all_tracked(&self) -> Result<String, ReportError> {
-        let runs = self.metrics.tracking.iter().zip(MODEL_COLOURS);
         let error = |rms: &Option<Vec<f64>>, j: usize| {
             let rms = rms.as_ref().and_then(|rms| rms.get(j)).copied();
             1e3 * rms.unwrap_or(f64::NAN)
         };
-        let joints = self.metrics.joints.iter().enumerate().map(|(j, name)| JointBars {
+        let joints = self.metrics.joints.iter().enumerate().map(|(j, name)| JointDots {
             name: name.clone(),
             values: self.metrics.tracking.iter().map(|run| error(&run.rms, j)).collect(),
+            floor: None,
         });
-        let bars = Bars {
+        let dots = Dots {
             title: format!("{}: error of the tracking with every model", self.metrics.robot),
             subtitle: String::new(),
             axis: self.position_units()[1],
-            keys: runs.map(|(run, colour)| Key { name: run.model.clone(), colour }).collect(),
+            keys: Key::of_models(self.metrics.tracking.iter().map(|run| run.model.as_str())),
             joints: joints.collect(),
             mark: None,
         };
-        bars.svg(Place::Page)
+        dots.drawn(Place::Page)
     }
 }

@@ -6,7 +6,7 @@ mod page;
 mod rows;
 mod run_report;
 #[cfg(test)]
-mod sample;
+pub(crate) mod sample;
 mod text;
 mod told;
 

@@ -44,6 +44,8 @@ fn gain_row(what: String, gain: Option<Gain>, (unit, scale): (&str, f64)) -> Gai
 pub(crate) struct JointNumbers {
     /// Mean square of the torque error over the variance of the torque.
     pub nmse: [f64; 2],
+    /// RMS error of the torque (N m or N).
+    pub torque: [f64; 2],
     /// Drift after [`TOLD_S`] (rad or m).
     pub drift: [f64; 2],
     /// RMS error of the tracking (rad or m).
@@ -61,6 +63,10 @@ pub(crate) fn joint_numbers(metrics: &Metrics) -> Vec<JointNumbers> {
         nmse: MODELS.map(|name| {
             let model = metrics.torque.iter().find(|model| model.model == name);
             model.and_then(|model| *model.nmse.get(joint)?).unwrap_or(f64::NAN)
+        }),
+        torque: MODELS.map(|name| {
+            let model = metrics.torque.iter().find(|model| model.model == name);
+            at(model.map(|model| model.rms_nm.as_slice()), joint)
         }),
         drift: [0, 1].map(|of| at(window.and_then(|w| drifts(w)[of].rms.as_deref()), joint)),
         tracking: MODELS.map(|name| {

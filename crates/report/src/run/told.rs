@@ -2,11 +2,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::html::sections_of;
 use crate::sentence::{bottom_line, verdict_sentence};
-use crate::tables::class_of;
+use crate::tables::{class_of, known_floor};
 use crate::{Report, ReportError};
 
 /// A diagnosis as the report of a run tells it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Told {
     /// The verdict in a sentence.
     pub sentence: String,
@@ -18,6 +18,9 @@ pub struct Told {
     pub warnings: Vec<String>,
     /// Motions that would tell the findings from their rivals.
     pub motions: Vec<String>,
+    /// RMS of the noise joint by joint (N m or N), where the logs tell it.
+    #[serde(default)]
+    pub noise_floor_nm: Vec<Option<f64>>,
     /// Findings, what is left, figures joint by joint and what was ruled out, as HTML.
     pub sections: String,
 }
@@ -39,6 +42,7 @@ pub fn told(report: &Report) -> Result<Told, ReportError> {
         class: class_of(diagnosis.verdict).to_owned(),
         warnings: diagnosis.warnings.clone(),
         motions,
+        noise_floor_nm: diagnosis.joints.iter().map(known_floor).collect(),
         sections: sections_of(report)?,
     })
 }

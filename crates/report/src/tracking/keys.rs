@@ -1,6 +1,7 @@
 use super::comparison::{TrackedModel, TrackingComparison};
 use crate::ComparedJoint;
-use crate::sheet::{COLOURS, Key};
+use crate::chart::Ink;
+use crate::sheet::Key;
 
 impl ComparedJoint {
     /// Unit of its position.
@@ -10,23 +11,24 @@ impl ComparedJoint {
 }
 
 impl TrackingComparison {
-    /// The first ten models with their colours, which are the same in every figure.
-    pub(crate) fn keyed(&self) -> impl Iterator<Item = (&TrackedModel, &'static str)> {
-        self.models.iter().zip(COLOURS)
+    /// The colours of the models, which are the same in every figure.
+    pub(crate) fn inks(&self) -> Vec<Ink> {
+        Ink::of_models(self.models.iter().map(|model| model.name.as_str()))
     }
 
-    /// The colour of a model; grey for one that is not shown.
-    pub(crate) fn colour_of(&self, name: &str) -> &'static str {
-        self.keyed().find(|(model, _)| model.name == name).map_or("#808080", |(_, colour)| colour)
+    /// The colour of a model; that of a first one for a name that no run has.
+    pub(crate) fn ink_of(&self, name: &str) -> Ink {
+        let mut models = self.models.iter().zip(self.inks());
+        models.find(|(model, _)| model.name == name).map_or(Ink::Model(0), |(_, ink)| ink)
     }
 
     /// The models as names of a legend; one whose run was stopped says so.
     pub(crate) fn keys(&self) -> Vec<Key> {
-        let key = |(model, colour): (&TrackedModel, _)| {
+        let key = |(model, ink): (&TrackedModel, Ink)| {
             let stopped = if model.stopped.is_some() { " (stopped)" } else { "" };
-            Key { name: format!("{}{stopped}", model.name), colour }
+            Key { name: format!("{}{stopped}", model.name), ink }
         };
-        self.keyed().map(key).collect()
+        self.models.iter().zip(self.inks()).map(key).collect()
     }
 
     /// Unit of a thousandth of a position, of all joints.

@@ -6,7 +6,7 @@ mod keys;
 mod motion_chart;
 mod page;
 #[cfg(test)]
-mod sample;
+pub(crate) mod sample;
 mod sentence;
 mod sweep_chart;
 mod table;

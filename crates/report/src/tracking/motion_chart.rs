@@ -1,42 +1,31 @@
 use askama::Template;
+use colours::Role;
 
 use super::comparison::TrackingComparison;
 use crate::ReportError;
-use crate::linear_axis::LinearAxis;
-use crate::log_axis::Tick;
-use crate::sheet::{EDGES, Key, Place, Sheet};
+use crate::chart::{Axis, Chart, Ink, Series, Shape};
+use crate::html_grid::rendered;
+use crate::inks::Place;
+use crate::sheet::{EDGES, Key, Sheet};
 
-/// Height of the curves of one joint, of what stands between two, and below the last (px).
-const PANEL: f64 = 170.0;
-const BETWEEN: f64 = 38.0;
-const BELOW: f64 = 52.0;
+/// Height of the curves of one joint with their letters, and what stands above the first (px).
+const PANEL: f64 = 200.0;
+const ABOVE: f64 = 10.0;
 
-/// Part of the height that stays free above and below the curves (px).
-const MARGIN: f64 = 8.0;
-
+/// Drawings below each other on a sheet.
 #[derive(Template)]
 #[template(path = "motion.svg")]
-struct Drawing {
+struct Alone {
     sheet: Sheet,
-    edges: [f64; 2],
-    panels: Vec<Panel>,
-    x_ticks: Vec<Tick>,
+    panels: Vec<String>,
 }
 
-/// The curves of one joint.
-struct Panel {
-    top: f64,
-    bottom: f64,
-    name: String,
-    unit: &'static str,
-    ticks: Vec<Tick>,
-    desired: String,
-    models: Vec<Curve>,
-}
-
-struct Curve {
-    points: String,
-    colour: &'static str,
+/// Plots of a page with one axis of time.
+#[derive(Template)]
+#[template(path = "motion.html")]
+struct InPage {
+    keys: Vec<Key>,
+    panels: Vec<String>,
 }
 
 impl TrackingComparison {
@@ -44,8 +33,7 @@ impl TrackingComparison {
     /// as it was with every model, after figure 4 of Nguyen-Tuong & Peters 2010, in a drawing
     /// that stands alone.
     ///
-    /// `joints` counts from 0; a joint that the robot does not have is left out. Shows the
-    /// first ten models.
+    /// `joints` counts from 0; a joint that the robot does not have is left out.
     ///
     /// # Errors
     ///
@@ -74,8 +62,52 @@ impl TrackingComparison {
         joints: &[usize],
         place: Place,
     ) -> Result<String, ReportError> {
-        let drawing = Drawing::new(self, joints, place);
-        drawing.render().map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
+        let known = joints.iter().copied().filter(|&joint| joint < self.joints.len());
+        let charts = known.map(|joint| self.motion_of(joint)).filter(|chart| !chart.is_empty());
+        let desired = Key { name: "desired".to_owned(), ink: Ink::Role(Role::Desired) };
+        let keys: Vec<Key> = std::iter::once(desired).chain(self.keys()).collect();
+        match place {
+            Place::Page => {
+                let panels = charts.map(|chart| chart.in_page()).collect::<Result<_, _>>()?;
+                rendered(&InPage { keys, panels })
+            }
+            Place::Alone => {
+                let title = format!("{}: the first ten seconds", self.robot);
+                let sheet = Sheet::new(&title, &self.circumstances(), keys, place);
+                let top = |row: usize| sheet.bottom() + ABOVE + PANEL * row as f64;
+                let panels = charts.enumerate().map(|(row, chart)| {
+                    let chart = Chart { size: (EDGES[1] - 10.0, PANEL), ..chart };
+                    chart.placed([EDGES[0] - 52.0, top(row)], place)
+                });
+                let panels: Vec<String> = panels.collect::<Result<_, _>>()?;
+                let bottom = top(panels.len());
+                rendered(&Alone { sheet: sheet.down_to(bottom + ABOVE), panels })
+            }
+        }
+    }
+
+    /// The positions of one joint over the first ten seconds.
+    fn motion_of(&self, joint: usize) -> Chart {
+        let desired = Series::of(Role::Desired, Shape::Line(self.desired(joint).to_vec()));
+        let models = self.models.iter().zip(self.inks()).map(|(model, ink)| Series {
+            name: model.name.clone(),
+            ink,
+            shape: Shape::Line(
+                model.first_seconds.measured.get(joint).cloned().unwrap_or_default(),
+            ),
+        });
+        let (name, unit) = self
+            .joints
+            .get(joint)
+            .map_or(("", ""), |joint| (joint.name.as_str(), joint.position_unit()));
+        Chart {
+            title: format!("The first ten seconds of {name}"),
+            x: Axis::new("time", "s"),
+            y: Axis::new(name, unit),
+            series: std::iter::once(desired).chain(models).collect(),
+            floor: None,
+            size: (1000.0, 140.0),
+        }
     }
 
     /// The joints of figure 4 of Nguyen-Tuong & Peters 2010, the fourth to the sixth; the last
@@ -90,93 +122,12 @@ impl TrackingComparison {
         let runs = self.models.iter().filter_map(|model| model.first_seconds.desired.get(joint));
         runs.max_by_key(|points| points.len()).map_or(&[], Vec::as_slice)
     }
-
-    /// The measured positions of a joint with each of the models.
-    fn measured(&self, joint: usize) -> impl Iterator<Item = (&[[f64; 2]], &'static str)> {
-        self.keyed().map(move |(model, colour)| {
-            (model.first_seconds.measured.get(joint).map_or(&[][..], Vec::as_slice), colour)
-        })
-    }
-}
-
-impl Drawing {
-    fn new(comparison: &TrackingComparison, joints: &[usize], place: Place) -> Self {
-        let mut keys = comparison.keys();
-        let title = format!("{}: the first ten seconds", comparison.robot);
-        keys.insert(0, Key { name: "desired".into(), colour: place.colours().ink });
-        let sheet = Sheet::new(&title, &comparison.circumstances(), keys, place);
-        let known = joints.iter().copied().filter(|&joint| joint < comparison.joints.len());
-        let curves = |joint| {
-            let measured = comparison.measured(joint).map(|(points, _)| points);
-            measured.chain([comparison.desired(joint)]).flatten()
-        };
-        let time = known.clone().flat_map(curves).map(|point| point[0]);
-        let time = LinearAxis::over(time, EDGES);
-        let top = sheet.bottom() + BETWEEN;
-        let panels = known.enumerate().filter_map(|(row, joint)| {
-            Panel::new(comparison, joint, &time?, top + row as f64 * (PANEL + BETWEEN))
-        });
-        let panels: Vec<Panel> = panels.collect();
-        let bottom = panels.last().map_or(sheet.bottom(), |panel| panel.bottom);
-        Self {
-            sheet: sheet.down_to(bottom + BELOW),
-            edges: EDGES,
-            panels,
-            x_ticks: time.map(|axis| axis.ticks()).unwrap_or_default(),
-        }
-    }
-}
-
-impl Panel {
-    /// The curves below `top`; none where nothing was measured.
-    fn new(
-        comparison: &TrackingComparison,
-        joint: usize,
-        time: &LinearAxis,
-        top: f64,
-    ) -> Option<Self> {
-        let desired = comparison.desired(joint);
-        let all = comparison.measured(joint).flat_map(|(points, _)| points).chain(desired);
-        let bottom = top + PANEL;
-        let y = LinearAxis::over(all.map(|point| point[1]), [bottom - MARGIN, top + MARGIN])?;
-        let drawn = |points: &[[f64; 2]]| {
-            let at = |p: &[f64; 2]| format!("{},{}", time.at(p[0]), y.at(p[1]));
-            points.iter().map(at).collect::<Vec<_>>().join(" ")
-        };
-        let models = comparison.measured(joint).filter(|(points, _)| !points.is_empty());
-        let joint = comparison.joints.get(joint)?;
-        Some(Self {
-            top,
-            bottom,
-            name: joint.name.clone(),
-            unit: joint.position_unit(),
-            ticks: y.ticks(),
-            desired: drawn(desired),
-            models: models
-                .map(|(points, colour)| Curve { points: drawn(points), colour })
-                .collect(),
-        })
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::sample::text_of_xml;
     use crate::tracking::sample;
-
-    #[test]
-    fn a_curve_lies_where_its_positions_do() {
-        let mut comparison = sample::comparison();
-        let model = &mut comparison.models[2].first_seconds;
-        model.measured[0] = vec![[0.0, -1.0], [10.0, 1.0]];
-        let drawing = Drawing::new(&comparison, &[0, 9], Place::Alone);
-        let [panel] = &drawing.panels[..] else { panic!("the arm has no tenth joint") };
-        let (low, high) = (panel.bottom - MARGIN, panel.top + MARGIN);
-        assert_eq!(panel.models[2].points, format!("70,{low} 876,{high}"));
-        let labels: Vec<&str> = drawing.x_ticks.iter().map(|tick| tick.label.as_str()).collect();
-        assert_eq!(labels, ["0", "2", "4", "6", "8", "10"]);
-    }
 
     #[test]
     fn the_figure_is_xml_with_or_without_signals() {
@@ -186,11 +137,11 @@ mod tests {
         for expected in ["shoulder (rad)", "slide (m)", "desired", "gp-rbd", "time (s)"] {
             assert!(text.contains(expected), "{expected} is missing in {text}");
         }
-        assert_eq!(svg.matches("<polyline").count(), 2 * (1 + 3));
+        assert_eq!(svg.matches("data-name=").count(), 2 * (1 + 3));
         comparison.models.iter_mut().for_each(|m| m.first_seconds = Default::default());
         let svg = comparison.motion_figure(&[0, 1]).unwrap();
         text_of_xml(&svg);
-        assert!(!svg.contains("NaN") && !svg.contains("polyline"));
+        assert!(!svg.contains("NaN") && !svg.contains("data-name"));
     }
 
     #[test]

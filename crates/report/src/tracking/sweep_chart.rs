@@ -1,8 +1,9 @@
 use askama::Template;
 
 use super::comparison::{Sweep, SweptModel, TrackingComparison};
+use crate::inks::{Colours, Place};
 use crate::log_axis::{LogAxis, Tick, rounded};
-use crate::sheet::{EDGES, Key, Place, Sheet};
+use crate::sheet::{EDGES, Key, Sheet};
 use crate::{ReportError, significant};
 
 /// Joints beside each other, height of a panel, and what stands between two panels, across and
@@ -45,7 +46,7 @@ struct Curve {
     /// Straight lines between the numbers that there are.
     path: String,
     dots: Vec<Dot>,
-    colour: &'static str,
+    colour: String,
 }
 
 struct Dot {
@@ -79,7 +80,7 @@ impl Drawing {
     fn new(comparison: &TrackingComparison, sweep: &Sweep, place: Place) -> Self {
         let key = |model: &SweptModel| Key {
             name: model.name.clone(),
-            colour: comparison.colour_of(&model.name),
+            ink: comparison.ink_of(&model.name),
         };
         let title = format!("{}: how low can the gains be?", comparison.robot);
         let subtitle = format!(
@@ -91,7 +92,7 @@ impl Drawing {
         );
         let keys = sweep.models.iter().map(key).collect();
         let sheet = Sheet::new(&title, &subtitle, keys, place);
-        let panels = panels(comparison, sweep, sheet.bottom() + 42.0);
+        let panels = panels((comparison, sweep), sheet.bottom() + 42.0, &place.colours());
         let bottom = panels.last().map_or(sheet.bottom(), |panel| panel.y[1]);
         let axis = comparison.thousandths();
         let gains = sweep.gains.clone();
@@ -99,7 +100,11 @@ impl Drawing {
     }
 }
 
-fn panels(comparison: &TrackingComparison, sweep: &Sweep, top: f64) -> Vec<Panel> {
+fn panels(
+    (comparison, sweep): (&TrackingComparison, &Sweep),
+    top: f64,
+    colours: &Colours,
+) -> Vec<Panel> {
     let columns = comparison.joints.len().clamp(1, COLUMNS);
     let step = (EDGES[1] - EDGES[0] + BETWEEN[0]) / columns as f64;
     let panels = comparison.joints.iter().enumerate().map_while(|(joint, compared)| {
@@ -113,7 +118,7 @@ fn panels(comparison: &TrackingComparison, sweep: &Sweep, top: f64) -> Vec<Panel
         let y_axis = LogAxis::over_decades(errors, MOST_DECADES, [y[1], y[0]])?;
         let x_axis = LogAxis::over(sweep.scales.iter().copied(), [x[0] + 10.0, x[1] - 10.0])?;
         let curve = |model: &SweptModel| Curve {
-            colour: comparison.colour_of(&model.name),
+            colour: colours.of(comparison.ink_of(&model.name)),
             ..Curve::new(&sweep.scales, model, joint, [x_axis, y_axis])
         };
         Some(Panel {
@@ -140,7 +145,7 @@ impl Curve {
             })
             .collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut curve = Self { path: String::new(), dots: Vec::new(), colour: "" };
+        let mut curve = Self { path: String::new(), dots: Vec::new(), colour: String::new() };
         let mut command = 'M';
         for (scale, error) in points {
             // What is not known is a gap.
@@ -203,7 +208,10 @@ mod tests {
         assert!((dots[2][1] - dots[1][1] - down).abs() < 0.2 && down > 20.0);
         assert_eq!(hinge.curves[0].dots[1].words, "rbd, gains times 0.100: 1000");
         assert_eq!(hinge.curves[1].path.matches('M').count(), 2);
-        assert_eq!((slide.curves[0].path.as_str(), hinge.curves[0].colour), ("", "#ffa90e"));
+        assert_eq!(
+            (slide.curves[0].path.as_str(), hinge.curves[0].colour.as_str()),
+            ("", "#999933")
+        );
     }
 
     #[test]

@@ -2,9 +2,11 @@ use askama::Template;
 use evaluation::{Confusion, Group};
 
 use crate::ReportError;
-use crate::draw::Colours;
+use crate::chart::Ink;
+use crate::inks::{Colours, Place};
 use crate::log_axis::rounded;
-use crate::sheet::{Key, Place, Sheet};
+use crate::sheet::{Key, Sheet};
+use colours::Role;
 
 /// Left and right edge of the cells, height of a row, room for the names of the columns and what
 /// is left between two cells (px).
@@ -38,7 +40,7 @@ struct DrawnRow {
 struct DrawnCell {
     x: f64,
     width: f64,
-    colour: &'static str,
+    colour: String,
     opacity: f64,
     count: usize,
     words: String,
@@ -52,11 +54,11 @@ struct DrawnCell {
 /// [`ReportError::Format`].
 pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
     let colours = Place::Page.colours();
-    let key = |name: &str, colour| Key { name: name.to_owned(), colour };
+    let key = |name: &str, role| Key { name: name.to_owned(), ink: Ink::Role(role) };
     let keys = vec![
-        key("the right effect", colours.extended),
-        key("another effect", colours.nominal),
-        key("nothing", colours.measured),
+        key("the right effect", Role::Extended),
+        key("another effect", Role::Nominal),
+        key("nothing", Role::Measured),
     ];
     let sheet = Sheet::new("What was named first for what was put in", "", keys, Place::Page);
     let top = sheet.bottom() + NAMES + 14.0;
@@ -103,11 +105,11 @@ fn colour(
     put_in: Group,
     own: Option<usize>,
     (column, columns): (usize, usize),
-) -> &'static str {
+) -> String {
     match own {
-        Some(own) if own == column => colours.extended,
-        _ if column + 1 == columns => colours.measured,
-        None if put_in == Group::Two => colours.soft,
-        _ => colours.nominal,
+        Some(own) if own == column => colours.extended(),
+        _ if column + 1 == columns => colours.measured(),
+        None if put_in == Group::Two => colours.soft.to_owned(),
+        _ => colours.nominal(),
     }
 }

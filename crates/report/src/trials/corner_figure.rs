@@ -2,9 +2,11 @@ use askama::Template;
 use evaluation::{PanelRow, PanelTally, Rate, Share};
 
 use crate::ReportError;
-use crate::draw::Colours;
+use crate::chart::Ink;
+use crate::inks::{Colours, Place};
 use crate::log_axis::rounded;
-use crate::sheet::{Key, Place, Sheet};
+use crate::sheet::{Key, Sheet};
+use colours::Role;
 
 /// Left and right edge of what is shown, height of a row, and of the room above the first (px).
 const SHOWN: [f64; 2] = [220.0, 856.0];
@@ -38,7 +40,7 @@ struct Mark {
     y: f64,
     x: f64,
     ends: [f64; 2],
-    colour: &'static str,
+    colour: String,
     words: String,
 }
 
@@ -50,11 +52,11 @@ struct Mark {
 /// [`ReportError::Format`].
 pub fn corner_figure(tally: &PanelTally) -> Result<String, ReportError> {
     let colours = Place::Page.colours();
-    let key = |name: &str, colour| Key { name: name.to_owned(), colour };
+    let key = |name: &str, role| Key { name: name.to_owned(), ink: Ink::Role(role) };
     let keys = vec![
-        key("findings that are true", colours.extended),
-        key("visible causes that are named", colours.measured),
-        key("false assurance", colours.nominal),
+        key("findings that are true", Role::Extended),
+        key("visible causes that are named", Role::Measured),
+        key("false assurance", Role::Nominal),
     ];
     let sheet = Sheet::new("Precision, recall and false assurance", "", keys, Place::Page);
     let top = sheet.bottom() + AXIS;
@@ -86,9 +88,9 @@ fn marks(row: &PanelRow, y: f64, colours: &Colours) -> Vec<Mark> {
         Some((value, share.interval?, share.words()))
     };
     let shown = [
-        ("findings that are true", colours.extended, of_rate(&row.named.precision)),
-        ("visible causes that are named", colours.measured, of_rate(&row.named.recall)),
-        ("false assurance", colours.nominal, of_share(&row.false_assurance)),
+        ("findings that are true", colours.extended(), of_rate(&row.named.precision)),
+        ("visible causes that are named", colours.measured(), of_rate(&row.named.recall)),
+        ("false assurance", colours.nominal(), of_share(&row.false_assurance)),
     ];
     let mark = |(place, (name, colour, share)): (usize, (&str, _, Option<_>))| {
         let (value, interval, words): (f64, [f64; 2], String) = share?;

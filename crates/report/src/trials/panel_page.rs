@@ -4,7 +4,7 @@ use evaluation::{Failure, KindCount, MergedPanel};
 use super::corner_figure::corner_figure;
 use super::table::table;
 use crate::html::inert;
-use crate::html_grid::rendered;
+use crate::page::page;
 use crate::{Provenance, ReportError};
 
 #[derive(Template)]
@@ -29,8 +29,8 @@ struct Page<'a> {
 }
 
 /// `report.html` of trials of a population: how well causes are named, how often a trial is falsely called
-/// well, what the findings predict, beside two baselines, corner by corner, in one file that opens offline
-/// and without scripts.
+/// well, what the findings predict, beside two baselines, corner by corner, in one file that opens offline,
+/// and without scripts too.
 ///
 /// `doubts` are sentences about what is missing.
 ///
@@ -46,7 +46,7 @@ pub fn panel_page(
         .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
     let [names, verdicts, predictions, baselines, kinds, strangers, slowest] =
         merged.tally.tables();
-    rendered(&Page {
+    page(&Page {
         campaign: merged.campaign.get(..8).unwrap_or(&merged.campaign),
         sentence: sentence(merged),
         doubts,
@@ -61,7 +61,7 @@ pub fn panel_page(
         slowest: table(slowest)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
-        provenance,
+        provenance: &provenance.without_places(),
         json: inert(&json),
     })
 }

@@ -48,6 +48,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
     };
     files.push(("learning.json".to_owned(), comparison.json()?.into_bytes()));
     files.push(("figure.svg".to_owned(), comparison.figure()?.into_bytes()));
+    files.push(("report.html".to_owned(), comparison.page()?.into_bytes()));
     let files: Vec<(&str, &[u8])> =
         files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
     report::write_folder(out, &files)?;

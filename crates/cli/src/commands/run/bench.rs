@@ -112,7 +112,11 @@ impl Bench<'_> {
         let outcome = diagnosis::diagnose(&loaded.robot, runs, &settings, self.watch)?;
         let mut provenance = provenance(robot_file, loaded, None)?;
         provenance.files.extend(hashes_of(runs));
-        let report = Report::new(&outcome, &loaded.robot, &provenance);
+        let descriptions = diagnose::descriptions(loaded, &outcome)?;
+        let report = Report {
+            descriptions: &descriptions,
+            ..Report::new(&outcome, &loaded.robot, &provenance)
+        };
         let json = report::json(&report)?;
         diagnose::write(&self.out.join(folder), loaded, &outcome, (&report, &json), None)?;
         let (verdict, told) = (report::markdown(&report), report::told(&report)?);

@@ -251,8 +251,8 @@ impl Stages<'_> {
     }
 }
 
-/// The runs with the robot as described and with the extended one alone: the first two colours are
-/// blue and orange, which mean extended and nominal wherever a page compares the two.
+/// The runs with the robot as described and with the extended one alone, under the names that they have
+/// wherever a page compares the two.
 fn compared(comparison: TrackingComparison) -> TrackingComparison {
     let named = [("named", "extended"), ("cad", "nominal")].into_iter();
     let models = named.filter_map(|(kind, name)| {

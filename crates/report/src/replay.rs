@@ -1,0 +1,246 @@
+use askama::Template;
+use serde::Serialize;
+
+use crate::chart::Ink;
+use crate::dots::{Dots, JointDots};
+use crate::grid::{Cell, DIGITS};
+use crate::html::inert;
+use crate::html_grid::{Grid, rendered};
+use crate::inks::Place;
+use crate::json::with_schema;
+use crate::numbers::significant;
+use crate::page::page;
+use crate::sheet::Key;
+use crate::{Provenance, ReportError};
+use colours::Role;
+
+/// Name and version of the schema of `replay.json`.
+pub const REPLAY_SCHEMA: &str = "plumbline.replay/1";
+
+/// How far a simulation is from recorded motion and torque.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReplayReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Names of the joints, in the order of all that is told joint by joint.
+    pub joints: Vec<String>,
+    /// The runs.
+    pub runs: Vec<ReplayedRun>,
+    /// What was done to the clocks of the logs, in sentences.
+    pub warnings: Vec<String>,
+    /// Where it all comes from.
+    pub provenance: Provenance,
+}
+
+/// What was simulated of one run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReplayedRun {
+    /// Its name.
+    pub name: String,
+    /// Drift under the measured torque, by length of time.
+    pub windows: Vec<ReplayedWindow>,
+    /// The torque along the measured motion; none for a robot without gains.
+    pub torque: Option<ReplayedTorque>,
+    /// What was left out, in sentences.
+    pub remarks: Vec<String>,
+}
+
+/// Drift of a simulation that the measured torque moves for some time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReplayedWindow {
+    /// How long (ms).
+    pub window_ms: f64,
+    /// Simulated minus measured position at the end, RMS over all such windows, by joint (rad or
+    /// m); none where every window ran away.
+    pub drift_rms: Option<Vec<f64>>,
+}
+
+/// Torque of a simulation that follows the measured motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReplayedTorque {
+    /// Simulated minus measured, RMS, by joint (N m or N).
+    pub error_rms_nm: Vec<f64>,
+    /// The measured one, RMS, by joint (N m or N).
+    pub measured_rms_nm: Vec<f64>,
+}
+
+#[derive(Template)]
+#[template(path = "replay.html")]
+struct Page<'a> {
+    report: &'a ReplayReport,
+    sections: Vec<Section<'a>>,
+    provenance: &'a Provenance,
+    json: String,
+}
+
+/// One run.
+struct Section<'a> {
+    run: &'a ReplayedRun,
+    drift: String,
+    torque: String,
+    table: String,
+}
+
+impl ReplayReport {
+    /// `replay.json`, in the schema [`REPLAY_SCHEMA`]. A number that is not finite is `null`.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Format`].
+    pub fn json(&self) -> Result<String, ReportError> {
+        with_schema(REPLAY_SCHEMA, self)
+    }
+
+    /// `report.html`: the drift and the torque of every run, in one file that opens offline, and
+    /// without scripts too.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Format`].
+    pub fn page(&self) -> Result<String, ReportError> {
+        let provenance = self.provenance.without_places();
+        let shared = Self { provenance: provenance.clone(), ..self.clone() };
+        let sections = self.runs.iter().map(|run| {
+            Ok(Section {
+                run,
+                drift: self.drift(run)?,
+                torque: self.torque(run)?,
+                table: self.table(run)?,
+            })
+        });
+        page(&Page {
+            report: self,
+            sections: sections.collect::<Result<_, ReportError>>()?,
+            provenance: &provenance,
+            json: inert(&shared.json()?),
+        })
+    }
+
+    /// The drift of a run as dots, one a length of time.
+    fn drift(&self, run: &ReplayedRun) -> Result<String, ReportError> {
+        let key = |(index, window): (usize, &ReplayedWindow)| Key {
+            name: format!("{} ms", window.window_ms),
+            ink: Ink::Model(index),
+        };
+        let at = |window: &ReplayedWindow, joint: usize| {
+            let drift = window.drift_rms.as_ref().and_then(|rms| rms.get(joint));
+            drift.copied().unwrap_or(f64::NAN)
+        };
+        let keys = run.windows.iter().enumerate().map(key).collect();
+        let values = |joint| run.windows.iter().map(|window| at(window, joint)).collect();
+        self.dots(run, "drift of the simulation", "RMS drift (rad or m)", (keys, &values))
+    }
+
+    /// The torque of a run as dots: how far off it is, beside how large it is.
+    fn torque(&self, run: &ReplayedRun) -> Result<String, ReportError> {
+        let Some(torque) = &run.torque else { return Ok(String::new()) };
+        let key = |name: &str, role| Key { name: name.to_owned(), ink: Ink::Role(role) };
+        let at = |values: &[f64], joint: usize| values.get(joint).copied().unwrap_or(f64::NAN);
+        let keys =
+            vec![key("simulated minus measured", Role::Error), key("measured", Role::Measured)];
+        let values =
+            |joint| vec![at(&torque.error_rms_nm, joint), at(&torque.measured_rms_nm, joint)];
+        self.dots(run, "torque along the measured motion", "RMS torque (N·m or N)", (keys, &values))
+    }
+
+    fn dots(
+        &self,
+        run: &ReplayedRun,
+        title: &str,
+        axis: &'static str,
+        (keys, values): (Vec<Key>, &dyn Fn(usize) -> Vec<f64>),
+    ) -> Result<String, ReportError> {
+        let joints = self.joints.iter().enumerate().map(|(joint, name)| JointDots {
+            name: name.clone(),
+            values: values(joint),
+            floor: None,
+        });
+        let dots = Dots {
+            title: format!("{}: {title}", run.name),
+            subtitle: String::new(),
+            axis,
+            keys,
+            joints: joints.collect(),
+            mark: None,
+        };
+        dots.drawn(Place::Page)
+    }
+
+    /// Every number of a run, one row a joint.
+    fn table(&self, run: &ReplayedRun) -> Result<String, ReportError> {
+        let mut header: Vec<String> =
+            run.windows.iter().map(|w| format!("Drift in {} ms", w.window_ms)).collect();
+        if run.torque.is_some() {
+            header.extend(["Torque error", "Measured torque"].map(str::to_owned));
+        }
+        let row = |(joint, name): (usize, &String)| {
+            let drifts = run.windows.iter().map(|w| w.drift_rms.as_deref().unwrap_or_default());
+            let torques = run.torque.iter().flat_map(|t| [&t.error_rms_nm, &t.measured_rms_nm]);
+            let columns = drifts.chain(torques.map(Vec::as_slice));
+            let number = |column: &[f64]| column.get(joint).copied().unwrap_or(f64::NAN);
+            let cells = columns.map(|c| Cell::plain(significant(number(c), DIGITS)));
+            (name.clone(), cells.collect())
+        };
+        rendered(&Grid {
+            corner: "Joint".to_owned(),
+            header,
+            rows: self.joints.iter().enumerate().map(row).collect(),
+        })
+    }
+}
+
+/// A run of a two-joint arm, for the tests of this crate.
+#[cfg(test)]
+pub fn sample() -> ReplayReport {
+    let window = |window_ms, drift_rms| ReplayedWindow { window_ms, drift_rms };
+    ReplayReport {
+        robot: "arm".into(),
+        joints: vec!["shoulder".into(), "<elbow>".into()],
+        runs: vec![ReplayedRun {
+            name: "run_1".into(),
+            windows: vec![window(50.0, Some(vec![0.001, 0.002])), window(200.0, None)],
+            torque: Some(ReplayedTorque {
+                error_rms_nm: vec![0.5, 0.25],
+                measured_rms_nm: vec![12.0, 3.0],
+            }),
+            remarks: vec!["a joint ran away".into()],
+        }],
+        warnings: Vec::new(),
+        provenance: Provenance {
+            program: "plumbline",
+            version: "0.1.0",
+            command: vec!["plumbline".into(), "replay".into()],
+            files: Vec::new(),
+            seed: None,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_tells_drift_and_torque_of_every_run() {
+        let page = sample().page().unwrap();
+        for expected in [
+            "<h2 id=\"run-1\">run_1</h2>",
+            "&#60;elbow&#62;, 50 ms: 0.00200",
+            "shoulder, simulated minus measured: 0.500",
+            "<td class=\"n\">12.0</td>",
+            "a joint ran away",
+            "plumbline.replay/1",
+        ] {
+            assert!(page.contains(expected), "{expected} is missing in {page}");
+        }
+        assert!(!page.contains("NaN") && !page.contains("<elbow>"));
+    }
+
+    #[test]
+    fn a_robot_without_gains_has_no_torque() {
+        let mut report = sample();
+        report.runs[0].torque = None;
+        let page = report.page().unwrap();
+        assert!(!page.contains("Torque along") && page.contains("kp_nm_per_rad"));
+    }
+}
