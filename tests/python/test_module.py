@@ -252,6 +252,7 @@ class Planar(unittest.TestCase):
         self.assertEqual([line.get_label() for line in torque.lines], ["measured", "nominal", "extended"])
         nominal, extended = (np.abs(line.get_ydata()).max() for line in left.lines)
         self.assertLess(extended, nominal)
+        self.assertTrue(figure._repr_png_().startswith(b"\x89PNG"))
         self.assertRaises(IndexError, self.found.plot, 3)
 
     def test_a_design_is_the_motion_of_the_program(self):
