@@ -9,7 +9,10 @@ use crate::{NUMPY, module, python};
 
 /// What a notebook shows once it has run, besides what a test of its tutorial holds.
 const SHOWN: [(&str, &[&str]); 3] = [
-    ("ur-arm", &["1251 rows", "FR01", "shoulder_lift_joint", "FR02", "elbow_joint", "frictionloss"]),
+    (
+        "ur-arm",
+        &["1251 rows", "FR01", "shoulder_lift_joint", "FR02", "elbow_joint", "frictionloss"],
+    ),
     ("hobby-arm", &["FR02", "elbow_flex", "the scale of all efforts cannot be known"]),
     ("payload", &["IN01", "panda_link7", "FR02", "panda_joint2"]),
 ];
@@ -93,6 +96,9 @@ fn every_tutorial_has_a_notebook_without_outputs() {
             serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
         let cells = notebook["cells"].as_array().unwrap();
         let outputs = cells.iter().filter_map(|cell| cell.get("outputs"));
-        assert!(outputs.into_iter().all(|outputs| outputs.as_array().unwrap().is_empty()), "{name}");
+        assert!(
+            outputs.into_iter().all(|outputs| outputs.as_array().unwrap().is_empty()),
+            "{name}"
+        );
     }
 }

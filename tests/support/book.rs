@@ -42,9 +42,8 @@ pub fn pages() -> Vec<Page> {
     let contents = fs::read_to_string(folder().join("SUMMARY.md")).unwrap();
     let names = links(&contents).into_iter().map(str::to_owned);
     let read = |name: String| {
-        let text =
-            fs::read_to_string(folder().join(&name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-        Page { name, text }
+        let text = fs::read_to_string(folder().join(&name)).map_err(|error| (name.clone(), error));
+        Page { name, text: text.unwrap() }
     };
     names.map(read).collect()
 }
