@@ -71,8 +71,11 @@ def messages(rows):
     names = [column.removesuffix(".position") for column in rows[0] if column.endswith(".position")]
     for row in rows:
         stamp_ns = START_S * 10**9 + round(1e9 * float(row["time"]))
-        of = lambda channel: [float(row[f"{name}.{channel}"]) for name in names]
-        yield stamp_ns, joint_state(stamp_ns, names, map(of, ["position", "velocity", "effort"]))
+        channels = [
+            [float(row[f"{name}.{channel}"]) for name in names]
+            for channel in ("position", "velocity", "effort")
+        ]
+        yield stamp_ns, joint_state(stamp_ns, names, channels)
 
 
 def bag(rows):

@@ -59,9 +59,10 @@ pub fn design(
     };
     let searched = run(py, progress.as_ref(), |work| {
         work.stage("searching a motion", 0);
-        SearchedMotion::new(&wanted)
+        SearchedMotion::new(&wanted).map_err(Box::new)
     })?;
-    Ok(Design { searched: searched.map_err(raised)?, robot_file: robot.path.clone() })
+    let searched = searched.map_err(|error| raised(*error))?;
+    Ok(Design { searched, robot_file: robot.path.clone() })
 }
 
 #[pymethods]

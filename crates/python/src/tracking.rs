@@ -50,8 +50,9 @@ pub fn track(
         live: false,
         command: Some(command),
     };
-    let tracked = run(py, progress.as_ref(), |work| TrackedMotion::new(&asked, work))?;
-    let tracked = tracked.map_err(raised)?;
+    let tracked =
+        run(py, progress.as_ref(), |work| TrackedMotion::new(&asked, work).map_err(Box::new))?;
+    let tracked = tracked.map_err(|error| raised(*error))?;
     if let Some(out) = &out {
         tracked.write(out).map_err(raised)?;
     }
