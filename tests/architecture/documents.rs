@@ -8,16 +8,17 @@ use crate::tree::{folders, root, text};
 use crate::workspace::{crates, packages};
 
 /// How a path that is named from the root starts.
-const PATHS: [&str; 5] = ["crates/", "robots/", "scenarios/", "tests/", ".ci/"];
+const PATHS: [&str; 6] = ["crates/", "robots/", "scenarios/", "tests/", "docs/", ".ci/"];
 
-/// What stands at the root, the map, and README files where the tests, a crate or a robot have one.
+/// What stands at the root, the map, the pages of the book, and README files where the tests, a crate or a robot have one.
 fn documents() -> Vec<String> {
     let of = |folder: &'static str| {
         folders(folder).into_iter().map(move |name| format!("{folder}/{name}/README.md"))
     };
     let top = ["README.md", "CONTRIBUTING.md", "SECURITY.md"].map(str::to_owned);
     let maps = ["crates/README.md", "tests/README.md"].map(str::to_owned);
-    let all = top.into_iter().chain(maps).chain(of("crates")).chain(of("robots"));
+    let pages = checks::book::pages().into_iter().map(|page| format!("docs/src/{}", page.name));
+    let all = top.into_iter().chain(maps).chain(pages).chain(of("crates")).chain(of("robots"));
     all.filter(|path| root().join(path).exists()).collect()
 }
 

@@ -5,6 +5,7 @@
 //! it. It is held against this workspace, and against a made-up one that breaks it.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
+mod book;
 mod documents;
 mod floors;
 mod manifests;

@@ -3,6 +3,8 @@
 
 mod arm;
 mod bad_input;
+#[cfg(unix)]
+mod book;
 mod campaign;
 mod commands;
 mod compare;

@@ -47,7 +47,7 @@ fn simulated(folder: &Path, level_nm: f64) -> Vec<Run> {
 
 /// The goals under which a loop `kp (goal - q) - kd qd` moves the arm as the simulated one does, whose damping
 /// is of the error: `goal = q_ref + kd / kp qd_ref`.
-fn as_goals(mut run: Run) -> Run {
+pub fn as_goals(mut run: Run) -> Run {
     for ((joint, kp), kd) in run.joints.iter_mut().zip(KP).zip(KD) {
         let (q, qd) =
             (joint.desired_position.take().unwrap(), joint.desired_velocity.take().unwrap());

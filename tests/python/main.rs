@@ -1,15 +1,20 @@
-//! The module of Python, loaded as its users load it. Where there is no `python3` with NumPy, the test says
-//! so and is left out.
+//! The module of Python, loaded as its users load it; the snippets and the notebooks of the book in it. Where there is
+//! no `python3` with what they import, a test says so and is left out.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The folder of the workspace's manifest.
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
-}
+use checks::arms::{wam, workspace_root};
+use checks::lerobot::{Layout, write};
+use checks::synthetic::{Noise, Truth, run};
+
+#[cfg(unix)]
+mod book;
+
+/// Imports of the module itself.
+const NUMPY: &str = "import numpy, sys; assert sys.version_info >= (3, 10)";
 
 /// The library as cargo has just built it for this test: the newest of the places it is put.
 fn library() -> PathBuf {
@@ -21,21 +26,17 @@ fn library() -> PathBuf {
     places.into_iter().filter(|path| path.exists()).max_by_key(made).unwrap()
 }
 
-/// Whether a command of Python ends well.
-fn python_can(code: &str) -> bool {
-    Command::new("python3").args(["-c", code]).output().is_ok_and(|o| o.status.success())
-}
-
-#[test]
-fn the_module_does_what_it_says() {
-    if !python_can("import numpy, sys; assert sys.version_info >= (3, 10)") {
-        eprintln!("no python3 of 3.10 or later with NumPy here: the module is left untested");
-        return;
+/// A folder with the module in it, to be on the path of Python; none, said so, where a command of Python fails that
+/// imports what `tested` needs.
+fn module(imports: &str, tested: &str) -> Option<tempfile::TempDir> {
+    if !checks::book::can("python3", &["-c", imports]) {
+        println!("python3 fails at `{imports}` here: {tested} left untested");
+        return None;
     }
     let folder = tempfile::tempdir().unwrap();
     let package = folder.path().join("plumbline");
     fs::create_dir(&package).unwrap();
-    for entry in fs::read_dir(root().join("crates/python/python/plumbline")).unwrap() {
+    for entry in fs::read_dir(workspace_root().join("crates/python/python/plumbline")).unwrap() {
         let entry = entry.unwrap();
         if entry.file_type().unwrap().is_file() {
             fs::copy(entry.path(), package.join(entry.file_name())).unwrap();
@@ -43,14 +44,33 @@ fn the_module_does_what_it_says() {
     }
     let extension = if cfg!(windows) { "pyd" } else { "abi3.so" };
     fs::copy(library(), package.join(format!("_plumbline.{extension}"))).unwrap();
-    let ended = Command::new("python3")
-        .arg(root().join("tests/python/test_module.py"))
-        .env("PYTHONPATH", folder.path())
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .env("PLUMBLINE_ROOT", root())
+    Some(folder)
+}
+
+/// Python with the module on its path.
+fn python(module: &Path) -> Command {
+    let mut python = Command::new("python3");
+    python.env("PYTHONPATH", module).env("PYTHONDONTWRITEBYTECODE", "1");
+    python
+}
+
+#[test]
+fn the_module_does_what_it_says() {
+    let Some(module) = module(NUMPY, "the module is") else { return };
+    // Two episodes whose first sample differs.
+    let robot = wam();
+    let dataset = module.path().join("dataset");
+    let runs = [1, 2].map(|seed| run(&Truth::of(&robot), &Noise::of_a_wam(), 2.0, seed));
+    write(&dataset, &runs, Layout::OneFile, &[]);
+    let starts = runs.map(|run| run.joints[0].position[0].to_string());
+    let ended = python(module.path())
+        .arg(workspace_root().join("tests/python/test_module.py"))
+        .env("PLUMBLINE_ROOT", workspace_root())
+        .env("PLUMBLINE_DATASET", &dataset)
+        .env("PLUMBLINE_STARTS", starts.join(" "))
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&ended.stderr);
     assert!(ended.status.success(), "{said}");
-    eprintln!("{said}");
+    println!("{said}");
 }

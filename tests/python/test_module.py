@@ -151,6 +151,195 @@ class Logs(unittest.TestCase):
         self.assertRaisesRegex(TypeError, "^logs: ", plumbline.diagnose, robot, "run.csv")
 
 
+class Episodes(unittest.TestCase):
+    """Two episodes of a dataset, which the caller has written."""
+
+    def setUp(self):
+        self.robot = plumbline.Robot(WAM)
+        self.dataset = Path(os.environ["PLUMBLINE_DATASET"])
+
+    def test_an_episode_is_read_by_its_number(self):
+        starts = [float(start) for start in os.environ["PLUMBLINE_STARTS"].split()]
+        self.assertNotAlmostEqual(*starts, places=3)
+        for number, start in enumerate(starts):
+            log = plumbline.Log.read(self.dataset, episode=number).on(self.robot)
+            self.assertAlmostEqual(log.q[0, 0], start)
+
+    def test_one_that_is_not_there_and_one_of_several_are_refused(self):
+        for episode in (None, 2):
+            with self.subTest(episode=episode):
+                log = plumbline.Log.read(self.dataset, episode=episode)
+                self.assertRaisesRegex(plumbline.PlumblineError, "episode", log.on, self.robot)
+        with self.assertRaises((TypeError, OverflowError)):
+            plumbline.Log.read(self.dataset, episode=-1)
+
+
+ARM = """<robot name="arm"><link name="base"/>
+  <link name="upper"><inertial><origin xyz="0.2 0 0"/><mass value="3"/>
+    <inertia ixx="0.01" iyy="0.05" izz="0.05" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="fore"><inertial><origin xyz="0.15 0 0"/><mass value="2"/>
+    <inertia ixx="0.01" iyy="0.03" izz="0.03" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/>
+    <axis xyz="0 -1 0"/><limit lower="-2.9" upper="2.9" effort="80" velocity="6"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/>
+    <origin xyz="0.4 0 0"/><axis xyz="0 -1 0"/>
+    <limit lower="-2.9" upper="2.9" effort="40" velocity="6"/></joint></robot>"""
+
+
+class Planar(unittest.TestCase):
+    """An arm of two links, whose elbow has dry friction that its description lacks."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.urdf = Path(folder.name, "arm.urdf")
+        cls.urdf.write_text(ARM)
+        cls.robot = plumbline.Robot(cls.urdf)
+        cls.before = [cls.run_of(seed, 1.5) for seed in (1, 2, 3)]
+        cls.found = plumbline.diagnose(cls.robot, cls.before, progress=False)
+
+    @classmethod
+    def run_of(cls, seed, level):
+        random, time = np.random.default_rng(seed), np.arange(0, 12, 0.004)
+        rate = 2 * np.pi * random.uniform(0.1, 0.6, (3, 2))
+        size, phase = random.uniform(0.2, 0.5, (3, 2)), random.uniform(0, 6, (3, 2))
+        angle = time[:, None, None] * rate + phase
+        q, qd = (size * np.sin(angle)).sum(1), (size * rate * np.cos(angle)).sum(1)
+        tau = plumbline.inverse_dynamics(cls.robot, q, qd, -(size * rate**2 * np.sin(angle)).sum(1))
+        tau[:, 1] += level * np.sign(qd[:, 1])
+        return plumbline.Log(time, q, tau + random.normal(scale=0.05, size=tau.shape), name=f"run_{seed}")
+
+    def test_friction_that_grew_is_the_change(self):
+        after = [self.run_of(seed, 2.0) for seed in (4, 5, 6)]
+        compared = plumbline.compare(self.robot, self.before, after, progress=False)
+        (change,) = compared.changes
+        self.assertEqual((change.code, change.joint), ("FR02", "elbow"))
+        self.assertAlmostEqual(change.parameters[0].value, 2.0, delta=0.02)
+        self.assertAlmostEqual(change.parameters[0].nominal, 1.5, delta=0.02)
+        self.assertEqual(compared.before.findings[0].parameters, self.found.findings[0].parameters)
+        self.assertIn("1 changes", repr(compared))
+
+    def test_nothing_changed_is_no_change_and_a_log_on_both_sides_is_refused(self):
+        after = [self.run_of(seed, 1.5) for seed in (4, 5)]
+        compared = plumbline.compare(self.robot, self.before, after, progress=False)
+        self.assertEqual(len(compared.changes), 0)
+        both = [self.before[0], after[0]]
+        self.assertRaises(plumbline.PlumblineError, plumbline.compare, self.robot, self.before, both)
+        self.assertRaisesRegex(TypeError, "^after: ", plumbline.compare, self.robot, self.before, "run.csv")
+
+    def test_a_frame_has_a_row_a_parameter(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("no pandas here: frames of findings are left out")
+        frame = self.found.findings.to_pandas()
+        self.assertIsInstance(frame, pandas.DataFrame)
+        self.assertEqual(len(frame), sum(len(f.parameters) for f in self.found.findings))
+        row, level = frame.iloc[0], self.found.findings[0].parameters[0]
+        self.assertEqual((row.code, row.joint, row.parameter, row.unit), ("FR02", "elbow", "level", "N m"))
+        self.assertEqual((row.value, row.low, row.high), (level.value, *level.ci95))
+
+    def test_a_plot_has_torque_and_error_of_every_joint(self):
+        try:
+            import matplotlib.figure
+        except ImportError:
+            self.skipTest("no matplotlib here: plots are left out")
+        figure = self.found.plot(1)
+        self.assertIsInstance(figure, matplotlib.figure.Figure)
+        self.assertEqual([axes.get_title("left") for axes in figure.axes], ["shoulder", "", "elbow", ""])
+        torque, left = figure.axes[2:]
+        self.assertEqual([line.get_label() for line in torque.lines], ["measured", "nominal", "extended"])
+        nominal, extended = (np.abs(line.get_ydata()).max() for line in left.lines)
+        self.assertLess(extended, nominal)
+        self.assertTrue(figure._repr_png_().startswith(b"\x89PNG"))
+        self.assertRaises(IndexError, self.found.plot, 3)
+
+    def test_a_design_is_the_motion_of_the_program(self):
+        pair = ("FR01@elbow", "FR02@elbow")
+        design = plumbline.design(self.robot, separate=pair, duration_s=5, progress=False)
+        (prospect,) = design.prospects
+        self.assertEqual(prospect.question, "FR01 viscous friction at elbow or FR02 Coulomb friction at elbow")
+        self.assertGreater(prospect.after, 10)
+        limits = self.robot.limits
+        self.assertTrue((limits[:, 0] <= design.log.q).all() and (design.log.q <= limits[:, 1]).all())
+        self.assertTrue((np.abs(design.log.qd) <= limits[:, 2]).all() and np.abs(design.log.qd[:, 1]).max() > 0)
+        self.assertIn("this motion tells them apart", str(design))
+        with tempfile.TemporaryDirectory() as folder:
+            ours, theirs = Path(folder, "ours"), Path(folder, "theirs")
+            design.save(ours)
+            command = ["design", "--robot", self.urdf, "--separate", pair[0], "--from", pair[1]]
+            command += ["--duration-s", "5", "--out", theirs, "--quiet"]
+            subprocess.run([sys.executable, "-m", "plumbline", *command], check=True)
+            for name in ("motion.csv", "motion.parquet", "motion.toml"):
+                self.assertEqual((ours / name).read_bytes(), (theirs / name).read_bytes(), name)
+
+    def test_a_design_beside_logs_knows_what_they_tell(self):
+        pair = ("FR02@elbow", "FR04@elbow")
+        design = plumbline.design(self.robot, self.found, separate=pair, duration_s=5, progress=False)
+        self.assertGreater(design.prospects[0].before, 0)
+        open_ones = plumbline.design(self.robot, self.found, duration_s=5, progress=False)
+        rivals = [f"FR02 Coulomb friction at elbow or {rival}" for rival in ("FR04", "FR05", "FR07")]
+        self.assertTrue(open_ones.prospects)
+        for prospect in open_ones.prospects:
+            self.assertTrue(prospect.question.startswith(tuple(rivals)), prospect)
+
+    def test_a_design_without_a_question_is_refused(self):
+        design, robot = plumbline.design, self.robot
+        self.assertRaisesRegex(ValueError, "^diagnosis: ", design, robot)
+        self.assertRaisesRegex(TypeError, "^diagnosis: ", design, robot, "out")
+        self.assertRaisesRegex(TypeError, "^separate: ", design, robot, separate="FR01@elbow")
+        self.assertRaisesRegex(ValueError, "^duration_s: ", design, robot, self.found, duration_s=-1)
+        self.assertRaisesRegex(plumbline.PlumblineError, "elbow", design, robot, separate=("FR01@knee", "FR02@elbow"))
+        self.assertRaisesRegex(plumbline.PlumblineError, "joints", design, plumbline.Robot(WAM), self.found)
+
+
+class Tracks(unittest.TestCase):
+    """A motion of a second, tracked by the simulated arm."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        sinusoids = "terms = 3, lowest_hz = 0.3, highest_hz = 1.0"
+        Path(folder.name, "plant.toml").write_text(
+            f'extends = "{ROOT.as_posix()}/scenarios/real_wam.toml"\n[[run]]\nname = "training"\n'
+            f"motion.sinusoids = {{ seed = 21, {sinusoids}, duration_s = 4.0 }}\n"
+        )
+        self.scenario = Path(folder.name, "tracking.toml")
+        self.scenario.write_text(
+            f'plant = "plant.toml"\nfeedforward = ["none", "rbd"]\ncontrol.gains = "low-quarter"\n'
+            f"motion.sinusoids = {{ seed = 24, {sinusoids}, duration_s = 1.0, fade_s = 0.3 }}\n"
+            f'learn = {{ train = ["training"], points = 40 }}\n'
+        )
+
+    def test_tracking_is_that_of_the_program(self):
+        ours, theirs = self.folder / "ours", self.folder / "theirs"
+        tracking = plumbline.track(self.scenario, ours, progress=False)
+        self.assertLess(tracking.tip_rmse_m["rbd"], tracking.tip_rmse_m["none"])
+        self.assertEqual((ours / "tracking.json").read_text(), tracking.json())
+        self.assertTrue((ours / "recordings/rbd.rrd").exists() and (ours / "models/rbd.parquet").exists())
+        command = ["track", str(self.scenario), "--out", str(theirs)]
+        subprocess.run([sys.executable, "-m", "plumbline", *command], check=True, capture_output=True)
+        program = json.loads((theirs / "tracking.json").read_text())
+        for document in (program, tracking.document):
+            for model in document["models"]:
+                # What a clock has measured.
+                model.pop("prediction_us")
+        self.assertEqual(tracking.document, program)
+        again = plumbline.track(self.scenario, learned=ours / "models", feedforward=["rbd"], progress=False)
+        self.assertEqual(again.tip_rmse_m, {"rbd": tracking.tip_rmse_m["rbd"]})
+        self.assertIsNone(again.out)
+
+    def test_what_cannot_be_tracked_is_an_exception(self):
+        track = plumbline.track
+        self.assertRaisesRegex(ValueError, "^feedforward: ", track, self.scenario, feedforward=["oracle"])
+        self.assertRaisesRegex(TypeError, "^feedforward: ", track, self.scenario, feedforward="rbd")
+        self.assertRaisesRegex(TypeError, "^set: ", track, self.scenario, set="control.gains=stiff")
+        self.assertRaisesRegex(plumbline.PlumblineError, "soft", track, self.scenario, set=["control.gains=soft"])
+        self.assertRaises(plumbline.PlumblineError, track, self.folder / "absent.toml")
+
+
 class Answer(unittest.TestCase):
     """One diagnosis of a simulated arm from arrays and one from files."""
 

@@ -6,6 +6,7 @@
 )]
 
 pub mod arms;
+pub mod book;
 pub mod golden;
 pub mod lerobot;
 pub mod mutated;

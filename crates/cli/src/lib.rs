@@ -4,8 +4,8 @@
 //! command line -> main -> a command -> files, text, exit code
 //! ```
 //!
-//! [`main`] is the program, whoever starts it. The rest is how files are read, and how a diagnosis is
-//! written and recorded, for whoever has them in memory.
+//! [`main`] is the program, whoever starts it. The rest is how files are read, how a diagnosis is
+//! written and recorded, and what `design` and `track` do, for whoever has them in memory.
 
 mod arguments;
 mod columns;
@@ -29,8 +29,12 @@ use crate::commands::{
 };
 
 pub use crate::columns::{ColumnArguments, ExcerptArguments};
+pub use crate::commands::design::{
+    DiagnosisFile, Searched as SearchedMotion, Wanted as WantedMotion,
+};
 pub use crate::commands::diagnose::{recorded as record_diagnosis, write as write_diagnosis};
 pub use crate::commands::explain::find as find_effect;
+pub use crate::commands::track::{Asked as AskedTracking, Tracked as TrackedMotion};
 pub use crate::doubts::doubts;
 pub use crate::error::CliError;
 pub use crate::input::{PartArguments, SearchArguments, hashes_of, provenance_of};

@@ -106,6 +106,11 @@ impl Diagnosis {
         Ok(Self { robot: loaded, extended, runs, outcome, forward, provenance, doubts })
     }
 
+    /// The logs, as they were given.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
     fn shown(&self) -> Report<'_> {
         Report {
             forward: self.forward.as_ref(),
@@ -161,7 +166,7 @@ impl Diagnosis {
     }
 
     /// `diagnosis.json`.
-    fn json(&self) -> PyResult<String> {
+    pub fn json(&self) -> PyResult<String> {
         report::json(&self.shown()).map_err(raised)
     }
 

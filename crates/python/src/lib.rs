@@ -14,6 +14,7 @@
 mod arguments;
 mod arrays;
 mod comparison;
+mod design;
 mod diagnosis;
 mod error;
 mod inverse_dynamics;
@@ -22,6 +23,7 @@ mod model;
 mod program;
 mod robot;
 mod simulation;
+mod tracking;
 mod work;
 
 /// What the Python package `plumbline` is made of.
@@ -29,6 +31,8 @@ mod work;
 mod _plumbline {
     #[pymodule_export]
     use crate::comparison::{Comparison, compare};
+    #[pymodule_export]
+    use crate::design::{Design, design};
     #[pymodule_export]
     use crate::diagnosis::{Diagnosis, diagnose};
     #[pymodule_export]
@@ -45,4 +49,6 @@ mod _plumbline {
     use crate::robot::Robot;
     #[pymodule_export]
     use crate::simulation::{Simulation, simulate};
+    #[pymodule_export]
+    use crate::tracking::{Tracking, track};
 }

@@ -140,3 +140,17 @@ impl learner::Progress for Work {
         ControlFlow::Continue(())
     }
 }
+
+impl evaluation::Progress for Work {
+    fn begin(&self, what: &str) {
+        self.stage(what, 0);
+    }
+
+    fn second(&self) {
+        self.step();
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}

@@ -2,25 +2,24 @@ mod cause;
 mod diagnosis_file;
 mod error;
 mod files;
+mod searched;
 
 use std::path::PathBuf;
 
-use logs::{PrepareSettings, Prepared, centre_commands, prepare};
-use next_motion::{Goal, Question, Settings};
+use logs::Run;
+use next_motion::Settings;
 use report::ReportError;
-use robot::{Loaded, Robot};
+use robot::Loaded;
 
-use self::diagnosis_file::DiagnosisFile;
+pub use self::diagnosis_file::DiagnosisFile;
 pub use self::error::DesignError;
+pub use self::searched::{Searched, Wanted};
 use crate::Outcome;
 use crate::columns::ColumnArguments;
 use crate::error::CliError;
 use crate::input::{PartArguments, positive};
 use crate::output::print;
 use crate::progress::Line;
-
-/// Rate of a motion where neither log nor robot says one (Hz).
-const RATE_HZ: f64 = 500.0;
 
 /// Arguments of `design`.
 #[derive(Debug, clap::Args)]
@@ -65,79 +64,43 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
     let loaded = arguments.part.load(&arguments.robot)?;
-    let robot = &next_motion::sown(&loaded.robot);
-    let asked = asked(arguments, robot)?;
-    let (question, logs) = match &arguments.diagnosis {
-        None => (Question::without_logs(robot, asked), None),
-        Some(path) => {
-            let diagnosis = DiagnosisFile::read(path, robot)?;
-            let logs = prepared(arguments, &diagnosis, &loaded)?;
-            let question = Question {
-                robot,
-                goals: if asked.is_empty() { diagnosis.goals(robot)? } else { asked },
-                findings: diagnosis.findings(robot)?,
-                noise: diagnosis.noise(),
-                cutoff_hz: diagnosis.cutoff_hz(),
-            };
-            if question.goals.is_empty() {
-                return Err(DesignError::NothingOpen { path: path.clone() }.into());
-            }
-            (question, Some(logs))
-        }
+    let read = |path: &PathBuf| {
+        let diagnosis = DiagnosisFile::read(path, &loaded.robot)?;
+        let runs = diagnosed(arguments, &diagnosis, &loaded)?;
+        Ok::<_, CliError>((diagnosis, runs))
     };
-    let settings = Settings { duration_s: arguments.duration_s, seed: arguments.seed };
+    let diagnosed = arguments.diagnosis.as_ref().map(read).transpose()?;
+    let wanted = Wanted {
+        loaded: &loaded,
+        diagnosed: diagnosed.as_ref().map(|(diagnosis, runs)| (diagnosis, runs.as_slice())),
+        separate: arguments.separate.as_deref().zip(arguments.from.as_deref()).map(<[_; 2]>::from),
+        settings: Settings { duration_s: arguments.duration_s, seed: arguments.seed },
+    };
     let line = Line::new();
     if !arguments.quiet {
         line.say("searching a motion");
     }
-    let design = next_motion::design(&question, logs.as_ref(), &settings);
+    let searched = Searched::new(&wanted);
     line.finish();
-    let design = design.map_err(DesignError::from)?;
-    let useful = design.prospects.iter().any(|p| p.runs().is_some());
-    let text = files::words(&design, robot, logs.as_ref());
-    let Some(motion) = design.motion.as_ref().filter(|_| useful) else {
-        if !arguments.quiet {
-            print(&text)?;
-        }
-        return Ok(Outcome::Gap);
-    };
-    let rate_hz = rate_hz(&loaded, logs.as_ref());
-    let written = files::write(arguments, &text, robot, (motion, rate_hz))?;
+    let searched = searched?;
+    let written = searched.write(&arguments.out, &arguments.robot)?;
     if !arguments.quiet {
-        print(&format!("{text}{written}"))?;
+        print(&format!("{}{}", searched.text(), written.as_deref().unwrap_or_default()))?;
     }
-    Ok(Outcome::Good)
+    Ok(if written.is_some() { Outcome::Good } else { Outcome::Gap })
 }
 
-/// The pair that is asked for, if any.
-fn asked(arguments: &Arguments, robot: &Robot) -> Result<Vec<Goal>, CliError> {
-    let (Some(one), Some(other)) = (&arguments.separate, &arguments.from) else {
-        return Ok(Vec::new());
-    };
-    let [finding, rival] = [cause::typed(one, robot)?, cause::typed(other, robot)?];
-    Ok(vec![Goal::Separate { finding, rival }])
-}
-
-/// The logs that were diagnosed, prepared as they were then.
-fn prepared(
+/// The logs that were diagnosed.
+fn diagnosed(
     arguments: &Arguments,
     diagnosis: &DiagnosisFile,
     loaded: &Loaded,
-) -> Result<Prepared, CliError> {
+) -> Result<Vec<Run>, CliError> {
     let named = diagnosis.logs();
     let paths = if arguments.logs.is_empty() { &named } else { &arguments.logs };
     let runs = arguments.columns.read_runs(paths, &loaded.robot)?;
-    if let Some(other) = runs.iter().find(|run| !diagnosis.knows(&run.sha256)) {
-        return Err(DesignError::OtherLog { path: other.source.clone() }.into());
+    match runs.iter().find(|run| !diagnosis.knows(&run.sha256)) {
+        Some(other) => Err(DesignError::OtherLog { path: other.source.clone() }.into()),
+        None => Ok(runs),
     }
-    let settings = PrepareSettings { cutoff_hz: Some(diagnosis.cutoff_hz()) };
-    let mut prepared = prepare(&runs, &settings)?;
-    centre_commands(&loaded.robot, &mut prepared.runs, loaded.control.rate_hz);
-    Ok(prepared)
-}
-
-/// Rate at which the motion is written (Hz): that of the logs, or else of the controller.
-fn rate_hz(loaded: &Loaded, logs: Option<&Prepared>) -> f64 {
-    let of_logs = logs.and_then(|l| l.runs.iter().map(|run| run.rate_hz).reduce(f64::max));
-    of_logs.or(loaded.control.rate_hz).unwrap_or(RATE_HZ)
 }

@@ -1,3 +1,5 @@
+mod page;
+
 use catalogue::{EffectKind, Family};
 use serde::Serialize;
 
@@ -11,12 +13,17 @@ pub struct Arguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    /// Print a page in Markdown with what explain says of every effect
+    #[arg(long, conflicts_with = "json")]
+    pub markdown: bool,
 }
 
 /// Prints the list of all effects, family by family.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if arguments.json {
         print_json(&Document { schema: "plumbline.effects/1", effects: rows() })?;
+    } else if arguments.markdown {
+        print(&page::page(&rows()))?;
     } else {
         print(&text())?;
     }
@@ -32,6 +39,8 @@ struct Document {
 
 #[derive(Serialize)]
 struct Row {
+    #[serde(skip)]
+    kind: EffectKind,
     code: &'static str,
     name: &'static str,
     family: Family,
@@ -47,6 +56,7 @@ fn rows() -> Vec<Row> {
     let mut kinds = EffectKind::ALL;
     kinds.sort_by_key(|kind| (kind.family(), kind.code()));
     let row = |kind: EffectKind| Row {
+        kind,
         code: kind.code(),
         name: kind.name(),
         family: kind.family(),

@@ -20,7 +20,7 @@ pub struct Arguments {
 /// Prints what is known about one effect; without one, what `effects` prints.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let Some(name) = &arguments.effect else {
-        return list::run(&list::Arguments { json: false });
+        return list::run(&list::Arguments { json: false, markdown: false });
     };
     print(&explanation(find(name)?.entry()))?;
     Ok(Outcome::Good)
@@ -55,28 +55,38 @@ fn is_near(typed: &str, name: &str) -> bool {
 fn explanation(entry: &Entry) -> String {
     let bold = Style::new().bold();
     let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.label(), entry.kind);
-    let mut line = |name: &str, value: &str| {
-        text.push_str(&format!("  {name:<19}{value}\n"));
-    };
-    line("is", entry.summary);
-    line("family", entry.family.name());
-    line("adds", entry.equation);
-    for parameter in entry.parameters {
-        line(parameter.name, &meaning(parameter));
+    for (name, value) in facts(entry) {
+        let lines = match name {
+            "confused with" => report::packed(value.split(", "), ", ", WIDTH).join(",\n"),
+            _ => value,
+        };
+        text.push_str(&format!("  {name:<19}{}\n", lines.replace('\n', &format!("\n{:21}", ""))));
     }
-    line("shows as", entry.signature);
-    line("needs", entry.needs);
-    let rivals: Vec<String> = entry.confused_with.iter().map(|k| k.label()).collect();
-    let rivals = report::packed(rivals.iter().map(String::as_str), ", ", WIDTH);
-    line("confused with", &rivals.join(&format!(",\n{:21}", "")));
-    line("told apart by", entry.told_apart_by);
-    line("diagnosed", &diagnosed(entry));
-    match effects::remedy(entry.kind) {
-        Ok(how) => line("compensated by", how),
-        Err(reason) => line("not compensated", reason),
-    }
-    line("source", entry.source);
     text
+}
+
+/// What is known of an effect: names of its facts and parameters, and what each is.
+pub(super) fn facts(entry: &Entry) -> Vec<(&'static str, String)> {
+    let rivals: Vec<String> = entry.confused_with.iter().map(|k| k.label()).collect();
+    let mut facts = vec![
+        ("is", entry.summary.to_owned()),
+        ("family", entry.family.name().to_owned()),
+        ("adds", entry.equation.to_owned()),
+    ];
+    facts.extend(entry.parameters.iter().map(|parameter| (parameter.name, meaning(parameter))));
+    facts.extend([
+        ("shows as", entry.signature.to_owned()),
+        ("needs", entry.needs.to_owned()),
+        ("confused with", rivals.join(", ")),
+        ("told apart by", entry.told_apart_by.to_owned()),
+        ("diagnosed", diagnosed(entry)),
+        match effects::remedy(entry.kind) {
+            Ok(how) => ("compensated by", how.to_owned()),
+            Err(reason) => ("not compensated", reason.to_owned()),
+        },
+        ("source", entry.source.to_owned()),
+    ]);
+    facts
 }
 
 /// What a parameter is, its unit, and its range on an arm of known size.
@@ -104,10 +114,7 @@ fn diagnosed(entry: &Entry) -> String {
             format!("yes, {how}: {} only", found.join(" and "))
         }
         Err(reason) => {
-            format!(
-                "no: {reason}\n{:21}what it leaves has no name, or a wrong one of the above",
-                ""
-            )
+            format!("no: {reason}\nwhat it leaves has no name, or a wrong one of the above")
         }
     }
 }

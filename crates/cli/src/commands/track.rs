@@ -1,22 +1,19 @@
 mod comparison;
+mod tracked;
 
 use std::path::{Path, PathBuf};
 
-use document::Document;
-use evaluation::{
-    FeedforwardKind, Learned, Outputs, TrackedRun, TrackingScenario, simulated_logs, sweep,
-    track_all,
-};
-use recording::Live;
+use evaluation::{FeedforwardKind, TrackedRun, TrackingScenario};
 use report::{ReportError, TrackingComparison};
 
 use crate::Outcome;
 use crate::error::CliError;
-use crate::output::{create_folder, print, shown};
+use crate::output::{print, shown};
 use crate::progress::Line;
 use crate::watch::Watch;
 
 pub(super) use self::comparison::comparison;
+pub use self::tracked::{Asked, Tracked};
 
 /// Arguments of `track`.
 #[derive(Debug, clap::Args)]
@@ -51,68 +48,32 @@ pub struct Arguments {
 
 /// Tracks the motion of a scenario with every feedforward and compares them.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let scenario = TrackingScenario::from_document(&document(arguments)?)?;
-    let outputs = Outputs {
-        logs: arguments.out.join("logs"),
-        recordings: arguments.out.join("recordings"),
-        live: if arguments.live { Live::On } else { Live::Off },
+    let asked = Asked {
+        scenario: &arguments.scenario,
+        set: &arguments.set,
+        feedforward: &arguments.feedforward,
+        learned: arguments.learned.as_deref(),
+        out: Some(&arguments.out),
+        live: arguments.live,
+        command: None,
     };
-    for folder in [&arguments.out, &outputs.logs, &outputs.recordings] {
-        create_folder(folder)?;
-    }
     let watch = Watch::new((!arguments.quiet).then(Line::new))?;
-    let learned = learned(arguments, &scenario, &watch);
-    let tracked = learned.and_then(|learned| {
-        let runs = track_all(&scenario, &learned, Some(&outputs), &watch)?;
-        let swept = sweep(&scenario, &learned, &watch)?;
-        Ok((runs, swept))
-    });
+    let tracked = Tracked::new(&asked, &watch);
     watch.finish();
-    let (runs, swept) = tracked?;
-    let comparison = comparison(&arguments.scenario, &scenario, &runs, swept.as_ref())?;
+    let tracked = tracked?;
     // A full disk does not keep a long run from being told.
-    let written = write(&arguments.out, &scenario, &comparison);
-    say(arguments, &comparison)?;
+    let written = tracked.write(&arguments.out);
+    say(arguments, tracked.comparison())?;
     written?;
-    match problems(&runs).next() {
+    match tracked.problems().into_iter().next() {
         None => Ok(Outcome::Good),
-        Some(problem) => Err(CliError::Incomplete { problem: problem.clone() }),
+        Some(problem) => Err(CliError::Incomplete { problem }),
     }
 }
 
 /// What of the runs could not be written.
 pub(super) fn problems(runs: &[TrackedRun]) -> impl Iterator<Item = &String> {
     runs.iter().filter_map(|run| run.written.as_ref()).flat_map(|written| &written.problems)
-}
-
-fn document(arguments: &Arguments) -> Result<Document, CliError> {
-    let mut document = Document::read(&arguments.scenario)?;
-    for assignment in &arguments.set {
-        document.set(assignment)?;
-    }
-    if !arguments.feedforward.is_empty() {
-        let names: Vec<String> =
-            arguments.feedforward.iter().map(|kind| format!("{:?}", kind.name())).collect();
-        document.set(&format!("feedforward=[{}]", names.join(",")))?;
-    }
-    Ok(document)
-}
-
-/// The models, from a folder or from logs that are simulated for them.
-fn learned(
-    arguments: &Arguments,
-    scenario: &TrackingScenario,
-    watch: &Watch,
-) -> Result<Learned, CliError> {
-    if let Some(folder) = &arguments.learned {
-        return Ok(Learned::load(scenario, folder)?);
-    }
-    let logs = simulated_logs(scenario, watch)?;
-    let learned = Learned::learn(scenario, &logs, None, watch)?;
-    let folder = arguments.out.join("models");
-    create_folder(&folder)?;
-    learned.save(&folder)?;
-    Ok(learned)
 }
 
 /// Writes an output folder, all but the logs, recordings and models.

@@ -9,6 +9,7 @@
 SI units and radians; arrays have one column a joint, in the order of ``robot.joints``.
 """
 
+from plumbline._design import Design, Prospect, design
 from plumbline._diagnosis import Comparison, Diagnosis, compare, diagnose
 from plumbline._findings import Finding, Findings, Parameter
 from plumbline._log import Log
@@ -16,9 +17,11 @@ from plumbline._model import Model, inverse_dynamics, learn
 from plumbline._plumbline import PlumblineError
 from plumbline._robot import Export, Robot
 from plumbline._simulation import Simulation, simulate
+from plumbline._tracking import Tracking, track
 
 __all__ = [
     "Comparison",
+    "Design",
     "Diagnosis",
     "Export",
     "Finding",
@@ -27,11 +30,15 @@ __all__ = [
     "Model",
     "Parameter",
     "PlumblineError",
+    "Prospect",
     "Robot",
     "Simulation",
+    "Tracking",
     "compare",
+    "design",
     "diagnose",
     "inverse_dynamics",
     "learn",
     "simulate",
+    "track",
 ]

@@ -1,21 +1,28 @@
-"""Pictures by matplotlib."""
+"""Pictures by matplotlib, which is there when this is imported."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import io
+from typing import Any
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from matplotlib.figure import Figure
 
 _COLOURS = {"measured": "#30363d", "nominal": "#c8500a", "extended": "#1668c5"}
 
 
+class Picture(Figure):
+    """A figure that a notebook shows, also where nobody has imported ``pyplot``."""
+
+    def _repr_png_(self) -> bytes:
+        png = io.BytesIO()
+        self.savefig(png, format="png")
+        return png.getvalue()
+
+
 def plotted(run: dict[str, Any]) -> Figure:
     """Torque over time, and below it the error of both models, joint by joint."""
-    from matplotlib.figure import Figure
-
     time, joints = run["time"], run["joints"]
-    figure = Figure(figsize=(9, 2.6 * len(joints)), layout="constrained")
+    figure = Picture(figsize=(9, 2.6 * len(joints)), layout="constrained")
     axes = figure.subplots(2 * len(joints), 1, sharex=True, squeeze=False, height_ratios=[2, 1] * len(joints))
     for index, (joint, signals) in enumerate(joints.items()):
         torque, left = axes[2 * index, 0], axes[2 * index + 1, 0]

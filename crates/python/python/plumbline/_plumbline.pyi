@@ -104,6 +104,21 @@ class Comparison:
     @property
     def alike(self) -> str: ...
 
+class Design:
+    def text(self) -> str: ...
+    @property
+    def worth(self) -> list[tuple[str, float, Optional[float]]]: ...
+    @property
+    def log(self) -> Optional[Log]: ...
+    def save(self, folder: _Path) -> Optional[str]: ...
+
+class Tracking:
+    def json(self) -> str: ...
+    def text(self) -> str: ...
+    def html(self) -> str: ...
+    @property
+    def out(self) -> Optional[Path]: ...
+
 class Simulation:
     @property
     def logs(self) -> list[Log]: ...
@@ -158,6 +173,24 @@ def compare(
     without: Sequence[str] = ...,
     progress: _Progress = None,
 ) -> Comparison: ...
+def design(
+    robot: Robot,
+    diagnosis: Optional[Diagnosis] = None,
+    *,
+    separate: Optional[Sequence[str]] = None,
+    duration_s: Optional[float] = None,
+    seed: Optional[int] = None,
+    progress: _Progress = None,
+) -> Design: ...
+def track(
+    scenario: _Path,
+    out: Optional[_Path] = None,
+    *,
+    learned: Optional[_Path] = None,
+    feedforward: Sequence[str] = ...,
+    set: Sequence[str] = ...,
+    progress: _Progress = None,
+) -> Tracking: ...
 def simulate(
     scenario: _Path,
     *,

@@ -40,13 +40,16 @@ def shown(progress: Progress) -> Iterator[Optional[Callable[[str, int, int], obj
         return
     if progress not in (True, False, None):
         raise TypeError("progress: True, False, None or a function(stage, done, steps) was expected")
+    if progress is False:
+        yield None
+        return
     try:
         from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
     except ImportError:
         if progress:
             raise
         tqdm = None
-    if progress is False or tqdm is None:
+    if tqdm is None:
         yield None
         return
     bar = _Bar(tqdm)

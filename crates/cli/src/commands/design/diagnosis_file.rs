@@ -18,6 +18,9 @@ const WIDE: f64 = 0.5;
 /// What a design reads of a `diagnosis.json`.
 #[derive(Debug, Deserialize)]
 pub struct DiagnosisFile {
+    /// Where it was read, or its name in messages.
+    #[serde(skip)]
+    path: PathBuf,
     schema: String,
     joints: Vec<Joint>,
     findings: Vec<Finding>,
@@ -75,18 +78,37 @@ struct File {
 
 impl DiagnosisFile {
     /// A `diagnosis.json`, or the one in a folder.
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError::Diagnosis`] for a file that is none, or one of another robot.
     pub fn read(path: &Path, robot: &Robot) -> Result<Self, DesignError> {
         let file = if path.is_dir() { path.join("diagnosis.json") } else { path.to_owned() };
-        let wrong = |reason: String| DesignError::Diagnosis { path: file.clone(), reason };
-        let text = std::fs::read_to_string(&file).map_err(|e| wrong(e.to_string()))?;
-        let read: Self = serde_json::from_str(&text).map_err(|e| wrong(e.to_string()))?;
+        let text = std::fs::read_to_string(&file)
+            .map_err(|e| DesignError::Diagnosis { path: file.clone(), reason: e.to_string() })?;
+        Self::parse(&text, &file, robot).map(|read| Self { path: path.to_owned(), ..read })
+    }
+
+    /// The text of a `diagnosis.json`, of this name in messages.
+    ///
+    /// # Errors
+    ///
+    /// As [`read`](Self::read).
+    pub fn parse(text: &str, name: &Path, robot: &Robot) -> Result<Self, DesignError> {
+        let wrong = |reason: String| DesignError::Diagnosis { path: name.to_owned(), reason };
+        let read: Self = serde_json::from_str(text).map_err(|e| wrong(e.to_string()))?;
         if read.schema != SCHEMA {
             return Err(wrong(format!("its schema is {}, not {SCHEMA}", read.schema)));
         }
         if !read.joints.iter().map(|j| j.name.as_str()).eq(robot.joint_names()) {
             return Err(wrong(format!("its joints are not those of {}", robot.name())));
         }
-        Ok(read)
+        Ok(Self { path: name.to_owned(), ..read })
+    }
+
+    /// Where it was read.
+    pub fn path(&self) -> PathBuf {
+        self.path.clone()
     }
 
     /// The logs that were diagnosed.

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use catalogue::EffectKind;
 use effects::{Frame, Motion as Along};
@@ -10,7 +10,7 @@ use next_motion::{Design, Designed, Goal, Prospect, TELLS_APART};
 use robot::Robot;
 use serde::Serialize;
 
-use super::{Arguments, cause};
+use super::cause;
 use crate::error::CliError;
 use crate::output::{create_folder, shown, table};
 
@@ -32,6 +32,11 @@ pub fn words(design: &Design, robot: &Robot, logs: Option<&Prepared>) -> String 
         format!("{title}\n  {}\n", lines.join("\n  "))
     };
     design.prospects.iter().map(of).collect()
+}
+
+/// What a goal is, in words.
+pub fn title(goal: Goal, robot: &Robot) -> String {
+    titles(goal, robot).0
 }
 
 /// What a goal is, and what else than a motion would serve it.
@@ -113,17 +118,15 @@ struct OneRun<'a> {
 
 /// Writes the motion as a log of what is asked for and as a scenario, and says where.
 pub fn write(
-    arguments: &Arguments,
+    out: &Path,
+    (robot, robot_file): (&Robot, &Path),
     text: &str,
-    robot: &Robot,
-    (designed, rate_hz): (&Designed, f64),
+    (designed, run, rate_hz): (&Designed, &Run, f64),
 ) -> Result<String, CliError> {
-    let out = &arguments.out;
     create_folder(out)?;
-    let run = sampled(robot, designed, rate_hz);
-    logs::write_csv(&out.join(FILES[0]), &run)?;
-    logs::write_parquet(&out.join(FILES[1]), &run)?;
-    let path = arguments.robot.canonicalize().unwrap_or_else(|_| arguments.robot.clone());
+    logs::write_csv(&out.join(FILES[0]), run)?;
+    logs::write_parquet(&out.join(FILES[1]), run)?;
+    let path = robot_file.canonicalize().unwrap_or_else(|_| robot_file.to_owned());
     let scenario =
         Scenario { robot: path, run: [OneRun { name: "motion", motion: &designed.spec }] };
     let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
@@ -136,7 +139,7 @@ pub fn write(
          position, velocity, acceleration and the effort to expect, {rate_hz:.0} Hz\n\
          scenario  {toml} (plumbline simulate)\n\
          then      plumbline diagnose, its log together with those there are\n",
-        summary(robot, &run),
+        summary(robot, run),
     ))
 }
 
@@ -162,7 +165,7 @@ fn summary(robot: &Robot, run: &Run) -> String {
 
 /// The motion as a log: positions, velocities, accelerations and the effort that the robot as
 /// described needs.
-fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
+pub fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
     let samples = (designed.motion.duration_s() * rate_hz).floor() as usize + 1;
     let time: Vec<f64> = (0..samples).map(|k| k as f64 / rate_hz).collect();
     let states: Vec<State> = time.iter().map(|&t| designed.motion.at(t)).collect();

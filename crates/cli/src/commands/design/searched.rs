@@ -1,0 +1,128 @@
+use std::path::Path;
+
+use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare};
+use next_motion::{Design, Designed, Goal, Prospect, Question, Settings};
+use robot::{Loaded, Robot};
+
+use super::diagnosis_file::DiagnosisFile;
+use super::{DesignError, cause, files};
+use crate::error::CliError;
+
+/// Rate of a motion where neither log nor robot says one (Hz).
+const RATE_HZ: f64 = 500.0;
+
+/// What a motion is searched for.
+pub struct Wanted<'a> {
+    /// The robot that was diagnosed.
+    pub loaded: &'a Loaded,
+    /// A diagnosis and the logs that it is of, where there is one.
+    pub diagnosed: Option<(&'a DiagnosisFile, &'a [Run])>,
+    /// Two causes to tell apart, such as `FR01@elbow`, instead of what the diagnosis left open.
+    pub separate: Option<[&'a str; 2]>,
+    /// Length and seed.
+    pub settings: Settings,
+}
+
+/// What was found: the motion, where one is worth running, and what it brings.
+pub struct Searched {
+    robot: Robot,
+    design: Design,
+    text: String,
+    rate_hz: f64,
+}
+
+impl Searched {
+    /// Searches the motion that settles what is wanted.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Design`] where there is nothing to settle or a cause has no place, and what the logs refuse.
+    pub fn new(wanted: &Wanted) -> Result<Self, CliError> {
+        let robot = next_motion::sown(&wanted.loaded.robot);
+        let asked = match wanted.separate {
+            None => Vec::new(),
+            Some(pair) => vec![pair_of(pair, &robot)?],
+        };
+        let (question, logs) = match wanted.diagnosed {
+            None => (Question::without_logs(&robot, asked), None),
+            Some((diagnosis, runs)) => {
+                let question = Question {
+                    robot: &robot,
+                    goals: if asked.is_empty() { diagnosis.goals(&robot)? } else { asked },
+                    findings: diagnosis.findings(&robot)?,
+                    noise: diagnosis.noise(),
+                    cutoff_hz: diagnosis.cutoff_hz(),
+                };
+                if question.goals.is_empty() {
+                    return Err(DesignError::NothingOpen { path: diagnosis.path() }.into());
+                }
+                (question, Some(prepared(wanted.loaded, diagnosis, runs)?))
+            }
+        };
+        let design = next_motion::design(&question, logs.as_ref(), &wanted.settings);
+        let design = design.map_err(DesignError::from)?;
+        let text = files::words(&design, &robot, logs.as_ref());
+        let rate_hz = rate_hz(wanted.loaded, logs.as_ref());
+        Ok(Self { robot, design, text, rate_hz })
+    }
+
+    /// What the motion is for and what it brings, goal by goal.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// What the motion is worth, goal by goal: what it is for, and the nats of log evidence of the logs at hand and of
+    /// one run of it; none where no motion helps.
+    pub fn worth(&self) -> Vec<(String, f64, Option<f64>)> {
+        let of = |p: &Prospect| (files::title(p.goal, &self.robot), p.before, p.after);
+        self.design.prospects.iter().map(of).collect()
+    }
+
+    /// The motion as a log: positions, velocities, accelerations (rad or m, s) and the effort to expect (N m or N);
+    /// none where no motion would settle anything.
+    pub fn run(&self) -> Option<Run> {
+        Some(files::sampled(&self.robot, self.motion()?, self.rate_hz))
+    }
+
+    /// Writes the motion as a log of what is asked for and as a scenario of the robot in a file, and says where; nothing
+    /// where there is none.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Folder`], and what the disk refuses.
+    pub fn write(&self, out: &Path, robot_file: &Path) -> Result<Option<String>, CliError> {
+        let (Some(designed), Some(run)) = (self.motion(), self.run()) else { return Ok(None) };
+        let motion = (designed, &run, self.rate_hz);
+        files::write(out, (&self.robot, robot_file), &self.text, motion).map(Some)
+    }
+
+    /// The motion, where running it tells something.
+    fn motion(&self) -> Option<&Designed> {
+        let is_useful = self.design.prospects.iter().any(|p| p.runs().is_some());
+        self.design.motion.as_ref().filter(|_| is_useful)
+    }
+}
+
+/// Two causes that are to be told apart.
+fn pair_of([one, other]: [&str; 2], robot: &Robot) -> Result<Goal, CliError> {
+    let [finding, rival] = [cause::typed(one, robot)?, cause::typed(other, robot)?];
+    Ok(Goal::Separate { finding, rival })
+}
+
+/// The logs that were diagnosed, prepared as they were then.
+fn prepared(
+    loaded: &Loaded,
+    diagnosis: &DiagnosisFile,
+    runs: &[Run],
+) -> Result<Prepared, CliError> {
+    let settings = PrepareSettings { cutoff_hz: Some(diagnosis.cutoff_hz()) };
+    let mut prepared = prepare(runs, &settings)?;
+    centre_commands(&loaded.robot, &mut prepared.runs, loaded.control.rate_hz);
+    Ok(prepared)
+}
+
+/// Rate at which the motion is written (Hz): that of the logs, or else of the controller.
+fn rate_hz(loaded: &Loaded, logs: Option<&Prepared>) -> f64 {
+    let of_logs = logs.and_then(|l| l.runs.iter().map(|run| run.rate_hz).reduce(f64::max));
+    of_logs.or(loaded.control.rate_hz).unwrap_or(RATE_HZ)
+}

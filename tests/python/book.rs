@@ -1,0 +1,104 @@
+//! The book: every snippet of Python in it prints what the book shows, and every notebook runs from top to bottom.
+
+use std::fs;
+
+use checks::arms::workspace_root;
+use checks::book::{Page, blocks, missing, pages, reader};
+
+use crate::{NUMPY, module, python};
+
+/// What a notebook shows once it has run, besides what a test of its tutorial holds.
+const SHOWN: [(&str, &[&str]); 3] = [
+    (
+        "ur-arm",
+        &["1251 rows", "FR01", "shoulder_lift_joint", "FR02", "elbow_joint", "frictionloss"],
+    ),
+    ("hobby-arm", &["FR02", "elbow_flex", "the scale of all efforts cannot be known"]),
+    ("payload", &["IN01", "panda_link7", "FR02", "panda_joint2"]),
+];
+
+/// Most that a notebook is in the repository (bytes): its outputs are left out.
+const SIZE: u64 = 10_000;
+
+/// What stands between the outputs of two snippets.
+const BETWEEN: &str = "---- the next snippet ----";
+
+/// Runs the snippets of a page as one program, and holds what they print against what the page shows.
+fn hold(page: &Page) {
+    let Some(module) = module(NUMPY, &format!("snippets of {} are", page.name)) else { return };
+    let folder = reader(page);
+    let blocks = blocks(&page.text);
+    let snippets = blocks.iter().filter(|block| block.language == "python");
+    let snippets: Vec<&str> = snippets.map(|block| block.text.as_str()).collect();
+    let script = folder.path().join("snippets.py");
+    fs::write(&script, snippets.join(&format!("\nprint({BETWEEN:?})\n"))).unwrap();
+    let ended = python(module.path()).arg(&script).current_dir(folder.path()).output().unwrap();
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert!(ended.status.success(), "{}: {said}", page.name);
+    let printed = String::from_utf8(ended.stdout).unwrap();
+    let mut printed = printed.split(BETWEEN);
+    let mut last = None;
+    for block in &blocks {
+        match (block.language.as_str(), block.tag.as_str()) {
+            ("python", _) => last = printed.next(),
+            ("sh", _) => last = None,
+            ("text", "printed") => {
+                let absent = last.and_then(|last| missing(&block.text, last));
+                assert!(absent.is_none(), "{}: {absent:?} is not in {last:?}", page.name);
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn snippets_print_what_the_book_shows() {
+    let with_snippets = |page: &Page| blocks(&page.text).iter().any(|b| b.language == "python");
+    let pages: Vec<Page> = pages().into_iter().filter(with_snippets).collect();
+    assert!(!pages.is_empty());
+    pages.iter().for_each(hold);
+}
+
+#[test]
+fn notebooks_run_from_top_to_bottom() {
+    let imports = "import nbclient, nbformat, ipykernel, pandas, matplotlib, pyarrow, numpy";
+    let Some(module) = module(imports, "notebooks are") else { return };
+    for (name, shown) in SHOWN {
+        let path = workspace_root().join(format!("docs/notebooks/{name}.ipynb"));
+        let work = tempfile::tempdir().unwrap();
+        let ended = python(module.path())
+            .arg(workspace_root().join("tests/python/run_notebook.py"))
+            .arg(&path)
+            .env("TMPDIR", work.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&ended.stderr);
+        assert!(ended.status.success(), "{name}: {said}");
+        let printed = String::from_utf8_lossy(&ended.stdout);
+        let absent: Vec<_> = shown.iter().filter(|words| !printed.contains(**words)).collect();
+        assert!(absent.is_empty(), "{name}: {absent:?} is not in {printed}");
+    }
+}
+
+#[test]
+fn every_tutorial_has_a_notebook_without_outputs() {
+    let folder = workspace_root().join("docs/notebooks");
+    let files = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut names: Vec<String> =
+        files.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect();
+    names.sort();
+    assert_eq!(names, ["hobby-arm", "payload", "ur-arm"]);
+    for name in names {
+        assert!(pages().iter().any(|page| page.name == format!("{name}.md")), "{name}");
+        let path = folder.join(format!("{name}.ipynb"));
+        assert!(fs::metadata(&path).unwrap().len() < SIZE, "{name}");
+        let notebook: serde_json::Value =
+            serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+        let cells = notebook["cells"].as_array().unwrap();
+        let outputs = cells.iter().filter_map(|cell| cell.get("outputs"));
+        assert!(
+            outputs.into_iter().all(|outputs| outputs.as_array().unwrap().is_empty()),
+            "{name}"
+        );
+    }
+}
