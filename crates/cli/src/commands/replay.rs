@@ -1,16 +1,15 @@
 use std::path::{Path, PathBuf};
 
-use inspection::Mended;
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
 use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
 use crate::columns::ColumnArguments;
-use crate::doubts::doubts;
+use crate::doubts::read_as_they_are;
 use crate::error::CliError;
 use crate::input::{PartArguments, positive};
-use crate::output::{create_folder, print, shown, table, warn};
+use crate::output::{create_folder, print, shown, table};
 
 /// Arguments of `replay`.
 #[derive(Debug, clap::Args)]
@@ -38,13 +37,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
     let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
-    doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
-    let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, &runs);
-    for seen in &mended {
-        let sentence = seen.sentence(&loaded.robot, &runs);
-        warn(&format!("{sentence} Until then the logs are read so."));
-    }
-    let runs = read.unwrap_or(runs);
+    let runs = read_as_they_are(&loaded, &runs).unwrap_or(runs);
     let prepared = logs::prepare(&runs, &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =
