@@ -13,7 +13,7 @@ use crate::{
     content::content,
     csv_file::CsvFile,
     damage::Damage,
-    kind::{Kind, NOT_MCAP, TWICE},
+    kind::{Kind, NOT_A_BAG, TWICE},
     lerobot::{self, LeRobot},
     matlab_file::MatlabFile,
     numpy_file::NumpyFile,
@@ -58,8 +58,8 @@ impl LogFile {
             Kind::Npy => Self::Numpy(NumpyFile::open_npy(path, file)?),
             Kind::Zip => Self::Numpy(NumpyFile::open_npz(path, file, options.time())?),
             Kind::Matlab => Self::Matlab(MatlabFile::open(path, file, options.time())?),
-            Kind::Mcap => {
-                let files = [(path.to_owned(), file)];
+            Kind::Bag(storage) => {
+                let files = [(path.to_owned(), storage, file)];
                 Self::Bag(Bag::open(path, &files, options.topic, damage)?)
             }
             Kind::Packed(_) => return Err(LogError::other_kind(path, TWICE)),
@@ -77,8 +77,8 @@ impl LogFile {
         let mut files = Vec::new();
         for path in bag::files_of(path)? {
             match content(&path)? {
-                (Kind::Mcap, file) => files.push((path, file)),
-                _ => return Err(LogError::other_kind(&path, NOT_MCAP)),
+                (Kind::Bag(storage), file) => files.push((path, storage, file)),
+                _ => return Err(LogError::other_kind(&path, NOT_A_BAG)),
             }
         }
         Ok(Self::Bag(Bag::open(path, &files, options.topic, damage)?))

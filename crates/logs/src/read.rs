@@ -69,14 +69,14 @@ pub fn episodes(path: &Path) -> Result<Vec<Option<u64>>, LogError> {
 /// jumps are taken out. Stamps that scatter about an even clock by more than its step give way to it.
 /// [`Run::mended`] tells of all.
 ///
-/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5, or MCAP, or one of them packed with gzip or zstd,
-/// which is seen from its first bytes.
+/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5, MCAP or SQLite, or one of them packed with gzip or
+/// zstd, which is seen from its first bytes.
 ///
 /// Of an npz or mat file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
 /// as long as time; fields of a structure of MATLAB are `log.q`. Other arrays are left out.
 ///
-/// Of a bag of ROS 2, an MCAP file or a folder with `metadata.yaml` and such files, the messages
+/// Of a bag of ROS 2, an MCAP or SQLite file or a folder with `metadata.yaml` and such files, the messages
 /// `sensor_msgs/msg/JointState` of one topic are read, joints by the names in each message; one that
 /// is about none of the robot's joints is left out. Time is that of the stamps, counted from the
 /// first one. In errors a row is a message of the topic.
@@ -102,7 +102,7 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
 
 /// Reads one run as [`read_run`] does, up to where it is damaged, and says what is there.
 ///
-/// Of CSV that is the first row that cannot be read, of MCAP the first record, of any file the
+/// Of CSV that is the first row that cannot be read, of a bag the first record or page, of any file the
 /// first sample that is no number or whose time does not increase. A file of another kind that is
 /// broken is refused.
 ///
