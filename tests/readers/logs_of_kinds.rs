@@ -39,6 +39,7 @@ pub fn readers() -> Vec<Reader> {
         of("SQLite", |_| golden(&["sqlite_bag.db3", "sqlite_small_pages.db3"]), binary),
         arrays("npy", |_| golden(&["numpy_records.npy"]), array),
         arrays("npz", |_| golden(&["numpy_plain.npz", "numpy_turned.npz"]), archive),
+        arrays("MAT 7.3", |_| golden(&["matlab73_plain.mat", "matlab73_packed.mat"]), binary),
         arrays("MAT", |_| golden(&["matlab_plain.mat", "matlab_packed.mat"]), matlab),
     ]
 }

@@ -1,4 +1,4 @@
-use crate::{bag::Storage, npy_header, unpacked::Packing};
+use crate::{bag::Storage, matlab_file::MatlabVersion, npy_header, unpacked::Packing};
 
 /// The kinds of file that a log may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,8 +9,8 @@ pub(crate) enum Kind {
     Npy,
     /// A zip archive, in which arrays of NumPy are looked for.
     Zip,
-    /// Arrays of MATLAB, version 5.
-    Matlab,
+    /// Arrays of MATLAB.
+    Matlab(MatlabVersion),
     /// Messages, as ROS 2 records them.
     Bag(Storage),
     /// Any of the others, packed.
@@ -47,11 +47,12 @@ impl Kind {
 }
 
 /// Kinds that are read, by their first bytes.
-const READ: [(&[u8], Kind); 8] = [
+const READ: [(&[u8], Kind); 9] = [
     (b"PAR1", Kind::Parquet),
     (npy_header::MAGIC, Kind::Npy),
     (b"PK\x03\x04", Kind::Zip),
-    (b"MATLAB 5.0 MAT-file", Kind::Matlab),
+    (b"MATLAB 5.0 MAT-file", Kind::Matlab(MatlabVersion::Five)),
+    (b"MATLAB 7.3 MAT-file", Kind::Matlab(MatlabVersion::SevenPointThree)),
     (b"\x89MCAP0\r\n", Kind::Bag(Storage::Mcap)),
     (b"SQLite format 3\0", Kind::Bag(Storage::Sqlite)),
     (b"\x1f\x8b", Kind::Packed(Packing::Gzip)),
@@ -68,7 +69,6 @@ const BAG: &str = "a bag of ROS 2 was expected, with the tables topics and messa
 const BAG_FILE: &str = "one of .mcap or .db3 was expected beside metadata.yaml";
 const CLOSE: &str = "sqlite3 FILE 'pragma wal_checkpoint(truncate)' puts it in";
 const HDF5: &str = "write its arrays with numpy.savez, or as CSV or Parquet";
-const MATLAB: &str = "save it with save('run.mat', '-v7'), or write its arrays with numpy.savez";
 const PACKED: &str = "unpack it first";
 const TABLE: &str = "write its first sheet as CSV";
 const ARROW: &str = "write the table as Parquet";
@@ -77,10 +77,9 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 24] = [
+const STRANGERS: [(usize, &[u8], &str, &str); 23] = [
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
-    (0, b"MATLAB 7.3 MAT-file", "a MAT-file of MATLAB 7.3", MATLAB),
     (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (512, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
@@ -177,10 +176,9 @@ mod tests {
         let of = |name: &str| of_archive(&["mimetype".to_owned(), name.to_owned()]).found;
         assert_eq!(of("xl/workbook.xml"), "an Excel workbook");
         assert_eq!(of("run.csv"), "a zip archive without an array of NumPy in it");
-        assert_eq!(found(b"MATLAB 7.3 MAT-file, Platform"), "a MAT-file of MATLAB 7.3");
         assert_eq!(found(&[&[0; 512][..], b"\x89HDF\r\n\x1a\n"].concat()), "an HDF5 file");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[21].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[20].2);
     }
 
     #[test]

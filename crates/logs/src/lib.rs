@@ -55,6 +55,7 @@ mod map_entry;
 mod map_pattern;
 mod matlab_element;
 mod matlab_file;
+mod matlab_hdf5;
 mod mcap_file;
 mod mcap_record;
 mod mend;

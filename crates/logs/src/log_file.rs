@@ -57,7 +57,9 @@ impl LogFile {
             Kind::Parquet => Self::Parquet(ParquetFile::open(path, file)),
             Kind::Npy => Self::Numpy(NumpyFile::open_npy(path, file)?),
             Kind::Zip => Self::Numpy(NumpyFile::open_npz(path, file, options.time())?),
-            Kind::Matlab => Self::Matlab(MatlabFile::open(path, file, options.time())?),
+            Kind::Matlab(version) => {
+                Self::Matlab(MatlabFile::open(path, (version, file), options.time())?)
+            }
             Kind::Bag(storage) => {
                 let files = [(path.to_owned(), storage, file)];
                 Self::Bag(Bag::open(path, &files, options.topic, damage)?)

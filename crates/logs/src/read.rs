@@ -69,8 +69,8 @@ pub fn episodes(path: &Path) -> Result<Vec<Option<u64>>, LogError> {
 /// jumps are taken out. Stamps that scatter about an even clock by more than its step give way to it.
 /// [`Run::mended`] tells of all.
 ///
-/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5, MCAP or SQLite, or one of them packed with gzip or
-/// zstd, which is seen from its first bytes.
+/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5 or 7.3, MCAP or SQLite, or one of them packed
+/// with gzip or zstd, which is seen from its first bytes.
 ///
 /// Of an npz or mat file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
