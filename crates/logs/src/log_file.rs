@@ -74,7 +74,7 @@ impl LogFile {
         damage: &mut Damage,
     ) -> Result<Self, LogError> {
         if lerobot::is_dataset(path) {
-            return Ok(Self::LeRobot(LeRobot::open(path, options.episode)?));
+            return Ok(Self::LeRobot(LeRobot::open(path, options.episode, options.dataset)?));
         }
         let mut files = Vec::new();
         for path in bag::files_of(path)? {
@@ -144,7 +144,7 @@ impl LogFile {
     pub(crate) fn sha256(&self, path: &Path) -> Result<String, LogError> {
         let columns = match self {
             Self::Columns(columns) => columns,
-            Self::LeRobot(dataset) => return sha256_of(dataset.paths().map(Path::to_owned)),
+            Self::LeRobot(dataset) => return dataset.sha256(),
             _ if path.is_dir() => return sha256_of(bag::files_of(path)?.into_iter()),
             _ => return sha256_of(std::iter::once(path.to_owned())),
         };
@@ -158,7 +158,7 @@ impl LogFile {
 }
 
 /// SHA-256 of files one after the other, in hexadecimal.
-fn sha256_of(files: impl Iterator<Item = PathBuf>) -> Result<String, LogError> {
+pub(crate) fn sha256_of(files: impl Iterator<Item = PathBuf>) -> Result<String, LogError> {
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     for path in files {

@@ -7,7 +7,7 @@ use crate::{
     ColumnMap, Excerpt, LogError, Mend, Run,
     damage::Damage,
     even_clock::{EvenClock, even_clock},
-    lerobot,
+    lerobot::Dataset,
     log_file::LogFile,
     plan::Plan,
     position_loop,
@@ -30,11 +30,20 @@ pub struct ReadOptions<'a> {
     pub excerpt: Option<Excerpt>,
     /// The episode of a dataset of LeRobot; one that has a single episode needs none.
     pub episode: Option<u64>,
+    /// The dataset that the path is, where it was opened already: its column of episodes is not read again.
+    pub dataset: Option<&'a Dataset>,
 }
 
 impl Default for ReadOptions<'_> {
     fn default() -> Self {
-        Self { map: None, effort: "effort", topic: None, excerpt: None, episode: None }
+        Self {
+            map: None,
+            effort: "effort",
+            topic: None,
+            excerpt: None,
+            episode: None,
+            dataset: None,
+        }
     }
 }
 
@@ -43,19 +52,6 @@ impl<'a> ReadOptions<'a> {
     pub(crate) fn time(&self) -> &'a str {
         self.map.and_then(ColumnMap::time).map_or("time", |mapped| &mapped.column)
     }
-}
-
-/// What [`ReadOptions::episode`] has to be for each of the runs at a path: the episodes of a dataset of LeRobot,
-/// and one `None` for any other log.
-///
-/// # Errors
-///
-/// Those of reading the column `episode_index`.
-pub fn episodes(path: &Path) -> Result<Vec<Option<u64>>, LogError> {
-    if !lerobot::is_dataset(path) {
-        return Ok(vec![None]);
-    }
-    Ok(lerobot::episodes(path)?.into_iter().map(Some).collect())
 }
 
 /// Reads one run from a file and checks it.

@@ -38,10 +38,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let mut infos = Vec::new();
     let mut asked = Vec::new();
     for path in &arguments.files {
-        let episodes = arguments.columns.episodes_of(path)?;
-        asked.extend(episodes.into_iter().map(|episode| (path, episode)));
+        asked.push((path, arguments.columns.episodes_of(path)?));
     }
-    for (path, episode) in asked {
+    let each = asked.iter().flat_map(|(path, asked)| asked.each().map(move |e| (*path, e)));
+    for (path, episode) in each {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
             None if arguments.part.joints.is_empty() => {
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         runs.push(run);
         let repeats = logs::duplicate_of(&runs, runs.len() - 1).map(|i| shown(&runs[i].source));
         let of = |episode| format!("{} (episode {episode})", shown(path));
-        let path = episode.map_or_else(|| shown(path), of);
+        let path = episode.number.map_or_else(|| shown(path), of);
         infos.push(Info { path, info, repeats });
     }
     if arguments.json {
