@@ -39,7 +39,8 @@ pub struct Arguments {
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Show the runs in a viewer that is running (rerun) while they go on
-    #[arg(long)]
+    #[cfg_attr(feature = "recording", arg(long))]
+    #[cfg_attr(not(feature = "recording"), arg(skip))]
     live: bool,
     /// Print the JSON instead of the table
     #[arg(long)]
@@ -54,10 +55,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let scenario = TrackingScenario::from_document(&document(arguments)?)?;
     let outputs = Outputs {
         logs: arguments.out.join("logs"),
-        recordings: arguments.out.join("recordings"),
+        recordings: recording::IS_BUILT.then(|| arguments.out.join("recordings")),
         live: if arguments.live { Live::On } else { Live::Off },
     };
-    for folder in [&arguments.out, &outputs.logs, &outputs.recordings] {
+    for folder in [&arguments.out, &outputs.logs].into_iter().chain(&outputs.recordings) {
         create_folder(folder)?;
     }
     let watch = Watch::new((!arguments.quiet).then(Line::new))?;
@@ -145,12 +146,13 @@ fn elbow_and_wrist(scenario: &TrackingScenario) -> Vec<usize> {
 /// Table or JSON on the standard output; with JSON, where the files lie on the standard error.
 fn say(arguments: &Arguments, comparison: &TrackingComparison) -> Result<(), CliError> {
     let of = |name: &str| shown(&arguments.out.join(Path::new(name)));
-    let closing = format!(
-        "report         {}\nrecordings     {}\nboth           plumbline view {}\n",
-        of("report.html"),
-        of("recordings"),
-        shown(&arguments.out)
-    );
+    let recordings = if recording::IS_BUILT {
+        let folder = shown(&arguments.out);
+        format!("recordings     {}\nboth           plumbline view {folder}\n", of("recordings"))
+    } else {
+        String::new()
+    };
+    let closing = format!("report         {}\n{recordings}", of("report.html"));
     if arguments.json {
         print(&comparison.json()?)?;
     }
