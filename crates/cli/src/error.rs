@@ -161,7 +161,7 @@ pub enum CliError {
     UnknownEffect {
         /// The name that was asked for.
         name: String,
-        /// The nearest name, or all of them.
+        /// The nearest name, or what a name looks like.
         hint: String,
     },
     /// No motion can be designed.

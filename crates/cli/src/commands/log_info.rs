@@ -109,6 +109,9 @@ fn robot_of(joints: &[String]) -> Result<Robot, CliError> {
     Ok(Robot::new("log", nalgebra::Vector3::zeros(), links)?)
 }
 
+/// Jitter below this is none (s): clocks count nanoseconds.
+const SHORTEST_S: f64 = 1e-9;
+
 fn text(Info { path, info, repeats }: &Info) -> String {
     let gaps = match info.gaps.as_slice() {
         [] => "no gaps".to_owned(),
@@ -117,13 +120,17 @@ fn text(Info { path, info, repeats }: &Info) -> String {
             format!("{} gaps, the longest {} s", gaps.len(), short(longest))
         }
     };
+    let jitter = if info.jitter_max_s < SHORTEST_S {
+        "no jitter".to_owned()
+    } else {
+        let [std_ms, max_ms] = [info.jitter_std_s, info.jitter_max_s].map(|s| short(1e3 * s));
+        format!("jitter {std_ms} ms, at most {max_ms} ms")
+    };
     let mut text = format!(
-        "{path}\n {} rows, {} s at {} Hz; jitter {} ms, at most {} ms; {gaps}\n",
+        "{path}\n {} rows, {} s at {} Hz; {jitter}; {gaps}\n",
         info.samples,
         short(info.duration_s),
         short(info.rate_hz),
-        short(1e3 * info.jitter_std_s),
-        short(1e3 * info.jitter_max_s),
     );
     let header = ["joint", "position", "limits", ">step", "effort", ">limit", ">late", "remarks"];
     text.push_str(&table(&header, info.joints.iter().map(row)));
