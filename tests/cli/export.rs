@@ -39,3 +39,68 @@ fn what_cannot_be_exported_is_told() {
     assert_eq!(answer.code, 2);
     assert!(answer.err.contains("extended.urdf: it is read and would be"), "{}", answer.err);
 }
+
+/// The torque errors on the whole robot that `export` tells, by the name of the model (N·m).
+fn errors(folder: &std::path::Path, arguments: &[&str]) -> std::collections::BTreeMap<String, f64> {
+    let answer = run(folder, arguments);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let told: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    let models = told["loss"]["models"].as_array().unwrap().iter();
+    models
+        .map(|m| (m["model"].as_str().unwrap().to_owned(), m["all_nm"].as_f64().unwrap()))
+        .collect()
+}
+
+#[test]
+fn what_was_found_is_in_the_torque_of_what_a_file_holds() {
+    let folder = arm::folder(Gap::Friction(0.8));
+    let diagnose =
+        ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "run_1.csv", "--out", "out"];
+    assert_eq!(run(folder.path(), &diagnose).code, 0);
+    let export = ["export", "out", "--to", "urdf,mjcf", "--log", "run_2.csv"];
+    let text = run(folder.path(), &export).out;
+    assert!(text.contains("nominal is arm.urdf\n"), "{text}");
+    assert!(text.contains("joint     nominal  extended    urdf    mjcf"), "{text}");
+    let errors = errors(folder.path(), &[&export[..], &["--json"]].concat());
+    assert!(errors["nominal"] > 10.0 * errors["extended"], "{errors:?}");
+    for name in ["urdf", "mjcf"] {
+        assert!((errors[name] - errors["extended"]).abs() < 1e-9, "{errors:?}");
+    }
+}
+
+/// No format has a place for torque that ripples with the position.
+#[test]
+fn what_a_file_drops_is_not_in_its_torque() {
+    let folder = arm::folder(Gap::Ripple(0.5));
+    let toml = "urdf = \"arm.urdf\"\n[joint.elbow]\ntorque_ripple = { amplitude_nm = 0.5, periods_per_turn = 9.0, phase_rad = 0.0 }\n";
+    std::fs::write(folder.path().join("extended.toml"), toml).unwrap();
+    let export = ["export", "extended.toml", "--to", "mjcf,isaac", "--log", "run_2.csv"];
+    let told = run(folder.path(), &export).err;
+    assert!(
+        told.contains("nominal is what arm.urdf says alone; --nominal names another"),
+        "{told}"
+    );
+    let errors =
+        errors(folder.path(), &[&export[..], &["--json", "--nominal", "arm.urdf"]].concat());
+    assert!(errors["nominal"] > 3.0 * errors["extended"], "{errors:?}");
+    for name in ["mjcf", "isaac"] {
+        assert!((errors[name] - errors["nominal"]).abs() < 1e-9, "{errors:?}");
+    }
+}
+
+#[test]
+fn a_nominal_robot_of_other_joints_is_told() {
+    let folder = arm::folder(Gap::None);
+    let other = arm::URDF.replace("\"elbow\"", "\"knee\"");
+    std::fs::write(folder.path().join("other.urdf"), other).unwrap();
+    let export = ["export", "arm.urdf", "--to", "mjcf", "--log", "run_2.csv"];
+    let answer = run(folder.path(), &[&export[..], &["--nominal", "other.urdf"]].concat());
+    assert_eq!(answer.code, 3);
+    assert!(
+        answer.err.contains("other.urdf: its joints are not those of arm.urdf"),
+        "{}",
+        answer.err
+    );
+    let lonely = run(folder.path(), &["export", "arm.urdf", "--nominal", "arm.urdf"]);
+    assert_eq!(lonely.code, 2, "a nominal robot without logs: {}", lonely.err);
+}

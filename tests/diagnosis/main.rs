@@ -8,6 +8,7 @@ mod compare;
 mod constant;
 mod extended;
 mod false_alarms;
+mod formats;
 mod found;
 mod grafts;
 mod held_out;

@@ -3,6 +3,8 @@
 #![allow(clippy::float_cmp, reason = "numbers that pass through a file unchanged are equal")]
 
 mod files;
+mod held;
+mod held_out;
 mod mujoco;
 mod rich;
 mod written_back;

@@ -32,7 +32,7 @@ for q, qd, qdd in question['states']:
 json.dump(answer, sys.stdout)
 ";
 
-fn mujoco(model: &str, joints: &[&str], states: &[State]) -> Option<Vec<Vec<f64>>> {
+pub fn mujoco(model: &str, joints: &[&str], states: &[State]) -> Option<Vec<Vec<f64>>> {
     let found = Command::new("python3").args(["-c", "import mujoco"]).output();
     if !found.is_ok_and(|output| output.status.success()) {
         println!("skipped: python3 has no mujoco, pip install mujoco brings it");
@@ -136,8 +136,16 @@ fn impossible_inertias_load_and_are_told() {
     let told: Vec<&str> = written.fates.iter().map(|f| f.fate.word()).collect();
     assert_eq!(told, ["approximated", "approximated"]);
     let rest: State = [vec![0.0; 2], vec![0.0; 2], vec![0.0; 2]];
-    let Some(torques) = mujoco(&written.text, &["j", "k"], &[rest]) else { return };
+    let moving: State = [vec![0.3, -0.4], vec![0.5, 0.8], vec![2.0, -3.0]];
+    let Some(torques) = mujoco(&written.text, &["j", "k"], &[rest, moving.clone()]) else { return };
     assert!(torques[0].iter().all(|torque| torque.is_finite()));
+    let held = torque(&written.robot, &moving);
+    let apart = held.iter().zip(&torques[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(
+        apart < 1e-9,
+        "{held:?} is what the file is said to need, {:?} what it needs",
+        torques[1]
+    );
 }
 
 #[test]

@@ -1,17 +1,20 @@
-//! Bags of ROS 2 in MCAP.
+//! Bags of ROS 2 in MCAP and in SQLite.
 
 use std::fs;
 use std::path::Path;
 
-use logs::{ReadOptions, Run, read_run};
+use logs::{ReadOptions, Run, read_run, read_run_until_damage};
 use robot::JointKind;
 use tempfile::TempDir;
 
 use crate::kinds::given;
 use crate::support::{Scratch, assert_golden, golden, robot, two_joints};
 
-const BAGS: [&str; 4] =
+const MCAP: [&str; 4] =
     ["mcap_zstd.mcap", "mcap_lz4.mcap", "mcap_none.mcap", "mcap_big_endian.mcap"];
+
+/// The second has rows that go on in further pages, and a tree of three floors.
+const SQLITE: [&str; 2] = ["sqlite_bag.db3", "sqlite_small_pages.db3"];
 
 fn of_topic(name: &str, topic: Option<&str>) -> Result<Run, String> {
     let file = Scratch::new("run", golden(name));
@@ -21,7 +24,7 @@ fn of_topic(name: &str, topic: Option<&str>) -> Result<Run, String> {
 
 #[test]
 fn joint_states_are_read_by_the_names_in_every_message() {
-    for name in BAGS {
+    for name in MCAP.into_iter().chain(SQLITE) {
         let run = of_topic(name, None).unwrap();
         assert_golden(&run);
         assert_eq!(run.joints[1].velocity.as_deref(), Some(&[2.0; 5][..]), "{name}");
@@ -93,22 +96,71 @@ fn a_folder_is_a_run_of_its_files_in_their_order() {
     let told = read(turned.path()).unwrap_err();
     assert!(told.contains("it must increase from row to row"), "{told}");
     let of = |folder: &TempDir| read(folder.path()).unwrap_err();
-    let expected = "bag: this is a bag without an MCAP file; ros2 bag convert writes it as MCAP (storage_id: mcap)";
+    let expected = "bag: this is a bag without a file of messages; one of .mcap or .db3 was expected beside metadata.yaml";
     assert_eq!(of(&bag(&[])), expected);
     let other = bag(&[("arm_0.mcap", "packed_log.csv.gz")]);
-    let expected = "bag/arm_0.mcap: this is CSV or another kind of log; in a bag MCAP was expected";
+    let expected =
+        "bag/arm_0.mcap: this is CSV or another kind of log; in a bag MCAP or SQLite was expected";
     assert_eq!(of(&other), expected);
 }
 
 #[test]
 fn a_cut_file_is_told() {
-    for name in BAGS {
+    for name in MCAP {
         let bytes = golden(name);
         for cut in (8..bytes.len()).step_by(3) {
             let told = Scratch::new("run", &bytes[..cut]).message(&two_joints());
             assert!(told.contains("not a whole MCAP file"), "{name} cut at {cut}: {told}");
         }
     }
+}
+
+/// Behind the messages lie an index and free pages, which are not read.
+#[test]
+fn a_database_of_a_bag_that_is_cut_off_is_told_and_read_up_to_there() {
+    for name in SQLITE {
+        let bytes = golden(name);
+        let (mut refused, mut partly) = (0, 0);
+        for cut in (16..bytes.len()).step_by(211) {
+            let file = Scratch::new("run", &bytes[..cut]);
+            match file.read(&two_joints()) {
+                Ok(run) => assert_golden(&run),
+                Err(error) => {
+                    let told = error.to_string();
+                    assert!(
+                        told.contains("not a whole SQLite file"),
+                        "{name} cut at {cut}: {told}"
+                    );
+                    refused += 1;
+                }
+            }
+            let until = read_run_until_damage(&file.path, &two_joints(), &ReadOptions::default());
+            partly +=
+                usize::from(until.is_ok_and(|(run, damage)| {
+                    damage.is_some() && (2..5).contains(&run.time.len())
+                }));
+        }
+        assert!(refused > 20 && partly > 0, "{name}: {refused} refused, {partly} read in part");
+    }
+}
+
+#[test]
+fn a_database_that_is_no_bag_or_lacks_its_last_messages_is_told() {
+    assert_eq!(
+        of_topic("sqlite_other.db3", None).unwrap_err(),
+        "run: this is a SQLite database; a bag of ROS 2 was expected, with the tables topics and messages"
+    );
+    let file = Scratch::new("run.db3", golden("sqlite_bag.db3"));
+    fs::write(file.path.with_file_name("run.db3-wal"), []).unwrap();
+    assert_golden(&file.read(&two_joints()).unwrap());
+    fs::write(file.path.with_file_name("run.db3-wal"), [1]).unwrap();
+    let told = file.message(&two_joints());
+    assert!(told.ends_with("sqlite3 FILE 'pragma wal_checkpoint(truncate)' puts it in"), "{told}");
+    assert_eq!(
+        of_topic("sqlite_bag.db3", Some("/note")).unwrap_err(),
+        "run: there are no messages sensor_msgs/msg/JointState on the topic /note; it has \
+         /joint_states (sensor_msgs/msg/JointState, cdr), /note (std_msgs/msg/String, cdr)"
+    );
 }
 
 #[test]
@@ -122,7 +174,8 @@ fn a_given_bag_is_read() {
     let joints = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
         .map(|name| (format!("{name}_joint"), JointKind::Revolute));
     let arm = robot(&joints.each_ref().map(|(name, kind)| (name.as_str(), *kind)));
-    for name in ["bag_mcap", "bag_mcap/bag_mcap.mcap"] {
+    for name in ["bag_mcap", "bag_mcap/bag_mcap.mcap", "bag_sqlite3", "bag_sqlite3/bag_sqlite3.db3"]
+    {
         let Some(path) = given(name) else { return };
         let run = read_run(&path, &arm, &ReadOptions::default()).unwrap();
         assert_eq!(run.time.len(), 300);

@@ -8,7 +8,7 @@ use arrow_array::types::Float32Type;
 use arrow_array::{ArrayRef, Float64Array, ListArray, RecordBatch};
 use checks::lerobot::{Layout, write};
 use logs::{
-    Channel, Channels, ColumnMap, LogError, ReadOptions, Run, episodes, read_run, recognised,
+    Channel, Channels, ColumnMap, Dataset, LogError, ReadOptions, Run, read_run, recognised,
 };
 use parquet::arrow::ArrowWriter;
 use tempfile::TempDir;
@@ -45,11 +45,34 @@ fn read(path: &Path, name: Option<&str>, episode: Option<u64>) -> Result<Run, Lo
     read_run(path, &two_joints(), &ReadOptions { map: found.as_ref(), ..asked })
 }
 
+/// Runs one after the other as a single one.
+fn joined(runs: &[Run]) -> Run {
+    let mut all = runs[0].clone();
+    for next in &runs[1..] {
+        for (joint, next) in all.joints.iter_mut().zip(&next.joints) {
+            joint.position.extend(&next.position);
+            joint.effort.extend(&next.effort);
+            joint
+                .desired_position
+                .as_mut()
+                .unwrap()
+                .extend(next.desired_position.as_ref().unwrap());
+        }
+    }
+    all.time = clock(all.joints[0].position.len(), 50.0);
+    all
+}
+
+/// The episodes of the dataset in a folder.
+fn episodes(path: &Path) -> Result<Vec<u64>, LogError> {
+    Ok(Dataset::open(path)?.unwrap().episodes())
+}
+
 #[test]
 fn every_episode_is_a_run_with_the_joints_by_their_names() {
     for layout in [Layout::FileAnEpisode, Layout::OneFile] {
         let folder = dataset(layout, &[]);
-        assert_eq!(episodes(folder.path()).unwrap(), [Some(0), Some(1)]);
+        assert_eq!(episodes(folder.path()).unwrap(), [0, 1]);
         for (k, expected) in runs().iter().enumerate() {
             let run = read(folder.path(), None, Some(k as u64)).unwrap();
             assert_eq!((&run.time, &run.joints), (&expected.time, &expected.joints), "{layout:?}");
@@ -57,6 +80,23 @@ fn every_episode_is_a_run_with_the_joints_by_their_names() {
             assert!(!run.sha256.is_empty());
         }
     }
+}
+
+/// The column of episodes is other than it was when the dataset was opened, and is not looked at again.
+#[test]
+fn episodes_of_a_dataset_that_is_open_are_read_without_their_column() {
+    let folder = dataset(Layout::OneFile, &[]);
+    let opened = Dataset::open(folder.path()).unwrap().unwrap();
+    write(folder.path(), &[joined(&runs())], Layout::OneFile, &[]);
+    assert_eq!(episodes(folder.path()).unwrap(), [0]);
+    let map = recognised(folder.path(), &two_joints(), None, &ReadOptions::default()).unwrap();
+    let map = map.map(|found| found.map);
+    let options = ReadOptions { map: map.as_ref(), episode: Some(1), ..ReadOptions::default() };
+    let known = ReadOptions { dataset: Some(&opened), ..options };
+    let run = read_run(folder.path(), &two_joints(), &known).unwrap();
+    assert_eq!(run.joints, runs()[1].joints);
+    assert!(read_run(folder.path(), &two_joints(), &options).is_err());
+    assert_eq!(Dataset::open(&folder.path().join("data")).unwrap(), None);
 }
 
 /// Other names than those of the robot: the order of the joints counts where it is asked for.

@@ -36,8 +36,10 @@ pub fn readers() -> Vec<Reader> {
         of("Parquet", parquet, tables::changed),
         arrays("Parquet of lists", parquet_of_lists, tables::changed),
         of("MCAP", |_| golden(&["mcap_none.mcap", "mcap_zstd.mcap", "mcap_lz4.mcap"]), binary),
+        of("SQLite", |_| golden(&["sqlite_bag.db3", "sqlite_small_pages.db3"]), binary),
         arrays("npy", |_| golden(&["numpy_records.npy"]), array),
         arrays("npz", |_| golden(&["numpy_plain.npz", "numpy_turned.npz"]), archive),
+        arrays("MAT 7.3", |_| golden(&["matlab73_plain.mat", "matlab73_packed.mat"]), binary),
         arrays("MAT", |_| golden(&["matlab_plain.mat", "matlab_packed.mat"]), matlab),
     ]
 }

@@ -78,13 +78,14 @@ const EXPORT_EXIT_CODES: &str = "\
 Exit codes:
   0  done
   2  usage: arguments, or an output folder that cannot be made
-  3  a robot that cannot be used, or a folder without one";
+  3  a robot or a log that cannot be used, or a folder without a robot";
 
 const EXPORT_EXAMPLES: &str = "\
 Examples:
   plumbline export out
   plumbline export out --to mjcf,isaac --out models
   plumbline export robot.toml --to urdf,sdf --out models
+  plumbline export out --to mjcf --log held_out.parquet
 
 The folder holds
   extended.urdf  the user's own URDF with friction, inertias and origins as found
@@ -92,7 +93,8 @@ The folder holds
   extended.sdf   an SDF for Gazebo
   extended.usda  a USD layer of bodies and joints for Isaac Sim
 
-Every quantity is printed with its fate: exact, approximated (how), dropped (why).";
+Every quantity is printed with its fate: exact, approximated (how), dropped (why). With --log the
+torque error of what each file holds stands beside those of the nominal and the extended robot.";
 
 const INIT_EXAMPLES: &str = "\
 Examples:

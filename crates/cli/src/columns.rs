@@ -3,7 +3,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use logs::{ColumnMap, Excerpt, LogError, ReadOptions, Recognised, Run};
+use logs::{ColumnMap, Dataset, Excerpt, LogError, ReadOptions, Recognised, Run};
 use robot::Robot;
 
 use crate::error::CliError;
@@ -64,7 +64,8 @@ impl ColumnArguments {
         let reader = self.reader()?;
         let mut runs = Vec::new();
         for path in paths {
-            for episode in self.episodes_of(path)? {
+            let asked = self.episodes_of(path)?;
+            for episode in asked.each() {
                 runs.push(reader.read(path, episode, robot)?);
             }
         }
@@ -77,17 +78,21 @@ impl ColumnArguments {
     /// # Errors
     ///
     /// [`CliError::Log`], and [`CliError::NoEpisode`] where episodes are asked for that are not there.
-    pub fn episodes_of(&self, path: &Path) -> Result<Vec<Option<u64>>, CliError> {
-        let all = logs::episodes(path)?;
+    pub fn episodes_of(&self, path: &Path) -> Result<Asked, CliError> {
+        let dataset = Dataset::open(path)?;
+        let all = dataset.as_ref().map_or_else(
+            || vec![None],
+            |dataset| dataset.episodes().into_iter().map(Some).collect(),
+        );
         if self.episodes.is_empty() {
-            return Ok(all);
+            return Ok(Asked { dataset, numbers: all });
         }
         let is_asked = |episode: u64| self.episodes.iter().any(|range| range.contains(&episode));
-        let asked: Vec<_> = all.iter().copied().filter(|e| e.is_some_and(is_asked)).collect();
-        if asked.is_empty() {
+        let numbers: Vec<_> = all.into_iter().filter(|e| e.is_some_and(is_asked)).collect();
+        if numbers.is_empty() {
             return Err(CliError::NoEpisode { path: path.to_owned() });
         }
-        Ok(asked)
+        Ok(Asked { dataset, numbers })
     }
 
     /// The file of the map, if it is one.
@@ -108,6 +113,30 @@ impl ColumnArguments {
     }
 }
 
+/// The runs at a path that are asked for.
+pub struct Asked {
+    dataset: Option<Dataset>,
+    /// The episode that each run is; none of a log that is no dataset.
+    numbers: Vec<Option<u64>>,
+}
+
+/// One run at a path.
+#[derive(Clone, Copy, Default)]
+pub struct Episode<'a> {
+    /// Its number; none of a log that is no dataset.
+    pub number: Option<u64>,
+    /// The dataset that has it, where it is opened.
+    dataset: Option<&'a Dataset>,
+}
+
+impl Asked {
+    /// The runs in their order.
+    pub fn each(&self) -> impl Iterator<Item = Episode<'_>> {
+        let dataset = self.dataset.as_ref();
+        self.numbers.iter().map(move |&number| Episode { number, dataset })
+    }
+}
+
 /// Reads logs whose columns are called alike.
 pub struct Reader<'a> {
     arguments: &'a ColumnArguments,
@@ -118,17 +147,18 @@ pub struct Reader<'a> {
 
 impl Reader<'_> {
     /// How a log, or an episode of a dataset, is read with the map of a file, or without one.
-    pub fn options(&self, episode: Option<u64>) -> ReadOptions<'_> {
+    pub fn options<'a>(&'a self, episode: Episode<'a>) -> ReadOptions<'a> {
         let ColumnArguments { effort, topic, excerpt, .. } = self.arguments;
         let (topic, excerpt) = (topic.as_deref(), excerpt.excerpt());
-        ReadOptions { map: self.map.as_ref(), effort, topic, excerpt, episode }
+        let Episode { number, dataset } = episode;
+        ReadOptions { map: self.map.as_ref(), effort, topic, excerpt, episode: number, dataset }
     }
 
     /// The run of a file, or of an episode of a dataset.
     ///
     /// Where the usual columns are not there and those of a program that is known are, these are
     /// read, and said.
-    pub fn read(&self, path: &Path, episode: Option<u64>, robot: &Robot) -> Result<Run, CliError> {
+    pub fn read(&self, path: &Path, episode: Episode<'_>, robot: &Robot) -> Result<Run, CliError> {
         let options = self.options(episode);
         if let Some(name) = self.arguments.preset() {
             let Some(found) = logs::recognised(path, robot, Some(name), &options)? else {

@@ -1,5 +1,8 @@
+use inspection::Mended;
 use logs::Run;
 use robot::{Loaded, LockedJoint, RobotWarning};
+
+use crate::output::warn;
 
 /// Distance from the place of a locked joint within which a log confirms it (rad or m).
 const NEAR: f64 = 0.01;
@@ -19,6 +22,18 @@ pub fn doubts<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Run>) -> V
     }
     doubts.extend(learner::available_bytes().and_then(|free| too_long(samples, free)));
     doubts
+}
+
+/// The runs as a diagnosis reads them, where that is otherwise than they are told: says what raises doubts about the
+/// input, and what of the logs is read differently.
+pub fn read_as_they_are(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
+    doubts(loaded, runs).iter().for_each(|doubt| warn(doubt));
+    let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, runs);
+    for seen in &mended {
+        let sentence = seen.sentence(&loaded.robot, runs);
+        warn(&format!("{sentence} Until then the logs are read so."));
+    }
+    read
 }
 
 /// Says what samples of single joints need where that is more than is free (bytes).

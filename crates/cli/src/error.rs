@@ -130,6 +130,14 @@ pub enum CliError {
         /// The folder.
         path: PathBuf,
     },
+    /// A robot has other joints than the one that it is compared with.
+    #[error("{}: its joints are not those of {}, which were expected", path.display(), expected.display())]
+    OtherJoints {
+        /// The robot.
+        path: PathBuf,
+        /// The one that it is compared with.
+        expected: PathBuf,
+    },
     /// A log has none of the episodes that were asked for.
     #[error("{}: it has none of the episodes that --episodes asks for; a dataset of LeRobot that has them was expected", path.display())]
     NoEpisode {
@@ -153,7 +161,7 @@ pub enum CliError {
     UnknownEffect {
         /// The name that was asked for.
         name: String,
-        /// The nearest name, or all of them.
+        /// The nearest name, or what a name looks like.
         hint: String,
     },
     /// No motion can be designed.
@@ -266,6 +274,7 @@ impl CliError {
             | Self::Exchange(_)
             | Self::NoEpisode { .. }
             | Self::NothingToExport { .. }
+            | Self::OtherJoints { .. }
             | Self::NothingToView { .. }
             | Self::OtherRobot { .. } => 3,
         }

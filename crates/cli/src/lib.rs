@@ -14,6 +14,7 @@ mod doubts;
 mod error;
 mod input;
 mod invocation;
+mod loss;
 mod output;
 mod progress;
 mod watch;

@@ -23,8 +23,8 @@ const BLOCK: usize = 250;
 pub struct Written {
     /// The log: one Parquet file, or where that could not be written the CSV file that grew.
     pub log: PathBuf,
-    /// The recording.
-    pub recording: PathBuf,
+    /// The recording, where one is asked for.
+    pub recording: Option<PathBuf>,
     /// Who saw the recording while it was written.
     pub listener: Listener,
     /// What could not be written, in sentences that name the file; the run went on.
@@ -47,14 +47,14 @@ struct Writing {
     /// The log while it grows.
     growing: PathBuf,
     log: PathBuf,
-    recording: PathBuf,
+    recording: Option<PathBuf>,
     name: String,
 }
 
 /// What is written into.
 struct Files {
     log: LogWriter,
-    recorder: Recorder,
+    recorder: Option<Recorder>,
     /// The first thing that the recorder refused.
     refused: Option<RecordingError>,
 }
@@ -186,9 +186,10 @@ impl Writing {
             ],
             signals: signals(),
         };
-        let recording = file(&outputs.recordings, kind, "rrd");
+        let recording = outputs.recordings.as_ref().map(|folder| file(folder, kind, "rrd"));
         let growing = file(&outputs.logs, kind, "csv");
-        let recorder = Recorder::create(&recording, &scene, outputs.live)?;
+        let record = |path: &PathBuf| Recorder::create(path, &scene, outputs.live);
+        let recorder = recording.as_ref().map(record).transpose()?;
         let log = log_writer(scenario, &growing)?;
         let (to, from) = channel();
         let mut files = Files { log, recorder, refused: None };
@@ -210,13 +211,18 @@ impl Writing {
             Ok(files) => {
                 grown = files.log.finish();
                 let parts = (scenario, learned, run);
-                match files.refused.map_or_else(|| end(files.recorder, parts), Err) {
+                let ended = match (files.refused, files.recorder) {
+                    (Some(error), _) => Err(error),
+                    (None, Some(recorder)) => end(recorder, parts),
+                    (None, None) => Ok(Listener::NotAsked),
+                };
+                match ended {
                     Ok(seen) => listener = seen,
                     Err(error) => problems.push(error.to_string()),
                 }
             }
             Err(_) => {
-                let died = EvaluationError::WriterDied { path: recording.clone() };
+                let died = EvaluationError::WriterDied { path: growing.clone() };
                 problems.push(died.to_string());
             }
         }
@@ -283,7 +289,7 @@ impl Files {
                         Level::Warning => recording::Level::Warning,
                         Level::Error => recording::Level::Error,
                     };
-                    self.recorder.event(time_s, level, &words)
+                    self.recorder.as_mut().map_or(Ok(()), |r| r.event(time_s, level, &words))
                 }
             };
             if let Err(error) = recorded {
@@ -306,7 +312,7 @@ impl Files {
         let signals: [&[f64]; 7] =
             [&b.q_ref, &b.q, &b.qd_ref, &b.qd, &b.command, &b.feedforward, &b.error];
         let rows = Rows { time_s: &b.time_s, arms: &[&b.q, &b.q_ref], signals: &signals };
-        self.recorder.rows(&rows)
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.rows(&rows))
     }
 }
 

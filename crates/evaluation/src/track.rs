@@ -36,8 +36,8 @@ pub struct TrackedRun {
 pub struct Outputs {
     /// Folder of the logs, one a feedforward.
     pub logs: PathBuf,
-    /// Folder of the recordings, one a feedforward.
-    pub recordings: PathBuf,
+    /// Folder of the recordings, one a feedforward; nothing is recorded without.
+    pub recordings: Option<PathBuf>,
     /// Whether a running viewer sees them too.
     pub live: recording::Live,
 }

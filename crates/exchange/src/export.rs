@@ -1,7 +1,8 @@
-use robot::{Link, Loaded};
+use robot::{Link, Loaded, Robot};
 
 use crate::error::ExchangeError;
 use crate::fate::{Fate, Fated};
+use crate::held::held;
 use crate::quantity::{Quantity, quantities};
 use crate::reported::as_reported;
 use crate::{mjcf, sdf, urdf, urdf_written, usda, usda_joint};
@@ -51,6 +52,9 @@ pub struct Export {
     pub text: String,
     /// Every quantity that is more than a rigid body's, with what became of it.
     pub fates: Vec<Fated>,
+    /// The robot that the file describes, positions as encoders report them: what is exact, and what is
+    /// approximated as it is written.
+    pub robot: Robot,
 }
 
 /// The robot of `loaded` in a format, positions as its encoders report them.
@@ -71,7 +75,7 @@ pub fn export(loaded: &Loaded, source: &str, format: Format) -> Result<Export, E
         Format::Sdf => sdf::written(loaded, &robot),
         Format::Isaac => usda::written(loaded, &robot),
     };
-    Ok(Export { text, fates: fates(loaded, format) })
+    Ok(Export { text, fates: fates(loaded, format), robot: held(loaded, &robot, format) })
 }
 
 fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
@@ -96,12 +100,7 @@ fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
             fates.push(inertia(link, format));
         }
         for (quantity, what) in quantities(robot, link) {
-            let fate = match format {
-                Format::Urdf => urdf::fate(quantity),
-                Format::Mjcf => mjcf::fate(quantity, link),
-                Format::Sdf => sdf::fate(quantity),
-                Format::Isaac => usda_joint::fate(quantity, link),
-            };
+            let fate = fate_of(quantity, link, format);
             fates.push(Fated { at: link.joint.name.clone(), what, fate });
         }
     }
@@ -114,6 +113,16 @@ fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
         fates.push(Fated { at: lock.joint.clone(), what, fate });
     }
     fates
+}
+
+/// What becomes of a quantity of a joint.
+pub(crate) fn fate_of(quantity: Quantity, link: &Link, format: Format) -> Fate {
+    match format {
+        Format::Urdf => urdf::fate(quantity),
+        Format::Mjcf => mjcf::fate(quantity, link),
+        Format::Sdf => sdf::fate(quantity, link),
+        Format::Isaac => usda_joint::fate(quantity, link),
+    }
 }
 
 fn inertia(link: &Link, format: Format) -> Fated {

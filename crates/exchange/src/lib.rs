@@ -2,14 +2,17 @@
 //!
 //! ```text
 //! Loaded (robot.urdf + robot.toml) -> export -> text of a URDF, an MJCF, an SDF or a USD layer
-//!                                           \-> fates: exact, approximated, dropped
+//!                                           |-> fates: exact, approximated, dropped
+//!                                           \-> the robot that the file describes
 //! ```
 //!
-//! [`export`] writes what a format can hold and says of every quantity what became of it.
+//! [`export`] writes what a format can hold, says of every quantity what became of it, and gives the robot that is
+//! left of it, whose torque tells the loss.
 
 mod error;
 mod export;
 mod fate;
+mod held;
 mod inertial;
 mod mjcf;
 mod mjcf_joint;

@@ -1,7 +1,7 @@
 //! MuJoCo's format, one body a moving link.
 
 use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Vector3};
-use robot::{Link, Loaded, Robot, Shape, Visual};
+use robot::{Inertia, Link, Loaded, Robot, Shape, Visual};
 
 use crate::export::unknown_friction;
 use crate::fate::Fate;
@@ -104,6 +104,17 @@ fn inertial(sheet: &mut Sheet, link: &Link) {
             ("fullinertia", numbers(&moments)),
         ],
     );
+}
+
+/// An impossible body as MuJoCo takes it: no mass and no moment below the least, and three equal moments, their mean, where one is
+/// larger than the two others together (`balanceinertia`).
+pub fn balanced(inertia: &Inertia) -> Inertia {
+    let mut about_com = positive(&inertia.about_com);
+    let moments = about_com.symmetric_eigenvalues();
+    if 2.0 * moments.max() > moments.sum() {
+        about_com = Matrix3::identity() * (moments.sum() / 3.0);
+    }
+    Inertia { mass: inertia.mass.max(LEAST), about_com, ..inertia.clone() }
 }
 
 /// The moments with those that are not positive raised to the least.

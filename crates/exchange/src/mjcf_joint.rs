@@ -20,7 +20,7 @@ const STEP_S: f64 = 0.002;
 /// ```
 pub fn springs(link: &Link) -> Option<[f64; 3]> {
     let a = &link.actuator;
-    let (_, difference) = levels(link);
+    let (_, difference) = levels(a);
     if difference.abs() <= 0.0 {
         return Some([a.spring_stiffness, a.spring_cubic, a.spring_rest]);
     }
@@ -49,7 +49,7 @@ pub fn joints(sheet: &mut Sheet, link: &Link) {
     if let Some((low, high)) = joint.limits.position {
         attributes.push(("range", numbers(&[low, high])));
     }
-    let (mean, _) = levels(link);
+    let (mean, _) = levels(a);
     for (key, value) in
         [("damping", a.viscous), ("frictionloss", mean), ("armature", a.rotor_inertia)]
     {

@@ -1,4 +1,4 @@
-use robot::{Link, Robot};
+use robot::{Actuator, Link, Robot};
 
 use crate::numbers::size;
 
@@ -58,8 +58,7 @@ pub enum Quantity {
 /// ```text
 /// friction = -(mean sign(qd) + difference)
 /// ```
-pub fn levels(link: &Link) -> (f64, f64) {
-    let a = &link.actuator;
+pub fn levels(a: &Actuator) -> (f64, f64) {
     (0.5 * (a.coulomb_forward + a.coulomb_backward), 0.5 * (a.coulomb_forward - a.coulomb_backward))
 }
 
@@ -69,7 +68,7 @@ pub fn quantities(robot: &Robot, link: &Link) -> Vec<(Quantity, String)> {
     let a = &link.actuator;
     let rotates = link.joint.kind.is_rotation();
     let [nm, rad, kg] = if rotates { ["N·m", "rad", "kg·m²"] } else { ["N", "m", "kg"] };
-    let (mean, difference) = levels(link);
+    let (mean, difference) = levels(a);
     let mut list: Vec<(Quantity, String)> = vec![];
     let mut add = |quantity, value: f64, ideal: f64, words: &str, unit: &str| {
         if (value - ideal).abs() > 0.0 {

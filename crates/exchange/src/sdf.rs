@@ -91,7 +91,7 @@ fn joint(sheet: &mut Sheet, link: &Link, parent: &str) {
     ];
     let drive = [
         Some(("damping", a.viscous)),
-        Some(("friction", levels(link).0)),
+        Some(("friction", levels(a).0)),
         Some(("spring_reference", a.spring_rest)).filter(|_| a.spring_stiffness > 0.0),
         Some(("spring_stiffness", a.spring_stiffness)).filter(|_| a.spring_stiffness > 0.0),
     ];
@@ -105,11 +105,14 @@ fn joint(sheet: &mut Sheet, link: &Link, parent: &str) {
 }
 
 /// What becomes of a quantity of a joint.
-pub fn fate(quantity: Quantity) -> Fate {
+pub fn fate(quantity: Quantity, link: &Link) -> Fate {
     match quantity {
         Quantity::Viscous => Fate::exact("<damping>"),
         Quantity::Coulomb => Fate::exact("<friction>"),
-        Quantity::Spring => Fate::exact("<spring_stiffness>, <spring_reference>"),
+        Quantity::Spring if link.actuator.spring_stiffness > 0.0 => {
+            Fate::exact("<spring_stiffness>, <spring_reference>")
+        }
+        Quantity::Spring => Fate::dropped("Gazebo takes no spring below 0"),
         Quantity::EncoderOffset => Fate::exact("<pose> of the link"),
         other => unknown_friction(other),
     }

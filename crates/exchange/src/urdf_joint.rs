@@ -26,7 +26,7 @@ pub struct JointChange {
 impl JointChange {
     /// What differs between the link as reported and the nominal one; `offset` is its encoder's.
     pub fn new(new: &Link, old: &Link, offset: f64) -> Self {
-        let drive = |link: &Link| [link.actuator.viscous, levels(link).0];
+        let drive = |link: &Link| [link.actuator.viscous, levels(&link.actuator).0];
         let differs = |a: f64, b: f64| (a - b).abs() > 0.0;
         let (now, before) = (drive(new), drive(old));
         let dynamics = (0..2).any(|i| differs(now[i], before[i])).then_some(now);

@@ -62,7 +62,7 @@ fn joint(sheet: &mut Sheet, link: &Link, parent: &str) {
             ("velocity", of(limits.velocity)),
         ],
     );
-    let (damping, friction) = (number(link.actuator.viscous), number(levels(link).0));
+    let (damping, friction) = (number(link.actuator.viscous), number(levels(&link.actuator).0));
     sheet.leaf("dynamics", &[("damping", damping), ("friction", friction)]);
     sheet.close();
 }

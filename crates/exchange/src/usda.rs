@@ -79,6 +79,14 @@ fn principal(about_com: &Matrix3<f64>) -> (Vector3<f64>, UnitQuaternion<f64>) {
     (eigenvalues.map(|moment| moment.max(0.0)), UnitQuaternion::from_rotation_matrix(&axes))
 }
 
+/// A body as it is written: moments below 0 are 0.
+pub fn without_negative_moments(inertia: &Inertia) -> Inertia {
+    let (moments, axes) = principal(&inertia.about_com);
+    let axes = axes.to_rotation_matrix();
+    let about_com = axes * Matrix3::from_diagonal(&moments) * axes.transpose();
+    Inertia { about_com, ..inertia.clone() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -58,7 +58,7 @@ pub fn joint(text: &mut UsdText, prim: &str, ends: &Ends, link: &Link) {
     let mut physx = |key: &str, value: f64| {
         text.set(&format!("float physxJointAxis:{axis}:{key}"), &number(value));
     };
-    let level = levels(link).0.max(0.0);
+    let level = levels(a).0.max(0.0);
     physx("armature", a.rotor_inertia);
     physx("staticFrictionEffort", level + a.stribeck.map_or(0.0, |s| s.excess));
     physx("dynamicFrictionEffort", level);
@@ -85,7 +85,7 @@ pub fn fate(quantity: Quantity, link: &Link) -> Fate {
             Fate::dropped("PhysX takes no viscous friction below 0")
         }
         Quantity::Viscous => Fate::exact("viscousFrictionCoefficient of PhysxJointAxisAPI"),
-        Quantity::Coulomb if levels(link).0 < 0.0 => {
+        Quantity::Coulomb if levels(&link.actuator).0 < 0.0 => {
             Fate::dropped("PhysX takes no friction below 0")
         }
         Quantity::Coulomb => {

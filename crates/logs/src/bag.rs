@@ -9,15 +9,27 @@ use crate::{
     damage::Damage,
     joint_state::{JointState, TYPE},
     joint_states::JointStates,
-    kind::NO_MCAP,
-    mcap_file::{self, Listener, Topic},
+    kind::NO_BAG_FILE,
+    mcap_file, sqlite_file,
     table::{Needed, Table},
+    topic::{Listener, Topic},
 };
 
 /// The topic that is read where no other one is asked for.
 const USUAL_TOPIC: &str = "/joint_states";
 /// What stands in a folder that is a bag.
 const DESCRIPTION: &str = "metadata.yaml";
+/// How files of a bag end, those that are packed have more behind it.
+const ENDINGS: [&str; 2] = [".mcap", ".db3"];
+/// How files of a database end that are no database.
+const BESIDE: [&str; 3] = ["-wal", "-shm", "-journal"];
+
+/// How the messages of a bag are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Storage {
+    Mcap,
+    Sqlite,
+}
 
 /// The joint states of a bag of ROS 2.
 pub(crate) struct Bag {
@@ -27,17 +39,20 @@ pub(crate) struct Bag {
 }
 
 impl Bag {
-    /// Reads the joint states of a topic from MCAP files, one after the other.
+    /// Reads the joint states of a topic from files, one after the other.
     pub(crate) fn open(
         path: &Path,
-        files: &[(PathBuf, File)],
+        files: &[(PathBuf, Storage, File)],
         topic: Option<&str>,
         damage: &mut Damage,
     ) -> Result<Self, LogError> {
         let (states, others) = (BTreeMap::new(), BTreeSet::new());
         let mut collected = Collected { path, topic, states, others };
-        for (path, file) in files {
-            mcap_file::read(path, file, &mut collected, damage)?;
+        for (path, storage, file) in files {
+            match storage {
+                Storage::Mcap => mcap_file::read(path, file, &mut collected, damage)?,
+                Storage::Sqlite => sqlite_file::read(path, file, &mut collected, damage)?,
+            }
         }
         collected.choose()
     }
@@ -104,10 +119,11 @@ impl Listener for Collected<'_> {
         }
     }
 
+    fn wants(&self, topic: &Topic) -> bool {
+        self.is_wanted(topic)
+    }
+
     fn message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), LogError> {
-        if !self.is_wanted(topic) {
-            return Ok(());
-        }
         let states = self.states.entry(topic.name.clone()).or_insert_with(JointStates::new);
         let result = JointState::decode(message).and_then(|state| states.push(state));
         result.map_err(|reason| LogError::BadMessage {
@@ -119,7 +135,7 @@ impl Listener for Collected<'_> {
     }
 }
 
-/// The MCAP files of the folder of a bag, in their order.
+/// The files of the folder of a bag, in their order.
 pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, LogError> {
     if !path.join(DESCRIPTION).is_file() {
         return Err(LogError::NotAFile { path: path.to_owned(), found: "a directory" });
@@ -128,12 +144,13 @@ pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, LogError> {
     let mut files = Vec::new();
     for entry in fs::read_dir(path).map_err(unreadable)? {
         let name = entry.map_err(unreadable)?.file_name().to_string_lossy().into_owned();
-        if name.contains(".mcap") {
+        let is_beside = BESIDE.iter().any(|end| name.ends_with(end));
+        if !is_beside && ENDINGS.iter().any(|ending| name.contains(ending)) {
             files.push(name);
         }
     }
     if files.is_empty() {
-        return Err(LogError::other_kind(path, NO_MCAP));
+        return Err(LogError::other_kind(path, NO_BAG_FILE));
     }
     files.sort_by_key(|name| (number_of(name), name.clone()));
     Ok(files.iter().map(|name| path.join(name)).collect())
@@ -141,7 +158,8 @@ pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, LogError> {
 
 /// The number behind the last `_` of a name: files of a bag are counted so.
 fn number_of(name: &str) -> u64 {
-    let stem = name.split(".mcap").next().unwrap_or_default();
+    let end = ENDINGS.iter().find_map(|ending| name.find(ending)).unwrap_or(name.len());
+    let stem = &name[..end];
     stem.rsplit('_').next().and_then(|number| number.parse().ok()).unwrap_or_default()
 }
 
@@ -154,6 +172,6 @@ mod tests {
         let mut names = ["arm_10.mcap", "arm_2.mcap.zstd", "arm_0.mcap"];
         names.sort_by_key(|name| number_of(name));
         assert_eq!(names, ["arm_0.mcap", "arm_2.mcap.zstd", "arm_10.mcap"]);
-        assert_eq!(number_of("bag.mcap"), 0);
+        assert_eq!([number_of("bag.mcap"), number_of("bag_3.db3")], [0, 3]);
     }
 }

@@ -1,4 +1,4 @@
-use crate::{npy_header, unpacked::Packing};
+use crate::{bag::Storage, matlab_file::MatlabVersion, npy_header, unpacked::Packing};
 
 /// The kinds of file that a log may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,10 +9,10 @@ pub(crate) enum Kind {
     Npy,
     /// A zip archive, in which arrays of NumPy are looked for.
     Zip,
-    /// Arrays of MATLAB, version 5.
-    Matlab,
+    /// Arrays of MATLAB.
+    Matlab(MatlabVersion),
     /// Messages, as ROS 2 records them.
-    Mcap,
+    Bag(Storage),
     /// Any of the others, packed.
     Packed(Packing),
 }
@@ -47,12 +47,14 @@ impl Kind {
 }
 
 /// Kinds that are read, by their first bytes.
-const READ: [(&[u8], Kind); 7] = [
+const READ: [(&[u8], Kind); 9] = [
     (b"PAR1", Kind::Parquet),
     (npy_header::MAGIC, Kind::Npy),
     (b"PK\x03\x04", Kind::Zip),
-    (b"MATLAB 5.0 MAT-file", Kind::Matlab),
-    (b"\x89MCAP0\r\n", Kind::Mcap),
+    (b"MATLAB 5.0 MAT-file", Kind::Matlab(MatlabVersion::Five)),
+    (b"MATLAB 7.3 MAT-file", Kind::Matlab(MatlabVersion::SevenPointThree)),
+    (b"\x89MCAP0\r\n", Kind::Bag(Storage::Mcap)),
+    (b"SQLite format 3\0", Kind::Bag(Storage::Sqlite)),
     (b"\x1f\x8b", Kind::Packed(Packing::Gzip)),
     (b"\x28\xb5\x2f\xfd", Kind::Packed(Packing::Zstd)),
 ];
@@ -63,9 +65,10 @@ pub(crate) const UNKNOWN: Stranger = Stranger {
     advice: "write the log as CSV or Parquet",
 };
 
-const BAG_2: &str = "ros2 bag convert writes it as MCAP (storage_id: mcap)";
+const BAG: &str = "a bag of ROS 2 was expected, with the tables topics and messages";
+const BAG_FILE: &str = "one of .mcap or .db3 was expected beside metadata.yaml";
+const CLOSE: &str = "sqlite3 FILE 'pragma wal_checkpoint(truncate)' puts it in";
 const HDF5: &str = "write its arrays with numpy.savez, or as CSV or Parquet";
-const MATLAB: &str = "save it with save('run.mat', '-v7'), or write its arrays with numpy.savez";
 const PACKED: &str = "unpack it first";
 const TABLE: &str = "write its first sheet as CSV";
 const ARROW: &str = "write the table as Parquet";
@@ -74,11 +77,9 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 25] = [
-    (0, b"SQLite format 3\0", "a SQLite database, as rosbag2 writes it (.db3)", BAG_2),
+const STRANGERS: [(usize, &[u8], &str, &str); 23] = [
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
-    (0, b"MATLAB 7.3 MAT-file", "a MAT-file of MATLAB 7.3", MATLAB),
     (0, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (512, b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
     (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
@@ -105,13 +106,24 @@ const STRANGERS: [(usize, &[u8], &str, &str); 25] = [
 /// A packed file in a packed file.
 pub(crate) const TWICE: Stranger = Stranger { found: "packed twice", advice: PACKED };
 
-/// A bag whose messages are not in MCAP.
-pub(crate) const NO_MCAP: Stranger =
-    Stranger { found: "a bag without an MCAP file", advice: BAG_2 };
+/// A bag without messages.
+pub(crate) const NO_BAG_FILE: Stranger =
+    Stranger { found: "a bag without a file of messages", advice: BAG_FILE };
 
-/// What stands in a bag under the name of an MCAP file.
-pub(crate) const NOT_MCAP: Stranger =
-    Stranger { found: "CSV or another kind of log", advice: "in a bag MCAP was expected" };
+/// A database that is no bag.
+pub(crate) const NO_BAG: Stranger = Stranger { found: "a SQLite database", advice: BAG };
+
+/// A database whose last messages are in a file beside it.
+pub(crate) const UNFINISHED: Stranger = Stranger {
+    found: "a SQLite database whose last messages are in a file beside it (-wal or -journal)",
+    advice: CLOSE,
+};
+
+/// What stands in a bag under the name of one of its files.
+pub(crate) const NOT_A_BAG: Stranger = Stranger {
+    found: "CSV or another kind of log",
+    advice: "in a bag MCAP or SQLite was expected",
+};
 
 /// What stands in a dataset of LeRobot under the name of a Parquet file.
 pub(crate) const NOT_PARQUET: Stranger = Stranger {
@@ -164,10 +176,9 @@ mod tests {
         let of = |name: &str| of_archive(&["mimetype".to_owned(), name.to_owned()]).found;
         assert_eq!(of("xl/workbook.xml"), "an Excel workbook");
         assert_eq!(of("run.csv"), "a zip archive without an array of NumPy in it");
-        assert_eq!(found(b"MATLAB 7.3 MAT-file, Platform"), "a MAT-file of MATLAB 7.3");
         assert_eq!(found(&[&[0; 512][..], b"\x89HDF\r\n\x1a\n"].concat()), "an HDF5 file");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[22].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[20].2);
     }
 
     #[test]

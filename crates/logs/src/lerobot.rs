@@ -1,11 +1,12 @@
 //! Datasets of LeRobot, versions 2 and 3: a folder with `meta/info.json` and `data/**/*.parquet`.
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     fs::{self, File},
     io::Read,
     ops::Range,
     path::{Path, PathBuf},
+    sync::{Arc, OnceLock},
 };
 
 use serde::Deserialize;
@@ -16,6 +17,7 @@ use crate::{
     content::content,
     kind::{Kind, NOT_PARQUET},
     list_column::part_name,
+    log_file::sha256_of,
     parquet_file::ParquetFile,
     table::{Needed, Table},
 };
@@ -31,10 +33,27 @@ const DEEPEST: usize = 3;
 /// The column that tells the rows of an episode.
 const EPISODE: &str = "episode_index";
 
+/// A dataset of LeRobot: which rows of its files each episode is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dataset {
+    folder: PathBuf,
+    files: Vec<Arc<DataFile>>,
+}
+
+/// A file of a dataset.
+#[derive(Debug, PartialEq)]
+struct DataFile {
+    path: PathBuf,
+    /// The rows of every episode.
+    rows: BTreeMap<u64, Vec<Range<usize>>>,
+    /// SHA-256 in hexadecimal, once it was asked for.
+    sha256: OnceLock<String>,
+}
+
 /// One episode of a dataset.
 pub(crate) struct LeRobot {
     /// The files that hold rows of it, with these rows.
-    files: Vec<(ParquetFile, Vec<Range<usize>>)>,
+    files: Vec<(Arc<DataFile>, ParquetFile, Vec<Range<usize>>)>,
     names: Vec<String>,
     /// Columns that are called by the name of a joint, with their name in the files.
     by_joint: BTreeMap<String, String>,
@@ -58,19 +77,43 @@ pub(crate) fn is_dataset(path: &Path) -> bool {
     path.join(DESCRIPTION).is_file()
 }
 
-impl LeRobot {
-    /// Looks for the rows of an episode, which may be left out where there is one only.
-    pub(crate) fn open(path: &Path, episode: Option<u64>) -> Result<Self, LogError> {
-        let mut found = Vec::new();
-        let mut files = Vec::new();
-        for file in files_of(path)? {
-            let file = open(&file)?;
-            let rows = episodes_of(&file)?;
-            found.extend(rows.keys().copied());
-            files.push((file, rows));
+impl Dataset {
+    /// The dataset in a folder; `None` where a path is none.
+    ///
+    /// # Errors
+    ///
+    /// Those of reading the column `episode_index` of its files.
+    pub fn open(path: &Path) -> Result<Option<Self>, LogError> {
+        if !is_dataset(path) {
+            return Ok(None);
         }
-        found.sort_unstable();
-        found.dedup();
+        let mut files = Vec::new();
+        for path in files_of(path)? {
+            let rows = episodes_of(&open(&path)?)?;
+            files.push(Arc::new(DataFile { path, rows, sha256: OnceLock::new() }));
+        }
+        Ok(Some(Self { folder: path.to_owned(), files }))
+    }
+
+    /// The numbers of its episodes, in their order.
+    pub fn episodes(&self) -> Vec<u64> {
+        let all: BTreeSet<u64> =
+            self.files.iter().flat_map(|file| file.rows.keys().copied()).collect();
+        all.into_iter().collect()
+    }
+}
+
+impl LeRobot {
+    /// Looks for the rows of an episode, which may be left out where there is one only; `dataset` is that of `path`,
+    /// where it is known.
+    pub(crate) fn open(
+        path: &Path,
+        episode: Option<u64>,
+        dataset: Option<&Dataset>,
+    ) -> Result<Self, LogError> {
+        let known = dataset.filter(|dataset| dataset.folder == path).cloned();
+        let dataset = known.map_or_else(|| Dataset::open(path), |dataset| Ok(Some(dataset)))?;
+        let found = dataset.as_ref().map(Dataset::episodes).unwrap_or_default();
         let wanted = match (episode, found.as_slice()) {
             (Some(episode), found) if found.contains(&episode) => episode,
             (None, [only]) => *only,
@@ -79,11 +122,14 @@ impl LeRobot {
                 return Err(LogError::Episode { path, asked, found });
             }
         };
-        let of =
-            |(file, mut rows): (ParquetFile, BTreeMap<u64, _>)| Some((file, rows.remove(&wanted)?));
-        let files: Vec<(ParquetFile, Vec<Range<usize>>)> =
-            files.into_iter().filter_map(of).collect();
-        let mut names = files.first().map_or(Ok(Vec::new()), |(file, _)| file.names())?;
+        let mut files = Vec::new();
+        for file in dataset.into_iter().flat_map(|dataset| dataset.files) {
+            if let Some(rows) = file.rows.get(&wanted).cloned() {
+                let parquet = open(&file.path)?;
+                files.push((file, parquet, rows));
+            }
+        }
+        let mut names = files.first().map_or(Ok(Vec::new()), |(_, file, _)| file.names())?;
         let by_joint = by_joint(&read_info(path)?, &names);
         names.extend(by_joint.keys().cloned());
         Ok(Self { files, names, by_joint })
@@ -103,7 +149,7 @@ impl LeRobot {
         let asked = Needed { time: &time, signals, excerpted: None };
         let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         let mut rows = 0;
-        for (file, ranges) in &self.files {
+        for (_, file, ranges) in &self.files {
             let table = file.load_rows(&asked, Some(ranges))?;
             // A column that is not whole in every file is none.
             columns.retain(|name, _| table.columns.contains_key(name));
@@ -125,21 +171,17 @@ impl LeRobot {
         Ok(Table { columns, ..Table::default() }.excerpt(needed))
     }
 
-    /// The files that hold rows of the episode.
-    pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> {
-        self.files.iter().map(|(file, _)| file.path())
+    /// SHA-256 of the files that hold rows of the episode, one after the other, in hexadecimal. That of a file which
+    /// holds all of them is worked out once for the dataset.
+    pub(crate) fn sha256(&self) -> Result<String, LogError> {
+        let all = || sha256_of(self.files.iter().map(|(_, file, _)| file.path().to_owned()));
+        let [(file, ..)] = self.files.as_slice() else { return all() };
+        if let Some(hash) = file.sha256.get() {
+            return Ok(hash.clone());
+        }
+        let hash = all()?;
+        Ok(file.sha256.get_or_init(|| hash).clone())
     }
-}
-
-/// The episodes of a dataset, in their order.
-pub(crate) fn episodes(path: &Path) -> Result<Vec<u64>, LogError> {
-    let mut all = Vec::new();
-    for file in files_of(path)? {
-        all.extend(episodes_of(&open(&file)?)?.into_keys());
-    }
-    all.sort_unstable();
-    all.dedup();
-    Ok(all)
 }
 
 /// The rows of every episode in a file.

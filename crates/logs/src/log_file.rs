@@ -13,7 +13,7 @@ use crate::{
     content::content,
     csv_file::CsvFile,
     damage::Damage,
-    kind::{Kind, NOT_MCAP, TWICE},
+    kind::{Kind, NOT_A_BAG, TWICE},
     lerobot::{self, LeRobot},
     matlab_file::MatlabFile,
     numpy_file::NumpyFile,
@@ -57,9 +57,11 @@ impl LogFile {
             Kind::Parquet => Self::Parquet(ParquetFile::open(path, file)),
             Kind::Npy => Self::Numpy(NumpyFile::open_npy(path, file)?),
             Kind::Zip => Self::Numpy(NumpyFile::open_npz(path, file, options.time())?),
-            Kind::Matlab => Self::Matlab(MatlabFile::open(path, file, options.time())?),
-            Kind::Mcap => {
-                let files = [(path.to_owned(), file)];
+            Kind::Matlab(version) => {
+                Self::Matlab(MatlabFile::open(path, (version, file), options.time())?)
+            }
+            Kind::Bag(storage) => {
+                let files = [(path.to_owned(), storage, file)];
                 Self::Bag(Bag::open(path, &files, options.topic, damage)?)
             }
             Kind::Packed(_) => return Err(LogError::other_kind(path, TWICE)),
@@ -72,13 +74,13 @@ impl LogFile {
         damage: &mut Damage,
     ) -> Result<Self, LogError> {
         if lerobot::is_dataset(path) {
-            return Ok(Self::LeRobot(LeRobot::open(path, options.episode)?));
+            return Ok(Self::LeRobot(LeRobot::open(path, options.episode, options.dataset)?));
         }
         let mut files = Vec::new();
         for path in bag::files_of(path)? {
             match content(&path)? {
-                (Kind::Mcap, file) => files.push((path, file)),
-                _ => return Err(LogError::other_kind(&path, NOT_MCAP)),
+                (Kind::Bag(storage), file) => files.push((path, storage, file)),
+                _ => return Err(LogError::other_kind(&path, NOT_A_BAG)),
             }
         }
         Ok(Self::Bag(Bag::open(path, &files, options.topic, damage)?))
@@ -142,7 +144,7 @@ impl LogFile {
     pub(crate) fn sha256(&self, path: &Path) -> Result<String, LogError> {
         let columns = match self {
             Self::Columns(columns) => columns,
-            Self::LeRobot(dataset) => return sha256_of(dataset.paths().map(Path::to_owned)),
+            Self::LeRobot(dataset) => return dataset.sha256(),
             _ if path.is_dir() => return sha256_of(bag::files_of(path)?.into_iter()),
             _ => return sha256_of(std::iter::once(path.to_owned())),
         };
@@ -156,7 +158,7 @@ impl LogFile {
 }
 
 /// SHA-256 of files one after the other, in hexadecimal.
-fn sha256_of(files: impl Iterator<Item = PathBuf>) -> Result<String, LogError> {
+pub(crate) fn sha256_of(files: impl Iterator<Item = PathBuf>) -> Result<String, LogError> {
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     for path in files {

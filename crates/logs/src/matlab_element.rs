@@ -22,6 +22,8 @@ const DEEPEST: usize = 4;
 const LONGEST: u32 = 1 << 20;
 /// Taken for a byte of a list of names.
 const PER_NAME_BYTE: u64 = 32;
+/// What is wrong with a file that was made to be large.
+pub(crate) const TOO_LARGE: &str = "its numbers take more than is allowed of a file of this size";
 
 /// An array of numbers, column after column.
 #[derive(Debug, Clone, PartialEq)]
@@ -219,8 +221,7 @@ impl Elements<'_> {
             return Err(broken(format!("{count} numbers in {} bytes", tag.bytes)));
         }
         let taken = self.allowance.take(8 * count);
-        taken
-            .map_err(|_| broken("its numbers take more than is allowed of a file of this size"))?;
+        taken.map_err(|_| broken(TOO_LARGE))?;
         if let Some(short) = tag.short {
             let own = short[..tag.bytes as usize].chunks_exact(numeral.bytes());
             return Ok(own.map(|bytes| numeral.read(bytes)).collect());

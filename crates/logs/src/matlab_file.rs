@@ -9,6 +9,7 @@ use crate::{
     allowance::Allowance,
     guarded::guarded,
     matlab_element::{Array, Elements, Order},
+    matlab_hdf5,
     table::{Needed, Table},
 };
 
@@ -21,7 +22,16 @@ const MOST_COLUMNS: u64 = 10_000;
 /// Taken for the name of a column (bytes).
 const PER_NAME: u64 = 256;
 
-/// A log as arrays of MATLAB, version 5 (save -v7 and earlier).
+/// How a file is laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum MatlabVersion {
+    /// Elements one after the other (save -v7 and earlier).
+    Five,
+    /// HDF5 (save -v7.3).
+    SevenPointThree,
+}
+
+/// A log as arrays of MATLAB.
 pub(crate) struct MatlabFile {
     path: PathBuf,
     columns: Vec<(String, Vec<f64>)>,
@@ -31,11 +41,20 @@ impl MatlabFile {
     /// Reads the arrays of numbers: vectors are columns by their name, `q` of samples x n is `q[0]`,
     /// `q[1]` and so on, also where it lies as n x samples and only that is as long as the column
     /// `time`; fields of a structure are `log.q`.
-    pub(crate) fn open(path: &Path, file: File, time: &str) -> Result<Self, LogError> {
+    pub(crate) fn open(
+        path: &Path,
+        (version, file): (MatlabVersion, File),
+        time: &str,
+    ) -> Result<Self, LogError> {
         let length = file.metadata().map_err(|e| LogError::unreadable(path, &e))?.len();
         let mut allowance = Allowance::of(length);
         let told = |e: std::io::Error| LogError::broken(path, KIND, &e);
-        let arrays = guarded(path, KIND, || arrays(file, &mut allowance).map_err(told))?;
+        let arrays = guarded(path, KIND, || match version {
+            MatlabVersion::Five => arrays(file, &mut allowance).map_err(told),
+            MatlabVersion::SevenPointThree => {
+                matlab_hdf5::arrays(file, &mut allowance).map_err(told)
+            }
+        })?;
         let is_vector = |array: &&Array| array.rows == 1 || array.columns == 1;
         let of_time = arrays.iter().filter(is_vector).find(|array| array.name == time);
         let samples = of_time.map(|array| array.numbers.len() as u64);

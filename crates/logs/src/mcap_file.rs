@@ -14,6 +14,7 @@ use crate::{
     damage::Damage,
     guarded::guarded,
     mcap_record::{Chunk, McapRecord},
+    topic::{Listener, Topic},
 };
 
 /// What a damaged file is called.
@@ -22,25 +23,6 @@ const KIND: &str = "MCAP";
 const LONGEST_RECORD: usize = 1 << 27;
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 16;
-
-/// Where a message was published.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Topic {
-    pub name: String,
-    /// Type of its messages.
-    pub kind: String,
-    /// How they are encoded.
-    pub encoding: String,
-}
-
-/// What the messages of a file are given to.
-pub(crate) trait Listener {
-    /// Hears of a topic, before its messages.
-    fn topic(&mut self, topic: &Topic);
-
-    /// Hears a message.
-    fn message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), LogError>;
-}
 
 /// Reads an MCAP file from its first byte to its last, or to where it is damaged.
 pub(crate) fn read(
@@ -111,6 +93,7 @@ impl Reader<'_> {
                 self.topics.insert(id, topic);
             }
             McapRecord::Message { channel, data } => match self.topics.get(&channel) {
+                Some(topic) if !self.listener.wants(topic) => {}
                 Some(topic) => self.listener.message(topic, data)?,
                 None => return Err(self.broken(&"a message is of no channel")),
             },

@@ -7,7 +7,7 @@ use crate::{
     ColumnMap, Excerpt, LogError, Mend, Run,
     damage::Damage,
     even_clock::{EvenClock, even_clock},
-    lerobot,
+    lerobot::Dataset,
     log_file::LogFile,
     plan::Plan,
     position_loop,
@@ -30,11 +30,20 @@ pub struct ReadOptions<'a> {
     pub excerpt: Option<Excerpt>,
     /// The episode of a dataset of LeRobot; one that has a single episode needs none.
     pub episode: Option<u64>,
+    /// The dataset that the path is, where it was opened already: its column of episodes is not read again.
+    pub dataset: Option<&'a Dataset>,
 }
 
 impl Default for ReadOptions<'_> {
     fn default() -> Self {
-        Self { map: None, effort: "effort", topic: None, excerpt: None, episode: None }
+        Self {
+            map: None,
+            effort: "effort",
+            topic: None,
+            excerpt: None,
+            episode: None,
+            dataset: None,
+        }
     }
 }
 
@@ -43,19 +52,6 @@ impl<'a> ReadOptions<'a> {
     pub(crate) fn time(&self) -> &'a str {
         self.map.and_then(ColumnMap::time).map_or("time", |mapped| &mapped.column)
     }
-}
-
-/// What [`ReadOptions::episode`] has to be for each of the runs at a path: the episodes of a dataset of LeRobot,
-/// and one `None` for any other log.
-///
-/// # Errors
-///
-/// Those of reading the column `episode_index`.
-pub fn episodes(path: &Path) -> Result<Vec<Option<u64>>, LogError> {
-    if !lerobot::is_dataset(path) {
-        return Ok(vec![None]);
-    }
-    Ok(lerobot::episodes(path)?.into_iter().map(Some).collect())
 }
 
 /// Reads one run from a file and checks it.
@@ -69,14 +65,14 @@ pub fn episodes(path: &Path) -> Result<Vec<Option<u64>>, LogError> {
 /// jumps are taken out. Stamps that scatter about an even clock by more than its step give way to it.
 /// [`Run::mended`] tells of all.
 ///
-/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5, or MCAP, or one of them packed with gzip or zstd,
-/// which is seen from its first bytes.
+/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5 or 7.3, MCAP or SQLite, or one of them packed
+/// with gzip or zstd, which is seen from its first bytes.
 ///
 /// Of an npz or mat file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
 /// as long as time; fields of a structure of MATLAB are `log.q`. Other arrays are left out.
 ///
-/// Of a bag of ROS 2, an MCAP file or a folder with `metadata.yaml` and such files, the messages
+/// Of a bag of ROS 2, an MCAP or SQLite file or a folder with `metadata.yaml` and such files, the messages
 /// `sensor_msgs/msg/JointState` of one topic are read, joints by the names in each message; one that
 /// is about none of the robot's joints is left out. Time is that of the stamps, counted from the
 /// first one. In errors a row is a message of the topic.
@@ -102,7 +98,7 @@ pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run
 
 /// Reads one run as [`read_run`] does, up to where it is damaged, and says what is there.
 ///
-/// Of CSV that is the first row that cannot be read, of MCAP the first record, of any file the
+/// Of CSV that is the first row that cannot be read, of a bag the first record or page, of any file the
 /// first sample that is no number or whose time does not increase. A file of another kind that is
 /// broken is refused.
 ///

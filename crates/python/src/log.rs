@@ -46,9 +46,10 @@ impl Log {
         let joints: Vec<&str> = robot.joint_names().collect();
         match &self.source {
             Source::File(columns, path) => {
-                let episodes = columns.episodes_of(path).map_err(raised)?;
-                let [episode] = episodes[..] else {
-                    let (path, found) = (path.clone(), episodes.into_iter().flatten().collect());
+                let asked = columns.episodes_of(path).map_err(raised)?;
+                let [episode] = asked.each().collect::<Vec<_>>()[..] else {
+                    let found = asked.each().filter_map(|episode| episode.number).collect();
+                    let path = path.clone();
                     return Err(raised(LogError::Episode { path, asked: None, found }));
                 };
                 let reader = columns.reader().map_err(raised)?;

@@ -1,4 +1,6 @@
-use std::path::{Path, PathBuf};
+#[cfg(feature = "rerun")]
+use std::path::Path;
+use std::path::PathBuf;
 
 /// Why something cannot be recorded, or a recording not be read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -30,6 +32,14 @@ pub enum RecordingError {
         path: PathBuf,
         /// The value found.
         value: String,
+    },
+    /// The program was built without recordings.
+    #[error(
+        "{path}: this program was built without recordings, its feature `recording` was expected"
+    )]
+    LeftOut {
+        /// The file that was asked for.
+        path: PathBuf,
     },
     /// A list has another length than the scene or the other lists ask for.
     #[error("{thing} has {found} {items}, {expected} were expected")]
@@ -75,11 +85,13 @@ pub enum RecordingError {
     },
 }
 
+#[cfg(feature = "rerun")]
 /// A refusal of the library, which has an error for every part of it.
 pub(crate) fn refused(error: impl std::fmt::Display) -> RecordingError {
     RecordingError::Refused { reason: error.to_string() }
 }
 
+#[cfg(feature = "rerun")]
 /// What the disk refuses.
 pub(crate) fn unwritable(path: &Path, reason: String) -> RecordingError {
     RecordingError::Unwritable { path: path.to_owned(), reason }

@@ -14,26 +14,55 @@
 //!
 //! Numbers come in SI units and radians. Positions, velocities and torques are shown in them,
 //! tracking errors in mrad or mm.
+//!
+//! Without the feature `rerun` nothing is recorded ([`IS_BUILT`]), and half of the packages that a build takes are
+//! left out.
 
+#[cfg(feature = "rerun")]
 mod arms;
+#[cfg(feature = "rerun")]
 mod colour;
+#[cfg(feature = "rerun")]
 mod contents;
+#[cfg(feature = "rerun")]
 mod disk;
 mod error;
+#[cfg(feature = "rerun")]
 mod layout;
+#[cfg(not(feature = "rerun"))]
+mod left_out;
+#[cfg(feature = "rerun")]
 mod live;
+#[cfg(feature = "rerun")]
 mod pace;
+#[cfg(feature = "rerun")]
 mod plots;
+#[cfg(feature = "rerun")]
 mod properties;
+#[cfg(feature = "rerun")]
 mod recorder;
+mod rows;
 mod scene;
+#[cfg(feature = "rerun")]
 mod seen;
+#[cfg(feature = "rerun")]
 mod shapes;
+#[cfg(feature = "rerun")]
 mod signals;
+#[cfg(feature = "rerun")]
 mod sinks;
+#[cfg(feature = "rerun")]
 mod skeleton;
 
+#[cfg(feature = "rerun")]
 pub use contents::{Contents, Entity};
 pub use error::RecordingError;
-pub use recorder::{Bar, Recorder, Rows, Written};
+#[cfg(not(feature = "rerun"))]
+pub use left_out::Recorder;
+#[cfg(feature = "rerun")]
+pub use recorder::Recorder;
+pub use rows::{Bar, Rows, Written};
 pub use scene::{Arm, Level, Listener, Live, Quantity, Role, Scene, Signal};
+
+/// Whether recordings are written: what the feature `rerun` says.
+pub const IS_BUILT: bool = cfg!(feature = "rerun");

@@ -17,7 +17,7 @@ use crate::seen::Seen;
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
-use crate::{Level, Listener, Live, RecordingError, Role, Scene, Signal, colour};
+use crate::{Bar, Level, Live, RecordingError, Rows, Scene, Signal, Written, colour};
 
 /// The one timeline, in seconds.
 pub(crate) const TIMELINE: &str = "t";
@@ -34,42 +34,6 @@ const LAST_S: f64 = 9e9;
 const DISK: Duration = Duration::from_secs(20);
 /// Width of the bars of a joint together.
 const BARS: f64 = 0.8;
-
-/// Consecutive rows of a run.
-#[derive(Debug, Clone, Copy)]
-pub struct Rows<'a> {
-    /// Times (s), increasing within a block and from block to block.
-    pub time_s: &'a [f64],
-    /// Per arm, row-major positions of all joints (rad or m); a row with a NaN hides the arm until
-    /// a row without one.
-    pub arms: &'a [&'a [f64]],
-    /// Per signal, row-major numbers of all joints; a NaN leaves a gap in the line.
-    pub signals: &'a [&'a [f64]],
-}
-
-/// A number a joint, as bars.
-#[derive(Debug, Clone, Copy)]
-pub struct Bar<'a> {
-    /// Name in the legend.
-    pub name: &'a str,
-    /// Decides the colour: that of its lines.
-    pub role: Role,
-    /// One number a joint.
-    pub values: &'a [f64],
-}
-
-/// A finished recording.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Written {
-    /// The file.
-    pub path: PathBuf,
-    /// Rows taken.
-    pub rows: u64,
-    /// Size of the file (bytes).
-    pub bytes: u64,
-    /// Who watched.
-    pub listener: Listener,
-}
 
 /// A recording that is being written.
 ///

@@ -68,6 +68,7 @@ pub enum Quantity {
     Error,
 }
 
+#[cfg(feature = "rerun")]
 impl Quantity {
     /// Every quantity, in the order of the plots.
     pub(crate) const ALL: [Self; 5] =

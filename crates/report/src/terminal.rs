@@ -115,10 +115,16 @@ pub(crate) fn entry(out: &mut String, word: &str, meaning: &str) {
     out.push_str(&format!("{FAINT}{word:<18} {meaning}{FAINT:#}\n"));
 }
 
+/// Columns of the names of joints: of short ones, and the most of long ones.
+const SHORTEST_NAME: usize = 18;
+const LONGEST_NAME: usize = 22;
+
 fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
     let style = style_of(joint.verdict);
     let verdict = joint.verdict.words();
-    out.push_str(&format!("{BOLD}{:<18}{BOLD:#} {style}{verdict}{style:#}", joint.name));
+    let names = report.diagnosis.joints.iter().map(|joint| joint.name.chars().count());
+    let width = names.max().unwrap_or(0).clamp(SHORTEST_NAME, LONGEST_NAME);
+    out.push_str(&format!("{BOLD}{:<width$}{BOLD:#} {style}{verdict}{style:#}", joint.name));
     if is_adequate(joint) {
         let gap = " ".repeat(17_usize.saturating_sub(verdict.len()));
         out.push_str(&format!("{gap} {}", errors(report, index, joint)));
@@ -346,6 +352,19 @@ warning: elbow: quantised in steps of 0.01 N m
         let plain = without_escapes(&coloured);
         assert_eq!(plain, EXPECTED);
         assert!(plain.lines().all(|line| line.chars().count() <= WIDTH));
+    }
+
+    #[test]
+    fn verdicts_stand_below_one_another_beside_long_names() {
+        let mut sample = sample::arm();
+        sample.diagnosis.joints[0].name = "shoulder_lift_joint".to_owned();
+        let plain = without_escapes(&text(&sample.report()));
+        let at = |name: &str| {
+            let rest = plain.lines().find_map(|line| line.strip_prefix(name)).unwrap_or_default();
+            name.len() + rest.len() - rest.trim_start().len()
+        };
+        assert_eq!(at("shoulder_lift_joint"), 20, "{plain}");
+        assert_eq!(at("elbow"), at("shoulder_lift_joint"), "{plain}");
     }
 
     #[test]

@@ -225,7 +225,7 @@ pub fn write(
 ///
 /// [`EvaluationError::Recording`] where the disk refuses it.
 fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<PathBuf>, CliError> {
-    if arguments.no_recording {
+    if arguments.no_recording || !recording::IS_BUILT {
         // One of an earlier diagnosis would show something else than the report beside it.
         let _ = std::fs::remove_file(arguments.out.join(RECORDING));
         return Ok(None);
@@ -264,6 +264,9 @@ pub fn recorded(
         Box::new(match error {
             EvaluationError::Recording(RecordingError::Unwritable { reason, .. }) => {
                 RecordingError::Unwritable { path: path.clone(), reason }.into()
+            }
+            EvaluationError::Recording(RecordingError::LeftOut { .. }) => {
+                RecordingError::LeftOut { path: path.clone() }.into()
             }
             EvaluationError::Recording(RecordingError::TurnedOff { value, .. }) => {
                 RecordingError::TurnedOff { path: path.clone(), value }.into()

@@ -38,7 +38,7 @@ pub fn find(name: &str) -> Result<EffectKind, CliError> {
         let near = EffectKind::ALL.iter().filter(|kind| is_near(&plain, kind.name()));
         let near: Vec<String> = near.map(named).collect();
         let hint = if near.is_empty() {
-            format!("one of {} was expected", EffectKind::ALL.each_ref().map(named).join(", "))
+            "a name such as coulomb_friction or a code such as FR02 was expected".to_owned()
         } else {
             format!("did you mean {}?", near.join(" or "))
         };
@@ -138,6 +138,19 @@ mod tests {
             );
             assert!(text.contains(&undone), "{undone} in\n{text}");
         }
+    }
+
+    #[test]
+    fn an_effect_that_is_none_is_told_in_one_line() {
+        let told = |name| find(name).unwrap_err().to_string();
+        let expected = "effect FR99: it is not in the catalogue, \
+                        a name such as coulomb_friction or a code such as FR02 was expected";
+        assert_eq!(told("FR99"), expected);
+        assert!(
+            told("coulomb").ends_with("did you mean FR02 coulomb_friction?"),
+            "{}",
+            told("coulomb")
+        );
     }
 
     #[test]

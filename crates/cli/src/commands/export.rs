@@ -1,11 +1,12 @@
 use std::path::{Path, PathBuf};
 
-use exchange::{Fated, Format};
+use exchange::{Export, Fated, Format};
 use serde::Serialize;
 
 use crate::Outcome;
 use crate::error::CliError;
 use crate::input::PartArguments;
+use crate::loss::{Loss, LossArguments};
 use crate::output::{create_folder, keep_inputs, print, print_json, shown, table};
 
 /// Names under which an output folder has the robot with its findings, of a diagnosis and of a run.
@@ -24,6 +25,8 @@ pub struct Arguments {
     /// Folder for the files; that of the robot where it is left out
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    loss: LossArguments,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -59,6 +62,8 @@ struct Exports {
     schema: &'static str,
     robot: String,
     files: Vec<Written>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    loss: Option<Loss>,
 }
 
 /// A file that was written.
@@ -69,7 +74,7 @@ struct Written {
     quantities: Vec<Fated>,
 }
 
-/// Writes the robot in other formats and prints what became of every quantity.
+/// Writes the robot in other formats and prints what became of every quantity, and what that costs on logs.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let path = described(&arguments.path)?;
     let loaded = arguments.part.load(&path)?;
@@ -84,17 +89,24 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     create_folder(&folder)?;
     let asked: Vec<Format> = arguments.to.iter().map(|target| target.format()).collect();
     let formats = if asked.is_empty() { Format::ALL.to_vec() } else { asked };
-    let mut files = vec![];
+    let mut exports: Vec<(&'static str, String, Export)> = vec![];
     for format in formats {
         let export = exchange::export(&loaded, &source, format)?;
         let name = format!("extended.{}", format.extension());
-        let file = folder.join(&name);
         keep_inputs(&folder, &[&name], [loaded.urdf_path.as_path()])?;
         report::write_folder(&folder, &[(&name, export.text.as_bytes())])?;
-        files.push(Written { format: format.name(), path: shown(&file), quantities: export.fates });
+        exports.push((format.name(), shown(&folder.join(&name)), export));
     }
-    let exports =
-        Exports { schema: "plumbline.export/1", robot: loaded.robot.name().to_owned(), files };
+    let held = exports.iter().map(|(format, path, export)| (*format, path.clone(), export));
+    let loss = arguments.loss.measure((&path, &loaded), &arguments.part, held)?;
+    let written =
+        |(format, path, export): (_, _, Export)| Written { format, path, quantities: export.fates };
+    let exports = Exports {
+        schema: "plumbline.export/1",
+        robot: loaded.robot.name().to_owned(),
+        files: exports.into_iter().map(written).collect(),
+        loss,
+    };
     if arguments.json {
         print_json(&exports)?;
     } else {
@@ -124,5 +136,5 @@ fn text(exports: &Exports) -> String {
         text.push_str(&table(&["where", "what", "fate", "how or why"], rows));
         text.push('\n');
     }
-    text
+    text + &exports.loss.as_ref().map(Loss::text).unwrap_or_default()
 }

@@ -38,10 +38,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let mut infos = Vec::new();
     let mut asked = Vec::new();
     for path in &arguments.files {
-        let episodes = arguments.columns.episodes_of(path)?;
-        asked.extend(episodes.into_iter().map(|episode| (path, episode)));
+        asked.push((path, arguments.columns.episodes_of(path)?));
     }
-    for (path, episode) in asked {
+    let each = asked.iter().flat_map(|(path, asked)| asked.each().map(move |e| (*path, e)));
+    for (path, episode) in each {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
             None if arguments.part.joints.is_empty() => {
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         runs.push(run);
         let repeats = logs::duplicate_of(&runs, runs.len() - 1).map(|i| shown(&runs[i].source));
         let of = |episode| format!("{} (episode {episode})", shown(path));
-        let path = episode.map_or_else(|| shown(path), of);
+        let path = episode.number.map_or_else(|| shown(path), of);
         infos.push(Info { path, info, repeats });
     }
     if arguments.json {
@@ -109,6 +109,9 @@ fn robot_of(joints: &[String]) -> Result<Robot, CliError> {
     Ok(Robot::new("log", nalgebra::Vector3::zeros(), links)?)
 }
 
+/// Jitter below this is none (s): clocks count nanoseconds.
+const SHORTEST_S: f64 = 1e-9;
+
 fn text(Info { path, info, repeats }: &Info) -> String {
     let gaps = match info.gaps.as_slice() {
         [] => "no gaps".to_owned(),
@@ -117,13 +120,17 @@ fn text(Info { path, info, repeats }: &Info) -> String {
             format!("{} gaps, the longest {} s", gaps.len(), short(longest))
         }
     };
+    let jitter = if info.jitter_max_s < SHORTEST_S {
+        "no jitter".to_owned()
+    } else {
+        let [std_ms, max_ms] = [info.jitter_std_s, info.jitter_max_s].map(|s| short(1e3 * s));
+        format!("jitter {std_ms} ms, at most {max_ms} ms")
+    };
     let mut text = format!(
-        "{path}\n {} rows, {} s at {} Hz; jitter {} ms, at most {} ms; {gaps}\n",
+        "{path}\n {} rows, {} s at {} Hz; {jitter}; {gaps}\n",
         info.samples,
         short(info.duration_s),
         short(info.rate_hz),
-        short(1e3 * info.jitter_std_s),
-        short(1e3 * info.jitter_max_s),
     );
     let header = ["joint", "position", "limits", ">step", "effort", ">limit", ">late", "remarks"];
     text.push_str(&table(&header, info.joints.iter().map(row)));

@@ -1,6 +1,5 @@
 use std::path::{Path, PathBuf};
 
-use inspection::Mended;
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
 use report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 use robot::{Gain, Loaded, Robot};
@@ -8,10 +7,10 @@ use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
 use crate::columns::ColumnArguments;
-use crate::doubts::doubts;
+use crate::doubts::read_as_they_are;
 use crate::error::CliError;
 use crate::input::{PartArguments, hashes_of, positive, provenance};
-use crate::output::{create_folder, print, shown, table, warn};
+use crate::output::{create_folder, print, shown, table};
 
 /// Arguments of `replay`.
 #[derive(Debug, clap::Args)]
@@ -39,14 +38,8 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
     let given = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
-    doubts(&loaded, &given).iter().for_each(|doubt| warn(doubt));
-    let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, &given);
-    for seen in &mended {
-        let sentence = seen.sentence(&loaded.robot, &given);
-        warn(&format!("{sentence} Until then the logs are read so."));
-    }
-    let runs = read.as_ref().unwrap_or(&given);
-    let prepared = logs::prepare(runs, &PrepareSettings::default())?;
+    let read = read_as_they_are(&loaded, &given);
+    let prepared = logs::prepare(read.as_ref().unwrap_or(&given), &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =
         prepared.runs.iter().map(|record| Replay::of(arguments, &loaded, record)).collect();

@@ -141,7 +141,11 @@ fn next(out: &Path) -> [[String; 2]; 3] {
             ),
         ],
         [
-            "The measured arm beside the simulated one, in rerun's viewer:".to_owned(),
+            if recording::IS_BUILT {
+                "The measured arm beside the simulated one, in rerun's viewer:".to_owned()
+            } else {
+                "The report, in the browser:".to_owned()
+            },
             format!("plumbline view {}", shown(out)),
         ],
         ["The same for a log of your own:".to_owned(), OWN_LOG.to_owned()],
@@ -166,11 +170,14 @@ fn write(experiment: &Experiment, report: &RunReport, out: &Path) -> Result<(), 
 
 fn say(report: &RunReport, out: &Path, output: &Output) -> Result<(), CliError> {
     let of = |name: &str| shown(&out.join(name));
+    let recording = if recording::IS_BUILT {
+        format!("recording      {} (plumbline view {})\n", of("recording.rrd"), shown(out))
+    } else {
+        String::new()
+    };
     let closing = format!(
-        "report         {}\nrecording      {} (plumbline view {})\nextended model {}\nyour own log   {OWN_LOG}\n",
+        "report         {}\n{recording}extended model {}\nyour own log   {OWN_LOG}\n",
         of("report.html"),
-        of("recording.rrd"),
-        shown(out),
         of("diagnosis/extended.toml"),
     );
     output.say(&report.json()?, &report.text(), &closing)

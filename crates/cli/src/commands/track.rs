@@ -36,7 +36,8 @@ pub struct Arguments {
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Show the runs in a viewer that is running (rerun) while they go on
-    #[arg(long)]
+    #[cfg_attr(feature = "recording", arg(long))]
+    #[cfg_attr(not(feature = "recording"), arg(skip))]
     live: bool,
     /// Print the JSON instead of the table
     #[arg(long)]
@@ -106,12 +107,13 @@ fn elbow_and_wrist(scenario: &TrackingScenario) -> Vec<usize> {
 /// Table or JSON on the standard output; with JSON, where the files lie on the standard error.
 fn say(arguments: &Arguments, comparison: &TrackingComparison) -> Result<(), CliError> {
     let of = |name: &str| shown(&arguments.out.join(Path::new(name)));
-    let closing = format!(
-        "report         {}\nrecordings     {}\nboth           plumbline view {}\n",
-        of("report.html"),
-        of("recordings"),
-        shown(&arguments.out)
-    );
+    let recordings = if recording::IS_BUILT {
+        let folder = shown(&arguments.out);
+        format!("recordings     {}\nboth           plumbline view {folder}\n", of("recordings"))
+    } else {
+        String::new()
+    };
+    let closing = format!("report         {}\n{recordings}", of("report.html"));
     if arguments.json {
         print(&comparison.json()?)?;
     }

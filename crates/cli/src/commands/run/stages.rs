@@ -110,11 +110,13 @@ impl Stages<'_> {
             let DiagnosedRuns { outcome, verdict, told } =
                 self.bench().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
             let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
-            record_diagnosis(&self.out.join(RECORDING), &diagnosed, self.watch)?;
+            if recording::IS_BUILT {
+                record_diagnosis(&self.out.join(RECORDING), &diagnosed, self.watch)?;
+            }
             let sealed = Sealed::open(&self.out.join(LOGS))?;
             let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
             let mut files = diagnosis_files(Path::new(DIAGNOSIS));
-            files.push(PathBuf::from(RECORDING));
+            files.extend(recording::IS_BUILT.then(|| PathBuf::from(RECORDING)));
             Ok(Product { value: Found { told, score }, files })
         })
     }
@@ -172,9 +174,11 @@ impl Stages<'_> {
         let words = format!("{} feedforwards", kinds.len());
         self.stage("tracking", &words, inputs, || {
             let folder = self.out.join(TRACKING);
-            let (logs, recordings) = (folder.join("logs"), folder.join("recordings"));
-            create_folder(&logs)?;
-            create_folder(&recordings)?;
+            let logs = folder.join("logs");
+            let recordings = recording::IS_BUILT.then(|| folder.join("recordings"));
+            for folder in std::iter::once(&logs).chain(&recordings) {
+                create_folder(folder)?;
+            }
             let learned = Learned::load(tracked, &self.out.join(MODELS))?;
             let outputs = Outputs { logs, recordings, live: Live::Off };
             let scenario = self.experiment.held(self.drawn()?, &self.extended()?);
@@ -198,7 +202,8 @@ impl Stages<'_> {
         }
         let pages = ["report.html", "tracking.json"].map(|name| Path::new(TRACKING).join(name));
         let runs_files = runs.iter().flat_map(|run| {
-            [format!("logs/{}.parquet", run.kind), format!("recordings/{}.rrd", run.kind)]
+            let recording = recording::IS_BUILT.then(|| format!("recordings/{}.rrd", run.kind));
+            std::iter::once(format!("logs/{}.parquet", run.kind)).chain(recording)
         });
         let runs_files = runs_files.map(|name| Path::new(TRACKING).join(name));
         let errors = runs.iter().map(TrackedError::of).collect();

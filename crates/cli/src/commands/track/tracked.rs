@@ -47,11 +47,12 @@ impl Tracked {
         let scenario = TrackingScenario::from_document(&document(asked)?)?;
         let outputs = asked.out.map(|out| Outputs {
             logs: out.join("logs"),
-            recordings: out.join("recordings"),
+            recordings: recording::IS_BUILT.then(|| out.join("recordings")),
             live: if asked.live { Live::On } else { Live::Off },
         });
         if let (Some(out), Some(outputs)) = (asked.out, &outputs) {
-            [out, &outputs.logs, &outputs.recordings].into_iter().try_for_each(create_folder)?;
+            let folders = [out, outputs.logs.as_path()].into_iter();
+            folders.chain(outputs.recordings.as_deref()).try_for_each(create_folder)?;
         }
         let learned = models(asked, &scenario, progress)?;
         let runs = track_all(&scenario, &learned, outputs.as_ref(), progress)?;

@@ -1,0 +1,168 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use exchange::Export;
+use logs::Run;
+use robot::{Loaded, Robot};
+use serde::{Deserialize, Serialize};
+
+use crate::columns::ColumnArguments;
+use crate::doubts::read_as_they_are;
+use crate::error::CliError;
+use crate::input::PartArguments;
+use crate::output::{shown, table, warn};
+
+/// Logs that an export is held against.
+#[derive(Debug, clap::Args)]
+pub struct LossArguments {
+    /// Logs that the diagnosis has not seen: the torque error of what each file holds is printed beside those
+    /// of the nominal and of the extended robot
+    #[arg(long = "log", value_name = "FILE", num_args = 1..)]
+    logs: Vec<PathBuf>,
+    /// The robot before the findings [default: the one that diagnosis.json names, or the URDF alone]
+    #[arg(long, value_name = "FILE", requires = "logs")]
+    nominal: Option<PathBuf>,
+    #[command(flatten)]
+    columns: ColumnArguments,
+}
+
+/// What the torque errors of descriptions of a robot on held-out logs are.
+#[derive(Serialize)]
+pub struct Loss {
+    logs: Vec<String>,
+    joints: Vec<String>,
+    models: Vec<ModelError>,
+}
+
+/// The torque error of a description.
+#[derive(Serialize)]
+struct ModelError {
+    /// `nominal`, `extended`, or the name of a format.
+    model: &'static str,
+    described_by: String,
+    /// RMS while the joint moves (N·m or N); none where it does not.
+    rms_nm: Vec<Option<f64>>,
+    /// Root of the sum of the squares.
+    all_nm: f64,
+}
+
+impl LossArguments {
+    /// The torque errors of the nominal robot, of the one that `path` describes and of its exports, each with the
+    /// name of its format and its file, on the logs; none without logs.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError`] of a log, or of a nominal robot, that cannot be used.
+    pub fn measure<'a>(
+        &self,
+        (path, loaded): (&Path, &Loaded),
+        part: &PartArguments,
+        exports: impl Iterator<Item = (&'static str, String, &'a Export)>,
+    ) -> Result<Option<Loss>, CliError> {
+        if self.logs.is_empty() {
+            return Ok(None);
+        }
+        let (nominal, name) = self.nominal((path, loaded), part)?;
+        let runs = self.columns.read_runs(&self.logs, &loaded.robot)?;
+        let runs = read_as_they_are(loaded, &runs).unwrap_or(runs);
+        let error = |model, described_by, robot: &Robot| {
+            ModelError::of(model, described_by, robot, (loaded.control.rate_hz, &runs))
+        };
+        let mut models =
+            vec![error("nominal", name, &nominal)?, error("extended", shown(path), &loaded.robot)?];
+        for (format, file, export) in exports {
+            models.push(error(format, file, &export.robot)?);
+        }
+        Ok(Some(Loss {
+            logs: self.logs.iter().map(|log| shown(log)).collect(),
+            joints: loaded.robot.joint_names().map(str::to_owned).collect(),
+            models,
+        }))
+    }
+
+    /// The robot before the findings, and where it is described.
+    fn nominal(
+        &self,
+        (path, loaded): (&Path, &Loaded),
+        part: &PartArguments,
+    ) -> Result<(Robot, String), CliError> {
+        let found =
+            self.nominal.clone().or_else(|| diagnosed(&path.with_file_name("diagnosis.json")));
+        let Some(file) = found else {
+            let name = shown(&loaded.urdf_path);
+            warn(&format!("nominal is what {name} says alone; --nominal names another robot"));
+            return Ok((loaded.robot_in_urdf.clone(), name));
+        };
+        let nominal = part.load(&file)?.robot;
+        if !nominal.joint_names().eq(loaded.robot.joint_names()) {
+            return Err(CliError::OtherJoints { path: file, expected: path.to_owned() });
+        }
+        Ok((nominal, shown(&file)))
+    }
+}
+
+impl ModelError {
+    fn of(
+        model: &'static str,
+        described_by: String,
+        robot: &Robot,
+        (rate_hz, runs): (Option<f64>, &[Run]),
+    ) -> Result<Self, CliError> {
+        let rms_nm = evaluation::robot_error(robot, rate_hz, runs)?;
+        let all_nm = rms_nm.iter().flatten().map(|rms| rms * rms).sum::<f64>().sqrt();
+        Ok(Self { model, described_by, rms_nm, all_nm })
+    }
+}
+
+impl Loss {
+    /// A table with a row a joint and a column a description.
+    pub fn text(&self) -> String {
+        let number = |rms: Option<f64>| rms.map_or("-".to_owned(), |x| report::significant(x, 3));
+        let header: Vec<String> = std::iter::once("joint".to_owned())
+            .chain(self.models.iter().map(|model| format!(">{}", model.model)))
+            .collect();
+        let row = |name: &str, of: &dyn Fn(&ModelError) -> Option<f64>| {
+            let cells = self.models.iter().map(|model| number(of(model)));
+            std::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
+        };
+        let joints = self.joints.iter().enumerate();
+        let mut rows: Vec<_> =
+            joints.map(|(j, joint)| row(joint, &|model| model.rms_nm.get(j).copied()?)).collect();
+        rows.push(row("all", &|model| Some(model.all_nm)));
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let nominal = self.models.first().map_or("", |model| &model.described_by);
+        format!(
+            "torque error on {}, RMS while a joint moves (N·m or N), of what each file holds;\n\
+             nominal is {nominal}\n{}",
+            self.logs.join(", "),
+            table(&header, rows)
+        )
+    }
+}
+
+/// What is read of a diagnosis.json.
+#[derive(Deserialize)]
+struct Told {
+    provenance: Provenance,
+}
+
+#[derive(Deserialize)]
+struct Provenance {
+    files: Vec<Read>,
+}
+
+/// A file that a diagnosis has read.
+#[derive(Deserialize)]
+struct Read {
+    role: String,
+    path: PathBuf,
+    sha256: String,
+}
+
+/// The robot that a diagnosis was made with, where it is still there as it was.
+fn diagnosed(diagnosis: &Path) -> Option<PathBuf> {
+    let told: Told = serde_json::from_slice(&fs::read(diagnosis).ok()?).ok()?;
+    let robot = told.provenance.files.into_iter().find(|file| file.role == "robot")?;
+    let is_as_it_was = report::sha256_of(&robot.path).is_ok_and(|hash| hash == robot.sha256);
+    is_as_it_was.then_some(robot.path)
+}

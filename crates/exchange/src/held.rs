@@ -1,0 +1,89 @@
+use robot::{Actuator, Inertia, Link, Loaded, Robot};
+
+use crate::export::{Format, fate_of};
+use crate::fate::Fate;
+use crate::quantity::{Quantity, levels, quantities};
+use crate::{mjcf, mjcf_joint, usda};
+
+/// The robot that a file of `format` describes, of `reported`, whose positions are those that its encoders report.
+///
+/// What the file drops is that of an ideal drive; what it approximates is as it is written: in an MJCF a
+/// constant torque as a soft spring and raised moments, in a USD layer no friction beyond the Coulomb level
+/// in motion. A URDF leaves gravity as its readers have it, and an SDF stands in a world whose gravity is as
+/// strong as the robot's.
+pub(crate) fn held(loaded: &Loaded, reported: &Robot, format: Format) -> Robot {
+    let mut held = reported.clone();
+    if format == Format::Urdf {
+        held = held.with_gravity(loaded.robot_in_urdf.gravity_in_base());
+    }
+    for (index, link) in reported.links().iter().enumerate() {
+        let Some(new) = held.link_mut(index) else { continue };
+        new.inertia = inertia(&link.inertia, format);
+        for (quantity, _) in quantities(reported, link) {
+            match fate_of(quantity, link, format) {
+                Fate::Dropped { .. } => leave_out(quantity, &mut new.actuator),
+                Fate::Exact { .. } | Fate::Approximated { .. } => {
+                    write(quantity, link, format, &mut new.actuator);
+                }
+            }
+        }
+    }
+    held
+}
+
+/// A body as it is written.
+fn inertia(inertia: &Inertia, format: Format) -> Inertia {
+    match format {
+        Format::Mjcf if !inertia.defects().is_empty() => mjcf::balanced(inertia),
+        Format::Isaac if !inertia.defects().is_empty() => usda::without_negative_moments(inertia),
+        _ => inertia.clone(),
+    }
+}
+
+/// Writes a quantity that stands in the file as another one.
+fn write(quantity: Quantity, link: &Link, format: Format, drive: &mut Actuator) {
+    match (quantity, format) {
+        // The constant torque is in the rest of the spring.
+        (Quantity::Asymmetry, Format::Mjcf) => {
+            if let Some([stiffness, cubic, rest]) = mjcf_joint::springs(link) {
+                drive.spring_stiffness = stiffness;
+                drive.spring_cubic = cubic;
+                drive.spring_rest = rest;
+            }
+            leave_out(quantity, drive);
+        }
+        // The level at rest is gone at once in motion.
+        (Quantity::Stribeck, Format::Isaac) => drive.stribeck = None,
+        _ => {}
+    }
+}
+
+/// Makes a quantity that of an ideal drive.
+fn leave_out(quantity: Quantity, drive: &mut Actuator) {
+    use Quantity as Q;
+    let (mean, difference) = levels(drive);
+    match quantity {
+        Q::Rotor => drive.rotor_inertia = 0.0,
+        Q::Viscous => drive.viscous = 0.0,
+        Q::Coulomb => [drive.coulomb_forward, drive.coulomb_backward] = [difference, -difference],
+        Q::Asymmetry => [drive.coulomb_forward, drive.coulomb_backward] = [mean; 2],
+        Q::Stribeck => drive.stribeck = None,
+        Q::LoadFriction => drive.load_friction = 0.0,
+        Q::Presliding => (drive.presliding, drive.presliding_damping) = (None, None),
+        Q::FrictionWave => drive.friction_wave = None,
+        Q::Ripple => drive.ripple = None,
+        Q::Coupling => drive.coupling = None,
+        Q::Spring => drive.spring_stiffness = 0.0,
+        Q::SpringCubic => drive.spring_cubic = 0.0,
+        Q::SpringHysteresis => drive.spring_hysteresis = 0.0,
+        Q::EffortGain => drive.torque_gain = 1.0,
+        Q::EffortOffset => drive.torque_offset = 0.0,
+        Q::Backlash => drive.backlash = 0.0,
+        Q::Elasticity => drive.elasticity = None,
+        Q::Delay => drive.delay_s = 0.0,
+        Q::Lag => drive.lag_s = 0.0,
+        Q::EncoderOffset => drive.encoder_offset = 0.0,
+        Q::Ratio => drive.transmission_ratio = 1.0,
+        Q::Skew => drive.effort_skew_s = 0.0,
+    }
+}
