@@ -76,6 +76,7 @@ fn leave_out(quantity: Quantity, drive: &mut Actuator) {
         Q::Spring => drive.spring_stiffness = 0.0,
         Q::SpringCubic => drive.spring_cubic = 0.0,
         Q::SpringHysteresis => drive.spring_hysteresis = 0.0,
+        Q::Counterbalance => drive.counterbalance = None,
         Q::EffortGain => drive.torque_gain = 1.0,
         Q::EffortOffset => drive.torque_offset = 0.0,
         Q::Backlash => drive.backlash = 0.0,

@@ -141,6 +141,7 @@ pub enum Level {
     Error,
 }
 
+#[cfg(feature = "rerun")]
 impl Level {
     pub(crate) fn label(self) -> &'static str {
         match self {
