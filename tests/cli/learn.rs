@@ -61,7 +61,7 @@ fn models_are_compared_on_a_log_that_took_no_part_and_saved() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    assert_eq!(names, ["figure.svg", "learning.json", "models"]);
+    assert_eq!(names, ["figure.svg", "learning.json", "models", "report.html"]);
 }
 
 #[test]

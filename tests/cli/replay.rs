@@ -59,7 +59,13 @@ fn drift_and_torque_of_every_joint_are_told_and_the_motions_written() {
     }
     assert!(answer.out.ends_with("simulated motion and torque out\n"));
     assert!(answer.out.lines().all(|line| line.chars().count() <= 100), "{}", answer.out);
-    let expected = ["one_forward_200ms.parquet", "one_forward_50ms.parquet", "one_motion.parquet"];
+    let expected = [
+        "one_forward_200ms.parquet",
+        "one_forward_50ms.parquet",
+        "one_motion.parquet",
+        "replay.json",
+        "report.html",
+    ];
     assert_eq!(names(&folder.path().join("out")), expected);
 }
 
@@ -86,7 +92,10 @@ fn a_robot_without_gains_is_told_what_it_lacks() {
     assert_eq!((answer.code, answer.err.as_str()), (0, ""));
     let told = "that takes kp_nm_per_rad and kd_nm_s_per_rad";
     assert!(answer.out.contains(told), "{}", answer.out);
-    assert_eq!(names(&folder.path().join("out")), ["one_forward_20ms.parquet"]);
+    assert_eq!(
+        names(&folder.path().join("out")),
+        ["one_forward_20ms.parquet", "replay.json", "report.html"]
+    );
 }
 
 #[test]
@@ -104,6 +113,8 @@ fn logs_of_one_name_from_two_folders_are_kept_apart() {
         "one_2_motion.parquet",
         "one_forward_50ms.parquet",
         "one_motion.parquet",
+        "replay.json",
+        "report.html",
     ];
     assert_eq!(names(&folder.path().join("out")), expected);
 }

@@ -82,7 +82,7 @@ impl Layout {
             .into_iter()
             .find(|quantity| self.plots.quantities().any(|q| q == *quantity));
         let Some(quantity) = overview else { return scene };
-        let lines = self.plots.joints.len();
+        let lines = self.plots.joints.len() * self.plots.count(quantity);
         let ends = self.plots.ends_of_all(quantity);
         let plot = plot(self.plots.of_all(quantity).into(), (lines, ends), properties);
         Vertical::new([scene, plot]).with_row_shares([2.4, 1.0]).into()

@@ -58,13 +58,9 @@ impl Plots {
 
     /// The same of what [`Self::of_all`] shows.
     pub fn ends_of_all(&self, quantity: Quantity) -> Option<[f64; 2]> {
-        let signal = self.last_of(quantity)?;
-        shown(self.ends.first()?.get(signal)?.iter().copied(), quantity)
-    }
-
-    /// Index of the last signal of the scene with this quantity.
-    fn last_of(&self, quantity: Quantity) -> Option<usize> {
-        self.sets.first()?.iter().rposition(|line| line.quantity == quantity)
+        let all = self.sets.first()?.iter().zip(self.ends.first()?);
+        let own = all.filter(|(line, _)| line.quantity == quantity);
+        shown(own.flat_map(|(_, ends)| ends.iter().copied()), quantity)
     }
 
     /// Adds signals with times of their own; returns their entities, one a joint.
@@ -123,28 +119,29 @@ impl Plots {
         view.with_contents(contents)
     }
 
-    /// The last signal of a quantity of all joints, such as what the extended model leaves: a name
-    /// and a colour a joint.
+    /// One quantity of all joints: a colour a joint, or where there are several signals the
+    /// colour of their role.
     pub fn of_all(&self, quantity: Quantity) -> TimeSeriesView {
         let lines = self.sets.first().into_iter().flatten();
         let own: Vec<&Line> = lines.filter(|line| line.quantity == quantity).collect();
         let same = self.joints.windows(2).all(|w| w[0].1.is_rotation() == w[1].1.is_rotation());
         let kind = self.joints.first().filter(|_| same).map(|(_, kind)| *kind);
         let title = kind.map_or_else(|| mixed(quantity), |kind| quantity.title(kind));
-        let of = match own.as_slice() {
-            [.., last] if own.len() > 1 => format!("{}, {title} of all joints", last.name),
-            _ => format!("{title} of all joints"),
-        };
-        let mut view = TimeSeriesView::new(of)
+        let mut view = TimeSeriesView::new(format!("{title} of all joints"))
             .with_origin("joints")
             .with_contents(self.joint_paths().map(|path| path.to_string()));
+        let color = |i: usize, role: Role| {
+            colour::solid(if own.len() == 1 { colour::series(i) } else { colour::rgb(role) })
+        };
         for (i, (joint, _)) in self.joints.iter().enumerate() {
-            let is_last = |place: usize| place + 1 == own.len();
+            let name = |signal: &str| match own.len() {
+                1 => joint.clone(),
+                _ => format!("{joint} {signal}"),
+            };
             let lines = SeriesLines::new()
-                .with_names(own.iter().map(|_| joint.as_str()))
-                .with_colors(own.iter().map(|_| colour::solid(colour::series(i))))
-                .with_widths(own.iter().map(|_| 1.0_f32))
-                .with_visible_series((0..own.len()).map(is_last));
+                .with_names(own.iter().map(|line| name(&line.name)))
+                .with_colors(own.iter().map(|line| color(i, line.role)))
+                .with_widths(own.iter().map(|_| 1.0_f32));
             view = view.with_override(path(joint, 0), reading(&lines, quantity));
         }
         view
