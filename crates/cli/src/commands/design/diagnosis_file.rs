@@ -81,7 +81,7 @@ impl DiagnosisFile {
     ///
     /// # Errors
     ///
-    /// [`DesignError::Diagnosis`] for a file that is none, or one of another robot.
+    /// A file that is none, or one of another robot.
     pub fn read(path: &Path, robot: &Robot) -> Result<Self, DesignError> {
         let file = if path.is_dir() { path.join("diagnosis.json") } else { path.to_owned() };
         let text = std::fs::read_to_string(&file)
