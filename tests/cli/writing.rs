@@ -100,6 +100,29 @@ fn a_full_disk_ends_the_other_commands_with_2() {
     }
 }
 
+/// Warnings, errors and where files lie go to the standard error: that it cannot be written changes no answer.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_error_on_a_full_disk_changes_no_exit_code() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let path = folder.path();
+    fs::write(path.join("broken.toml"), "robot = 1").unwrap();
+    let answered: [&[&str]; 5] = [
+        &[&DIAGNOSE[..], &["--no-recording", "--json", "--out", "out"]].concat(),
+        &["diagnose", "--robot", "arm.urdf", "--log", "absent.csv", "--out", "none"],
+        &["run", "broken.toml", "--out", "none"],
+        &["robot", "check", "absent.urdf"],
+        &["no-such-command"],
+    ];
+    for arguments in answered {
+        let code = run(path, arguments).code;
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut command = plumbline();
+        command.current_dir(path).args(arguments).stderr(full);
+        assert_eq!(command.output().unwrap().status.code(), Some(code), "{arguments:?}");
+    }
+}
+
 /// A folder in the place of a file, as a name that cannot be written.
 #[test]
 fn a_file_that_cannot_be_written_ends_with_2() {

@@ -8,7 +8,7 @@ use robot::Robot;
 
 use crate::error::CliError;
 use crate::input::seconds;
-use crate::output::warn;
+use crate::output::{tell, warn};
 
 /// How the columns of logs are called.
 #[derive(Debug, clap::Args)]
@@ -185,7 +185,7 @@ impl Reader<'_> {
         let note = format!("columns are read as --map {}: {}", found.name, found.words);
         let is_new = self.told.lock().is_ok_and(|mut told| told.insert(note.clone()));
         if is_new {
-            anstream::eprintln!("note: {note}");
+            tell(&format_args!("note: {note}"));
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::columns::ColumnArguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{keep_inputs, print, shown, warn};
+use crate::output::{keep_inputs, print, shown, tell, warn};
 use crate::progress::{Bar, Line};
 
 /// Columns of a comment in `extended.toml`.
@@ -301,7 +301,7 @@ fn say(
     }
     match (arguments.quiet, arguments.json) {
         (true, _) => {}
-        (false, true) => anstream::eprint!("{closing}"),
+        (false, true) => tell(&closing.trim_end()),
         (false, false) => print(&format!("{}\n{closing}", report::text(report)))?,
     }
     Ok(())
