@@ -28,7 +28,7 @@ use crate::commands::{
     replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
 };
 
-pub use crate::columns::{ColumnArguments, ExcerptArguments};
+pub use crate::columns::{ColumnArguments, ExcerptArguments, LengthArguments};
 pub use crate::commands::diagnose::{recorded as record_diagnosis, write as write_diagnosis};
 pub use crate::commands::explain::find as find_effect;
 pub use crate::doubts::doubts;

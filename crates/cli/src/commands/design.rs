@@ -13,7 +13,7 @@ use robot::{Loaded, Robot};
 use self::diagnosis_file::DiagnosisFile;
 pub use self::error::DesignError;
 use crate::Outcome;
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::error::CliError;
 use crate::input::{PartArguments, positive};
 use crate::output::print;
@@ -38,6 +38,8 @@ pub struct Arguments {
     logs: Vec<PathBuf>,
     #[command(flatten)]
     columns: ColumnArguments,
+    #[command(flatten)]
+    length: LengthArguments,
     /// A cause to tell from that of --from, such as FR01@elbow or payload@hand, instead of what
     /// the diagnosis left open; also before there is a diagnosis
     #[arg(long, value_name = "EFFECT@PLACE", requires = "from")]
@@ -126,7 +128,7 @@ fn prepared(
 ) -> Result<Prepared, CliError> {
     let named = diagnosis.logs();
     let paths = if arguments.logs.is_empty() { &named } else { &arguments.logs };
-    let runs = arguments.columns.read_runs(paths, &loaded.robot)?;
+    let runs = arguments.columns.read_runs(paths, &loaded.robot, arguments.length)?;
     if let Some(other) = runs.iter().find(|run| !diagnosis.knows(&run.sha256)) {
         return Err(DesignError::OtherLog { path: other.source.clone() }.into());
     }

@@ -6,7 +6,7 @@ use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::{PartArguments, positive};
@@ -31,13 +31,15 @@ pub struct Arguments {
     window_ms: Vec<f64>,
     #[command(flatten)]
     columns: ColumnArguments,
+    #[command(flatten)]
+    length: LengthArguments,
 }
 
 /// Rolls the simulation forward under recorded torque, lets it follow the recorded motion, and
 /// says how far both are from the record.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
-    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
+    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot, arguments.length)?;
     doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
     let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, &runs);
     for seen in &mended {
@@ -118,7 +120,9 @@ fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
          measured (N·m or N)\n",
     );
     use LogWarning as W;
-    let of_rows = |w: &&W| matches!(w, W::Mended { .. } | W::Resampled { .. } | W::Split { .. });
+    let of_rows = |w: &&W| {
+        matches!(w, W::Mended { .. } | W::Thinned { .. } | W::Resampled { .. } | W::Split { .. })
+    };
     for warning in prepared.warnings.iter().filter(of_rows) {
         text.push_str(&format!("warning: {warning}\n"));
     }
