@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -22,11 +22,22 @@ fn names(folder: &Path) -> Vec<String> {
 /// Runs a command where no file may become larger than so many kB, as on a disk that is full.
 #[cfg(target_os = "linux")]
 pub fn with_room(folder: &Path, kb: usize, arguments: &[&str]) -> Answer {
+    limited(folder, "trap '' XFSZ; ", kb, arguments).into()
+}
+
+/// Runs a command that the system kills in the middle of the write with which a file becomes larger than so many kB.
+#[cfg(target_os = "linux")]
+pub fn killed_beyond(folder: &Path, kb: usize, arguments: &[&str]) -> Output {
+    limited(folder, "ulimit -c 0; ", kb, arguments)
+}
+
+#[cfg(target_os = "linux")]
+fn limited(folder: &Path, before: &str, kb: usize, arguments: &[&str]) -> Output {
     let program = plumbline().get_program().to_owned();
-    let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" \"$@\"", 2 * kb);
+    let script = format!("{before}ulimit -f {}; exec \"$0\" \"$@\"", 2 * kb);
     let mut command = Command::new("sh");
     command.current_dir(folder).args(["-c", &script]).arg(program).args(arguments);
-    command.output().unwrap().into()
+    command.output().unwrap()
 }
 
 /// From nothing to enough for the recording.
