@@ -14,6 +14,7 @@ mod references;
 mod rings;
 mod sealed;
 mod sources;
+mod supply;
 mod tree;
 mod walls;
 mod workspace;

@@ -5,6 +5,7 @@
 
 use std::fs;
 use std::io::Read;
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
@@ -17,13 +18,16 @@ use recording::Contents;
 use crate::arm::{self, Gap};
 use crate::campaign;
 use crate::program::{Answer, plumbline, run};
-use crate::writing::with_room;
+use crate::writing::{killed_beyond, with_room};
 
 /// A command ends, or says that it will, within this time of a signal.
 const ANSWER: Duration = Duration::from_secs(1);
 
+/// The signal of a file that becomes larger than it may.
+const SIGXFSZ: i32 = 25;
+
 /// Commands that write below `out`, and a file of each that is always the same.
-const COMMANDS: [(&str, &str); 11] = [
+pub const COMMANDS: [(&str, &str); 11] = [
     ("diagnose --robot arm.urdf --log run_0.csv run_1.csv --out out", "diagnosis.json"),
     (
         "compare --robot arm.urdf --before run_0.csv --after run_1.csv --out out",
@@ -89,7 +93,8 @@ enum Growing {
     Refused,
 }
 
-struct Place {
+/// A folder with what the commands read.
+pub struct Place {
     folder: tempfile::TempDir,
     random: ChaCha8Rng,
     /// How long each command takes, its exit code, and its file.
@@ -99,7 +104,8 @@ struct Place {
 }
 
 impl Place {
-    fn new(seed: u64) -> Self {
+    /// The files alone.
+    pub fn of_files(seed: u64) -> Self {
         let folder = campaign::folder();
         let path = folder.path();
         for number in 0..2 {
@@ -109,7 +115,12 @@ impl Place {
         arm::write(path, "runs.toml", RUNS);
         arm::write(path, "tracking.toml", TRACKING);
         let random = ChaCha8Rng::seed_from_u64(seed);
-        let mut place = Self { folder, random, known: Vec::new(), largest_kb: Vec::new() };
+        Self { folder, random, known: Vec::new(), largest_kb: Vec::new() }
+    }
+
+    /// With what every command gives.
+    fn new(seed: u64) -> Self {
+        let mut place = Self::of_files(seed);
         for (index, (command, _)) in COMMANDS.iter().enumerate() {
             place.prepare(index);
             let start = Instant::now();
@@ -122,7 +133,7 @@ impl Place {
         place
     }
 
-    fn path(&self) -> &Path {
+    pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
@@ -135,7 +146,7 @@ impl Place {
     }
 
     /// No folder of an earlier command, but a campaign that was planned for one that works on it.
-    fn prepare(&self, index: usize) {
+    pub fn prepare(&self, index: usize) {
         if self.out().exists() {
             fs::remove_dir_all(self.out()).unwrap();
         }
@@ -168,6 +179,18 @@ impl Place {
         assert_whole(&self.out(), Growing::Allowed);
     }
 
+    /// Kills a command in the middle of its largest file, or of an earlier one, looks at what is there, and starts it
+    /// again.
+    fn kill_in_a_file(&mut self, index: usize) {
+        self.prepare(index);
+        let kb = self.random.random_range(0..self.largest_kb[index].max(1));
+        let killed = killed_beyond(self.path(), kb, &words(index)).status;
+        assert_eq!(killed.signal(), Some(SIGXFSZ), "{}, {kb} kB: {killed}", COMMANDS[index].0);
+        assert_whole(&self.out(), Growing::Allowed);
+        let again = run(self.path(), &words(index));
+        self.assert_same(index, &again);
+    }
+
     fn assert_same(&self, index: usize, answer: &Answer) {
         let (_, code, file) = &self.known[index];
         assert_eq!(answer.code, *code, "{}: {}", COMMANDS[index].0, answer.err);
@@ -175,14 +198,19 @@ impl Place {
         assert_whole(&self.out(), Growing::Refused);
     }
 
-    fn campaign(&mut self, kills: usize, disks: usize) {
-        for number in 0..kills {
+    fn campaign(&mut self, [ends, kills, disks]: [usize; 3]) {
+        for number in 0..ends {
             self.end(number % COMMANDS.len());
+        }
+        for number in 0..kills {
+            self.kill_in_a_file(number % COMMANDS.len());
         }
         for number in 0..disks {
             self.fill(number % COMMANDS.len());
         }
-        println!("{kills} commands were ended, {disks} found the disk full");
+        println!(
+            "{ends} commands were ended, {kills} killed in the middle of a file, {disks} found the disk full"
+        );
     }
 }
 
@@ -194,32 +222,31 @@ fn largest_kb(folder: &Path) -> usize {
     fs::read_dir(folder).unwrap().map(|entry| size(entry.unwrap().path())).max().unwrap_or(0)
 }
 
-fn words(index: usize) -> Vec<&'static str> {
+/// The arguments of a command.
+pub fn words(index: usize) -> Vec<&'static str> {
     COMMANDS[index].0.split(' ').collect()
 }
 
 /// Sends a signal. The program ends; at Ctrl-C it may say that it comes to its end, and a second one ends it.
 fn ended(mut child: Child, signal: &str, command: &str) {
-    send(&child, signal);
-    if within(&mut child) {
+    if ends_at(&mut child, signal) {
         return;
     }
     assert_eq!(signal, "-INT", "{command}");
-    send(&child, "-INT");
-    assert!(within(&mut child), "{command}: two interrupts");
+    assert!(ends_at(&mut child, "-INT"), "{command}: two interrupts");
     let mut told = String::new();
     child.stderr.take().unwrap().read_to_string(&mut told).unwrap();
     assert!(told.contains("stopping: "), "{command}: {told}");
 }
 
-fn send(child: &Child, signal: &str) {
+/// Whether a program ends within [`ANSWER`] of a signal. Beside other work it gets its turn later, as the program that
+/// sends the signal does.
+fn ends_at(child: &mut Child, signal: &str) -> bool {
+    let start = Instant::now();
     // A program that has ended already cannot be reached.
     let _ = Command::new("kill").args([signal, &child.id().to_string()]).output().unwrap();
-}
-
-fn within(child: &mut Child) -> bool {
-    let start = Instant::now();
-    while start.elapsed() < ANSWER {
+    let patience = ANSWER + 20 * start.elapsed();
+    while start.elapsed() < patience {
         if child.try_wait().unwrap().is_some() {
             return true;
         }
@@ -274,7 +301,7 @@ fn grows(path: &Path) -> bool {
 #[test]
 fn commands_that_are_ended_or_find_the_disk_full_lose_nothing() {
     match checks::round::fresh_seeds() {
-        None => Place::new(1).campaign(COMMANDS.len(), COMMANDS.len()),
-        Some(first) => Place::new(first).campaign(200, 30),
+        None => Place::new(1).campaign([COMMANDS.len(); 3]),
+        Some(first) => Place::new(first).campaign([200, 55, 33]),
     }
 }

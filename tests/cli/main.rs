@@ -14,7 +14,6 @@ mod diagnose;
 mod excerpt;
 mod export;
 #[cfg(target_os = "linux")]
-#[cfg(target_os = "linux")]
 mod faults;
 mod figure;
 mod foreign_files;
@@ -31,6 +30,8 @@ mod servo;
 mod simulate;
 #[cfg(target_os = "linux")]
 mod slurm;
+#[cfg(target_os = "linux")]
+mod sockets;
 #[cfg(unix)]
 mod submit;
 mod track;

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -22,11 +22,22 @@ fn names(folder: &Path) -> Vec<String> {
 /// Runs a command where no file may become larger than so many kB, as on a disk that is full.
 #[cfg(target_os = "linux")]
 pub fn with_room(folder: &Path, kb: usize, arguments: &[&str]) -> Answer {
+    limited(folder, "trap '' XFSZ; ", kb, arguments).into()
+}
+
+/// Runs a command that the system kills in the middle of the write with which a file becomes larger than so many kB.
+#[cfg(target_os = "linux")]
+pub fn killed_beyond(folder: &Path, kb: usize, arguments: &[&str]) -> Output {
+    limited(folder, "ulimit -c 0; ", kb, arguments)
+}
+
+#[cfg(target_os = "linux")]
+fn limited(folder: &Path, before: &str, kb: usize, arguments: &[&str]) -> Output {
     let program = plumbline().get_program().to_owned();
-    let script = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" \"$@\"", 2 * kb);
+    let script = format!("{before}ulimit -f {}; exec \"$0\" \"$@\"", 2 * kb);
     let mut command = Command::new("sh");
     command.current_dir(folder).args(["-c", &script]).arg(program).args(arguments);
-    command.output().unwrap().into()
+    command.output().unwrap()
 }
 
 /// From nothing to enough for the recording.
@@ -97,6 +108,29 @@ fn a_full_disk_ends_the_other_commands_with_2() {
         assert!(answer.err.contains("error: out/"), "{arguments:?}: {}", answer.err);
         assert!(!answer.err.contains(".plumbline-"), "{}", answer.err);
         assert!(names(&folder.path().join("out")).iter().all(|name| !name.starts_with('.')));
+    }
+}
+
+/// Warnings, errors and where files lie go to the standard error: that it cannot be written changes no answer.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_error_on_a_full_disk_changes_no_exit_code() {
+    let folder = arm::folder(Gap::Friction(1.5));
+    let path = folder.path();
+    fs::write(path.join("broken.toml"), "robot = 1").unwrap();
+    let answered: [&[&str]; 5] = [
+        &[&DIAGNOSE[..], &["--no-recording", "--json", "--out", "out"]].concat(),
+        &["diagnose", "--robot", "arm.urdf", "--log", "absent.csv", "--out", "none"],
+        &["run", "broken.toml", "--out", "none"],
+        &["robot", "check", "absent.urdf"],
+        &["no-such-command"],
+    ];
+    for arguments in answered {
+        let code = run(path, arguments).code;
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut command = plumbline();
+        command.current_dir(path).args(arguments).stderr(full);
+        assert_eq!(command.output().unwrap().status.code(), Some(code), "{arguments:?}");
     }
 }
 

@@ -14,6 +14,7 @@ mod grafts;
 mod held_out;
 mod hidden;
 mod intervals;
+mod long;
 mod poor;
 mod protocols;
 mod read_so;

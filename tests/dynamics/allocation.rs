@@ -11,7 +11,7 @@ fn the_loop_versions_allocate_nothing() {
     let (q, qd, qdd) = (vec![0.3; n], vec![0.7; n], vec![-0.2; n]);
     let (mut tau, mut matrix, mut gravity) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; 3 * n]);
     let (mut y, mut columns) = (vec![0.0; 10 * n * n], vec![0.0; 14 * n * n]);
-    let mut derivatives = [(); 3].map(|()| vec![0.0; n * n]);
+    let (mut own, mut derivatives) = (vec![0.0; 10 * n], [(); 3].map(|()| vec![0.0; n * n]));
     let counted = allocation_counter::measure(|| {
         dynamics.inverse_dynamics_into(&mut ws, &q, &qd, &qdd, &mut tau);
         dynamics.forward_dynamics_into(&mut ws, &q, &qd, Rotors::Included, &mut tau).unwrap();
@@ -23,6 +23,7 @@ fn the_loop_versions_allocate_nothing() {
         dynamics.inverse_dynamics_derivatives_into(&mut ws, state, [dq, dqd, dqdd]);
         dynamics.gravity_regressor_into(&mut ws, &q, &mut gravity);
         dynamics.torque_regressor_into(&mut ws, &q, &qd, &qdd, &mut y);
+        dynamics.link_regressor_into(&mut ws, n - 1, state, &mut own);
         dynamics.columns_into(&mut ws, [&q, &qd, &qdd], ColumnSet::ALL, &mut columns);
     });
     assert_eq!(counted.count_total, 0);

@@ -172,6 +172,21 @@ fn the_regressor_times_the_parameters_is_inverse_dynamics() {
 }
 
 #[test]
+fn the_regressor_of_a_link_is_its_columns_of_the_whole_to_the_bit() {
+    for Case { dynamics, q, qd, qdd, .. } in cases() {
+        let (n, whole) = (q.len(), dynamics.torque_regressor(&q, &qd, &qdd).unwrap());
+        for link in 0..n {
+            // A new one: what links carry is written for this link alone.
+            let mut ws = dynamics.workspace();
+            let mut own = vec![f64::NAN; 10 * n];
+            dynamics.link_regressor_into(&mut ws, link, [&q, &qd, &qdd], &mut own);
+            let own = DMatrix::from_row_slice(n, 10, &own);
+            assert_eq!(own, whole.columns(10 * link, 10), "link {link}");
+        }
+    }
+}
+
+#[test]
 fn the_gravity_regressor_gives_the_torque_of_any_gravity() {
     for Case { robot, dynamics, q, .. } in cases() {
         let other = draw_vector(&mut generator(7), 10.0);

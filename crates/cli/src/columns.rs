@@ -3,12 +3,16 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use logs::{ColumnMap, Dataset, Excerpt, LogError, ReadOptions, Recognised, Run};
+use logs::{
+    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, LogError, Mend, ReadOptions, Recognised, Run,
+    stretches,
+};
 use robot::Robot;
 
+use crate::doubts::needed_gb;
 use crate::error::CliError;
 use crate::input::seconds;
-use crate::output::warn;
+use crate::output::{tell, warn};
 
 /// How the columns of logs are called.
 #[derive(Debug, clap::Args)]
@@ -54,13 +58,27 @@ impl ExcerptArguments {
     }
 }
 
+/// How much of long logs takes part.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct LengthArguments {
+    /// All samples take part, and memory grows with them; without it, of logs that are together longer than 20
+    /// minutes of seven joints at 500 Hz as much as that does, in stretches of a minute that are spread evenly
+    #[arg(long)]
+    pub all_samples: bool,
+}
+
 impl ColumnArguments {
-    /// The runs of some files.
+    /// The runs of some files, or what takes part of them.
     ///
     /// # Errors
     ///
     /// [`CliError::Log`] of the first file that cannot be used, or of the map.
-    pub fn read_runs(&self, paths: &[PathBuf], robot: &Robot) -> Result<Vec<Run>, CliError> {
+    pub fn read_runs(
+        &self,
+        paths: &[PathBuf],
+        robot: &Robot,
+        length: LengthArguments,
+    ) -> Result<Vec<Run>, CliError> {
         let reader = self.reader()?;
         let mut runs = Vec::new();
         for path in paths {
@@ -68,6 +86,14 @@ impl ColumnArguments {
             for episode in asked.each() {
                 runs.push(reader.read(path, episode, robot)?);
             }
+        }
+        let most = if length.all_samples { usize::MAX } else { ENOUGH_SAMPLES };
+        let runs = stretches(runs, most);
+        if let Some(taken) = runs.iter().flat_map(|run| &run.mended).find_map(Mend::taken) {
+            tell(&format_args!(
+                "note: {taken}; that needs about {} GB of memory",
+                needed_gb(&runs)
+            ));
         }
         Ok(runs)
     }
@@ -215,7 +241,7 @@ impl Reader<'_> {
         let note = format!("columns are read as --map {}: {}", found.name, found.words);
         let is_new = self.told.lock().is_ok_and(|mut told| told.insert(note.clone()));
         if is_new {
-            anstream::eprintln!("note: {note}");
+            tell(&format_args!("note: {note}"));
         }
     }
 }

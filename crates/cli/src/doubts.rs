@@ -8,19 +8,21 @@ use crate::output::warn;
 const NEAR: f64 = 0.01;
 
 /// What a diagnosis holds of one sample of one joint (bytes), as measured on logs of 7 joints with two threads.
-const BYTES_PER_SAMPLE: f64 = 500.0;
+const BYTES_PER_SAMPLE: f64 = 430.0;
+
+const GIGA: f64 = 1e9;
 
 /// What the description of a robot leaves out of its motion, locked joints that a log has
 /// somewhere else, and logs that may need more memory than is free.
 pub fn doubts<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Run>) -> Vec<String> {
     let of_motion = loaded.warnings.iter().filter(|warning| warning.is_about_motion());
     let mut doubts: Vec<String> = of_motion.map(RobotWarning::to_string).collect();
-    let mut samples = 0;
+    let mut all = 0;
     for run in runs {
         doubts.extend(loaded.locked.iter().filter_map(|lock| elsewhere(lock, run)));
-        samples += run.time.len() * run.joints.len();
+        all += samples(run);
     }
-    doubts.extend(learner::available_bytes().and_then(|free| too_long(samples, free)));
+    doubts.extend(learner::available_bytes().and_then(|free| too_long(all, free)));
     doubts
 }
 
@@ -36,10 +38,24 @@ pub fn read_as_they_are(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
     read
 }
 
+/// What a diagnosis of runs holds (GB), in digits.
+pub fn needed_gb(runs: &[Run]) -> String {
+    short(needed(runs.iter().map(samples).sum()) / GIGA)
+}
+
+/// Samples of single joints.
+fn samples(run: &Run) -> usize {
+    run.time.len() * run.joints.len()
+}
+
+/// What a diagnosis of samples of single joints holds (bytes).
+fn needed(samples: usize) -> f64 {
+    BYTES_PER_SAMPLE * samples as f64
+}
+
 /// Says what samples of single joints need where that is more than is free (bytes).
 fn too_long(samples: usize, free: f64) -> Option<String> {
-    const GIGA: f64 = 1e9;
-    let needed = BYTES_PER_SAMPLE * samples as f64;
+    let needed = needed(samples);
     let [needed_gb, free_gb] = [needed, free].map(|bytes| short(bytes / GIGA));
     (needed > free).then(|| {
         format!(
@@ -81,11 +97,11 @@ mod tests {
 
     #[test]
     fn logs_that_need_more_than_is_free_are_told() {
-        assert_eq!(too_long(1_000_000, 1e9), None);
+        assert_eq!(too_long(2_000_000, 1e9), None);
         let told = too_long(10_000_000, 1e9).unwrap();
         assert!(
             told.contains(
-                "need about 5.00 GB of memory and 1.00 GB are free: read less of them with --from-s"
+                "need about 4.30 GB of memory and 1.00 GB are free: read less of them with --from-s"
             ),
             "{told}"
         );

@@ -16,6 +16,7 @@ use simulator::SimulatorError;
 use crate::commands::design::DesignError;
 use crate::commands::trials::SubmitError;
 use crate::commands::view::INSTALLATION;
+use crate::output::tell;
 
 /// Why a command did not run to its end.
 #[derive(Debug, thiserror::Error)]
@@ -359,14 +360,14 @@ impl CliError {
     /// Prints the error, and advice where there is any, on the standard error.
     pub fn print(&self) {
         if let Some(error) = self.mistake() {
-            anstream::eprintln!("{}", error.render(Coloring::Ansi));
+            tell(&error.render(Coloring::Ansi));
             return;
         }
         let red: Style = AnsiColor::Red.on_default().bold();
         let cyan: Style = AnsiColor::Cyan.on_default().bold();
-        anstream::eprintln!("{red}error:{red:#} {self}");
+        tell(&format_args!("{red}error:{red:#} {self}"));
         if let Some(help) = self.help() {
-            anstream::eprintln!("{cyan}help:{cyan:#} {help}");
+            tell(&format_args!("{cyan}help:{cyan:#} {help}"));
         }
     }
 }

@@ -29,7 +29,7 @@ use crate::commands::{
     replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
 };
 
-pub use crate::columns::{ColumnArguments, ExcerptArguments};
+pub use crate::columns::{ColumnArguments, ExcerptArguments, LengthArguments};
 pub use crate::commands::design::{
     DiagnosisFile, Searched as SearchedMotion, Wanted as WantedMotion,
 };

@@ -2,6 +2,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::output::tell;
+
 /// Work that is done sooner is not worth a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -69,7 +71,7 @@ impl Line {
 
     /// Leaves words on the standard error, terminal or not, above the line.
     pub fn leave(&self, words: &str) {
-        self.0.bar.suspend(|| anstream::eprintln!("{words}"));
+        self.0.bar.suspend(|| tell(&words));
     }
 
     /// Takes the line away.

@@ -3,6 +3,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::CliError;
+use crate::output::tell;
 use crate::progress::Line;
 
 /// Exit code of a program that Ctrl-C has ended.
@@ -38,7 +39,7 @@ impl Watch {
             if pressed.swap(true, Ordering::Relaxed) {
                 std::process::exit(INTERRUPTED);
             }
-            anstream::eprintln!("{STOPPING}");
+            tell(&STOPPING);
         })
         .map_err(|error| CliError::Signal { reason: error.to_string() })?;
         Ok(Self { stop, ..Self::of_all(line) })

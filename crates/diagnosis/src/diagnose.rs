@@ -221,8 +221,7 @@ fn distinct<'a>(
 }
 
 fn summary(run: &Run) -> RunSummary {
-    let duration_s =
-        run.time.last().copied().unwrap_or(0.0) - run.time.first().copied().unwrap_or(0.0);
+    let duration_s = run.recorded_s();
     RunSummary {
         name: run.name.clone(),
         sha256: run.sha256.clone(),

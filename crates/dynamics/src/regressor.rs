@@ -60,18 +60,58 @@ impl Dynamics {
         assert_eq!(y.len(), n * width, "the regressor has 10 n² entries");
         self.outward(ws, q, -self.gravity_in_base, |i| (qd[i], qdd[i]));
         y.fill(0.0);
-        for (j, joint) in self.joints.iter().enumerate() {
-            let link = ws.links[j + 1];
-            let (above, axes) = ws.axes.split_at_mut(j * n);
-            axes[j] = joint.axis;
-            let mut carrier = joint.parent;
-            while carrier != 0 {
-                let i = carrier - 1;
-                axes[i] = link.pose.motion_to_link(&above[(joint.parent - 1) * n + i]);
-                carrier = self.joints[i].parent;
-                write_block(&axes[i], &link, &mut y[i * width + PARAMETERS_PER_LINK * j..]);
+        for j in 0..n {
+            self.axes_at(ws, j);
+            let (link, axes) = (&ws.links[j + 1], &ws.axes[j * n..]);
+            for i in self.carriers(j) {
+                write_block(&axes[i], link, &mut y[i * width + PARAMETERS_PER_LINK * j..]);
             }
-            write_block(&axes[j], &link, &mut y[j * width + PARAMETERS_PER_LINK * j..]);
+        }
+    }
+
+    /// The columns of [`Dynamics::torque_regressor_into`] of one link, to the bit: writes `y` row by row (joint
+    /// `i` at `10 i`), allocates nothing.
+    ///
+    /// # Panics
+    ///
+    /// When `y` does not have 10 n or another slice n entries, there is no such link, or `ws` belongs to another
+    /// robot.
+    pub fn link_regressor_into(
+        &self,
+        ws: &mut Workspace,
+        link: usize,
+        [q, qd, qdd]: [&[f64]; 3],
+        y: &mut [f64],
+    ) {
+        let n = self.joint_count();
+        self.assert_lengths(ws, [q.len(), qd.len(), qdd.len()]);
+        assert!(link < n && y.len() == PARAMETERS_PER_LINK * n, "10 n entries of one of n links");
+        self.outward(ws, q, -self.gravity_in_base, |i| (qd[i], qdd[i]));
+        y.fill(0.0);
+        // No link carries one that comes before it.
+        (0..=link)
+            .filter(|&j| self.carriers(link).any(|i| i == j))
+            .for_each(|j| self.axes_at(ws, j));
+        let (state, axes) = (&ws.links[link + 1], &ws.axes[link * n..]);
+        for i in self.carriers(link) {
+            write_block(&axes[i], state, &mut y[PARAMETERS_PER_LINK * i..]);
+        }
+    }
+
+    /// The joints that carry link `j`, its own first.
+    fn carriers(&self, j: usize) -> impl Iterator<Item = usize> + '_ {
+        let next = |&i: &usize| self.joints[i].parent.checked_sub(1);
+        std::iter::successors(Some(j), next)
+    }
+
+    /// Writes the motions of the joints that carry link `j` in its frame, where those of the link that carries it
+    /// are known.
+    fn axes_at(&self, ws: &mut Workspace, j: usize) {
+        let (n, joint, link) = (self.joint_count(), &self.joints[j], ws.links[j + 1]);
+        let (above, axes) = ws.axes.split_at_mut(j * n);
+        axes[j] = joint.axis;
+        for i in self.carriers(j).skip(1) {
+            axes[i] = link.pose.motion_to_link(&above[(joint.parent - 1) * n + i]);
         }
     }
 

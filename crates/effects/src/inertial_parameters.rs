@@ -31,11 +31,11 @@ impl Explain for InertialParameters {
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
         let Place::Link(link) = place else { return Vec::new() };
+        let regressor = motion.link_regressor(link);
         let column = |parameter: usize| {
-            let carriers =
-                motion.regressor().iter().enumerate().filter(|(_, row)| !row[link].is_empty());
-            let part = |(joint, row): (usize, &Vec<Vec<Vec<f64>>>)| {
-                motion.carried(joint, row[link][parameter].iter().copied())
+            let carriers = regressor.iter().enumerate().filter(|(_, signals)| !signals.is_empty());
+            let part = |(joint, signals): (usize, &Vec<Vec<f64>>)| {
+                motion.carried(joint, signals[parameter].iter().copied())
             };
             carriers.map(part).collect()
         };

@@ -7,7 +7,7 @@ use crate::cable_loop::Loop;
 use crate::direction::{direction, stands};
 use crate::dry_friction::dry_friction;
 use crate::give::{Give, curvature, rate};
-use crate::rigid_bodies::{Regressor, loads, regressor, tilt};
+use crate::rigid_bodies::{LinkRegressor, link_regressor, loads, tilt};
 use crate::slopes::Slopes;
 use crate::timing::Timing;
 use crate::transmission::{Carried, Gap, Parted, corrected, play};
@@ -46,8 +46,6 @@ pub struct Motion {
     pub period_s: f64,
     /// Position, velocity and acceleration of the links.
     pub(crate) link: State,
-    /// What the parameters of links change, once it has been asked for.
-    regressor: OnceLock<Regressor>,
     /// What tilting the base changes, once it has been asked for.
     tilt: OnceLock<Vec<[Vec<f64>; 2]>>,
     /// What moving the links changes, once it has been asked for.
@@ -168,7 +166,6 @@ impl Motion {
             gain: drives.iter().map(|a| a.transmission_ratio * a.torque_gain).collect(),
             period_s,
             link,
-            regressor: OnceLock::new(),
             tilt: OnceLock::new(),
             slopes: OnceLock::new(),
             robot: robot.clone(),
@@ -202,10 +199,10 @@ impl Motion {
         self.slopes.get_or_init(|| Slopes::new(&self.robot, &self.link)).by(j)
     }
 
-    /// `[joint][link]`: the load per unit of the ten parameters of a link; none where the joint does not
-    /// carry it.
-    pub(crate) fn regressor(&self) -> &Regressor {
-        self.regressor.get_or_init(|| regressor(&self.robot, &self.link))
+    /// `[joint]`: the load per unit of the ten parameters of a link; none where the joint does not carry it. It is
+    /// evaluated at each call: of all links together it would be the most that a motion holds.
+    pub(crate) fn link_regressor(&self, link: usize) -> LinkRegressor {
+        link_regressor(&self.robot, &self.link, link)
     }
 
     /// `[joint]`: the load per radian of tilt about the two horizontal axes.

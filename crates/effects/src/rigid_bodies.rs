@@ -7,9 +7,9 @@ use robot::Robot;
 use crate::cable_loop::Loop;
 use crate::motion::{State, spring_torque};
 
-/// `[joint][link][parameter][sample]`: torque per unit of the ten parameters of a link; none where the joint
-/// does not carry it.
-pub(crate) type Regressor = Vec<Vec<Vec<Vec<f64>>>>;
+/// `[joint][parameter][sample]`: torque per unit of the ten parameters of a link; none where the joint does not
+/// carry it.
+pub(crate) type LinkRegressor = Vec<Vec<Vec<f64>>>;
 
 /// Samples that are evaluated before they are sorted into signals: what a core keeps at hand.
 const BATCH: usize = 32;
@@ -35,37 +35,34 @@ pub(crate) fn loads(robot: &Robot, motion: &State) -> Vec<Vec<f64>> {
     load
 }
 
-/// Torque of every joint per unit of the parameters of every link.
-pub(crate) fn regressor(robot: &Robot, motion: &State) -> Regressor {
-    let n = robot.joint_count();
-    let width = PARAMETERS_PER_LINK * n;
-    let carries = carries(robot);
-    let signals = |i: usize, j: usize| {
-        let count = if carries[i][j] { PARAMETERS_PER_LINK } else { 0 };
+/// Torque of every joint per unit of the parameters of a link.
+pub(crate) fn link_regressor(robot: &Robot, motion: &State, link: usize) -> LinkRegressor {
+    let width = PARAMETERS_PER_LINK * robot.joint_count();
+    let carriers: Vec<usize> =
+        std::iter::successors(Some(link), |&at| robot.links()[at].parent).collect();
+    let signals = |joint: usize| {
+        let count = if carriers.contains(&joint) { PARAMETERS_PER_LINK } else { 0 };
         // A clone of an empty vector has no room.
         (0..count).map(|_| Vec::with_capacity(samples(motion))).collect()
     };
-    let mut regressor: Regressor =
-        (0..n).map(|i| (0..n).map(|j| signals(i, j)).collect()).collect();
+    let mut regressor: LinkRegressor = (0..robot.joint_count()).map(signals).collect();
     let dynamics = Dynamics::new(robot);
     let mut ws = dynamics.workspace();
     let mut batch: Vec<f64> = Vec::new();
     let mut sort = |batch: &mut Vec<f64>| {
-        for (i, row) in regressor.iter_mut().enumerate() {
-            for (j, block) in row.iter_mut().enumerate() {
-                for (k, signal) in block.iter_mut().enumerate() {
-                    let at = i * width + j * PARAMETERS_PER_LINK + k;
-                    signal.extend(batch.chunks_exact(n * width).map(|y| y[at]));
-                }
+        for (joint, signals) in regressor.iter_mut().enumerate() {
+            for (k, signal) in signals.iter_mut().enumerate() {
+                let at = joint * PARAMETERS_PER_LINK + k;
+                signal.extend(batch.chunks_exact(width).map(|y| y[at]));
             }
         }
         batch.clear();
     };
-    along(motion, |_, [q, qd, qdd]| {
+    along(motion, |_, state| {
         let from = batch.len();
-        batch.resize(from + n * width, 0.0);
-        dynamics.torque_regressor_into(&mut ws, q, qd, qdd, &mut batch[from..]);
-        if batch.len() == BATCH * n * width {
+        batch.resize(from + width, 0.0);
+        dynamics.link_regressor_into(&mut ws, link, state, &mut batch[from..]);
+        if batch.len() == BATCH * width {
             sort(&mut batch);
         }
     });
@@ -115,14 +112,4 @@ pub(crate) fn along(motion: &State, mut of: impl FnMut(usize, [&[f64]; 3])) {
         }
         of(t, state.each_ref().map(Vec::as_slice));
     }
-}
-
-/// `[joint][link]`: whether the joint carries the link.
-fn carries(robot: &Robot) -> Vec<Vec<bool>> {
-    let n = robot.joint_count();
-    let carriers = |link: usize| -> Vec<usize> {
-        std::iter::successors(Some(link), |&at| robot.links()[at].parent).collect()
-    };
-    let carriers: Vec<Vec<usize>> = (0..n).map(carriers).collect();
-    (0..n).map(|joint| carriers.iter().map(|c| c.contains(&joint)).collect()).collect()
 }

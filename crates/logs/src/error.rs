@@ -422,8 +422,8 @@ impl LogError {
     }
 
     pub(crate) fn broken(path: &Path, kind: &'static str, error: &dyn std::fmt::Display) -> Self {
-        // A message stays one line, whatever the file holds.
-        let reason = error.to_string().replace(char::is_control, " ");
+        // A message stays one line and one sentence, whatever the file holds and its decoder says.
+        let reason = error.to_string().replace(char::is_control, " ").replace(". ", ", ");
         Self::Broken { path: path.to_owned(), kind, reason }
     }
 

@@ -27,6 +27,13 @@ pub enum Mend {
     },
     /// Efforts that are not in the log: those of the position loop of `robot.toml`.
     FromPositionLoop,
+    /// Stretches that are spread evenly over logs which are longer than they need to be, alone; the rest is left out.
+    Stretches {
+        /// What is left out between samples of the run (s).
+        gaps_s: Vec<f64>,
+        /// What takes part of all logs, and how long they are (s).
+        all: [f64; 2],
+    },
     /// Full turns by which a position jumps, which are taken out.
     Turns {
         /// The column.
@@ -36,6 +43,34 @@ pub enum Mend {
         /// How many jumps.
         count: usize,
     },
+}
+
+impl Mend {
+    /// How much of all logs takes part, in words, where that is not all.
+    pub fn taken(&self) -> Option<String> {
+        let Self::Stretches { all, .. } = self else { return None };
+        let [taken_min, whole_min] = all.map(|seconds| seconds / 60.0);
+        Some(format!("of {whole_min:.1} min of logs {taken_min:.1} min take part"))
+    }
+
+    /// How many gaps it leaves in the run.
+    pub(crate) fn gaps(&self) -> usize {
+        match self {
+            Self::Stretches { gaps_s, .. } => gaps_s.len(),
+            _ => 0,
+        }
+    }
+
+    /// Whether it says of all logs what the other one says of them.
+    pub(crate) fn says_of_all(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::FromPositionLoop, Self::FromPositionLoop) => true,
+            (Self::Stretches { all, .. }, Self::Stretches { all: others, .. }) => {
+                all.map(f64::to_bits) == others.map(f64::to_bits)
+            }
+            _ => false,
+        }
+    }
 }
 
 impl fmt::Display for Mend {
@@ -58,6 +93,12 @@ impl fmt::Display for Mend {
                 "no effort was measured: it is taken as kp (goal - q) - kd qd with the gains of effort_source in \
                  robot.toml. Every size in N m is one in units of these gains: the scale of all efforts cannot be \
                  known from such a log, and a torque constant is the error of a gain as well as that of a motor",
+            ),
+            Self::Stretches { .. } => write!(
+                f,
+                "{}, in stretches of a minute or less that are spread evenly over them, so that memory and time do \
+                 not grow with their length. Intervals are those of what takes part; --all-samples takes the rest too",
+                self.taken().unwrap_or_default()
             ),
             Self::Turns { column, row, count } => {
                 let more =

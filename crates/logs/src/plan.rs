@@ -141,20 +141,38 @@ impl<'a> Plan<'a> {
         Some((index + 1, error))
     }
 
-    /// The signals of every joint.
-    pub(crate) fn channels(&self, robot: &Robot, table: &Table) -> Vec<Channels> {
+    /// The signals of every joint, taken out of the table: it keeps the columns that become none.
+    pub(crate) fn take_channels(&self, robot: &Robot, table: &mut Table) -> Vec<Channels> {
         let time = self.time.take(&table.columns);
-        let of = |(link, sources): (&Link, &Vec<(Channel, Source)>)| {
-            let mut channels = Channels { name: link.joint.name.clone(), ..Channels::default() };
-            for (channel, source) in sources {
-                channels.set(*channel, source.take(&table.columns));
+        let mut all = Vec::with_capacity(self.joints.len());
+        for (j, (link, sources)) in robot.links().iter().zip(&self.joints).enumerate() {
+            all.push(self.channels((link, sources), &time, table));
+            let later = || self.joints[j + 1..].iter().flatten();
+            for (_, Source { column, .. }) in sources {
+                if !later().any(|(_, source)| source.column == *column) {
+                    table.columns.remove(column);
+                }
             }
-            if let Some(gain) = link.actuator.position_loop.filter(|_| self.is_effort_computed) {
-                channels.effort = position_loop::effort(gain, &time, &channels);
-            }
-            channels
-        };
-        robot.links().iter().zip(&self.joints).map(of).collect()
+        }
+        table.columns.remove(&self.time.column);
+        all
+    }
+
+    /// The signals of one joint.
+    fn channels(
+        &self,
+        (link, sources): (&Link, &[(Channel, Source)]),
+        time: &[f64],
+        table: &Table,
+    ) -> Channels {
+        let mut channels = Channels { name: link.joint.name.clone(), ..Channels::default() };
+        for (channel, source) in sources {
+            channels.set(*channel, source.take(&table.columns));
+        }
+        if let Some(gain) = link.actuator.position_loop.filter(|_| self.is_effort_computed) {
+            channels.effort = position_loop::effort(gain, time, &channels);
+        }
+        channels
     }
 
     /// Leaves out the rows with samples that cannot be.
@@ -171,8 +189,8 @@ impl<'a> Plan<'a> {
         let time = self.time.take(&table.columns);
         let mut all = Vec::new();
         let mut mended = Vec::new();
-        let joints = robot.links().iter().map(|link| &link.joint).zip(&self.joints);
-        for ((joint, sources), channels) in joints.zip(self.channels(robot, table)) {
+        for (link, sources) in robot.links().iter().zip(&self.joints) {
+            let (joint, channels) = (&link.joint, self.channels((link, sources), &time, table));
             for (channel, found) in impossible(joint, &time, &channels) {
                 let Some(first) = found.first() else { continue };
                 let (row, count) = (table.row(first.sample), found.len());

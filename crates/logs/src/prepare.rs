@@ -143,12 +143,15 @@ fn about_runs(runs: &[Run], pieces: &[UniformRun], fill: Fill, cutoff_hz: f64) -
     for (index, run) in runs.iter().enumerate() {
         let name = || run.name.clone();
         warnings.extend(run.is_torn.then(|| LogWarning::TornLastRow { run: name() }));
+        // Of all logs alike: once is enough.
         let is_said = |mend: &&Mend| {
-            **mend == Mend::FromPositionLoop
-                && runs[..index].iter().any(|r| r.mended.contains(mend))
+            runs[..index].iter().flat_map(|r| &r.mended).any(|m| m.says_of_all(mend))
         };
         let mended = run.mended.iter().filter(|mend| !is_said(mend)).cloned();
-        warnings.extend(mended.map(|mend| LogWarning::Mended { run: name(), mend }));
+        warnings.extend(mended.map(|mend| match mend {
+            Mend::Stretches { .. } => LogWarning::Thinned { mend },
+            _ => LogWarning::Mended { run: name(), mend },
+        }));
         let unknown = unknown_joints(run).into_iter();
         warnings.extend(unknown.map(|joint| LogWarning::UnknownJoint { run: name(), joint }));
         if let Some(earlier) = duplicate_of(runs, index) {
@@ -159,8 +162,9 @@ fn about_runs(runs: &[Run], pieces: &[UniformRun], fill: Fill, cutoff_hz: f64) -
             let rate_hz = own[0].rate_hz;
             warnings.push(LogWarning::Resampled { run: name(), deviation_s, rate_hz });
         }
-        if own.len() > 1 {
-            let (gaps, shortest_s) = (own.len() - 1, shortest_s(cutoff_hz));
+        let between = run.mended.iter().map(Mend::gaps).sum::<usize>();
+        if own.len() > between + 1 {
+            let (gaps, shortest_s) = (own.len() - 1 - between, shortest_s(cutoff_hz));
             let longest_s = fill.longest_s(&run.time);
             warnings.push(LogWarning::Split { run: name(), gaps, longest_s, shortest_s });
         }

@@ -182,7 +182,7 @@ fn checked(
         time = even;
         mended.push(Mend::EvenClock { step_s, largest_s });
     }
-    let mut joints = plan.channels(robot, &table);
+    let mut joints = plan.take_channels(robot, &mut table);
     let described = robot.links().iter().map(|l| &l.joint);
     for ((joint, sources), channels) in described.zip(&plan.joints).zip(&mut joints) {
         if joint.kind.is_rotation() {
@@ -201,8 +201,6 @@ fn checked(
         }
         mended.push(Mend::FromPositionLoop);
     }
-    let needed = plan.needed();
-    table.columns.retain(|name, _| !needed.contains(name));
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = match options.episode {
         Some(episode) => format!("{stem}_episode_{episode}"),

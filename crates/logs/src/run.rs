@@ -59,8 +59,13 @@ impl Run {
     pub fn without(&self, seconds: &[[f64; 2]]) -> Self {
         let is_left = |t: &f64| !seconds.iter().any(|[from, to]| (*from..=*to).contains(t));
         let left: Vec<bool> = self.time.iter().map(is_left).collect();
+        self.with_rows(&left)
+    }
+
+    /// The run with the samples that are `left`.
+    pub(crate) fn with_rows(&self, left: &[bool]) -> Self {
         let keep = |x: &Vec<f64>| -> Vec<f64> {
-            x.iter().zip(&left).filter(|(_, left)| **left).map(|(x, _)| *x).collect()
+            x.iter().zip(left).filter(|(_, left)| **left).map(|(x, _)| *x).collect()
         };
         let some = |x: &Option<Vec<f64>>| x.as_ref().map(keep);
         let joint = |c: &Channels| Channels {
@@ -76,10 +81,14 @@ impl Run {
             link_position: some(&c.link_position),
         };
         Self {
+            name: self.name.clone(),
+            source: self.source.clone(),
+            sha256: self.sha256.clone(),
+            is_torn: self.is_torn,
+            mended: self.mended.clone(),
             time: keep(&self.time),
             joints: self.joints.iter().map(joint).collect(),
             extra: self.extra.iter().map(|(name, x)| (name.clone(), keep(x))).collect(),
-            ..self.clone()
         }
     }
 }

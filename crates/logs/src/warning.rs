@@ -26,6 +26,12 @@ pub enum LogWarning {
         /// What.
         mend: Mend,
     },
+    /// Some of all logs takes part.
+    #[error("{mend}")]
+    Thinned {
+        /// How much.
+        mend: Mend,
+    },
     /// Two runs have the same samples.
     #[error(
         "run {run} has the same positions and efforts as run {of}: held-out results would be too good"

@@ -7,7 +7,7 @@ use robot::Loaded;
 
 use super::diagnose;
 use crate::Outcome;
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
@@ -37,6 +37,8 @@ pub struct Arguments {
     #[command(flatten)]
     columns: ColumnArguments,
     #[command(flatten)]
+    length: LengthArguments,
+    #[command(flatten)]
     search: SearchArguments,
     /// Print nothing but errors
     #[arg(long)]
@@ -56,7 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         return Err(ReportError::NotAFolder { path: out.clone() }.into());
     }
     let loaded = arguments.part.load(&arguments.robot)?;
-    let read = |paths| arguments.columns.read_runs(paths, &loaded.robot);
+    let read = |paths| arguments.columns.read_runs(paths, &loaded.robot, arguments.length);
     let runs = [read(&arguments.before)?, read(&arguments.after)?];
     if !arguments.quiet {
         doubts(&loaded, runs.iter().flatten()).iter().for_each(|doubt| warn(doubt));

@@ -15,7 +15,7 @@ pub use self::diagnosis_file::DiagnosisFile;
 pub use self::error::DesignError;
 pub use self::searched::{Searched, Wanted};
 use crate::Outcome;
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::error::CliError;
 use crate::input::{PartArguments, positive};
 use crate::output::print;
@@ -37,6 +37,8 @@ pub struct Arguments {
     logs: Vec<PathBuf>,
     #[command(flatten)]
     columns: ColumnArguments,
+    #[command(flatten)]
+    length: LengthArguments,
     /// A cause to tell from that of --from, such as FR01@elbow or payload@hand, instead of what
     /// the diagnosis left open; also before there is a diagnosis
     #[arg(long, value_name = "EFFECT@PLACE", requires = "from")]
@@ -98,7 +100,7 @@ fn diagnosed(
 ) -> Result<Vec<Run>, CliError> {
     let named = diagnosis.logs();
     let paths = if arguments.logs.is_empty() { &named } else { &arguments.logs };
-    let runs = arguments.columns.read_runs(paths, &loaded.robot)?;
+    let runs = arguments.columns.read_runs(paths, &loaded.robot, arguments.length)?;
     match runs.iter().find(|run| !diagnosis.knows(&run.sha256)) {
         Some(other) => Err(DesignError::OtherLog { path: other.source.clone() }.into()),
         None => Ok(runs),

@@ -13,11 +13,11 @@ use robot::{Loaded, Robot};
 use residual::Learned;
 
 use crate::Outcome;
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{keep_inputs, print, shown, warn};
+use crate::output::{keep_inputs, print, shown, tell, warn};
 use crate::progress::{Bar, Line};
 
 /// Columns of a comment in `extended.toml`.
@@ -45,6 +45,8 @@ pub struct Arguments {
     out: PathBuf,
     #[command(flatten)]
     columns: ColumnArguments,
+    #[command(flatten)]
+    length: LengthArguments,
     #[command(flatten)]
     search: SearchArguments,
     /// Learn a model of what the findings leave as well, and keep it where it predicts data that
@@ -87,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
     let loaded = arguments.part.load(&arguments.robot)?;
-    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
+    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot, arguments.length)?;
     if !arguments.quiet {
         doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
     }
@@ -335,7 +337,7 @@ fn say(
     }
     match (arguments.quiet, arguments.json) {
         (true, _) => {}
-        (false, true) => anstream::eprint!("{closing}"),
+        (false, true) => tell(&closing.trim_end()),
         (false, false) => print(&format!("{}\n{closing}", report::text(report)))?,
     }
     Ok(())

@@ -14,7 +14,7 @@ use learner::{ModelKind, PriorSpread, TrainSettings};
 use report::ReportError;
 
 use crate::Outcome;
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::error::CliError;
 use crate::input::{PartArguments, positive};
 use crate::progress::Line;
@@ -79,6 +79,8 @@ pub struct Arguments {
     cutoff_hz: Option<f64>,
     #[command(flatten)]
     names: ColumnArguments,
+    #[command(flatten)]
+    length: LengthArguments,
     /// Time one prediction against the number of points instead of learning
     #[arg(long, conflicts_with_all = ["train", "test", "regression", "named"])]
     benchmark: bool,

@@ -6,7 +6,7 @@ use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::Outcome;
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::read_as_they_are;
 use crate::error::CliError;
 use crate::input::{PartArguments, hashes_of, positive, provenance};
@@ -31,13 +31,15 @@ pub struct Arguments {
     window_ms: Vec<f64>,
     #[command(flatten)]
     columns: ColumnArguments,
+    #[command(flatten)]
+    length: LengthArguments,
 }
 
 /// Rolls the simulation forward under recorded torque, lets it follow the recorded motion, and
 /// says how far both are from the record.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
-    let given = arguments.columns.read_runs(&arguments.logs, &loaded.robot)?;
+    let given = arguments.columns.read_runs(&arguments.logs, &loaded.robot, arguments.length)?;
     let read = read_as_they_are(&loaded, &given);
     let prepared = logs::prepare(read.as_ref().unwrap_or(&given), &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
@@ -147,7 +149,9 @@ const NO_GAINS: &str =
 /// What was done to the clocks of the logs.
 fn of_rows(prepared: &Prepared) -> impl Iterator<Item = &LogWarning> {
     use LogWarning as W;
-    let of_rows = |w: &&W| matches!(w, W::Mended { .. } | W::Resampled { .. } | W::Split { .. });
+    let of_rows = |w: &&W| {
+        matches!(w, W::Mended { .. } | W::Thinned { .. } | W::Resampled { .. } | W::Split { .. })
+    };
     prepared.warnings.iter().filter(of_rows)
 }
 

@@ -13,7 +13,7 @@ use report::{Provenance, RunReport};
 use crate::Outcome;
 use crate::error::CliError;
 use crate::input::{hash, provenance};
-use crate::output::{create_folder, print, shown};
+use crate::output::{create_folder, print, shown, tell};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -52,7 +52,7 @@ impl Output {
     /// Words on the standard error, unless nothing is to be printed.
     pub fn leave(&self, words: &str) {
         if !self.quiet {
-            anstream::eprintln!("{words}");
+            tell(&words);
         }
     }
 
@@ -63,7 +63,7 @@ impl Output {
         }
         match (self.quiet, self.json) {
             (true, _) => {}
-            (false, true) => anstream::eprint!("{closing}"),
+            (false, true) => tell(&closing.trim_end()),
             (false, false) => print(&format!("{text}\n{closing}"))?,
         }
         Ok(())

@@ -8,7 +8,7 @@ use report::{ReportError, TrackingComparison};
 
 use crate::Outcome;
 use crate::error::CliError;
-use crate::output::{print, shown};
+use crate::output::{print, shown, tell};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -119,7 +119,7 @@ fn say(arguments: &Arguments, comparison: &TrackingComparison) -> Result<(), Cli
     }
     match (arguments.quiet, arguments.json) {
         (true, _) => {}
-        (false, true) => anstream::eprint!("{closing}"),
+        (false, true) => tell(&closing.trim_end()),
         (false, false) => print(&format!("{}\n{closing}", comparison.text()))?,
     }
     Ok(())

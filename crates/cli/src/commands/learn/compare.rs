@@ -15,7 +15,7 @@ use super::timing::median_query_us;
 use crate::Outcome;
 use crate::error::CliError;
 use crate::input::provenance;
-use crate::output::{create_folder, print, shown};
+use crate::output::{create_folder, print, shown, tell};
 use crate::watch::Watch;
 
 /// A file of the output folder, and what it holds.
@@ -194,7 +194,7 @@ fn say(arguments: &Arguments, out: &Path, comparison: &Comparison) -> Result<(),
     }
     match (arguments.quiet, arguments.json) {
         (true, _) => {}
-        (false, true) => anstream::eprint!("{closing}"),
+        (false, true) => tell(&closing.trim_end()),
         (false, false) => print(&format!("{}\n{closing}", comparison.text()))?,
     }
     Ok(())

@@ -48,7 +48,7 @@ impl Data {
     /// Reads the logs, and refuses one that a model would be trained and tested on.
     pub fn read(arguments: &Arguments, loaded: &Loaded) -> Result<Self, CliError> {
         let read = |role: &str, paths: &[PathBuf]| -> Result<Vec<Run>, CliError> {
-            let mut runs = arguments.names.read_runs(paths, &loaded.robot)?;
+            let mut runs = arguments.names.read_runs(paths, &loaded.robot, arguments.length)?;
             runs.iter_mut().for_each(|run| run.name = format!("{} ({role})", run.name));
             Ok(runs)
         };

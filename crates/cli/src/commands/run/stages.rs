@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 
 use evaluation::{
     Diagnosed, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product, Score, Sealed,
-    Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap, record_diagnosis,
-    torque_errors, track_all, tracking_claims,
+    Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap, torque_errors,
+    track_all, tracking_claims,
 };
 use logs::{PrepareSettings, Run};
 use recording::Live;
@@ -13,7 +13,7 @@ use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 
 use super::bench::{self, Bench, DiagnosedRuns, diagnosis_files};
-use crate::commands::track;
+use crate::commands::{diagnose, track};
 use crate::error::CliError;
 use crate::output::create_folder;
 use crate::watch::Watch;
@@ -111,7 +111,7 @@ impl Stages<'_> {
                 self.bench().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
             let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             if recording::IS_BUILT {
-                record_diagnosis(&self.out.join(RECORDING), &diagnosed, self.watch)?;
+                diagnose::recorded(self.out, &diagnosed, self.watch).map_err(|error| *error)?;
             }
             let sealed = Sealed::open(&self.out.join(LOGS))?;
             let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
