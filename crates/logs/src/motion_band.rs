@@ -100,9 +100,12 @@ impl Accelerations {
     }
 }
 
+/// Most bins: what is faster counts in the last one. A log whose time hardly goes on has any rate.
+const MOST_BINS: usize = 1 << 22;
+
 /// The bin of [`BIN_HZ`] that a frequency lies in.
 fn bin(bins: &mut Vec<f64>, hz: f64) -> &mut f64 {
-    let bin = (hz / BIN_HZ) as usize;
+    let bin = ((hz / BIN_HZ) as usize).min(MOST_BINS - 1);
     bins.resize(bins.len().max(bin + 1), 0.0);
     &mut bins[bin]
 }
