@@ -6,7 +6,7 @@ use logs::Run;
 use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 
-use crate::columns::ColumnArguments;
+use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::read_as_they_are;
 use crate::error::CliError;
 use crate::input::PartArguments;
@@ -24,6 +24,8 @@ pub struct LossArguments {
     nominal: Option<PathBuf>,
     #[command(flatten)]
     columns: ColumnArguments,
+    #[command(flatten)]
+    length: LengthArguments,
 }
 
 /// What the torque errors of descriptions of a robot on held-out logs are.
@@ -63,7 +65,7 @@ impl LossArguments {
             return Ok(None);
         }
         let (nominal, name) = self.nominal((path, loaded), part)?;
-        let runs = self.columns.read_runs(&self.logs, &loaded.robot)?;
+        let runs = self.columns.read_runs(&self.logs, &loaded.robot, self.length)?;
         let runs = read_as_they_are(loaded, &runs).unwrap_or(runs);
         let error = |model, described_by, robot: &Robot| {
             ModelError::of(model, described_by, robot, (loaded.control.rate_hz, &runs))

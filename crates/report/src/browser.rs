@@ -107,7 +107,8 @@ fn chromium() -> Option<PathBuf> {
 /// Every kind of page.
 fn pages() -> Vec<(&'static str, String)> {
     let arm = sample::arm();
-    let export = exchange::Export { text: "<robot name=\"arm\"/>".repeat(30), fates: Vec::new() };
+    let text = "<robot name=\"arm\"/>".repeat(30);
+    let export = exchange::Export { text, fates: Vec::new(), robot: arm.robot.clone() };
     let descriptions = [(exchange::Format::Urdf, export)];
     let report = crate::Report { descriptions: &descriptions, ..arm.report() };
     vec![

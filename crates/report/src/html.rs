@@ -331,7 +331,8 @@ mod tests {
     fn the_extended_robot_can_be_copied_with_what_its_format_leaves_out() {
         let sample = sample::arm();
         assert!(!super::html(&sample.report()).unwrap().contains("with what was found"));
-        let export = exchange::Export { text: "<robot name=\"arm\"/>".into(), fates: Vec::new() };
+        let text = "<robot name=\"arm\"/>".to_owned();
+        let export = exchange::Export { text, fates: Vec::new(), robot: sample.robot.clone() };
         let descriptions = [(exchange::Format::Urdf, export)];
         let report = crate::Report { descriptions: &descriptions, ..sample.report() };
         let page = super::html(&report).unwrap();
