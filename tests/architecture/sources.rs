@@ -41,7 +41,12 @@ fn without_tests(text: &str) -> Vec<(usize, &str)> {
 fn test_modules(text: &str) -> Vec<&str> {
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let pairs = lines.windows(2).filter(|pair| pair[0] == TEST_ONLY);
-    pairs.filter_map(|pair| pair[1].strip_prefix("mod ")?.strip_suffix(';')).collect()
+    pairs.filter_map(|pair| module(pair[1])).collect()
+}
+
+/// The name of a module in a file of its own.
+fn module(line: &str) -> Option<&str> {
+    line.strip_prefix("pub(crate) ").unwrap_or(line).strip_prefix("mod ")?.strip_suffix(';')
 }
 
 fn is_comment(line: &str) -> bool {
@@ -159,4 +164,5 @@ fn what_stops_the_program_is_reported_outside_tests_only() {
 #[test]
 fn a_test_module_in_a_file_of_its_own_is_found() {
     assert_eq!(test_modules("mod a;\n#[cfg(test)]\nmod sample;\nmod b;"), ["sample"]);
+    assert_eq!(test_modules("#[cfg(test)]\npub(crate) mod sample;\npub(crate) mod b;"), ["sample"]);
 }

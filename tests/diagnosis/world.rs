@@ -91,7 +91,8 @@ fn predicted(robot: &Robot, noise: &Noise, seed: u64) -> Run {
     let torque = |joint: usize, [q, qd, _]: State| {
         let a = &robot.links()[joint].actuator;
         let level = if qd > 0.0 { a.coulomb_forward } else { a.coulomb_backward };
-        a.viscous * qd + level * sign(qd) + a.spring_stiffness * (q - a.spring_rest)
+        let balance = a.counterbalance.map_or(0.0, |c| c.amplitude * (q + c.phase).sin());
+        a.viscous * qd + level * sign(qd) + a.spring_stiffness * (q - a.spring_rest) + balance
     };
     let reading = |joint: usize, effort: f64| {
         let a = &robot.links()[joint].actuator;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The hues of nominal, extended, desired and error are those of vermillion, blue, reddish purple
-//! and bluish green of Okabe & Ito, *Color Universal Design* (2008), made for eyes without one of the
+//! and bluish green of Okabe & Ito (2008), made for eyes without one of the
 //! three cones; vermillion and green are darker on white, so that numbers in them can be read there.
 //! The tests of this crate measure how far apart all of them are for each kind of eye, with the
 //! matrices of Machado et al. (2009).
