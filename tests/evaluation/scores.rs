@@ -260,13 +260,13 @@ fn a_tally_is_the_same_in_any_order_and_can_be_read_by_people_and_programs() {
     scores.reverse();
     assert_eq!(Tally::of(&scores), tally);
     let expected = "\
-named first, a column a code; `nothing` where nothing was
-put in      DR FR FR TR nothing
+named first, a column a code; `none` where nothing was
+put in      DR FR FR TR none
             03 01 02 01
-FR02         1  1  2  .       .
-TR01         .  .  .  .       1
-two effects  .  .  1  .       .
-clean        1  .  .  .       1
+FR02         1  1  2  .    .
+TR01         .  .  .  .    1
+two effects  .  .  1  .    .
+clean        1  .  .  .    1
 ";
     assert!(tally.text().contains(expected), "{}", tally.text());
     let line = " FR02 Coulomb friction       4  50 % 15-85  50 % 15-85  75 % 30-95  75 % 30-95      0 % 0-49  25 % 5-70";

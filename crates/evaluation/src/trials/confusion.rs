@@ -40,7 +40,7 @@ impl Confusion {
         // A code on two lines: the family above the number.
         let two_lines = |code: &&str| match code.split_at_checked(2) {
             Some((family, number)) if *code != NOTHING => format!("{family}\n{number}"),
-            _ => (*code).to_owned(),
+            _ => "none".to_owned(),
         };
         let row = |(put_in, _, counts): &(Group, Option<usize>, Vec<usize>)| {
             let name = match put_in {
@@ -51,7 +51,7 @@ impl Confusion {
                 |count: &usize| if *count == 0 { ".".to_owned() } else { count.to_string() };
             std::iter::once(name).chain(counts.iter().map(count)).collect()
         };
-        let title = "named first, a column a code; `nothing` where nothing was";
+        let title = "named first, a column a code; `none` where nothing was";
         TextTable {
             title: title.to_owned(),
             header: std::iter::once("put in".to_owned())
