@@ -219,9 +219,9 @@ fn the_report_opens_offline_and_holds_the_same_json() {
     let answer = diagnose(folder.path(), &["--robot", "arm.urdf", "--out", "out", "--json"]);
     let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     assert!(!page.contains("http://") && !page.contains("https://"));
-    let policy = "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\"";
+    let policy = "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'sha256-";
     assert!(page.contains(policy));
-    assert_eq!(page.matches("<script").count(), 1, "only the data");
+    assert_eq!(page.matches("<script").count(), 2, "the data, and what zooms, sorts and copies");
     let (_, data) = page.split_once("<script type=\"application/json\" id=\"diagnosis\">").unwrap();
     let embedded: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
     assert_eq!(embedded, serde_json::from_str::<Value>(&answer.out).unwrap());

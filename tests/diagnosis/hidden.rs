@@ -184,7 +184,6 @@ hidden! {
     hidden_transmission_ratio: E::TransmissionRatio, 1, Name::First, SLOW;
     hidden_gravity_direction: E::GravityDirection, 2, Name::First, SLOW;
     hidden_cable_spring: E::CableSpring, 1, Name::First, LONG;
-    hidden_counterbalance: E::Counterbalance, 1, Name::First, LONG;
     hidden_external_disturbance: E::ExternalDisturbance, 1, Name::First, SLOW;
     hidden_encoder_offset: E::EncoderOffset, 1, Name::First, SLOW;
     hidden_time_skew: E::TimeSkew, 1, Name::First, SLOW;

@@ -6,6 +6,7 @@ mod blind;
 mod clean;
 mod compare;
 mod constant;
+mod counterbalance;
 mod extended;
 mod false_alarms;
 mod formats;

@@ -68,15 +68,6 @@ pub fn trials(kind: EffectKind) -> Vec<Trial> {
             // Where the spring is slack is a constant torque, and so is an offset.
             beside: Some("DR03 torque offset at j4_elbow_pitch"),
         }],
-        EffectKind::Counterbalance => vec![Trial {
-            kind,
-            place: "j4_elbow_pitch",
-            world: |w| w.torque(J4, |[q, ..]| 2.0 * (q + 0.5).sin()),
-            sizes: &[("amplitude", 2.0), ("phase", 0.5)],
-            joints: &[J4],
-            name: Name::Exact,
-            beside: None,
-        }],
         EffectKind::GravityDirection => vec![Trial {
             kind,
             place: "",

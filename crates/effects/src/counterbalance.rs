@@ -1,11 +1,10 @@
 use catalogue::EffectKind;
-use nalgebra::{Complex, Isometry3};
+use nalgebra::Complex;
 use robot::{Actuator, Counterbalance as Described, Robot};
 
-use crate::explain::{actuator_quantity, unbounded};
+use crate::explain::{actuator_quantity, joints_where, unbounded};
 use crate::{
-    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Relation, Scale, Seat,
-    Weights,
+    Column, Explain, Frame, Law, Linearity, Motion, Nature, Place, Quantity, Scale, Seat, Weights,
 };
 
 /// `amplitude sin(q + phase)`: two weights a joint that turns, the changes of the sine and of the cosine
@@ -16,34 +15,9 @@ use crate::{
 /// ```
 pub(crate) struct Counterbalance;
 
-/// Log odds (nats) against a counterbalance that no description names, those of motors that are shared and
-/// described nowhere: of what it has to add to a spring, an offset and the weight of the link.
-const RARE: f64 = 100.0;
-
-/// Least sine between gravity and the axis of a joint that lifts.
-const TILTED: f64 = 1e-3;
-
 /// Amplitude and phase of a drive in one number (N·m).
 fn balance(drive: &Actuator) -> Complex<f64> {
     drive.counterbalance.map_or(Complex::ZERO, |c| Complex::from_polar(c.amplitude, c.phase))
-}
-
-/// Whether each joint carries weight somewhere: its axis is upright in no pose, or in some only.
-fn lifts(robot: &Robot) -> Vec<bool> {
-    let gravity = robot.gravity_in_base();
-    let (mut lifts, mut turns_over): (Vec<bool>, Vec<bool>) = (Vec::new(), Vec::new());
-    let mut poses: Vec<Isometry3<f64>> = Vec::new();
-    for link in robot.links() {
-        let parent = link.parent.map_or_else(Isometry3::identity, |p| poses[p]);
-        let pose = parent * link.joint.parent_from_child(0.0);
-        let axis = pose * link.joint.axis_in_joint.into_inner();
-        let turned = link.parent.is_some_and(|p| turns_over[p]);
-        let tilted = axis.cross(&gravity).norm() > TILTED * gravity.norm();
-        lifts.push(gravity.norm() > 0.0 && (turned || tilted));
-        turns_over.push(turned || tilted && link.joint.kind.is_rotation());
-        poses.push(pose);
-    }
-    lifts
 }
 
 impl Explain for Counterbalance {
@@ -51,22 +25,14 @@ impl Explain for Counterbalance {
         EffectKind::Counterbalance
     }
 
-    /// Over a short way the sine is a spring and an offset, and at the first joint that lifts the weight of its
-    /// link.
     fn nature(&self) -> Nature {
-        const RELATIONS: &[Relation] = &[Relation::PlainerOfJointAndLink {
-            joint: &[EffectKind::CableSpring, EffectKind::TorqueOffset],
-            link: &[EffectKind::InertialParameters],
-        }];
-        Nature::new(Linearity::Exact, Law::Firm, Seat::Elsewhere, Weights::Direct, RELATIONS)
+        Nature::new(Linearity::Exact, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
     }
 
-    /// Every joint that turns and lifts.
+    /// Joints that the robot says have one: of one that nobody told of, a log shows a spring, an offset and the
+    /// weight of a link, and taking two more columns of every joint for granted costs those their names.
     fn places(&self, robot: &Robot) -> Vec<Place> {
-        let lifts = lifts(robot);
-        let links = robot.links().iter().zip(lifts).enumerate();
-        let here = links.filter(|(_, (l, lifts))| *lifts && l.joint.kind.is_rotation());
-        here.map(|(j, _)| Place::Joint(j)).collect()
+        joints_where(robot, |drive| drive.counterbalance.is_some())
     }
 
     fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
@@ -82,13 +48,6 @@ impl Explain for Counterbalance {
     fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
         let Place::Joint(j) = place else { return Vec::new() };
         vec![scale.effort[j]; 2]
-    }
-
-    /// None against one that the robot is described with, whose strength may be another.
-    fn rarity(&self, place: Place, robot: &Robot) -> f64 {
-        let Place::Joint(j) = place else { return 0.0 };
-        let described = robot.links()[j].actuator.counterbalance.is_some();
-        if described { 0.0 } else { RARE }
     }
 
     fn bounds(&self, _: Place, _: &Robot) -> Vec<(f64, f64)> {
@@ -110,40 +69,5 @@ impl Explain for Counterbalance {
             actuator_quantity(self.kind(), 0, j, robots, |a| balance(a).norm()),
             actuator_quantity(self.kind(), 1, j, robots, |a| balance(a).arg()),
         ]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A yaw, a pitch and a roll under gravity along z, and the same arm on a wall.
-    #[test]
-    fn an_upright_axis_lifts_nothing_until_an_axis_before_it_is_tilted() {
-        let link = |name: &str| {
-            format!(
-                r#"<link name="{name}"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0"
-                iyy="1" iyz="0" izz="1"/></inertial></link>"#
-            )
-        };
-        let joint = |name: &str, parent: &str, axis: &str| {
-            format!(
-                r#"<joint name="j_{name}" type="continuous"><parent link="{parent}"/>
-                <child link="{name}"/><axis xyz="{axis}"/></joint>"#
-            )
-        };
-        let urdf = format!(
-            r#"<robot name="arm"><link name="base"/>{}{}{}{}{}{}</robot>"#,
-            link("yaw"),
-            link("pitch"),
-            link("roll"),
-            joint("yaw", "base", "0 0 1"),
-            joint("pitch", "yaw", "0 1 0"),
-            joint("roll", "pitch", "0 0 1"),
-        );
-        let robot = Robot::from_urdf(&urdf).unwrap();
-        assert_eq!(lifts(&robot), [false, true, true]);
-        let on_a_wall = robot.with_gravity(nalgebra::Vector3::new(9.81, 0.0, 0.0));
-        assert_eq!(lifts(&on_a_wall), [true; 3]);
     }
 }

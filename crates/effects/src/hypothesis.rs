@@ -165,12 +165,6 @@ impl Hypothesis {
             Relation::PlainerAtTheJoint(kind) => {
                 self.link().map(|j| at(kind, Place::Joint(j))).into_iter().collect()
             }
-            Relation::PlainerOfJointAndLink { joint, link } => {
-                let carried = self.joint().map(Place::Link);
-                let here = joint.iter().map(|kind| at(kind, self.place));
-                let there = link.iter().filter_map(|kind| Some(at(kind, carried?)));
-                here.chain(there).collect()
-            }
             Relation::PlainerAtEveryJoint(kinds) => {
                 let all = |&j: &usize| kinds.iter().map(move |kind| at(kind, Place::Joint(j)));
                 joints.iter().flat_map(all).collect()

@@ -67,13 +67,6 @@ pub enum Relation {
     PlainerHere(EffectKind),
     /// The same of that effect at the joint that carries the link.
     PlainerAtTheJoint(EffectKind),
-    /// The same of these of the joint and of the link that it carries: what it explains is what it adds to them.
-    PlainerOfJointAndLink {
-        /// Of the joint.
-        joint: &'static [EffectKind],
-        /// Of the link.
-        link: &'static [EffectKind],
-    },
     /// The same of these at every joint that it reaches: what it explains is what it adds to them.
     PlainerAtEveryJoint(&'static [EffectKind]),
 }
@@ -107,12 +100,9 @@ impl Nature {
         Self { linearity, law, seat, weights, relations }
     }
 
-    /// Whether what it explains is what it adds to its plainer rivals together.
+    /// Whether what it explains is what it adds to its plainer rivals at every joint.
     pub fn adds_to_the_plain(self) -> bool {
-        let adds = |r: &Relation| {
-            matches!(r, Relation::PlainerAtEveryJoint(_) | Relation::PlainerOfJointAndLink { .. })
-        };
-        self.relations.iter().any(adds)
+        self.relations.iter().any(|r| matches!(r, Relation::PlainerAtEveryJoint(_)))
     }
 
     /// Effects that together are this one.

@@ -33,13 +33,17 @@ pub(crate) struct HiddenThings {
 
 /// Kinds that are hidden in an arm: all of the catalogue but everyday friction, which is everywhere, rotors,
 /// which a nominal model may not know anyway, drives that reach their limit, with which a controller loses
-/// the arm, and the friction of a differential in an arm that has none.
+/// the arm, and the friction of a differential and a counterbalance in an arm that has none.
 fn kinds(class: ArmClass) -> Vec<EffectKind> {
     use EffectKind as K;
     let left_out = |kind: &EffectKind| {
         matches!(
             kind,
-            K::ViscousFriction | K::CoulombFriction | K::RotorInertia | K::TorqueSaturation
+            K::ViscousFriction
+                | K::CoulombFriction
+                | K::RotorInertia
+                | K::TorqueSaturation
+                | K::Counterbalance
         ) || (*kind == K::DifferentialCoupling && class != ArmClass::Wam)
     };
     EffectKind::ALL.into_iter().filter(|kind| !left_out(kind)).collect()
