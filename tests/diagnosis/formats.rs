@@ -166,9 +166,10 @@ fn mat(path: &Path, run: &Run) {
 /// The messages `sensor_msgs/msg/JointState` of a run as CDR, each with the time of its stamp (ns).
 fn messages(run: &Run) -> Vec<(i64, Vec<u8>)> {
     let names: Vec<&str> = run.joints.iter().map(|joint| joint.name.as_str()).collect();
-    let channels = rows(run, position).zip(rows(run, velocity)).zip(rows(run, effort));
+    let (q, qd, tau) = (rows(run, position), rows(run, velocity), rows(run, effort));
+    let channels = q.zip(qd).zip(tau).map(|((q, qd), tau)| [q, qd, tau]);
     let stamps = run.time.iter().map(|t| START_NS + (1e9 * t).round() as i64);
-    let message = |(stamp, ((q, qd), tau)): (i64, ((Vec<f64>, Vec<f64>), Vec<f64>))| {
+    let message = |(stamp, channels): (i64, [Vec<f64>; 3])| {
         let mut body = Vec::new();
         let (seconds, nanoseconds) = (stamp / 1_000_000_000, stamp % 1_000_000_000);
         body.extend(i32::try_from(seconds).unwrap().to_le_bytes());
@@ -176,7 +177,7 @@ fn messages(run: &Run) -> Vec<(i64, Vec<u8>)> {
         text(&mut body, "base");
         count(&mut body, names.len());
         names.iter().for_each(|name| text(&mut body, name));
-        for values in [q, qd, tau] {
+        for values in channels {
             count(&mut body, values.len());
             body.resize(body.len().next_multiple_of(8), 0);
             values.iter().for_each(|x| body.extend(x.to_le_bytes()));

@@ -65,8 +65,11 @@ mod tests {
     use crate::Rgb;
     use crate::sight::{contrast, least_difference};
 
+    /// A ground, and which of a colour's two values stands on it.
+    type Ground = (Rgb, fn(Colour) -> Rgb);
+
     /// White and the ground of a dark page.
-    const GROUNDS: [(Rgb, fn(Colour) -> Rgb); 2] = [
+    const GROUNDS: [Ground; 2] = [
         (Rgb([0xff; 3]), |colour| colour.on_white),
         (Rgb([0x0f, 0x13, 0x18]), |colour| colour.on_dark),
     ];
