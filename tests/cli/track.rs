@@ -361,7 +361,10 @@ fn a_run_that_is_killed_leaves_a_log_and_a_recording_that_read_back() {
         assert!(contents.layouts > 0 && !contents.is_whole);
         let [start_s, end_s] = contents.time_s().unwrap();
         let last_s = *log.time.last().unwrap();
-        assert!(start_s.abs() < 1e-9 && end_s < last_s + 2.0, "{last_s} s, {end_s} s recorded");
+        assert!(
+            start_s.abs() < 1e-9 && end_s < last_s + 2.0,
+            "{last_s} s, {start_s} to {end_s} s recorded"
+        );
     }
 }
 

@@ -28,4 +28,5 @@ mod shared_motors;
 mod together;
 mod transplants;
 mod trials;
+mod warming;
 mod world;

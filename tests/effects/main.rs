@@ -11,7 +11,7 @@ use effects::{
     Column, Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Scale,
     hypotheses, model,
 };
-use robot::{Coupling, Robot, Stribeck, TorqueSource, Wave};
+use robot::{Coupling, Robot, Stribeck, TorqueSource, Warming, Wave};
 
 const SAMPLES: usize = 40;
 
@@ -60,6 +60,8 @@ fn shaped(size: f64) -> Robot {
         let a = &mut robot.link_mut(j).unwrap().actuator;
         a.stribeck = Some(Stribeck { excess: 0.3 * size, velocity: 0.2 });
         a.friction_wave = Some(Wave { share: 0.4 * size, periods: 5.0, phase: 0.3 });
+        let [viscous_lost, coulomb_lost] = [0.2 * size, 0.1 * size];
+        a.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: 3.0 });
         let [level, viscous] = [[0.2, 0.1], [0.05, 0.1]].map(|of| of.map(|v| size * v));
         a.coupling = Some(Coupling { other: (j + 1) % 7, ratio: 0.8, level, viscous });
     }
@@ -97,6 +99,7 @@ fn scale(robot: &Robot) -> Scale {
         speed: same(1.0),
         acceleration: same(3.0),
         range: same(2.0),
+        session_s: 1000.0,
         link_mass: 2.0,
         link_length: 0.2,
     }
@@ -126,7 +129,7 @@ fn seen(robot: &Robot) -> Motion {
         Some([q.iter().map(|q| 0.97 * q + 0.01).collect(), scaled(qd), scaled(qdd)])
     };
     let links = (0..robot.joint_count()).map(link).collect();
-    Motion::seen(robot, &frame(robot), Encoders { reported, links }, 0.05)
+    Motion::seen(robot, &frame(robot), Encoders { reported, links, since_cold_s: 0.0 }, 0.05)
 }
 
 /// The WAM of [`worn`] with transmissions that give.

@@ -71,6 +71,12 @@ pub fn run(seed: f64, samples: usize, share: f64) -> Prepared {
             joint.effort.push(rigid[k] + share * rest[k] + noise);
         }
     }
-    let run = PreparedRun { name: format!("run {seed}"), rate_hz: 50.0, time, joints };
+    let run = PreparedRun {
+        name: format!("run {seed}"),
+        rate_hz: 50.0,
+        time,
+        session_start_s: 0.0,
+        joints,
+    };
     Prepared::exact(vec![run], 10.0)
 }

@@ -82,3 +82,13 @@ fn a_bag_that_is_cut_off_is_read_up_to_there() {
     }
     println!("{shorter} of the pieces hold some messages and not all");
 }
+
+/// A footer that is longer than its file, of which the decoder says two sentences.
+#[test]
+fn what_a_decoder_says_of_a_broken_file_is_one_sentence() {
+    let footer = 0x00ff_ffff_u32.to_le_bytes();
+    let bytes = [b"PAR1".as_slice(), &[0; 8], &footer, b"PAR1"].concat();
+    let message = Scratch::new("run.parquet", bytes).message(&two_joints());
+    assert!(message.contains("not a whole Parquet file"), "{message}");
+    assert!(!message.contains(". ") && !message.contains('\n'), "{message}");
+}

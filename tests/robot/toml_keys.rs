@@ -1,4 +1,4 @@
-use robot::{Gain, Loaded, Ripple, SensingSide, Stribeck, TorqueSource, Wave};
+use robot::{Gain, Loaded, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave};
 
 use super::{arm_with, load};
 
@@ -79,6 +79,18 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
 }
 
 #[test]
+fn what_friction_loses_as_a_drive_warms_arrives() {
+    let loaded = with(
+        "[joint.elbow]\ncoulomb_forward_nm = 1\ncoulomb_backward_nm = 2\n\
+         friction_warming = { coulomb_lost_nm = 0.5, time_constant_s = 900 }",
+    )
+    .unwrap();
+    let [upper, lower] = loaded.robot.links() else { panic!() };
+    let warming = Warming { viscous_lost: 0.0, coulomb_lost: 0.5, time_constant_s: 900.0 };
+    assert_eq!((upper.actuator.warming, lower.actuator.warming), (None, Some(warming)));
+}
+
+#[test]
 fn unknown_names_are_refused_with_the_nearest() {
     assert_eq!(
         refused("[joint.shouldr]\ntorque_gain = 1"),
@@ -114,7 +126,7 @@ fn unknown_keys_and_wrong_types_are_refused_with_their_place() {
          `stribeck_excess_nm`, `stribeck_velocity_rad_per_s`, `load_friction`, `presliding_rad`, \
          `presliding_damping_nm_s_per_rad`, `actuator_lag_ms`, `encoder_offset_rad`, `transmission_ratio`, `effort_skew_ms`, \
          `torque_limit_nm`, `sensing`, `torque_source`, `kp_nm_per_rad`, `kd_nm_s_per_rad`, `friction_wave`, \
-         `torque_ripple`, `counterbalance`, `coupling`"
+         `friction_warming`, `torque_ripple`, `counterbalance`, `coupling`"
     );
     assert_eq!(
         refused("[joint.elbow]\ntorque_gain = \"one\""),
@@ -240,6 +252,14 @@ fn keys_that_disagree_are_refused() {
         refused("[joint.elbow]\ncoulomb_nm = 1\ncoulomb_forward_nm = 2"),
         "robot.toml: joint elbow: coulomb_nm beside coulomb_forward_nm or coulomb_backward_nm, \
          either one value for both directions or one per direction was expected"
+    );
+    assert_eq!(
+        refused(
+            "[joint.elbow]\ncoulomb_nm = 0.4\n\
+             friction_warming = { coulomb_lost_nm = 0.5, time_constant_s = 900 }"
+        ),
+        "robot.toml: joint elbow: friction_warming loses more friction than the cold drive has, \
+         viscous_nm_s_per_rad and coulomb_nm at least as large was expected"
     );
     assert_eq!(
         refused("[joint.elbow]\nkp_nm_per_rad = 1"),

@@ -1,7 +1,7 @@
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use robot::{
-    Inertia, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck, TorqueSource, Wave,
+    Inertia, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck, TorqueSource, Warming, Wave,
 };
 
 use super::{in_workspace, wam};
@@ -108,6 +108,12 @@ proptest! {
         a.presliding = dry.map(|(.., way)| way);
         a.presliding_damping = dry.map(|(_, velocity, ..)| velocity);
         a.friction_wave = waves.map(|(share, periods, phase, _)| Wave { share, periods, phase });
+        let share = |of: f64| waves.map_or(0.0, |(share, ..)| share * of.max(0.0));
+        a.warming = waves.map(|(_, periods, ..)| Warming {
+            viscous_lost: share(a.viscous),
+            coulomb_lost: share(a.coulomb_forward.min(a.coulomb_backward)),
+            time_constant_s: 1.0 + periods,
+        });
         a.ripple = waves.map(|(_, periods, phase, amplitude)| Ripple { amplitude, periods, phase });
         a.lag_s = 1e-3 * sensor.0;
         a.effort_skew_s = -2e-3 * sensor.0;

@@ -1,6 +1,6 @@
 //! What the robot's description says acts as the effect of the same name that is put in.
 
-use robot::{Actuator, Reading, Ripple, Robot, Stribeck, Wave};
+use robot::{Actuator, Reading, Ripple, Robot, Stribeck, Warming, Wave};
 
 use crate::rig::{FINE, Row, STEPPING, flywheel, run, simulator};
 
@@ -121,6 +121,29 @@ fn what_a_drive_says_moves_the_wheel_as_the_effect_put_in_does() {
         let apart = (0..injected.len()).map(apart).fold(0.0, f64::max);
         assert!(apart > 1e-3, "{effects} moves the wheel by {apart} rad only");
     }
+}
+
+/// A wheel that is described to lose what an effect has its friction lose, within two seconds.
+#[test]
+fn friction_that_is_described_to_fall_moves_the_wheel_as_the_effect_put_in_does() {
+    let rough = |a: &mut Actuator| {
+        (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.5);
+        a.viscous = 0.4;
+    };
+    let effect = "friction_temperature_drift = { share = 0.6, time_constant_s = 0.5 }";
+    let injected = rows(&wheel(rough), &format!("[[effect]]\n{effect}"));
+    let described = wheel(|a| {
+        rough(a);
+        let [viscous_lost, coulomb_lost] = [0.6 * 0.4, 0.6 * 0.5];
+        a.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: 0.5 });
+    });
+    let apart = |robot: &Robot| {
+        let rows = rows(robot, "effect = []");
+        let pairs = rows.iter().zip(&injected);
+        pairs.map(|(a, b)| (a.q_true[0] - b.q_true[0]).abs()).fold(0.0, f64::max)
+    };
+    assert!(apart(&described) < 1e-9, "{} rad apart", apart(&described));
+    assert!(apart(&wheel(rough)) > 1e-3, "it moves the wheel by {} rad only", apart(&wheel(rough)));
 }
 
 /// What the plant has of a cable and what acts beside it are one cable.

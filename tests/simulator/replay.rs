@@ -21,7 +21,7 @@ fn record(effort: &str, more: &str) -> PreparedRun {
         PreparedJoint::exact(state, c.effort)
     };
     let joints = run.joints.into_iter().map(joint).collect();
-    PreparedRun { name: run.name, rate_hz: 500.0, time: run.time, joints }
+    PreparedRun { name: run.name, rate_hz: 500.0, time: run.time, session_start_s: 0.0, joints }
 }
 
 /// The WAM whose efforts come from there.

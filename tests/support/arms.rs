@@ -151,6 +151,9 @@ pub fn kinetic_energy(robot: &Robot, q: &[f64], qd: &[f64]) -> f64 {
 pub fn put_in_everything(drive: &mut Actuator) {
     drive.stribeck = Some(robot::Stribeck { excess: 0.2, velocity: 0.05 });
     drive.friction_wave = Some(robot::Wave { share: 0.3, periods: 5.0, phase: 0.7 });
+    drive.viscous = 0.3;
+    drive.warming =
+        Some(robot::Warming { viscous_lost: 0.1, coulomb_lost: 0.2, time_constant_s: 900.0 });
     drive.ripple = Some(robot::Ripple { amplitude: 0.1, periods: 40.0, phase: 0.2 });
     (drive.load_friction, drive.presliding) = (0.07, Some(0.001));
     (drive.coulomb_forward, drive.coulomb_backward) = (0.5, 0.4);

@@ -108,7 +108,7 @@ pub(crate) const COUNTERBALANCE: Entry = Entry {
     family: Family::Environment,
     name: "counterbalance",
     words: "counterbalance",
-    summary: "a spring that carries part of the weight",
+    summary: "a spring that carries part of a weight",
     equation: "amplitude sin(q + phase)",
     parameters: &[
         parameter("amplitude", TORQUE, "largest torque that it gives", (0.5, 30.0)),

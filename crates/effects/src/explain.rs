@@ -72,6 +72,13 @@ pub trait Explain: Sync {
     /// Standard deviation of each weight before any data is seen.
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64>;
 
+    /// Standard deviation of each weight of errors that are in every description and have no name; those of the
+    /// prior where nothing is known of them.
+    fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>> {
+        let _ = (place, robot);
+        None
+    }
+
     /// Log odds (nats) against an arm that has the effect there, beyond those against any effect.
     fn rarity(&self, place: Place, robot: &Robot) -> f64 {
         let _ = (place, robot);

@@ -39,6 +39,9 @@ pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
         if drive.coupling.is_some_and(|c| c.level.iter().chain(&c.viscous).all(|v| *v <= 0.0)) {
             drive.coupling = before.coupling;
         }
+        if drive.warming.is_some_and(|w| w.viscous_lost <= 0.0 && w.coulomb_lost <= 0.0) {
+            drive.warming = before.warming;
+        }
         if drive.friction_wave.is_some_and(|w| w.share <= 0.0) {
             drive.friction_wave = before.friction_wave;
         }

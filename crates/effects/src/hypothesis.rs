@@ -82,6 +82,11 @@ impl Hypothesis {
         self.model().map(|m| m.prior(self.place, robot, scale)).unwrap_or_default()
     }
 
+    /// See [`Explain::everyday`].
+    pub fn everyday(self, robot: &Robot) -> Option<Vec<f64>> {
+        self.model()?.everyday(self.place, robot)
+    }
+
     /// See [`Explain::rarity`].
     pub fn rarity(self, robot: &Robot) -> f64 {
         self.model().map_or(0.0, |m| m.rarity(self.place, robot))

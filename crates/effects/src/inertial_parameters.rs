@@ -12,6 +12,15 @@ use crate::{
 /// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
 pub(crate) struct InertialParameters;
 
+/// Share by which masses and inertias of CAD are wrong: cables, screws and castings are not in it.
+const SHARE: f64 = 0.1;
+
+/// Distance by which its centres of mass are wrong (m).
+const CENTRE_M: f64 = 0.01;
+
+/// The smallest mass that a share is taken of (kg).
+const LEAST_MASS: f64 = 0.01;
+
 impl Explain for InertialParameters {
     fn kind(&self) -> EffectKind {
         EffectKind::InertialParameters
@@ -52,6 +61,24 @@ impl Explain for InertialParameters {
         sd.extend([m * l; 3]);
         sd.extend([m * l * l; 6]);
         sd
+    }
+
+    /// What CAD is wrong by: a tenth of the mass and of the inertia, a centimetre of the centre of mass.
+    ///
+    /// ```text
+    /// sd(m) = SHARE m,   sd(m c) = SHARE m |c| + CENTRE_M m,   sd(I) = SHARE tr(I) + 2 CENTRE_M m |c|
+    /// ```
+    fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>> {
+        let Place::Link(link) = place else { return None };
+        let inertia = &robot.links()[link].inertia;
+        let mass = inertia.mass.max(LEAST_MASS);
+        let reach = inertia.com_in_link.norm();
+        let [.., xx, _, yy, _, _, zz] = inertia.parameters();
+        let mut sd = vec![SHARE * mass];
+        sd.extend([mass * (SHARE * reach + CENTRE_M); 3]);
+        let second = SHARE * (xx + yy + zz).max(0.0) + 2.0 * CENTRE_M * mass * (reach + CENTRE_M);
+        sd.extend([second; 6]);
+        Some(sd)
     }
 
     /// The mass stays positive; that the whole inertia is physical is seen to where it is

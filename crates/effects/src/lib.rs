@@ -22,6 +22,7 @@ mod direction;
 mod dry_friction;
 mod encoder_offset;
 mod explain;
+mod friction_temperature_drift;
 mod germ;
 mod give;
 mod gravity_direction;

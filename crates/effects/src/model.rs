@@ -3,13 +3,14 @@ use catalogue::EffectKind;
 use crate::Explain;
 
 /// The effects that have a model, in the order in which hypotheses are laid out.
-pub const MODELLED: [EffectKind; 23] = [
+pub const MODELLED: [EffectKind; 24] = [
     EffectKind::ViscousFriction,
     EffectKind::CoulombFriction,
     EffectKind::AsymmetricFriction,
     EffectKind::StribeckFriction,
     EffectKind::PreslidingFriction,
     EffectKind::PositionDependentFriction,
+    EffectKind::FrictionTemperatureDrift,
     EffectKind::TorqueOffset,
     EffectKind::RotorInertia,
     // Of the same columns the first counts: a body that is one is sooner carried than forgotten in
@@ -46,6 +47,9 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
         EffectKind::PositionDependentFriction => {
             &crate::position_dependent_friction::PositionDependentFriction
         }
+        EffectKind::FrictionTemperatureDrift => {
+            &crate::friction_temperature_drift::FrictionTemperatureDrift
+        }
         EffectKind::TorqueOffset => &crate::torque_offset::TorqueOffset,
         EffectKind::RotorInertia => &crate::rotor_inertia::RotorInertia,
         EffectKind::InertialParameters => &crate::inertial_parameters::InertialParameters,
@@ -64,9 +68,6 @@ pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
         EffectKind::ActuatorLag => &crate::late_torque::LateTorque::Lag,
         EffectKind::TorqueRipple => {
             return Err("its period is finer than any trial value: it is a line of a spectrum");
-        }
-        EffectKind::FrictionTemperatureDrift => {
-            return Err("it depends on the time since the drive was cold, which runs do not share");
         }
         EffectKind::DifferentialCoupling => &crate::differential_coupling::DifferentialCoupling,
         EffectKind::TorqueSaturation => {

@@ -1,7 +1,7 @@
 use std::sync::OnceLock;
 
 use logs::{JointNoise, Prepared, rest_speeds};
-use robot::{Actuator, Robot, SensingSide};
+use robot::{Actuator, Robot, SensingSide, Warming};
 
 use crate::cable_loop::Loop;
 use crate::direction::{direction, stands};
@@ -44,6 +44,8 @@ pub struct Motion {
     pub gain: Vec<f64>,
     /// Time between samples (s).
     pub period_s: f64,
+    /// Time from when the drives were cold to the first sample (s).
+    since_cold_s: f64,
     /// Position, velocity and acceleration of the links.
     pub(crate) link: State,
     /// What tilting the base changes, once it has been asked for.
@@ -74,6 +76,8 @@ pub struct Encoders {
     pub reported: [Vec<Vec<f64>>; 3],
     /// The same of the links that have an encoder of their own; `reported` is then the motor's.
     pub links: Vec<Option<[Vec<f64>; 3]>>,
+    /// Time from when the drives were cold to the first sample (s).
+    pub since_cold_s: f64,
 }
 
 /// What all runs of a diagnosis share.
@@ -127,7 +131,7 @@ impl Motion {
     /// When the signals do not have one entry a joint of equal length.
     pub fn new(robot: &Robot, frame: &Frame, reading: [Vec<Vec<f64>>; 3], period_s: f64) -> Self {
         let links = vec![None; robot.joint_count()];
-        let encoders = Encoders { reported: reading, links };
+        let encoders = Encoders { reported: reading, links, since_cold_s: 0.0 };
         Self::seen(robot, frame, encoders, period_s)
     }
 
@@ -140,7 +144,7 @@ impl Motion {
     pub fn seen(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
-        let Encoders { reported, links } = encoders;
+        let Encoders { reported, links, since_cold_s } = encoders;
         let qd_reported = reported[1].clone();
         let Parted { motor, link, tight_load, gives } =
             Parted::new(robot, corrected(robot, reported), links, period_s);
@@ -165,6 +169,7 @@ impl Motion {
             centre: frame.centre.clone(),
             gain: drives.iter().map(|a| a.transmission_ratio * a.torque_gain).collect(),
             period_s,
+            since_cold_s,
             link,
             tilt: OnceLock::new(),
             slopes: OnceLock::new(),
@@ -216,7 +221,8 @@ impl Motion {
             let torque = |t: usize| {
                 let (state, load) =
                     ([self.q[i][t], self.qd[i][t], self.qdd[i][t]], self.load[i][t]);
-                load + motor_torque(a, state, self.direction[i][t], load)
+                let warmth = self.warmth(i, t);
+                load + motor_torque(a, state, self.direction[i][t], load, warmth)
             };
             self.torque[i] = (0..self.samples()).map(torque).collect();
         }
@@ -226,6 +232,17 @@ impl Motion {
             let timed = self.timed(i, scaled);
             self.effort[i] = timed.into_iter().map(|effort| effort + a.torque_offset).collect();
         }
+    }
+
+    /// How far the drive of joint `i` has warmed up in sample `t`, 0 cold and 1 warm.
+    fn warmth(&self, i: usize, t: usize) -> f64 {
+        let since_cold_s = self.since_cold_s + t as f64 * self.period_s;
+        self.drives[i].warming.map_or(0.0, |w| warmth(since_cold_s / w.time_constant_s))
+    }
+
+    /// Time since the drives were cold (s), sample by sample.
+    pub(crate) fn since_cold_s(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.samples()).map(|t| self.since_cold_s + t as f64 * self.period_s)
     }
 
     /// Adds the friction of motors that joints share.
@@ -349,22 +366,32 @@ impl Motion {
 /// load = tau_rb + stiffness x + cubic x³ + hysteresis direction + counterbalance(q),   x = q - rest
 /// load - tau_rb + rotor_inertia qdd + viscous qd + dry friction(q, qd, direction, load) + ripple(q)
 /// ```
+///
+/// Friction is that of a warm drive.
 pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f64) -> f64 {
     let spring = spring_torque(drive, state[0]) + drive.spring_hysteresis * direction;
-    spring + motor_torque(drive, state, direction, tau_rb + spring)
+    spring + motor_torque(drive, state, direction, tau_rb + spring, 1.0)
+}
+
+/// How far a drive has warmed up after `time` time constants: `1 - exp(-time)`.
+pub(crate) fn warmth(time: f64) -> f64 {
+    -(-time.max(0.0)).exp_m1()
 }
 
 /// The part of the drive's torque that is spent at the motor (N·m or N), under the `load` that
-/// its transmission carries.
+/// its transmission carries, of a drive that has warmed up by the share `warmth`.
 pub(crate) fn motor_torque(
     drive: &Actuator,
     [q, qd, qdd]: [f64; 3],
     direction: f64,
     load: f64,
+    warmth: f64,
 ) -> f64 {
     let ripple = drive.ripple.map_or(0.0, |r| r.amplitude * (r.periods * q + r.phase).sin());
     let friction = drive.viscous * qd + dry_friction(drive, [q, qd], direction, load);
     let damping = drive.presliding.and(drive.presliding_damping).unwrap_or(0.0);
+    let lost = |w: Warming| warmth * (w.viscous_lost * qd + w.coulomb_lost * direction);
+    let friction = friction - drive.warming.map_or(0.0, lost);
     drive.rotor_inertia * qdd + friction + ripple + damping * bending(qd, direction)
 }
 

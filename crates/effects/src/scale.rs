@@ -13,6 +13,8 @@ pub struct Scale {
     pub acceleration: Vec<f64>,
     /// Range of motion of each joint (rad or m).
     pub range: Vec<f64>,
+    /// Longest time since drives were cold (s).
+    pub session_s: f64,
     /// Mean mass of a moving link (kg).
     pub link_mass: f64,
     /// Mean distance between neighbouring joints (m).
@@ -42,12 +44,15 @@ impl Scale {
             let (low, high) = logs.span(j);
             high - low
         };
+        let ages =
+            logs.runs.iter().map(|run| run.time.last().map_or(0.0, |t| t - run.session_start_s));
         let [link_mass, link_length] = Self::of_links(robot);
         Self {
             effort: joints.clone().map(effort).collect(),
             speed: joints.clone().map(|j| largest(j, |p| &p.qd)).collect(),
             acceleration: joints.clone().map(|j| largest(j, |p| &p.qdd)).collect(),
             range: joints.map(range).collect(),
+            session_s: ages.fold(0.0, f64::max),
             link_mass,
             link_length,
         }

@@ -225,7 +225,13 @@ mod tests {
         let q = of(&|t| 0.5 * acceleration * t * t);
         let state = [q, of(&|t| acceleration * t), of(&|_| acceleration)];
         let joint = PreparedJoint::exact(state, of(&|_| FORCE));
-        PreparedRun { name: "run".into(), rate_hz: 500.0, time, joints: vec![joint] }
+        PreparedRun {
+            name: "run".into(),
+            rate_hz: 500.0,
+            time,
+            session_start_s: 0.0,
+            joints: vec![joint],
+        }
     }
 
     #[test]

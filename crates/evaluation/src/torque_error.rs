@@ -162,6 +162,7 @@ mod tests {
             name: "run".into(),
             rate_hz: 500.0,
             time: (0..torque.len()).map(|k| 0.002 * k as f64).collect(),
+            session_start_s: 0.0,
             joints: vec![joint(&vec![9.0; torque.len()]), joint(torque)],
         }
     }

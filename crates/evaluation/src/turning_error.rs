@@ -91,6 +91,7 @@ mod tests {
             name: "run".into(),
             rate_hz: 100.0,
             time,
+            session_start_s: 0.0,
             joints: vec![joint(1.0), joint(0.0)],
         }
     }

@@ -152,6 +152,9 @@ pub(crate) fn unknown_friction(quantity: Quantity) -> Fate {
         Q::LoadFriction => "dry friction of the format has one level at all loads",
         Q::Presliding => "dry friction of the format is there at once",
         Q::FrictionWave => "dry friction of the format has one level at all positions",
+        Q::Warming => {
+            "friction of the format is the same at all times; what is written is that of the cold drive"
+        }
         Q::Ripple => "torque of the format does not depend on the motor's position",
         Q::Counterbalance => "springs of the format are linear in the position",
         Q::SpringHysteresis => "springs of the format have no loop",

@@ -71,6 +71,7 @@ fn leave_out(quantity: Quantity, drive: &mut Actuator) {
         Q::LoadFriction => drive.load_friction = 0.0,
         Q::Presliding => (drive.presliding, drive.presliding_damping) = (None, None),
         Q::FrictionWave => drive.friction_wave = None,
+        Q::Warming => drive.warming = None,
         Q::Ripple => drive.ripple = None,
         Q::Coupling => drive.coupling = None,
         Q::Spring => drive.spring_stiffness = 0.0,

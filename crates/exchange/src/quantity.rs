@@ -21,6 +21,7 @@ pub enum Quantity {
     Presliding,
     /// Friction over position.
     FrictionWave,
+    Warming,
     /// Torque over position.
     Ripple,
     /// Motors that two joints share.
@@ -84,6 +85,8 @@ pub fn quantities(robot: &Robot, link: &Link) -> Vec<(Quantity, String)> {
     add(Q::LoadFriction, a.load_friction, 0.0, "friction per load", "");
     add(Q::Presliding, a.presliding.unwrap_or(0.0), 0.0, "presliding over", rad);
     add(Q::FrictionWave, a.friction_wave.map_or(0.0, |w| w.share), 0.0, "friction wave", "");
+    let lost = a.warming.map_or(0.0, |w| w.coulomb_lost + w.viscous_lost);
+    add(Q::Warming, lost, 0.0, "friction lost in a warm drive at 1 rad/s", nm);
     add(Q::Ripple, a.ripple.map_or(0.0, |r| r.amplitude), 0.0, "torque ripple", nm);
     add(Q::Spring, a.spring_stiffness, 0.0, "spring", &format!("{nm}/{rad}"));
     add(Q::SpringCubic, a.spring_cubic, 0.0, "spring, cubic", &format!("{nm}/{rad}³"));

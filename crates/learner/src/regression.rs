@@ -302,6 +302,7 @@ mod tests {
             name: "run".to_owned(),
             rate_hz: 500.0,
             time: vec![0.0],
+            session_start_s: 0.0,
             joints: vec![joint; 3],
         };
         let samples = Samples::new(&logs::Prepared::exact(vec![run], 10.0));

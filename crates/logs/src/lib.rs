@@ -75,6 +75,7 @@ mod read;
 mod readings;
 mod rest;
 mod run;
+mod session;
 mod sources;
 mod spectrum;
 mod sqlite_file;

@@ -191,6 +191,14 @@ impl Velocities {
 mod tests {
     use super::*;
 
+    /// A time that hardly goes on has rates beyond all numbers.
+    #[test]
+    fn a_frequency_beyond_all_bins_counts_in_the_last_one() {
+        let mut accelerations = Accelerations::default();
+        accelerations.add(&Density { step_hz: 1e300, bins: vec![0.0, 1e-300] }, 1.0);
+        assert_eq!(accelerations.bins.len(), MOST_BINS);
+    }
+
     #[test]
     fn positions_whose_differences_are_no_numbers_end_nothing() {
         let q = (0..400).map(|k| if k % 2 == 0 { 1.7e308 } else { -1.7e308 }).collect();

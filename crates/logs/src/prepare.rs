@@ -8,6 +8,7 @@ use crate::{
     filtered::{Filtered, SETTLING_PERIODS},
     info::{saturation, unknown_joints},
     link_lag,
+    session::session_starts,
     uniform::{UniformRun, check, uniform},
 };
 
@@ -63,7 +64,9 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
 
     let filtered = pieces.iter().map(|p| Filtered::of(p, cutoff_hz, &choice.sources));
     let filtered: Vec<Filtered> = filtered.collect::<Result<_, _>>()?;
-    let ends = pieces.into_iter().zip(filtered).map(|(piece, f)| without_ends(piece, f));
+    let starts = session_starts(runs);
+    let ends = pieces.into_iter().zip(filtered);
+    let ends = ends.map(|(piece, f)| (starts[piece.run], piece, f)).map(without_ends);
     let prepared = Prepared {
         runs: ends.collect(),
         cutoff_hz,
@@ -98,7 +101,7 @@ fn long_enough(
     Ok(all.into_iter().filter(|p| p.duration_s() >= expected_s).collect())
 }
 
-fn without_ends(piece: UniformRun, filtered: Filtered) -> PreparedRun {
+fn without_ends((session_start_s, piece, filtered): (f64, UniformRun, Filtered)) -> PreparedRun {
     let kept = filtered.settled();
     let cut = |x: Vec<f64>| x[kept.clone()].to_vec();
     let joints = piece
@@ -119,7 +122,8 @@ fn without_ends(piece: UniformRun, filtered: Filtered) -> PreparedRun {
             effort: cut(raw.effort),
         })
         .collect();
-    PreparedRun { name: piece.name, rate_hz: piece.rate_hz, time: cut(piece.time), joints }
+    let time = cut(piece.time);
+    PreparedRun { name: piece.name, rate_hz: piece.rate_hz, time, session_start_s, joints }
 }
 
 /// Leaves out the second encoder of a joint that some runs lack.

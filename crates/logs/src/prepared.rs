@@ -28,6 +28,9 @@ pub struct PreparedRun {
     pub rate_hz: f64,
     /// Time of each sample, on the clock of the file (s).
     pub time: Vec<f64>,
+    /// Time at which the session began that it is part of, on the clock of the file (s): before it the arm
+    /// stood for an hour or longer, as far as the logs tell.
+    pub session_start_s: f64,
     /// Signals of each joint, in the order of the robot.
     pub joints: Vec<PreparedJoint>,
 }
@@ -177,6 +180,7 @@ impl PreparedRun {
             name: self.name.clone(),
             rate_hz: self.rate_hz,
             time: part(&self.time),
+            session_start_s: self.session_start_s,
             joints: self.joints.iter().map(joint).collect(),
         }
     }

@@ -73,6 +73,7 @@ mod tests {
             name: "swing".to_owned(),
             rate_hz: 500.0,
             time: times,
+            session_start_s: 0.0,
             joints: vec![joint],
         };
         Prepared::exact(vec![run], 10.0)

@@ -85,6 +85,8 @@ pub(crate) fn supposed(robot: &Robot) -> Scale {
         speed: each(|u| u.speed),
         acceleration: each(|u| u.acceleration),
         range: each(|u| 2.0 * u.half),
+        // A motion is over before a drive is warm.
+        session_s: 0.0,
         link_mass,
         link_length,
     }

@@ -53,6 +53,7 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
         name: "run".to_owned(),
         rate_hz: RATE_HZ,
         time: (0..state[0].len()).map(|k| k as f64 / RATE_HZ).collect(),
+        session_start_s: 0.0,
         joints: Vec::new(),
     };
     let joint = PreparedJoint::exact(state, vec![0.0; 3000]);

@@ -93,6 +93,25 @@ pub struct Counterbalance {
     pub phase: f64,
 }
 
+/// Friction that falls while a drive warms up.
+///
+/// ```text
+/// viscous(t) = viscous - viscous_lost (1 - exp(-t / time_constant))
+/// coulomb(t) = coulomb - coulomb_lost (1 - exp(-t / time_constant))
+/// ```
+///
+/// `t` is the time since the drive was cold.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Warming {
+    /// Viscous friction that a warm drive has lost (N·m·s/rad or N·s/m).
+    pub viscous_lost: f64,
+    /// Coulomb friction that a warm drive has lost in both directions (N·m or N).
+    pub coulomb_lost: f64,
+    /// Time constant of warming up (s).
+    pub time_constant_s: f64,
+}
+
 /// A differential: two motors that drive this joint and another one together.
 ///
 /// ```text
@@ -131,8 +150,8 @@ pub struct Coupling {
 /// s       = sign(qd), 0 at rest; with presliding ds = (dq - |dq| s) / presliding
 /// ```
 ///
-/// `friction_wave(q) = share cos(periods q + phase)`: [`Wave`], [`Stribeck`], [`Ripple`] and
-/// [`Counterbalance`] hold the rest. All but `tau_rb`, the spring and the counterbalance acts at the motor.
+/// `friction_wave(q) = share cos(periods q + phase)`: [`Wave`], [`Stribeck`], [`Warming`], [`Ripple`] and
+/// [`Counterbalance`] hold the rest; `viscous` and `coulomb` are those of the cold drive. All but `tau_rb`, the spring and the counterbalance acts at the motor.
 ///
 /// Between motor and link may lie a transmission that gives way, and between command and
 /// torque some time. With `theta` the motor's position seen at the joint,
@@ -172,6 +191,8 @@ pub struct Actuator {
     pub presliding_damping: Option<f64>,
     /// Variation of the Coulomb level with position; `None` without.
     pub friction_wave: Option<Wave>,
+    /// How friction falls while the drive warms up; `None` where it does not.
+    pub warming: Option<Warming>,
     /// Torque ripple of the motor; `None` without.
     pub ripple: Option<Ripple>,
     /// Friction of motors that it shares with another joint; `None` without.
@@ -216,6 +237,32 @@ pub struct Actuator {
     pub position_loop: Option<Gain>,
 }
 
+impl Actuator {
+    /// The drive as it is `since_cold_s` after a cold start (s), with what it will lose from then on:
+    ///
+    /// ```text
+    /// left = exp(-since_cold / time_constant)
+    /// friction' = friction - lost (1 - left),   lost' = lost left
+    /// ```
+    pub fn warmed(&self, since_cold_s: f64) -> Self {
+        let Some(cold) = self.warming else { return self.clone() };
+        let left = (-since_cold_s.max(0.0) / cold.time_constant_s).exp();
+        let Warming { viscous_lost, coulomb_lost, time_constant_s } = cold;
+        let warming = Warming {
+            viscous_lost: viscous_lost * left,
+            coulomb_lost: coulomb_lost * left,
+            time_constant_s,
+        };
+        Self {
+            viscous: self.viscous - viscous_lost * (1.0 - left),
+            coulomb_forward: self.coulomb_forward - coulomb_lost * (1.0 - left),
+            coulomb_backward: self.coulomb_backward - coulomb_lost * (1.0 - left),
+            warming: Some(warming),
+            ..self.clone()
+        }
+    }
+}
+
 impl Default for Actuator {
     /// An ideal drive: no friction, no rotor, a rigid transmission, a perfect torque sensor.
     fn default() -> Self {
@@ -229,6 +276,7 @@ impl Default for Actuator {
             presliding: None,
             presliding_damping: None,
             friction_wave: None,
+            warming: None,
             ripple: None,
             coupling: None,
             spring_stiffness: 0.0,
@@ -250,5 +298,35 @@ impl Default for Actuator {
             torque_source: TorqueSource::default(),
             position_loop: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `friction(t) = cold - lost (1 - exp(-t / time_constant))`, whenever one begins to count.
+    #[test]
+    fn a_drive_that_has_warmed_up_goes_on_as_it_would_have() {
+        let warming = Warming { viscous_lost: 0.1, coulomb_lost: 0.2, time_constant_s: 600.0 };
+        let cold = Actuator {
+            viscous: 0.4,
+            coulomb_forward: 0.5,
+            coulomb_backward: 0.3,
+            warming: Some(warming),
+            ..Actuator::default()
+        };
+        let later = cold.warmed(200.0).warmed(400.0);
+        let share = 1.0 - (-1.0_f64).exp();
+        for (found, expected) in [
+            (later.viscous, 0.4 - 0.1 * share),
+            (later.coulomb_forward, 0.5 - 0.2 * share),
+            (later.coulomb_backward, 0.3 - 0.2 * share),
+        ] {
+            assert!((found - expected).abs() < 1e-15, "{found}, not {expected}");
+        }
+        let warm = later.warmed(f64::INFINITY);
+        assert!((warm.viscous - 0.3).abs() < 1e-15 && (warm.coulomb_backward - 0.1).abs() < 1e-15);
+        assert_eq!(warm.warming.map(|w| (w.viscous_lost, w.coulomb_lost)), Some((0.0, 0.0)));
     }
 }

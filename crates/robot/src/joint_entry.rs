@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 use crate::range::{Range, in_range};
 use crate::{
     Actuator, Counterbalance, Coupling, Gain, Loaded, Ripple, RobotError, SensingSide, Stribeck,
-    TorqueSource, Wave,
+    TorqueSource, Warming, Wave,
 };
 
 /// `[joint.<name>]`
@@ -85,6 +85,8 @@ pub(crate) struct JointEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_wave: Option<WaveEntry>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_warming: Option<WarmingEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_ripple: Option<RippleEntry>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterbalance: Option<CounterbalanceEntry>,
@@ -118,6 +120,17 @@ pub(crate) struct WaveEntry {
     pub periods_per_turn: f64,
     #[serde(default)]
     pub phase_rad: f64,
+}
+
+/// `friction_warming`: what friction loses while the drive warms up.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WarmingEntry {
+    #[serde(default)]
+    pub viscous_lost_nm_s_per_rad: f64,
+    #[serde(default)]
+    pub coulomb_lost_nm: f64,
+    pub time_constant_s: f64,
 }
 
 /// `counterbalance`: a spring or weight that carries part of the weight.
@@ -209,6 +222,7 @@ impl JointEntry {
         self.times(thing, a)?;
         a.stribeck = self.stribeck(thing)?.or(a.stribeck);
         a.friction_wave = self.wave(thing)?.or(a.friction_wave);
+        a.warming = self.warming(thing, a)?.or(a.warming);
         a.ripple = self.ripple(thing)?.or(a.ripple);
         a.counterbalance = self.counterbalance(thing)?.or(a.counterbalance);
         a.sensing = self.sensing.unwrap_or(a.sensing);
@@ -310,6 +324,29 @@ impl JointEntry {
         in_range(thing, "friction_wave.periods_per_turn", periods_per_turn, Range::NotNegative)?;
         in_range(thing, "friction_wave.phase_rad", phase_rad, Range::Finite)?;
         Ok(Some(Wave { share, periods: periods_per_turn, phase: phase_rad }))
+    }
+
+    fn warming(&self, thing: &str, a: &Actuator) -> Result<Option<Warming>, RobotError> {
+        use Range::{NotNegative, Positive};
+        let Some(entry) = self.friction_warming else { return Ok(None) };
+        let WarmingEntry {
+            viscous_lost_nm_s_per_rad: viscous_lost,
+            coulomb_lost_nm: coulomb_lost,
+            time_constant_s,
+        } = entry;
+        for (key, value, range) in [
+            ("friction_warming.viscous_lost_nm_s_per_rad", viscous_lost, NotNegative),
+            ("friction_warming.coulomb_lost_nm", coulomb_lost, NotNegative),
+            ("friction_warming.time_constant_s", time_constant_s, Positive),
+        ] {
+            in_range(thing, key, value, range)?;
+        }
+        let level = a.coulomb_forward.min(a.coulomb_backward);
+        if viscous_lost > a.viscous.max(0.0) || coulomb_lost > level.max(0.0) {
+            let found = "friction_warming loses more friction than the cold drive has";
+            return lonely(thing, found, "viscous_nm_s_per_rad and coulomb_nm at least as large");
+        }
+        Ok(Some(Warming { viscous_lost, coulomb_lost, time_constant_s }))
     }
 
     fn ripple(&self, thing: &str) -> Result<Option<Ripple>, RobotError> {

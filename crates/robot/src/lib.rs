@@ -35,7 +35,7 @@ mod warning;
 mod write;
 
 pub use actuator::{
-    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Wave,
+    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
 };
 pub use control::{ControlSettings, Gain};
 pub use error::RobotError;

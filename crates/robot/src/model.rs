@@ -148,6 +148,8 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
         a.coupling.map(|c| [c.ratio, c.level[0], c.level[1], c.viscous[0], c.viscous[1]]);
     let given = given.chain(coupling.as_slice().as_flattened());
     let given = given.chain(wave.as_slice().as_flattened());
+    let warming = a.warming.map(|w| [w.viscous_lost, w.coulomb_lost, w.time_constant_s]);
+    let given = given.chain(warming.as_slice().as_flattened());
     let balance = a.counterbalance.map(|c| [c.amplitude, c.phase]);
     let given = given.chain(balance.as_slice().as_flattened());
     finite(&joint, "actuator parameter", given.chain(ripple.as_slice().as_flattened()))

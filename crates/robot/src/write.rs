@@ -1,8 +1,12 @@
 use nalgebra::Vector3;
 
 use crate::description::{Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry};
-use crate::joint_entry::{CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WaveEntry};
-use crate::{Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource};
+use crate::joint_entry::{
+    CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WarmingEntry, WaveEntry,
+};
+use crate::{
+    Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource, Warming, Wave,
+};
 
 impl Loaded {
     /// A `robot.toml` that describes `robot`, this one or a changed copy of it.
@@ -135,11 +139,8 @@ fn joint_entry([new, old]: [&Link; 2], names: &[&str], gain: Option<Gain>) -> Jo
         torque_source: Some(a.torque_source).filter(|s| *s != TorqueSource::Unknown),
         kp_nm_per_rad: gain.map(|g| g.kp),
         kd_nm_s_per_rad: gain.map(|g| g.kd),
-        friction_wave: a.friction_wave.map(|w| WaveEntry {
-            share: w.share,
-            periods_per_turn: w.periods,
-            phase_rad: w.phase,
-        }),
+        friction_wave: a.friction_wave.map(wave_entry),
+        friction_warming: a.warming.map(warming_entry),
         coupling: a.coupling.map(|c| CouplingEntry {
             with: names.get(c.other).copied().unwrap_or_default().to_owned(),
             ratio: c.ratio,
@@ -156,6 +157,19 @@ fn joint_entry([new, old]: [&Link; 2], names: &[&str], gain: Option<Gain>) -> Jo
             periods_per_turn: r.periods,
             phase_rad: r.phase,
         }),
+    }
+}
+
+fn wave_entry(wave: Wave) -> WaveEntry {
+    let Wave { share, periods, phase } = wave;
+    WaveEntry { share, periods_per_turn: periods, phase_rad: phase }
+}
+
+fn warming_entry(warming: Warming) -> WarmingEntry {
+    WarmingEntry {
+        viscous_lost_nm_s_per_rad: warming.viscous_lost,
+        coulomb_lost_nm: warming.coulomb_lost,
+        time_constant_s: warming.time_constant_s,
     }
 }
 

@@ -38,6 +38,19 @@ pub(crate) fn in_time<'a>(robot: &Robot, record: &'a PreparedRun) -> Cow<'a, Pre
     Cow::Owned(record)
 }
 
+/// The robot with the friction that its drives have in a sample of a record, so long after a cold start.
+pub(crate) fn warmed<'a>(robot: &'a Robot, record: &PreparedRun, sample: usize) -> Cow<'a, Robot> {
+    if robot.links().iter().all(|link| link.actuator.warming.is_none()) {
+        return Cow::Borrowed(robot);
+    }
+    let mut robot = robot.clone();
+    for j in 0..robot.joint_count() {
+        let Some(link) = robot.link_mut(j) else { continue };
+        link.actuator = link.actuator.warmed(record.time[sample] - record.session_start_s);
+    }
+    Cow::Owned(robot)
+}
+
 /// Time constants of a lag after which what was asked for before no longer counts: 0.1 % is left.
 const LAGS: f64 = 7.0;
 
@@ -186,7 +199,13 @@ mod tests {
         for skew_s in [0.0, 0.005, -0.005] {
             let joints = vec![joint(skew_s)];
             let name = "run".to_owned();
-            let record = PreparedRun { name, rate_hz: 500.0, time: time.clone(), joints };
+            let record = PreparedRun {
+                name,
+                rate_hz: 500.0,
+                time: time.clone(),
+                session_start_s: 0.0,
+                joints,
+            };
             let put_back = in_time(&robot(skew_s), &record);
             let inside = time.iter().zip(&put_back.joints[0].effort).skip(3).take(94);
             for (t, found) in inside {

@@ -4,7 +4,7 @@ use logs::{Channels, PreparedRun, Run};
 use rayon::prelude::*;
 use robot::{Gain, Machine, MachineFault, Reading, Robot};
 
-use crate::recorded::{State, begin, between, held, in_time, late_s, seen};
+use crate::recorded::{State, begin, between, held, in_time, late_s, seen, warmed};
 use crate::{Sensors, Simulator, SimulatorError, Stepping};
 
 /// Longest step of the engine where no other is given (s).
@@ -128,6 +128,7 @@ fn roll(
     samples: usize,
     longest_step_s: f64,
 ) -> Result<Window, SimulatorError> {
+    let robot = &*warmed(robot, record, start);
     let mut simulator = perfect(robot, record.rate_hz, longest_step_s)?;
     begin(&mut simulator, robot, record, start);
     let mut window = Window { states: Vec::with_capacity(samples), fault: None };
@@ -227,6 +228,7 @@ pub fn replay_motion(
         return Err(too_short(record, 1.0 / record.rate_hz));
     }
     let record = &*in_time(robot, record);
+    let robot = &*warmed(robot, record, 0);
     // A controller at the rate of a slow log would not be stable.
     let turns = (CONTROL_HZ / record.rate_hz).ceil().max(1.0) as usize;
     let mut simulator = perfect(robot, record.rate_hz * turns as f64, STEP_S)?;

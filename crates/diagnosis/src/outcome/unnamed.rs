@@ -1,4 +1,5 @@
 use nalgebra::{Cholesky, DMatrix};
+use robot::Robot;
 
 use crate::columns::design::{Design, Group};
 use crate::regression::fit::Fit;
@@ -17,7 +18,8 @@ use crate::search::select::Selection;
 /// gain        (z² - k - k ln(z² / k)) / 2,  z² = u' B^-1 u > k weights, else 0
 /// ```
 ///
-/// beside that of its own. `gain` is the log evidence of the effect at the size that the logs like best, since how
+/// beside that of its own. The errors of links are those that CAD has ([`effects::Explain::everyday`]): a wrong mass of
+/// one link is a wrong mass of its neighbour, and by their priors either could be any. `gain` is the log evidence of the effect at the size that the logs like best, since how
 /// small an error is nobody knows, and `least` what a name needs (Hoeting et al. 1999).
 #[derive(Debug, Clone)]
 pub(crate) struct Unnamed<'a> {
@@ -32,13 +34,14 @@ impl<'a> Unnamed<'a> {
     pub fn new(selection: &Selection<'a>, model: &Model, fit: &Fit) -> Self {
         let problem = selection.problem;
         let (design, info) = (problem.design, &problem.info);
+        let prior = everyday(design, selection.robot);
         let mut covariance = DMatrix::zeros(fit.columns.len(), fit.columns.len());
         for h in 0..design.groups.len() {
             let columns = problem.new_columns(model, h);
             if columns.is_empty() || model.contains(&h) || selection.is_excluded(model, h) {
                 continue;
             }
-            let (complement, u) = fit.beyond(info, &columns, &design.prior);
+            let (complement, u) = fit.beyond(info, &columns, &prior);
             let Some(factor) = Cholesky::new(complement.b.clone()) else { continue };
             let w = factor.solve(&u);
             let (z2, k) = (u.dot(&w), columns.len() as f64);
@@ -69,4 +72,14 @@ impl<'a> Unnamed<'a> {
         };
         design.groups.iter().find_map(same)
     }
+}
+
+/// Standard deviations of the weights of errors that are in every description.
+fn everyday(design: &Design, robot: &Robot) -> Vec<f64> {
+    let mut prior = design.prior.clone();
+    for group in &design.groups {
+        let Some(small) = group.hypothesis.everyday(robot) else { continue };
+        group.columns.iter().zip(small).for_each(|(&column, sd)| prior[column] = sd);
+    }
+    prior
 }

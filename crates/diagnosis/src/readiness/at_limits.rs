@@ -49,7 +49,13 @@ mod tests {
         });
         let joints = vec![PreparedJoint::exact([vec![], vec![], vec![]], effort.collect())];
         let time = (0..200).map(f64::from).collect();
-        let run = PreparedRun { name: "run".to_owned(), rate_hz: 1.0, time, joints };
+        let run = PreparedRun {
+            name: "run".to_owned(),
+            rate_hz: 1.0,
+            time,
+            session_start_s: 0.0,
+            joints,
+        };
         at_limits(&robot, &Prepared::exact(vec![run], 0.1))
     }
 

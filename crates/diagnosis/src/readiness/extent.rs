@@ -92,7 +92,13 @@ mod tests {
         let effort = wave.iter().map(|w| 0.7 + swing * w).collect();
         let time = (0..samples).map(|k| 0.01 * k as f64).collect();
         let joint = PreparedJoint::exact([q, wave.clone(), wave], effort);
-        PreparedRun { name: name.to_owned(), rate_hz: 100.0, time, joints: vec![joint] }
+        PreparedRun {
+            name: name.to_owned(),
+            rate_hz: 100.0,
+            time,
+            session_start_s: 0.0,
+            joints: vec![joint],
+        }
     }
 
     fn pendulum() -> Robot {

@@ -88,6 +88,7 @@ impl<'a> Along<'a> {
         let encoders = Encoders {
             reported: [signals(|j| &j.wide.q), signals(|j| &j.wide.qd), signals(|j| &j.wide.qdd)],
             links: run.joints.iter().map(link).collect(),
+            since_cold_s: run.time.first().map_or(0.0, |first| first - run.session_start_s),
         };
         let motion = Motion::seen(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;

@@ -104,7 +104,13 @@ mod tests {
         let state = [0, 1, 2].map(|i| time.iter().map(|t| motion(*t)[i]).collect());
         let effort = time.iter().map(|t| effort(*t)).collect();
         let joints = vec![PreparedJoint::exact(state, effort)];
-        let run = PreparedRun { name: "run".to_owned(), rate_hz: RATE_HZ, time, joints };
+        let run = PreparedRun {
+            name: "run".to_owned(),
+            rate_hz: RATE_HZ,
+            time,
+            session_start_s: 0.0,
+            joints,
+        };
         Prepared::exact(vec![run], 10.0)
     }
 

@@ -2,8 +2,9 @@ use robot::{Actuator, Robot};
 
 use super::{
     actuator_delay, actuator_lag, cable_spring, counterbalance, differential_coupling,
-    encoder_offset, load_dependent_friction, position_dependent_friction, presliding_friction,
-    stribeck_friction, torque_ripple, transmission_ratio,
+    encoder_offset, friction_temperature_drift, load_dependent_friction,
+    position_dependent_friction, presliding_friction, stribeck_friction, torque_ripple,
+    transmission_ratio,
 };
 use crate::Inject;
 
@@ -33,6 +34,7 @@ pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> 
             a.friction_wave.map(|wave| position_dependent_friction::varying(joint, wave)),
             a.stribeck.map(|excess| stribeck_friction::acting(joint, 0.0, excess)),
             load.map(|coefficient| load_dependent_friction::acting(joint, coefficient)),
+            a.warming.map(|warming| friction_temperature_drift::losing(joint, warming)),
             a.presliding.map(|way| {
                 presliding_friction::bending(joint, a, largest_dry(a, effort_limit) / way)
             }),

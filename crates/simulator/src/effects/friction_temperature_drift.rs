@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::Robot;
+use robot::{Robot, Warming};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -76,5 +76,24 @@ impl Inject for Injected {
         for &joint in &self.joints {
             efforts.scale_friction(joint, left);
         }
+    }
+}
+
+/// The friction that a robot is described to lose.
+pub(super) fn losing(joint: usize, warming: Warming) -> Box<dyn Inject> {
+    Box::new(Losing { joint, warming })
+}
+
+struct Losing {
+    joint: usize,
+    warming: Warming,
+}
+
+impl Inject for Losing {
+    fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
+        let Self { joint, warming } = *self;
+        let warm = -(-moment.time_s.max(0.0) / warming.time_constant_s).exp_m1();
+        efforts.viscous[joint] -= warm * warming.viscous_lost;
+        efforts.add_dry(joint, -warm * warming.coulomb_lost);
     }
 }

@@ -181,6 +181,7 @@ fn samples(robot: &Robot, n: usize, seed: u64) -> Samples {
         name: "made up".to_owned(),
         rate_hz: 1.0,
         time: (0..n).map(|i| i as f64).collect(),
+        session_start_s: 0.0,
         joints: joints.collect(),
     };
     Samples::new(&Prepared::exact(vec![run], f64::INFINITY))
