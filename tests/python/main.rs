@@ -2,6 +2,7 @@
 //! no `python3` with what they import, a test says so and is left out.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -54,6 +55,25 @@ fn python(module: &Path) -> Command {
     python
 }
 
+/// Runs tests of Python on the module.
+fn hold(module: &Path, tests: &str, environment: &[(&str, OsString)]) {
+    let ended = python(module)
+        .arg(workspace_root().join("tests/python").join(tests))
+        .env("PLUMBLINE_ROOT", workspace_root())
+        .envs(environment.iter().cloned())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert!(ended.status.success(), "{said}");
+    println!("{said}");
+}
+
+#[test]
+fn what_cannot_be_used_is_an_exception_that_names_the_argument() {
+    let Some(module) = module(NUMPY, "arguments are") else { return };
+    hold(module.path(), "test_arguments.py", &[]);
+}
+
 #[test]
 fn the_module_does_what_it_says() {
     let Some(module) = module(NUMPY, "the module is") else { return };
@@ -63,14 +83,7 @@ fn the_module_does_what_it_says() {
     let runs = [1, 2].map(|seed| run(&Truth::of(&robot), &Noise::of_a_wam(), 2.0, seed));
     write(&dataset, &runs, Layout::OneFile, &[]);
     let starts = runs.map(|run| run.joints[0].position[0].to_string());
-    let ended = python(module.path())
-        .arg(workspace_root().join("tests/python/test_module.py"))
-        .env("PLUMBLINE_ROOT", workspace_root())
-        .env("PLUMBLINE_DATASET", &dataset)
-        .env("PLUMBLINE_STARTS", starts.join(" "))
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&ended.stderr);
-    assert!(ended.status.success(), "{said}");
-    println!("{said}");
+    let environment =
+        [("PLUMBLINE_DATASET", dataset.into()), ("PLUMBLINE_STARTS", starts.join(" ").into())];
+    hold(module.path(), "test_module.py", &environment);
 }
