@@ -6,6 +6,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use checks::arms::{wam, workspace_root};
 use checks::lerobot::{Layout, write};
@@ -13,18 +14,25 @@ use checks::synthetic::{Noise, Truth, run};
 
 #[cfg(unix)]
 mod book;
+#[cfg(unix)]
+mod wheel;
 
 /// Imports of the module itself.
 const NUMPY: &str = "import numpy, sys; assert sys.version_info >= (3, 10)";
 
-/// The library as cargo has just built it for this test: the newest of the places it is put.
-fn library() -> PathBuf {
-    let deps = std::env::current_exe().unwrap().parent().unwrap().to_owned();
-    let name =
-        format!("{}_plumbline{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    let places = [deps.join(&name), deps.join("..").join(&name)];
-    let made = |path: &PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
-    places.into_iter().filter(|path| path.exists()).max_by_key(made).unwrap()
+/// The library as cargo has just built it for this test: the newest of the places it is put. It is read once, and before
+/// the wheel is built, which puts another one there.
+fn library() -> &'static [u8] {
+    static LIBRARY: OnceLock<Vec<u8>> = OnceLock::new();
+    LIBRARY.get_or_init(|| {
+        let deps = std::env::current_exe().unwrap().parent().unwrap().to_owned();
+        let (prefix, suffix) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+        let name = format!("{prefix}_plumbline{suffix}");
+        let places = [deps.join(&name), deps.join("..").join(&name)];
+        let made = |path: &PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
+        let places = places.into_iter().filter(|path| path.exists());
+        fs::read(places.max_by_key(made).unwrap()).unwrap()
+    })
 }
 
 /// A folder with the module in it, to be on the path of Python; none, said so, where a command of Python fails that
@@ -44,7 +52,7 @@ fn module(imports: &str, tested: &str) -> Option<tempfile::TempDir> {
         }
     }
     let extension = if cfg!(windows) { "pyd" } else { "abi3.so" };
-    fs::copy(library(), package.join(format!("_plumbline.{extension}"))).unwrap();
+    fs::write(package.join(format!("_plumbline.{extension}")), library()).unwrap();
     Some(folder)
 }
 
