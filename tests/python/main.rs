@@ -11,6 +11,7 @@ use std::sync::OnceLock;
 use checks::arms::{wam, workspace_root};
 use checks::lerobot::{Layout, write};
 use checks::synthetic::{Noise, Truth, run};
+use colours::Role;
 
 #[cfg(unix)]
 mod book;
@@ -94,4 +95,14 @@ fn the_module_does_what_it_says() {
     let environment =
         [("PLUMBLINE_DATASET", dataset.into()), ("PLUMBLINE_STARTS", starts.join(" ").into())];
     hold(module.path(), "test_module.py", &environment);
+}
+
+#[test]
+fn a_plot_has_the_colours_of_reports() {
+    let file = workspace_root().join("crates/python/python/plumbline/_plot.py");
+    let plot = fs::read_to_string(file).unwrap();
+    for role in [Role::Measured, Role::Nominal, Role::Extended] {
+        let said = format!("\"{}\": \"{}\"", role.name(), role.colour().on_white);
+        assert!(plot.contains(&said), "{said}");
+    }
 }
