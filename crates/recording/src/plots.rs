@@ -198,3 +198,57 @@ fn width(role: Role) -> f32 {
 fn width_among(k: usize, count: usize) -> f32 {
     if count < 2 { 1.0 } else { 2.4 - 1.6 * k as f32 / (count - 1) as f32 }
 }
+
+#[cfg(test)]
+mod tests {
+    use rerun::RecordingStreamBuilder;
+    use rerun::blueprint::{Blueprint, BlueprintActivation};
+    use rerun::external::re_log_types::LogMsg;
+    use rerun::log::Chunk;
+
+    use super::*;
+
+    /// What the layout of a view says of its lines, entity by entity.
+    fn names(view: TimeSeriesView) -> Vec<Vec<String>> {
+        let (stream, messages) = RecordingStreamBuilder::new("plots").memory().unwrap();
+        let activation = BlueprintActivation { make_active: true, make_default: true };
+        Blueprint::new(view).send(&stream, activation).unwrap();
+        stream.flush_blocking().unwrap();
+        let component = SeriesLines::descriptor_names().component;
+        let of = |message: LogMsg| {
+            let LogMsg::ArrowMsg(_, rows) = message else { return None };
+            let chunk = Chunk::from_arrow_msg(&rows).unwrap();
+            let names = chunk.iter_slices::<String>(component).next()?;
+            Some(names.iter().map(|name| name.as_str().to_owned()).collect())
+        };
+        let mut all: Vec<Vec<String>> = messages.take().into_iter().filter_map(of).collect();
+        all.sort();
+        all
+    }
+
+    #[test]
+    fn the_legend_of_all_joints_names_them() {
+        let joints = ["elbow", "wrist"].map(|joint| (joint.to_owned(), JointKind::Revolute));
+        let signal = |name, role| Signal { quantity: Quantity::Residual, name, role };
+        let signals = [signal("nominal", Role::Nominal), signal("extended", Role::Predicted)];
+        for count in [1, 2] {
+            let plots = Plots::new(joints.to_vec(), &signals[..count]);
+            let expected = ["elbow", "wrist"].map(|joint| vec![joint.to_owned(); count]);
+            assert_eq!(names(plots.of_all(Quantity::Residual)), expected);
+        }
+        let plots = Plots::new(joints.to_vec(), &signals);
+        let own: Vec<&Line> = plots.sets[0].iter().collect();
+        let title = plots.title_of_all(Quantity::Residual, &own);
+        assert_eq!(title, "residual torque (N·m) of all joints, broad to fine: nominal, extended");
+        assert_eq!(
+            names(plots.of_joint(&joints[0], Quantity::Residual)),
+            [["nominal", "extended"]]
+        );
+    }
+
+    #[test]
+    fn the_first_of_several_lines_is_the_broadest() {
+        let widths: Vec<f32> = (0..3).map(|k| width_among(k, 3)).collect();
+        assert!(widths.windows(2).all(|pair| pair[0] > pair[1]) && widths[2] > 0.0, "{widths:?}");
+    }
+}
