@@ -1,6 +1,7 @@
 //! The book: every snippet of Python in it prints what the book shows, and every notebook runs from top to bottom.
 
 use std::fs;
+use std::process::Command;
 
 use checks::arms::workspace_root;
 use checks::book::{Page, blocks, missing, pages, reader};
@@ -23,16 +24,15 @@ const SIZE: u64 = 10_000;
 /// What stands between the outputs of two snippets.
 const BETWEEN: &str = "---- the next snippet ----";
 
-/// Runs the snippets of a page as one program, and holds what they print against what the page shows.
-fn hold(page: &Page) {
-    let Some(module) = module(NUMPY, &format!("snippets of {} are", page.name)) else { return };
+/// Runs the snippets of a page as one program of `python`, and holds what they print against what the page shows.
+pub fn hold(page: &Page, mut python: Command) {
     let folder = reader(page);
     let blocks = blocks(&page.text);
     let snippets = blocks.iter().filter(|block| block.language == "python");
     let snippets: Vec<&str> = snippets.map(|block| block.text.as_str()).collect();
     let script = folder.path().join("snippets.py");
     fs::write(&script, snippets.join(&format!("\nprint({BETWEEN:?})\n"))).unwrap();
-    let ended = python(module.path()).arg(&script).current_dir(folder.path()).output().unwrap();
+    let ended = python.arg(&script).current_dir(folder.path()).output().unwrap();
     let said = String::from_utf8_lossy(&ended.stderr);
     assert!(ended.status.success(), "{}: {said}", page.name);
     let printed = String::from_utf8(ended.stdout).unwrap();
@@ -56,7 +56,10 @@ fn snippets_print_what_the_book_shows() {
     let with_snippets = |page: &Page| blocks(&page.text).iter().any(|b| b.language == "python");
     let pages: Vec<Page> = pages().into_iter().filter(with_snippets).collect();
     assert!(!pages.is_empty());
-    pages.iter().for_each(hold);
+    for page in &pages {
+        let Some(module) = module(NUMPY, &format!("snippets of {} are", page.name)) else { return };
+        hold(page, python(module.path()));
+    }
 }
 
 #[test]

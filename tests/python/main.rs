@@ -2,28 +2,38 @@
 //! no `python3` with what they import, a test says so and is left out.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use checks::arms::{wam, workspace_root};
 use checks::lerobot::{Layout, write};
 use checks::synthetic::{Noise, Truth, run};
+use colours::Role;
 
 #[cfg(unix)]
 mod book;
+#[cfg(unix)]
+mod wheel;
 
 /// Imports of the module itself.
 const NUMPY: &str = "import numpy, sys; assert sys.version_info >= (3, 10)";
 
-/// The library as cargo has just built it for this test: the newest of the places it is put.
-fn library() -> PathBuf {
-    let deps = std::env::current_exe().unwrap().parent().unwrap().to_owned();
-    let name =
-        format!("{}_plumbline{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    let places = [deps.join(&name), deps.join("..").join(&name)];
-    let made = |path: &PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
-    places.into_iter().filter(|path| path.exists()).max_by_key(made).unwrap()
+/// The library as cargo has just built it for this test: the newest of the places it is put. It is read once, and before
+/// the wheel is built, which puts another one there.
+fn library() -> &'static [u8] {
+    static LIBRARY: OnceLock<Vec<u8>> = OnceLock::new();
+    LIBRARY.get_or_init(|| {
+        let deps = std::env::current_exe().unwrap().parent().unwrap().to_owned();
+        let (prefix, suffix) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+        let name = format!("{prefix}_plumbline{suffix}");
+        let places = [deps.join(&name), deps.join("..").join(&name)];
+        let made = |path: &PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
+        let places = places.into_iter().filter(|path| path.exists());
+        fs::read(places.max_by_key(made).unwrap()).unwrap()
+    })
 }
 
 /// A folder with the module in it, to be on the path of Python; none, said so, where a command of Python fails that
@@ -43,7 +53,7 @@ fn module(imports: &str, tested: &str) -> Option<tempfile::TempDir> {
         }
     }
     let extension = if cfg!(windows) { "pyd" } else { "abi3.so" };
-    fs::copy(library(), package.join(format!("_plumbline.{extension}"))).unwrap();
+    fs::write(package.join(format!("_plumbline.{extension}")), library()).unwrap();
     Some(folder)
 }
 
@@ -52,6 +62,25 @@ fn python(module: &Path) -> Command {
     let mut python = Command::new("python3");
     python.env("PYTHONPATH", module).env("PYTHONDONTWRITEBYTECODE", "1");
     python
+}
+
+/// Runs tests of Python on the module.
+fn hold(module: &Path, tests: &str, environment: &[(&str, OsString)]) {
+    let ended = python(module)
+        .arg(workspace_root().join("tests/python").join(tests))
+        .env("PLUMBLINE_ROOT", workspace_root())
+        .envs(environment.iter().cloned())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert!(ended.status.success(), "{said}");
+    println!("{said}");
+}
+
+#[test]
+fn what_cannot_be_used_is_an_exception_that_names_the_argument() {
+    let Some(module) = module(NUMPY, "arguments are") else { return };
+    hold(module.path(), "test_arguments.py", &[]);
 }
 
 #[test]
@@ -63,14 +92,17 @@ fn the_module_does_what_it_says() {
     let runs = [1, 2].map(|seed| run(&Truth::of(&robot), &Noise::of_a_wam(), 2.0, seed));
     write(&dataset, &runs, Layout::OneFile, &[]);
     let starts = runs.map(|run| run.joints[0].position[0].to_string());
-    let ended = python(module.path())
-        .arg(workspace_root().join("tests/python/test_module.py"))
-        .env("PLUMBLINE_ROOT", workspace_root())
-        .env("PLUMBLINE_DATASET", &dataset)
-        .env("PLUMBLINE_STARTS", starts.join(" "))
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&ended.stderr);
-    assert!(ended.status.success(), "{said}");
-    println!("{said}");
+    let environment =
+        [("PLUMBLINE_DATASET", dataset.into()), ("PLUMBLINE_STARTS", starts.join(" ").into())];
+    hold(module.path(), "test_module.py", &environment);
+}
+
+#[test]
+fn a_plot_has_the_colours_of_reports() {
+    let file = workspace_root().join("crates/python/python/plumbline/_plot.py");
+    let plot = fs::read_to_string(file).unwrap();
+    for role in [Role::Measured, Role::Nominal, Role::Extended] {
+        let said = format!("\"{}\": \"{}\"", role.name(), role.colour().on_white);
+        assert!(plot.contains(&said), "{said}");
+    }
 }

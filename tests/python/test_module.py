@@ -21,134 +21,6 @@ from plumbline import _plumbline
 ROOT = Path(os.environ["PLUMBLINE_ROOT"])
 WAM = ROOT / "robots/wam7/robot.toml"
 HIDDEN = ROOT / "scenarios/demo.toml"
-JOINTS = 7
-
-
-def states(samples):
-    random = np.random.default_rng(1)
-    return [random.normal(size=(samples, JOINTS)) for _ in range(3)]
-
-
-class InverseDynamics(unittest.TestCase):
-    def setUp(self):
-        self.robot = plumbline.Robot(WAM)
-
-    def torque(self, *arrays):
-        return plumbline.inverse_dynamics(self.robot, *arrays)
-
-    def test_one_state_is_a_row_of_many(self):
-        q, qd, qdd = states(5)
-        tau = self.torque(q, qd, qdd)
-        self.assertEqual(tau.shape, (5, JOINTS))
-        np.testing.assert_array_equal(self.torque(q[2], qd[2], qdd[2]), tau[2])
-
-    def test_a_robot_at_rest_holds_itself_and_moves_linearly_in_its_acceleration(self):
-        q, _, qdd = states(4)
-        rest = np.zeros_like(q)
-        held = self.torque(q, rest, rest)
-        once, twice = self.torque(q, rest, qdd), self.torque(q, rest, 2 * qdd)
-        np.testing.assert_allclose(twice - held, 2 * (once - held), atol=1e-9)
-        self.assertGreater(np.abs(held).max(), 1.0)
-
-    def test_every_order_in_memory_and_every_real_type_gives_the_same(self):
-        q, qd, qdd = (np.round(16 * x) / 16 for x in states(6))
-        expected = self.torque(q, qd, qdd)
-        np.testing.assert_array_equal(self.torque(np.asfortranarray(q), qd, qdd), expected)
-        np.testing.assert_array_equal(self.torque(q[::2], qd[::2], qdd[::2]), expected[::2])
-        np.testing.assert_array_equal(self.torque(q[::-1], qd[::-1], qdd[::-1]), expected[::-1])
-        np.testing.assert_array_equal(self.torque(q.astype(np.float32), qd, qdd), expected)
-        np.testing.assert_array_equal(self.torque(q.tolist(), qd.astype(">f8"), qdd), expected)
-        self.assertEqual(self.torque(q[:0], qd[:0], qdd[:0]).shape, (0, JOINTS))
-
-    def test_bad_arrays_are_exceptions_that_name_the_argument(self):
-        q, qd, qdd = states(4)
-        holed = qdd.copy()
-        holed[2, 1] = np.nan
-        cases = [
-            (ValueError, "q", (q[:, :3], qd, qdd)),
-            (ValueError, "q", (q[None], qd, qdd)),
-            (ValueError, "q", (1.0, qd, qdd)),
-            (ValueError, "qd", (q, qd[:2], qdd)),
-            (ValueError, "qd", (q, qd[0], qdd)),
-            (ValueError, "qdd", (q, qd, holed)),
-            (ValueError, "qdd", (q, qd, np.where(qdd > 1, np.inf, qdd))),
-            (TypeError, "qd", (q, qd * 1j, qdd)),
-            (TypeError, "qd", (q, qd > 0, qdd)),
-            (TypeError, "qd", (q, qd.astype(object), qdd)),
-            (TypeError, "q", ("a posture", qd, qdd)),
-            (TypeError, "q", (None, qd, qdd)),
-            (TypeError, "q", ([[1, 2], [3]], qd, qdd)),
-        ]
-        for error, argument, arrays in cases:
-            with self.subTest(argument=argument, error=error):
-                self.assertRaisesRegex(error, f"^{argument}: ", self.torque, *arrays)
-        self.assertRaisesRegex(ValueError, "row 2, joint j2_shoulder_pitch: found NaN", self.torque, q, qd, holed)
-        self.assertRaisesRegex(TypeError, "^robot: ", plumbline.inverse_dynamics, str(WAM), q, qd, qdd)
-
-
-class Logs(unittest.TestCase):
-    def setUp(self):
-        self.robot = plumbline.Robot(WAM)
-        self.time = np.arange(0, 2, 0.01)
-        self.q = np.sin(self.time)[:, None] * np.linspace(0.1, 0.5, JOINTS)
-        self.tau = 2 * self.q
-
-    def test_signals_come_back_as_they_were(self):
-        log = plumbline.Log(self.time, self.q, self.tau, joints=self.robot.joints).on(self.robot)
-        np.testing.assert_array_equal(log.q, self.q)
-        np.testing.assert_array_equal(log.tau, self.tau)
-        self.assertIsNone(log.qd)
-
-    def test_joints_are_found_by_name(self):
-        turned = list(reversed(self.robot.joints))
-        log = plumbline.Log(self.time, self.q[:, ::-1], self.tau[:, ::-1], joints=turned)
-        np.testing.assert_array_equal(log.on(self.robot).q, self.q)
-
-    def test_a_frame_is_a_log(self):
-        frame = {"time": self.time, "note": ["a"] * len(self.time)}
-        for j, joint in enumerate(self.robot.joints):
-            frame[f"{joint}.position"], frame[f"{joint}.effort"] = self.q[:, j], self.tau[:, j]
-        frames = [frame]
-        for library in ("pandas", "polars"):
-            try:
-                frames.append(__import__(library).DataFrame(frame))
-            except ImportError:
-                print(f"no {library} here: its frames are left out", file=sys.stderr)
-        for frame in frames:
-            np.testing.assert_array_equal(plumbline.Log.from_frame(frame).on(self.robot).q, self.q)
-        self.assertRaises(TypeError, plumbline.Log.from_frame, 3)
-        self.assertRaisesRegex(KeyError, "time", plumbline.Log.from_frame, {"a.position": self.q[:, 0]})
-
-    def test_bad_logs_are_exceptions_that_name_the_argument(self):
-        time, q, tau, robot = self.time, self.q, self.tau, self.robot
-        back = time.copy()
-        back[7] = 0.0
-        holed = q.copy()
-        holed[3, 2] = np.nan
-        cases = [
-            ("q: ", lambda: plumbline.Log(time, q[:5], tau)),
-            ("q: ", lambda: plumbline.Log(time, holed, tau)),
-            ("time: ", lambda: plumbline.Log(q, q, tau)),
-            ("time: ", lambda: plumbline.Log(np.where(time > 1, np.nan, time), q, tau)),
-            ("tau: ", lambda: plumbline.Log(time, q, tau[:, :3])),
-            ("joints: ", lambda: plumbline.Log(time, q, tau, joints=["a"] * JOINTS)),
-            ("joints: ", lambda: plumbline.Log(time, q, tau, joints=list("abcdefg")).on(robot)),
-            ("q: ", lambda: plumbline.Log(time, q[:, :3], tau[:, :3]).on(robot)),
-            ("time", lambda: plumbline.Log(back, q, tau).on(robot)),
-            ("no such file", lambda: plumbline.Log.read("absent.csv")),
-            ("log.on", lambda: plumbline.Log.read(__file__).q),
-            ("cutoff_hz: ", lambda: plumbline.diagnose(robot, plumbline.Log(time, q, tau), cutoff_hz=-1.0)),
-            ("absent", lambda: plumbline.Robot(WAM, joints=["absent"])),
-            ("format: ", lambda: robot.export("obj")),
-        ]
-        for words, call in cases:
-            with self.subTest(words=words):
-                self.assertRaisesRegex(ValueError, words, call)
-        with open(__file__) as file:
-            pass
-        self.assertRaises(TypeError, plumbline.Log.read, file)
-        self.assertRaisesRegex(TypeError, "^logs: ", plumbline.diagnose, robot, [3])
-        self.assertRaisesRegex(TypeError, "^logs: ", plumbline.diagnose, robot, "run.csv")
 
 
 class Episodes(unittest.TestCase):
@@ -170,8 +42,6 @@ class Episodes(unittest.TestCase):
             with self.subTest(episode=episode):
                 log = plumbline.Log.read(self.dataset, episode=episode)
                 self.assertRaisesRegex(plumbline.PlumblineError, "episode", log.on, self.robot)
-        with self.assertRaises((TypeError, OverflowError)):
-            plumbline.Log.read(self.dataset, episode=-1)
 
 
 ARM = """<robot name="arm"><link name="base"/>
@@ -428,7 +298,7 @@ class Answer(unittest.TestCase):
 
     def test_a_model_is_learned_saved_and_read(self):
         model = plumbline.learn(self.simulation.robot, self.logs, "rbd", progress=False)
-        q, qd, qdd = states(3)
+        q, qd, qdd = np.random.default_rng(1).normal(size=(3, 3, 7))
         with tempfile.TemporaryDirectory() as folder:
             model.save(Path(folder, "rbd.parquet"))
             again = plumbline.Model.load(Path(folder, "rbd.parquet"), self.simulation.robot)

@@ -1,5 +1,6 @@
 //! Prints the time of one inverse dynamics of the WAM (ns) and a checksum, and the same of its
-//! derivatives, for the comparison with Pinocchio: `pinocchio.cpp` does the same with the same states.
+//! derivatives, for the comparison with Pinocchio: `pinocchio.cpp` does the same with the same states. Of whole arrays
+//! it prints the time of a sample too, for `inverse_dynamics.py` of the crate `python`.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot build its input has failed")]
 
@@ -11,6 +12,9 @@ use robot::Robot;
 
 const STATES: usize = 1000;
 const ROUNDS: usize = 300;
+/// Samples of whole arrays, and how often they are gone through.
+const SAMPLES: usize = 100_000;
+const ARRAY_ROUNDS: usize = 10;
 
 fn main() {
     let wam = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/wam7/robot.urdf");
@@ -36,6 +40,24 @@ fn main() {
         dq[n - 1] + dqd[n - 1] + dqdd[n - 1]
     };
     time("derivatives", &states, &mut derivatives);
+    let arrays = [(); 3].map(|()| (0..SAMPLES * n).map(|_| draw()).collect::<Vec<f64>>());
+    time_arrays(&dynamics, &arrays);
+}
+
+/// Prints the least time of a sample where the torque of all samples becomes an array, row by row, and its sum.
+fn time_arrays(dynamics: &Dynamics, arrays: &[Vec<f64>; 3]) {
+    let (n, mut fastest, mut checksum) = (dynamics.joint_count(), f64::INFINITY, 0.0);
+    for _ in 0..ARRAY_ROUNDS {
+        let start = Instant::now();
+        let (mut ws, mut tau) = (dynamics.workspace(), vec![0.0; SAMPLES * n]);
+        let [q, qd, qdd] = arrays.each_ref().map(|all| all.chunks_exact(n));
+        for (((tau, q), qd), qdd) in tau.chunks_exact_mut(n).zip(q).zip(qd).zip(qdd) {
+            dynamics.inverse_dynamics_into(&mut ws, q, qd, qdd, tau);
+        }
+        fastest = fastest.min(start.elapsed().as_nanos() as f64 / SAMPLES as f64);
+        checksum = tau.iter().sum();
+    }
+    println!("arrays {fastest:.1} {checksum:.6}");
 }
 
 /// Prints the least time of one `evaluate` over all rounds, and the sum of what it returns.

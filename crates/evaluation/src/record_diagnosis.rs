@@ -144,7 +144,7 @@ fn found(recorder: &mut Recorder, outcome: &Outcome) -> Result<(), EvaluationErr
         bar("nominal", Role::Nominal, &gain.rms_before_nm[..]),
         bar("extended", Role::Predicted, &gain.rms_after_nm),
     ];
-    Ok(recorder.bars("RMS error (N m or N)", &bars)?)
+    Ok(recorder.bars("RMS error (N·m or N)", &bars)?)
 }
 
 /// The beginning of a run, with its name and first time (s), and what could not be simulated.

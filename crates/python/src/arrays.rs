@@ -9,6 +9,50 @@ use pyo3::types::PyDict;
 /// Kinds of NumPy's types that are read as numbers: integers with and without a sign, and floats.
 const KINDS: &str = "iuf";
 
+/// Numbers that are checked together.
+const BLOCK: usize = 1024;
+
+/// What the columns of a table are.
+#[derive(Clone, Copy)]
+pub enum Columns<'a> {
+    /// Those of joints with names.
+    Joints(&'a [String]),
+    /// As many as another table has.
+    Count(usize),
+    /// Any number, of a table.
+    Any,
+}
+
+impl Columns<'_> {
+    fn fit(self, shape: &[usize]) -> bool {
+        match (self, shape) {
+            (Self::Joints(joints), [.., n]) => *n == joints.len() && shape.len() <= 2,
+            (Self::Count(count), [.., n]) => *n == count && shape.len() <= 2,
+            (Self::Any, [_, n]) => *n > 0,
+            _ => false,
+        }
+    }
+
+    /// What was expected of a shape.
+    fn words(self) -> String {
+        match self {
+            Self::Joints(joints) => {
+                let (n, names) = (joints.len(), joints.join(", "));
+                format!("(samples, {n}) was expected, one column a joint: {names}")
+            }
+            Self::Count(n) => format!("(samples, {n}) was expected, one column a joint as in q"),
+            Self::Any => "(samples, joints) was expected".to_owned(),
+        }
+    }
+
+    fn place(self, column: usize) -> String {
+        match self {
+            Self::Joints(joints) => format!("joint {}", joints[column]),
+            Self::Count(_) | Self::Any => format!("column {column}"),
+        }
+    }
+}
+
 /// Rows of numbers, one column a joint, as they lie in memory.
 pub struct Rows<'py> {
     array: PyReadonlyArray2<'py, f64>,
@@ -24,26 +68,33 @@ impl<'py> Rows<'py> {
     /// # Errors
     ///
     /// `TypeError` for what holds no real numbers, `ValueError` for another shape and for a number that
-    /// is not finite; both name the argument.
-    pub fn new(name: &str, value: &Bound<'py, PyAny>, joints: &[String]) -> PyResult<Self> {
+    /// is masked or not finite; both name the argument.
+    pub fn new(name: &str, value: &Bound<'py, PyAny>, columns: Columns<'_>) -> PyResult<Self> {
         let array = numbers(name, value)?;
-        let (shape, n) = (array.shape().to_vec(), joints.len());
+        let shape = array.shape().to_vec();
+        let n = match shape.last() {
+            Some(n) if columns.fit(&shape) => *n,
+            _ => {
+                let (shape, expected) = (shown(&shape), columns.words());
+                return Err(PyValueError::new_err(format!(
+                    "{name}: its shape is {shape}, {expected}"
+                )));
+            }
+        };
         let is_single = shape.len() == 1;
-        if shape.last() != Some(&n) || shape.len() > 2 {
-            return Err(PyValueError::new_err(format!(
-                "{name}: its shape is {}, (samples, {n}) was expected, one column a joint: {}",
-                shown(&shape),
-                joints.join(", ")
-            )));
-        }
         let rows = shape.iter().product::<usize>() / n.max(1);
         let array = array.reshape([rows, n])?;
         let array = array.try_readonly().map_err(|e| busy(name, &e))?;
         finite(name, array.as_slice()?, |index| {
             let row = if is_single { String::new() } else { format!("row {}, ", index / n) };
-            format!("{row}joint {}", joints[index % n])
+            format!("{row}{}", columns.place(index % n))
         })?;
         Ok(Self { array, is_single })
+    }
+
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        self.array.shape()[1]
     }
 
     /// Number of rows.
@@ -129,6 +180,11 @@ fn numbers<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Py
             "{name}: found {found}, an array of real numbers was expected"
         ))
     };
+    if numpy.getattr("ma")?.call_method1("is_masked", (value,))?.extract()? {
+        return Err(PyValueError::new_err(format!(
+            "{name}: some of its numbers are masked, an array of all of them was expected"
+        )));
+    }
     let array = numpy
         .call_method1("asarray", (value,))
         .map_err(|error| no_numbers(format!("{} ({})", type_name(value), error.value(py))))?;
@@ -151,6 +207,11 @@ fn numbers<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Py
 }
 
 fn finite(name: &str, all: &[f64], place: impl Fn(usize) -> String) -> PyResult<()> {
+    // Without an end at the first one, so that several are looked at at once.
+    let holds = |block: &[f64]| block.iter().fold(true, |holds, x| holds & x.is_finite());
+    if all.chunks(BLOCK).all(holds) {
+        return Ok(());
+    }
     match all.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
         Some(index) => Err(PyValueError::new_err(format!(

@@ -14,8 +14,10 @@ create_exception!(
 pub fn raised(error: impl Into<CliError>) -> PyErr {
     let error = error.into();
     let words = error.words();
+    // Errors of a place in a file begin as the program prints them.
+    let words = words.strip_prefix("error: ").unwrap_or(&words);
     PlumblineError::new_err(match error.help() {
         Some(help) => format!("{words}\nhelp: {help}"),
-        None => words,
+        None => words.to_owned(),
     })
 }

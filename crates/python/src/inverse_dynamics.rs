@@ -1,7 +1,7 @@
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use crate::arrays::{Rows, same_rows, table};
+use crate::arrays::{Columns, Rows, same_rows, table};
 use crate::robot::Robot;
 
 /// The torque that moves the rigid bodies of `robot` so,
@@ -24,10 +24,10 @@ pub fn inverse_dynamics<'py>(
     qdd: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let joints = robot.joints();
-    let n = joints.len();
-    let q = Rows::new("q", q, &joints)?;
-    let qd = Rows::new("qd", qd, &joints)?;
-    let qdd = Rows::new("qdd", qdd, &joints)?;
+    let (n, columns) = (joints.len(), Columns::Joints(&joints));
+    let q = Rows::new("q", q, columns)?;
+    let qd = Rows::new("qd", qd, columns)?;
+    let qdd = Rows::new("qdd", qdd, columns)?;
     same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
     let mut tau = vec![0.0; q.len() * n];
     if n > 0 {

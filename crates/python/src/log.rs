@@ -7,7 +7,7 @@ use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::{Rows, rows_of, table, type_name, vector};
+use crate::arrays::{Columns, Rows, rows_of, table, type_name, vector};
 use crate::error::raised;
 
 /// One recorded run.
@@ -213,14 +213,15 @@ impl Log {
             (Channel::CommandedEffort, tau_commanded),
             (Channel::LinkPosition, q_link),
         ];
-        let width = q.getattr("shape").and_then(|shape| shape.get_item(1)?.extract::<usize>());
-        let numbered = || (0..width.unwrap_or(1)).map(|j| format!("joint {j}")).collect();
-        let names: Vec<String> = joints.clone().unwrap_or_else(numbered);
+        let mut columns = joints.as_deref().map_or(Columns::Any, Columns::Joints);
         let mut signals = Signals::new();
         for (channel, value) in given {
             let Some(value) = value else { continue };
             let argument = argument(channel);
-            let rows = Rows::new(argument, value, &names)?;
+            let rows = Rows::new(argument, value, columns)?;
+            if matches!(columns, Columns::Any) {
+                columns = Columns::Count(rows.width());
+            }
             if rows.len() != time.len() || rows.is_single {
                 return Err(PyValueError::new_err(format!(
                     "{argument}: {} rows, {} were expected, one for each entry of time",
@@ -264,12 +265,12 @@ impl Log {
             if let Some(twice) = read.insert(column.clone(), vector(&column, &values)?) {
                 let rows = twice.len();
                 return Err(PyValueError::new_err(format!(
-                    "columns: {column} comes twice, of {rows} rows"
+                    "frame: column {column} comes twice, of {rows} rows"
                 )));
             }
         }
         if !read.contains_key("time") {
-            return Err(PyKeyError::new_err("columns: time (s) was expected"));
+            return Err(PyKeyError::new_err("frame: a column time (s) was expected"));
         }
         Ok(Self { name: name.to_owned(), source: Source::Columns(read) })
     }

@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arguments::positive;
-use crate::arrays::{Rows, same_rows, table};
+use crate::arrays::{Columns, Rows, same_rows, table};
 use crate::error::raised;
 use crate::log::Log;
 use crate::robot::Robot;
@@ -37,7 +37,7 @@ impl Model {
         [q, qd, qdd]: [&Bound<'py, PyAny>; 3],
         tells: fn(&learner::Model, &Samples) -> Vec<f64>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let rows = |name, value| Rows::new(name, value, &self.joints);
+        let rows = |name, value| Rows::new(name, value, Columns::Joints(&self.joints));
         let (q, qd, qdd) = (rows("q", q)?, rows("qd", qd)?, rows("qdd", qdd)?);
         same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
         let states = [q.as_slice()?.to_vec(), qd.as_slice()?.to_vec(), qdd.as_slice()?.to_vec()];

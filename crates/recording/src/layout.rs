@@ -26,8 +26,16 @@ const ROOM: f64 = 0.08;
 /// Most lines that a legend names in a plot.
 const LEGEND: usize = 8;
 
-/// Share of the height of a plot that a line of its legend takes, and that is left below the curves.
-const LEGEND_LINE: f64 = 0.07;
+/// Height of a line of a legend, and of its edges (pixels, of the viewer's 0.36).
+const LEGEND_LINE_PX: f64 = 23.0;
+const LEGEND_EDGES_PX: f64 = 8.0;
+
+/// Height of a column of plots in a window of 1000 pixels, and what title and axis take of each plot (pixels).
+const COLUMN_PX: f64 = 940.0;
+const FRAME_PX: f64 = 47.0;
+
+/// Most of the height of a plot that its legend is given, and what is left below the curves.
+const MOST_ABOVE: f64 = 0.6;
 const BELOW: f64 = 0.05;
 
 /// What the screen shows: the arm left, a tab a joint in the middle, the verdict right.
@@ -82,10 +90,14 @@ impl Layout {
             .into_iter()
             .find(|quantity| self.plots.quantities().any(|q| q == *quantity));
         let Some(quantity) = overview else { return scene };
-        let lines = self.plots.joints.len() * self.plots.count(quantity);
-        let ends = self.plots.ends_of_all(quantity);
-        let plot = plot(self.plots.of_all(quantity).into(), (lines, ends), properties);
-        Vertical::new([scene, plot]).with_row_shares([2.4, 1.0]).into()
+        let lines = self.plots.joints.len();
+        // The legend and the curves have as much height each.
+        let share =
+            if lines > LEGEND { 0.3 } else { (2.0 * legend_px(lines) + FRAME_PX) / COLUMN_PX };
+        let share = share.clamp(0.3, 0.5);
+        let axis = Axis { lines, ends: self.plots.ends_of_all(quantity), share };
+        let plot = plot(self.plots.of_all(quantity).into(), &axis, properties);
+        Vertical::new([scene, plot]).with_row_shares([1.0 - share as f32, share as f32]).into()
     }
 
     /// The arms, seen from where all of their motion fits the picture; before there is any, from a
@@ -118,6 +130,10 @@ impl Layout {
     }
 
     fn joints(&self, properties: &mut Properties) -> ContainerLike {
+        // A longer legend needs a higher plot.
+        let height = |quantity| 2.0 + self.plots.count(quantity) as f32;
+        let heights: Vec<f32> = self.plots.quantities().map(height).collect();
+        let all: f32 = heights.iter().sum();
         let tabs: Vec<ContainerLike> = self
             .plots
             .joints
@@ -125,13 +141,15 @@ impl Layout {
             .map(|joint| {
                 let plots = self.plots.quantities().map(|quantity| {
                     let view = self.plots.of_joint(joint, quantity).into();
-                    let ends = self.plots.ends_of(&joint.0, quantity);
-                    plot(view, (self.plots.count(quantity), ends), properties)
+                    let axis = Axis {
+                        lines: self.plots.count(quantity),
+                        ends: self.plots.ends_of(&joint.0, quantity),
+                        share: f64::from(height(quantity) / all),
+                    };
+                    plot(view, &axis, properties)
                 });
                 let plots: Vec<ContainerLike> = plots.collect();
-                // A longer legend needs a higher plot.
-                let heights = self.plots.quantities().map(|q| 2.0 + self.plots.count(q) as f32);
-                let plots = Vertical::new(plots).with_row_shares(heights.collect::<Vec<_>>());
+                let plots = Vertical::new(plots).with_row_shares(heights.clone());
                 plots.with_name(joint.0.as_str()).into()
             })
             .collect();
@@ -168,31 +186,45 @@ impl Layout {
     }
 }
 
-/// A plot of so many lines between these ends, below its legend; where that would hide them, a line
-/// tells its name when it is pointed at.
-fn plot(
-    view: ContainerLike,
-    (lines, ends): (usize, Option<[f64; 2]>),
-    properties: &mut Properties,
-) -> ContainerLike {
+/// What decides the axis of a plot.
+struct Axis {
+    /// Lines of its legend.
+    lines: usize,
+    /// Least and largest number that is shown; none before there is any.
+    ends: Option<[f64; 2]>,
+    /// Share of the height of its column.
+    share: f64,
+}
+
+/// A plot below its legend; where that would hide the curves, a line tells its name when it is pointed at.
+fn plot(view: ContainerLike, axis: &Axis, properties: &mut Properties) -> ContainerLike {
     let shared = TimeAxis::new().with_link(LinkAxis::LinkToGlobal);
     let view = properties.set(view, "TimeAxis", shared);
     let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
-    let view = properties.set(view, "PlotLegend", legend.with_visible(lines <= LEGEND));
-    match ends {
-        Some(ends) => {
-            let axis = ScalarAxis::new().with_range(with_room(ends, lines));
-            properties.set(view, "ScalarAxis", axis)
-        }
+    let view = properties.set(view, "PlotLegend", legend.with_visible(axis.lines <= LEGEND));
+    match axis.range() {
+        Some(range) => properties.set(view, "ScalarAxis", ScalarAxis::new().with_range(range)),
         None => view,
     }
 }
 
-/// The ends of an axis whose curves lie below a legend of so many lines.
-fn with_room([low, high]: [f64; 2], lines: usize) -> [f64; 2] {
-    let above = if lines <= LEGEND { LEGEND_LINE * (lines as f64 + 1.0) } else { BELOW };
-    let height = (high - low).max(1e-6 * high.abs().max(1e-6)) / (1.0 - above - BELOW);
-    [low - BELOW * height, high + above * height]
+impl Axis {
+    /// The ends of the axis, so that curves lie below the legend.
+    fn range(&self) -> Option<[f64; 2]> {
+        let [low, high] = self.ends?;
+        let above = match self.lines {
+            lines if lines > LEGEND => BELOW,
+            lines => legend_px(lines) / (self.share * COLUMN_PX - FRAME_PX).max(1.0),
+        };
+        let above = above.min(MOST_ABOVE);
+        let height = (high - low).max(1e-6 * high.abs().max(1e-6)) / (1.0 - above - BELOW);
+        Some([low - BELOW * height, high + above * height])
+    }
+}
+
+/// Height of a legend (pixels).
+fn legend_px(lines: usize) -> f64 {
+    LEGEND_LINE_PX * lines as f64 + LEGEND_EDGES_PX
 }
 
 /// Distance of the lines of the grid: 1, 2 or 5 times a power of ten, about a quarter of
@@ -210,12 +242,18 @@ mod tests {
 
     #[test]
     fn curves_lie_below_the_legend() {
-        let [low, high] = with_room([-1.0, 3.0], 2);
+        // A plot of 188 pixels, whose legend takes 54.
+        let axis = Axis { lines: 2, ends: Some([-1.0, 3.0]), share: 0.25 };
+        let [low, high] = axis.range().unwrap();
         let height = high - low;
-        assert!((high - 3.0 - 3.0 * LEGEND_LINE * height).abs() < 1e-9);
+        assert!((high - 3.0 - 54.0 / 188.0 * height).abs() < 1e-9);
         assert!((-1.0 - low - BELOW * height).abs() < 1e-9);
-        let [low, high] = with_room([0.0, 0.0], 1);
+        let [low, high] = Axis { lines: 1, ends: Some([0.0, 0.0]), share: 0.01 }.range().unwrap();
         assert!(low < 0.0 && high > 0.0);
+        let [_, high] =
+            Axis { lines: LEGEND + 1, ends: Some([0.0, 1.0]), share: 0.3 }.range().unwrap();
+        assert!(high < 1.1);
+        assert_eq!(Axis { lines: 2, ends: None, share: 0.25 }.range(), None);
     }
 
     #[test]

@@ -102,7 +102,8 @@ impl Plots {
         (joint, kind): &(String, JointKind),
         quantity: Quantity,
     ) -> TimeSeriesView {
-        let mut view = TimeSeriesView::new(quantity.title(*kind)).with_origin(path(joint, 0));
+        let title = format!("{} of {joint}", quantity.title(*kind));
+        let mut view = TimeSeriesView::new(title).with_origin(path(joint, 0));
         let mut contents = vec![];
         for (set, lines) in self.sets.iter().enumerate() {
             let own = || lines.iter().filter(|line| line.quantity == quantity);
@@ -119,32 +120,35 @@ impl Plots {
         view.with_contents(contents)
     }
 
-    /// One quantity of all joints: a colour a joint, or where there are several signals the
-    /// colour of their role.
+    /// One quantity of all joints: a colour and a line of the legend a joint; of several signals the
+    /// first is the broadest.
     pub fn of_all(&self, quantity: Quantity) -> TimeSeriesView {
         let lines = self.sets.first().into_iter().flatten();
         let own: Vec<&Line> = lines.filter(|line| line.quantity == quantity).collect();
-        let same = self.joints.windows(2).all(|w| w[0].1.is_rotation() == w[1].1.is_rotation());
-        let kind = self.joints.first().filter(|_| same).map(|(_, kind)| *kind);
-        let title = kind.map_or_else(|| mixed(quantity), |kind| quantity.title(kind));
-        let mut view = TimeSeriesView::new(format!("{title} of all joints"))
+        let mut view = TimeSeriesView::new(self.title_of_all(quantity, &own))
             .with_origin("joints")
             .with_contents(self.joint_paths().map(|path| path.to_string()));
-        let color = |i: usize, role: Role| {
-            colour::solid(if own.len() == 1 { colour::series(i) } else { colour::rgb(role) })
-        };
         for (i, (joint, _)) in self.joints.iter().enumerate() {
-            let name = |signal: &str| match own.len() {
-                1 => joint.clone(),
-                _ => format!("{joint} {signal}"),
-            };
+            let color = colour::solid(colour::series(i));
+            // The viewer joins lines of the same name to one line of the legend.
             let lines = SeriesLines::new()
-                .with_names(own.iter().map(|line| name(&line.name)))
-                .with_colors(own.iter().map(|line| color(i, line.role)))
-                .with_widths(own.iter().map(|_| 1.0_f32));
+                .with_names(own.iter().map(|_| joint.as_str()))
+                .with_colors(own.iter().map(|_| color))
+                .with_widths((0..own.len()).map(|k| width_among(k, own.len())));
             view = view.with_override(path(joint, 0), reading(&lines, quantity));
         }
         view
+    }
+
+    fn title_of_all(&self, quantity: Quantity, own: &[&Line]) -> String {
+        let same = self.joints.windows(2).all(|w| w[0].1.is_rotation() == w[1].1.is_rotation());
+        let kind = self.joints.first().filter(|_| same).map(|(_, kind)| *kind);
+        let title = kind.map_or_else(|| mixed(quantity), |kind| quantity.title(kind));
+        let names: Vec<&str> = own.iter().map(|line| line.name.as_str()).collect();
+        match names.len() {
+            0 | 1 => format!("{title} of all joints"),
+            _ => format!("{title} of all joints, broad to fine: {}", names.join(", ")),
+        }
     }
 }
 
@@ -188,4 +192,63 @@ fn reading(lines: &SeriesLines, quantity: Quantity) -> Visualizer {
 /// What is asked for is drawn wider, so that it shows beneath what follows it.
 fn width(role: Role) -> f32 {
     if role == Role::Desired { 2.5 } else { 1.3 }
+}
+
+/// Width of line `k` of `count` that have the colour of their joint: from 2.4 to 0.8.
+fn width_among(k: usize, count: usize) -> f32 {
+    if count < 2 { 1.0 } else { 2.4 - 1.6 * k as f32 / (count - 1) as f32 }
+}
+
+#[cfg(test)]
+mod tests {
+    use rerun::RecordingStreamBuilder;
+    use rerun::blueprint::{Blueprint, BlueprintActivation};
+    use rerun::external::re_log_types::LogMsg;
+    use rerun::log::Chunk;
+
+    use super::*;
+
+    /// What the layout of a view says of its lines, entity by entity.
+    fn names(view: TimeSeriesView) -> Vec<Vec<String>> {
+        let (stream, messages) = RecordingStreamBuilder::new("plots").memory().unwrap();
+        let activation = BlueprintActivation { make_active: true, make_default: true };
+        Blueprint::new(view).send(&stream, activation).unwrap();
+        stream.flush_blocking().unwrap();
+        let component = SeriesLines::descriptor_names().component;
+        let of = |message: LogMsg| {
+            let LogMsg::ArrowMsg(_, rows) = message else { return None };
+            let chunk = Chunk::from_arrow_msg(&rows).unwrap();
+            let names = chunk.iter_slices::<String>(component).next()?;
+            Some(names.iter().map(|name| name.as_str().to_owned()).collect())
+        };
+        let mut all: Vec<Vec<String>> = messages.take().into_iter().filter_map(of).collect();
+        all.sort();
+        all
+    }
+
+    #[test]
+    fn the_legend_of_all_joints_names_them() {
+        let joints = ["elbow", "wrist"].map(|joint| (joint.to_owned(), JointKind::Revolute));
+        let signal = |name, role| Signal { quantity: Quantity::Residual, name, role };
+        let signals = [signal("nominal", Role::Nominal), signal("extended", Role::Predicted)];
+        for count in [1, 2] {
+            let plots = Plots::new(joints.to_vec(), &signals[..count]);
+            let expected = ["elbow", "wrist"].map(|joint| vec![joint.to_owned(); count]);
+            assert_eq!(names(plots.of_all(Quantity::Residual)), expected);
+        }
+        let plots = Plots::new(joints.to_vec(), &signals);
+        let own: Vec<&Line> = plots.sets[0].iter().collect();
+        let title = plots.title_of_all(Quantity::Residual, &own);
+        assert_eq!(title, "residual torque (N·m) of all joints, broad to fine: nominal, extended");
+        assert_eq!(
+            names(plots.of_joint(&joints[0], Quantity::Residual)),
+            [["nominal", "extended"]]
+        );
+    }
+
+    #[test]
+    fn the_first_of_several_lines_is_the_broadest() {
+        let widths: Vec<f32> = (0..3).map(|k| width_among(k, 3)).collect();
+        assert!(widths.windows(2).all(|pair| pair[0] > pair[1]) && widths[2] > 0.0, "{widths:?}");
+    }
 }

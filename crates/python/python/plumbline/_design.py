@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import Optional, Union
 
-from plumbline import _plumbline
+from plumbline import _arguments, _plumbline
 from plumbline._diagnosis import Diagnosis
 from plumbline._log import Log
 from plumbline._progress import Progress, shown
@@ -43,7 +43,7 @@ class Design:
 
         Raises ``ValueError`` where no motion helps, and ``PlumblineError`` where the folder cannot be written.
         """
-        if self._native.save(folder) is None:
+        if self._native.save(_arguments.path("folder", folder)) is None:
             raise ValueError("save: no motion was found that helps, there is nothing to write")
 
     def __str__(self) -> str:
@@ -73,15 +73,18 @@ def design(
     """
     if diagnosis is not None and not isinstance(diagnosis, Diagnosis):
         raise TypeError(f"diagnosis: found {type(diagnosis).__name__}, a Diagnosis was expected")
-    if isinstance(separate, str):
-        raise TypeError("separate: found str, two causes such as ('FR01@elbow', 'FR02@elbow') were expected")
+    causes = None if separate is None else _arguments.texts("separate", separate)
+    if causes is not None and len(causes) != 2:
+        raise ValueError(
+            f"separate: found {len(causes)}, two causes such as ('FR01@elbow', 'FR02@elbow') were expected"
+        )
     with shown(progress) as told:
         found = _plumbline.design(
             native(robot),
             None if diagnosis is None else diagnosis._native,
-            separate=None if separate is None else list(separate),
-            duration_s=duration_s,
-            seed=seed,
+            separate=causes,
+            duration_s=_arguments.number_or_none("duration_s", duration_s),
+            seed=_arguments.count_or_none("seed", seed),
             progress=told,
         )
     return Design(found)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Optional, Union
 
-from plumbline import _plumbline
+from plumbline import _arguments, _plumbline
 from plumbline._findings import Findings, findings_of
 from plumbline._log import Log, natives
 from plumbline._progress import Progress, shown
@@ -77,7 +77,11 @@ class Diagnosis:
         Raises ``PlumblineError`` where it cannot be written or the motion cannot be recorded.
         """
         with shown(progress) as told:
-            self._native.report(folder, recording=recording, progress=told)
+            self._native.report(
+                _arguments.path("folder", folder),
+                recording=_arguments.flag("recording", recording),
+                progress=told,
+            )
 
     def export(self, format: str) -> Export:
         """The robot with the findings as ``"urdf"``, ``"mjcf"`` or ``"sdf"``; see ``Robot.export``."""
@@ -149,8 +153,8 @@ def diagnose(
         found = _plumbline.diagnose(
             native(robot),
             natives("logs", logs),
-            cutoff_hz=cutoff_hz,
-            without=list(without),
+            cutoff_hz=_arguments.number_or_none("cutoff_hz", cutoff_hz),
+            without=_arguments.texts("without", without),
             progress=told,
         )
     return Diagnosis._of(found)
@@ -174,8 +178,8 @@ def compare(
             native(robot),
             natives("before", before),
             natives("after", after),
-            cutoff_hz=cutoff_hz,
-            without=list(without),
+            cutoff_hz=_arguments.number_or_none("cutoff_hz", cutoff_hz),
+            without=_arguments.texts("without", without),
             progress=told,
         )
     return Comparison(compared)

@@ -9,7 +9,7 @@ from typing import Any, Optional, Union
 import numpy
 import numpy.typing
 
-from plumbline import _plumbline
+from plumbline import _arguments, _plumbline
 from plumbline._robot import Robot, native
 
 _Array = numpy.typing.NDArray[numpy.float64]
@@ -54,13 +54,13 @@ class Log:
             tau,
             qd,
             qdd,
-            joints=None if joints is None else list(joints),
+            joints=None if joints is None else _joints(joints),
             q_desired=q_desired,
             qd_desired=qd_desired,
             qdd_desired=qdd_desired,
             tau_commanded=tau_commanded,
             q_link=q_link,
-            name=name,
+            name=_arguments.text("name", name),
         )
 
     @classmethod
@@ -87,14 +87,16 @@ class Log:
         is read up to there. The file is read when it is used with a robot. Raises ``PlumblineError`` where there
         is no file.
         """
-        options = {
-            "map": map,
-            "effort": effort,
-            "topic": topic,
-            "episode": episode,
-            "until_damage": until_damage,
-        }
-        return cls._of(_plumbline.Log.read_file(path, **options))  # type: ignore[arg-type]
+        return cls._of(
+            _plumbline.Log.read_file(
+                _arguments.path("path", path),
+                map=_arguments.path_or_none("map", map),
+                effort=_arguments.text("effort", effort),
+                topic=None if topic is None else _arguments.text("topic", topic),
+                episode=_arguments.count_or_none("episode", episode),
+                until_damage=_arguments.flag("until_damage", until_damage),
+            )
+        )
 
     @classmethod
     def from_frame(cls, frame: Any, *, name: str = "log") -> Log:
@@ -110,9 +112,9 @@ class Log:
             raise TypeError(
                 f"frame: found {type(frame).__name__}, a frame of pandas or polars or a mapping was expected"
             )
-        columns = [(str(column), numpy.asarray(frame[column])) for column in names]
+        columns = [(_arguments.text("frame", str(column)), numpy.asarray(frame[column])) for column in names]
         used = [c for c in columns if c[1].dtype.kind in "iuf" or c[0] == "time" or "." in c[0]]
-        return cls._of(_plumbline.Log.of_columns(used, name=name))
+        return cls._of(_plumbline.Log.of_columns(used, name=_arguments.text("name", name)))
 
     def on(self, robot: Robot) -> Log:
         """The log as it is read and checked for a robot, its joints in the robot's order.
@@ -163,7 +165,7 @@ class Log:
 
     def signal(self, name: str) -> Optional[_Array]:
         """A signal by the name of its argument, such as ``"q_desired"``, likewise."""
-        return self._native.signal(name)
+        return self._native.signal(_arguments.text("name", name))
 
     def __repr__(self) -> str:
         return repr(self._native)
@@ -175,7 +177,15 @@ def natives(argument: str, logs: Union[Log, Sequence[Log]]) -> list[_plumbline.L
         logs = [logs]
     if isinstance(logs, (str, bytes)) or not isinstance(logs, Iterable):
         raise TypeError(f"{argument}: found {type(logs).__name__}, logs in a list were expected")
-    for log in logs:
+    every = list(logs)
+    for log in every:
         if not isinstance(log, Log):
             raise TypeError(f"{argument}: found {type(log).__name__}, a Log was expected")
-    return [log._native for log in logs]
+    return [log._native for log in every]
+
+
+def _joints(joints: Sequence[str]) -> list[str]:
+    names = _arguments.texts("joints", joints)
+    if not names:
+        raise ValueError("joints: found none, at least one name was expected")
+    return names

@@ -9,7 +9,7 @@ from typing import Optional, Union
 import numpy
 import numpy.typing
 
-from plumbline import _plumbline
+from plumbline import _arguments, _plumbline
 from plumbline._log import Log, natives
 from plumbline._progress import Progress, shown
 from plumbline._robot import Robot, native
@@ -51,7 +51,7 @@ class Model:
 
         Raises ``PlumblineError`` for a file that is none, or that is of a robot with other joints.
         """
-        return cls._of(_plumbline.Model.load(path, native(robot)))
+        return cls._of(_plumbline.Model.load(_arguments.path("path", path), native(robot)))
 
     @classmethod
     def described(cls, robot: Robot, *, rest_speed: float = 1e-3) -> Model:
@@ -63,11 +63,11 @@ class Model:
         With ``diagnosis.robot`` this is the feedforward with all that was found. ``rest_speed`` (rad/s or
         m/s) is the speed at which dry friction has its whole size.
         """
-        return cls._of(_plumbline.Model.described(native(robot), rest_speed))
+        return cls._of(_plumbline.Model.described(native(robot), _arguments.number("rest_speed", rest_speed)))
 
     def save(self, path: Union[str, PathLike[str]]) -> None:
         """Write the model as Parquet. Raises ``PlumblineError`` where that cannot be."""
-        self._native.save(path)
+        self._native.save(_arguments.path("path", path))
 
     @property
     def kind(self) -> str:
@@ -101,7 +101,9 @@ class Model:
     def error(self, logs: Union[Log, Sequence[Log]], *, cutoff_hz: Optional[float] = None) -> _Array:
         """RMS error of every joint (N m or N) in logs that the model was not learned from, behind a low-pass
         of ``cutoff_hz``, chosen from the logs where it is left out."""
-        return self._native.error(natives("logs", logs), cutoff_hz=cutoff_hz)
+        return self._native.error(
+            natives("logs", logs), cutoff_hz=_arguments.number_or_none("cutoff_hz", cutoff_hz)
+        )
 
     def __repr__(self) -> str:
         return repr(self._native)
@@ -129,10 +131,10 @@ def learn(
         learned = _plumbline.learn(
             native(robot),
             natives("logs", logs),
-            model,
-            points=points,
-            named=None if named is None else native(named),
-            cutoff_hz=cutoff_hz,
+            _arguments.text("model", model),
+            points=_arguments.count_or_none("points", points),
+            named=None if named is None else native(named, "named"),
+            cutoff_hz=_arguments.number_or_none("cutoff_hz", cutoff_hz),
             progress=told,
         )
     return Model._of(learned)

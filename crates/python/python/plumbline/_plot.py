@@ -7,7 +7,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-_COLOURS = {"measured": "#30363d", "nominal": "#c8500a", "extended": "#1668c5"}
+# Those of reports on white.
+_COLOURS = {"measured": "#1f2328", "nominal": "#b84a00", "extended": "#0072b2"}
 
 
 class Picture(Figure):
@@ -33,9 +34,9 @@ def plotted(run: dict[str, Any]) -> Figure:
                 error = signals["measured"] - signals[name]
                 left.plot(time[:count], error, color=colour, linewidth=0.8)
         torque.set_title(joint, loc="left")
-        torque.set_ylabel("torque (N m or N)")
+        torque.set_ylabel("torque\n(N·m or N)")
         left.set_ylabel("left")
-    axes[0, 0].legend(loc="upper right", ncols=3)
+    figure.legend(handles=axes[0, 0].get_lines(), loc="outside upper right", ncols=3, frameon=False)
     axes[-1, 0].set_xlabel("time (s)")
-    figure.suptitle(run["name"])
+    figure.suptitle(run["name"], x=0.01, ha="left")
     return figure

@@ -38,8 +38,11 @@ def shown(progress: Progress) -> Iterator[Optional[Callable[[str, int, int], obj
     if callable(progress):
         yield progress
         return
-    if progress not in (True, False, None):
-        raise TypeError("progress: True, False, None or a function(stage, done, steps) was expected")
+    if progress is not None and not isinstance(progress, bool):
+        raise TypeError(
+            f"progress: found {type(progress).__name__}, "
+            "True, False, None or a function(stage, done, steps) was expected"
+        )
     if progress is False:
         yield None
         return

@@ -12,7 +12,7 @@ from typing import Any, Optional, Union
 import numpy
 import numpy.typing
 
-from plumbline import _plumbline
+from plumbline import _arguments, _plumbline
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Export:
 
     def save(self, path: Union[str, PathLike[str]]) -> None:
         """Write the file."""
-        Path(path).write_text(self.text, encoding="utf-8")
+        Path(_arguments.path("path", path)).write_text(self.text, encoding="utf-8")
 
 
 class Robot:
@@ -53,13 +53,17 @@ class Robot:
         packages: Optional[Mapping[str, Union[str, PathLike[str]]]] = None,
         allow_outside: bool = False,
     ) -> None:
-        if isinstance(joints, str):
-            raise TypeError("joints: found str, names of joints in a list were expected")
+        if packages is not None and not isinstance(packages, Mapping):
+            raise TypeError(f"packages: found {type(packages).__name__}, folders by name were expected")
+        folders = [
+            (_arguments.text("packages", name), _arguments.path("packages", folder))
+            for name, folder in (packages or {}).items()
+        ]
         self._native = _plumbline.Robot(
-            path,
-            None if joints is None else list(joints),
-            packages=list((packages or {}).items()),
-            allow_outside=allow_outside,
+            _arguments.path("path", path),
+            None if joints is None else _arguments.texts("joints", joints),
+            packages=folders,
+            allow_outside=_arguments.flag("allow_outside", allow_outside),
         )
 
     @classmethod
@@ -109,15 +113,15 @@ class Robot:
 
         Raises ``ValueError`` for another format, and ``PlumblineError`` where the robot has no such form.
         """
-        text, quantities = self._native.export(format)
+        text, quantities = self._native.export(_arguments.text("format", format))
         return Export(text, tuple(json.loads(quantities)))
 
     def __repr__(self) -> str:
         return repr(self._native)
 
 
-def native(robot: Robot) -> _plumbline.Robot:
+def native(robot: Robot, argument: str = "robot") -> _plumbline.Robot:
     """The robot as the functions of Rust take it; raises ``TypeError`` for anything else."""
     if not isinstance(robot, Robot):
-        raise TypeError(f"robot: found {type(robot).__name__}, a Robot was expected")
+        raise TypeError(f"{argument}: found {type(robot).__name__}, a Robot was expected")
     return robot._native

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from os import PathLike
 from typing import Optional, Union
 
-from plumbline import _plumbline
+from plumbline import _arguments, _plumbline
 from plumbline._log import Log
 from plumbline._progress import Progress, shown
 from plumbline._robot import Robot
@@ -31,7 +31,7 @@ class Simulation:
     def save(self, folder: Union[str, PathLike[str]], *, csv: bool = False) -> None:
         """Write what ``plumbline simulate`` writes, byte by byte: the logs (Parquet, or CSV), the scenario,
         and apart from them what was put in."""
-        self._native.save(folder, csv=csv)
+        self._native.save(_arguments.path("folder", folder), csv=_arguments.flag("csv", csv))
 
 
 def simulate(
@@ -46,7 +46,11 @@ def simulate(
     ``set`` holds values in the place of the scenario's, such as ``"sensors.log_rate_hz=250"``. Progress,
     Ctrl-C and errors are those of ``diagnose``.
     """
-    if isinstance(set, str):
-        raise TypeError("set: found str, KEY=VALUE in a list was expected")
     with shown(progress) as told:
-        return Simulation(_plumbline.simulate(scenario, seed=seed, set=list(set), progress=told))
+        simulated = _plumbline.simulate(
+            _arguments.path("scenario", scenario),
+            seed=_arguments.count_or_none("seed", seed),
+            set=_arguments.texts("set", set),
+            progress=told,
+        )
+    return Simulation(simulated)

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Optional, Union
 
-from plumbline import _plumbline
+from plumbline import _arguments, _plumbline
 from plumbline._progress import Progress, shown
 
 
@@ -68,11 +68,13 @@ def track(
     Progress and Ctrl-C are those of ``diagnose``. Raises ``ValueError`` that names the argument, and ``PlumblineError``
     for a scenario, models or an arm that cannot be used.
     """
-    for name, values in (("feedforward", feedforward), ("set", set)):
-        if isinstance(values, str):
-            raise TypeError(f"{name}: found str, a list of them was expected")
     with shown(progress) as told:
         tracked = _plumbline.track(
-            scenario, out, learned=learned, feedforward=list(feedforward), set=list(set), progress=told
+            _arguments.path("scenario", scenario),
+            _arguments.path_or_none("out", out),
+            learned=_arguments.path_or_none("learned", learned),
+            feedforward=_arguments.texts("feedforward", feedforward),
+            set=_arguments.texts("set", set),
+            progress=told,
         )
     return Tracking(tracked)
