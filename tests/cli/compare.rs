@@ -31,6 +31,7 @@ fn friction_that_grew_is_what_changed() {
     let expected = "Changed: 1 named effect of arm.\n  FR02 Coulomb friction at elbow\n    2.0";
     assert!(answer.out.starts_with(expected), "{}", answer.out);
     assert!(answer.out.contains(", was 1.5") && answer.out.contains("    in the first logs 1.5"));
+    assert_eq!(answer.out.matches(", was").count(), 1, "{}", answer.out);
     assert!(answer.out.lines().all(|line| line.chars().count() <= 100), "{}", answer.out);
     for (side, level, nominal) in [("before", 1.5, 0.0), ("after", 2.0, 1.5)] {
         let out = folder.path().join("out").join(side);

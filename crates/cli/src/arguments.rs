@@ -107,10 +107,10 @@ The folder holds
 
 const DESIGN_EXIT_CODES: &str = "\
 Exit codes:
-  0  done
+  0  done, or nothing is open in the diagnosis: nothing is written
   1  no motion settles what is open: nothing is written
   2  usage: arguments, or an output folder that cannot be made
-  3  unusable data: a robot, a diagnosis or a log, or nothing is open in the diagnosis";
+  3  unusable data: a robot, a diagnosis or a log";
 
 const DESIGN_EXAMPLES: &str = "\
 Examples:

@@ -1,5 +1,5 @@
 use askama::Template;
-use diagnosis::{Comparison, Finding};
+use diagnosis::{Comparison, Estimate, Finding};
 
 use crate::html::inert;
 use crate::json::json;
@@ -93,9 +93,16 @@ fn row(finding: &Finding) -> [String; 2] {
 
 /// A change and its size in the first logs, where they tell it.
 fn first(comparison: &Comparison, finding: &Finding) -> Option<[String; 2]> {
+    Some([finding.at.words(), sizes_before(comparison, finding)?.join("; ")])
+}
+
+/// The size that a change has in the first logs by themselves, where they tell it.
+pub fn sizes_before(comparison: &Comparison, finding: &Finding) -> Option<Vec<String>> {
     let size = comparison.first.iter().find(|size| size.at == finding.at)?;
-    let known = Finding { parameters: size.parameters.clone(), ..finding.clone() };
-    Some(row(&known))
+    // It was what these logs say: there is nothing before them.
+    let alone = |p: &Estimate| Estimate { nominal: 0.0, ..p.clone() };
+    let parameters = size.parameters.iter().map(alone).collect();
+    Some(sizes(&Finding { parameters, ..finding.clone() }))
 }
 
 /// A finding on a page that has no figures of its joint.

@@ -58,7 +58,7 @@ mod tracking;
 mod trials;
 mod wrap;
 
-pub use change::{change_page, change_sentence};
+pub use change::{change_page, change_sentence, sizes_before};
 pub use error::ReportError;
 pub use files::{sha256_of, write_folder};
 pub use html::html;

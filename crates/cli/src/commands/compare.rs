@@ -155,11 +155,8 @@ fn lines(finding: &Finding) -> String {
 
 /// What the first logs by themselves say of the size of a change.
 fn first(comparison: &Comparison, finding: &Finding) -> String {
-    let Some(size) = comparison.first.iter().find(|size| size.at == finding.at) else {
-        return String::new();
-    };
-    let known = Finding { parameters: size.parameters.clone(), ..finding.clone() };
-    let words = format!("in the first logs {}", report::sizes(&known).join("; "));
+    let Some(sizes) = report::sizes_before(comparison, finding) else { return String::new() };
+    let words = format!("in the first logs {}", sizes.join("; "));
     let lines = report::packed(words.split_whitespace(), " ", WIDTH - 4);
     lines.iter().map(|line| format!("    {line}\n")).collect()
 }

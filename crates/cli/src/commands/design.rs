@@ -84,7 +84,15 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     }
     let searched = Searched::new(&wanted);
     line.finish();
-    let searched = searched?;
+    let searched = match searched {
+        Err(CliError::Design(nothing @ DesignError::NothingOpen { .. })) => {
+            if !arguments.quiet {
+                print(&format!("{nothing}\n"))?;
+            }
+            return Ok(Outcome::Good);
+        }
+        searched => searched?,
+    };
     let written = searched.write(&arguments.out, &arguments.robot)?;
     if !arguments.quiet {
         print(&format!("{}{}", searched.text(), written.as_deref().unwrap_or_default()))?;
