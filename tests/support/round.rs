@@ -73,8 +73,7 @@ pub fn run(
             }
             Ok(Err(told)) => {
                 counts.refused += 1;
-                let name = file.file_name().unwrap().to_string_lossy();
-                (!told.contains(&*name)).then(|| format!("no file is named: {told}"))
+                (!names_a_file(&told, file)).then(|| format!("no file is named: {told}"))
             }
             Err(panic) => Some(format!("panic: {}", words(&*panic))),
         };
@@ -94,6 +93,13 @@ pub fn fresh_seeds() -> Option<u64> {
     let first = std::time::UNIX_EPOCH.elapsed().unwrap().as_secs() << 20;
     println!("seeds from {first}");
     Some(first)
+}
+
+/// Whether what is told names the input, or begins with another file that the input extends.
+fn names_a_file(told: &str, input: &Path) -> bool {
+    let name = input.file_name().unwrap().to_string_lossy();
+    let first = told.split_once(':').map(|(path, _)| Path::new(path));
+    told.contains(&*name) || first.is_some_and(Path::is_file)
 }
 
 fn words(panic: &(dyn Any + Send)) -> String {

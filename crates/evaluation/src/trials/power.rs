@@ -64,6 +64,7 @@ fn size_of(kind: EffectKind) -> Option<&'static Parameter> {
         EffectKind::InertialParameters => None,
         EffectKind::DifferentialCoupling => named("level_sum"),
         EffectKind::PreslidingFriction => named("level"),
+        EffectKind::FrictionTemperatureDrift => named("share"),
         _ => parameters.first(),
     }
 }

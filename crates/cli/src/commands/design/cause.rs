@@ -25,7 +25,8 @@ pub fn at(kind: EffectKind, place: Option<&str>, robot: &Robot) -> Result<Hypoth
             effect: kind.label(),
             found: place.unwrap_or("no place").to_owned(),
             expected: if own.is_empty() {
-                "another robot".to_owned()
+                "an effect that this robot can have and that a motion of two minutes shows"
+                    .to_owned()
             } else if places.is_empty() {
                 "no place".to_owned()
             } else {
