@@ -17,7 +17,7 @@ use recording::Contents;
 
 use crate::arm::{self, Gap};
 use crate::campaign;
-use crate::program::{Answer, plumbline, run};
+use crate::program::{Answer, interruptible, run};
 use crate::writing::{killed_beyond, with_room};
 
 /// A command ends, or says that it will, within this time of a signal.
@@ -158,7 +158,7 @@ impl Place {
     /// Ends a command at some moment, looks at what is there, and starts it again.
     fn end(&mut self, index: usize) {
         self.prepare(index);
-        let mut command = plumbline();
+        let mut command = interruptible();
         command.current_dir(self.path()).args(words(index));
         let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         sleep(self.known[index].0.mul_f64(self.random.random_range(0.0..1.1)));

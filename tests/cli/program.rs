@@ -8,6 +8,17 @@ pub fn plumbline() -> Command {
     command
 }
 
+/// The same with Ctrl-C as a terminal has it: what a shell starts in the background, and all that this starts, is deaf
+/// to it.
+#[cfg(unix)]
+pub fn interruptible() -> Command {
+    let program = plumbline();
+    let mut command = Command::new("env");
+    command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
+    command.arg("--default-signal=INT").arg(program.get_program());
+    command
+}
+
 /// Exit code, standard output and standard error.
 #[derive(Debug)]
 pub struct Answer {
