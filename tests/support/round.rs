@@ -73,7 +73,7 @@ pub fn run(
             }
             Ok(Err(told)) => {
                 counts.refused += 1;
-                (!names_a_file(&told, file)).then(|| format!("no file is named: {told}"))
+                (!names_a_file(&told, file, &input)).then(|| format!("no file is named: {told}"))
             }
             Err(panic) => Some(format!("panic: {}", words(&*panic))),
         };
@@ -95,11 +95,12 @@ pub fn fresh_seeds() -> Option<u64> {
     Some(first)
 }
 
-/// Whether what is told names the input, or begins with another file that the input extends.
-fn names_a_file(told: &str, input: &Path) -> bool {
-    let name = input.file_name().unwrap().to_string_lossy();
-    let first = told.split_once(':').map(|(path, _)| Path::new(path));
-    told.contains(&*name) || first.is_some_and(Path::is_file)
+/// Whether what is told names the file of the input, or begins with another one that is there and that the input names.
+fn names_a_file(told: &str, file: &Path, input: &[u8]) -> bool {
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let other = told.split_once(':').map(|(path, _)| Path::new(path)).filter(|path| path.is_file());
+    let is_named = |path: &Path| String::from_utf8_lossy(input).contains(&name(path));
+    told.contains(&name(file)) || other.is_some_and(is_named)
 }
 
 fn words(panic: &(dyn Any + Send)) -> String {

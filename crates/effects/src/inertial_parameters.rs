@@ -66,7 +66,9 @@ impl Explain for InertialParameters {
     /// What CAD is wrong by: a tenth of the mass and of the inertia, a centimetre of the centre of mass.
     ///
     /// ```text
-    /// sd(m) = SHARE m,   sd(m c) = SHARE m |c| + CENTRE_M m,   sd(I) = SHARE tr(I) + 2 CENTRE_M m |c|
+    /// sd(m)   = SHARE m
+    /// sd(m c) = SHARE m |c| + CENTRE_M m
+    /// sd(I)   = SHARE (Ixx + Iyy + Izz) + 2 CENTRE_M m (|c| + CENTRE_M)
     /// ```
     fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>> {
         let Place::Link(link) = place else { return None };

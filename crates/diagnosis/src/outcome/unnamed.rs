@@ -18,9 +18,12 @@ use crate::search::select::Selection;
 /// gain        (z² - k - k ln(z² / k)) / 2,  z² = u' B^-1 u > k weights, else 0
 /// ```
 ///
-/// beside that of its own. The errors of links are those that CAD has ([`effects::Explain::everyday`]): a wrong mass of
-/// one link is a wrong mass of its neighbour, and by their priors either could be any. `gain` is the log evidence of the effect at the size that the logs like best, since how
+/// beside that of its own. `gain` is the log evidence of the effect at the size that the logs like best, since how
 /// small an error is nobody knows, and `least` what a name needs (Hoeting et al. 1999).
+///
+/// The priors in `B` are those of the search but for links, whose errors are those of CAD
+/// ([`effects::Explain::everyday`]): logs often show the mass of two neighbours together alone, and by the priors of
+/// the search either could have all of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Unnamed<'a> {
     design: &'a Design,
