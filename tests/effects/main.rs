@@ -216,6 +216,8 @@ fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
     for robot in [shaped(0.0), shaped(1.0)] {
         check_columns(&robot, |h| frictions.contains(&h.kind));
     }
+    // No friction is gained: about a robot without a loss there is no other side.
+    check_columns(&shaped(1.0), |h| h.kind == EffectKind::FrictionTemperatureDrift);
     check_columns(&bristly(), |h| h.kind == EffectKind::PreslidingFriction);
     for j in [0, 1, 3] {
         let of_spring = Hypothesis { kind: EffectKind::JointElasticity, place: Place::Joint(j) };
