@@ -7,7 +7,7 @@ use crate::workspace::{Package, crates};
 const PLACES: [(&str, &[&str]); 6] = [
     ("rapier", &["simulator"]),
     ("rerun", &["recording"]),
-    ("clap", &["cli"]),
+    ("clap", &["plumbline"]),
     ("pyo3", &["python"]),
     ("numpy", &["python"]),
     ("faer", &["dynamics", "effects", "evaluation", "gaussian_process", "learner", "population"]),
@@ -39,12 +39,12 @@ fn a_large_dependency_out_of_place_is_reported() {
     let made_up = [
         Package::made_up("simulator", 2, &["rapier3d-f64", "nalgebra"]),
         Package::made_up("learner", 3, &["faer"]),
-        Package::made_up("cli", 7, &["clap", "rapier3d-f64"]),
+        Package::made_up("plumbline", 7, &["clap", "rapier3d-f64"]),
         Package::made_up("report", 6, &["clap", "faer", "rerun"]),
     ];
     let expected = [
-        "cli depends on rapier3d-f64, which has its place in simulator",
-        "report depends on clap, which has its place in cli",
+        "plumbline depends on rapier3d-f64, which has its place in simulator",
+        "report depends on clap, which has its place in plumbline",
         "report depends on faer, which has its place in dynamics, effects, evaluation, gaussian_process, learner, population",
         "report depends on rerun, which has its place in recording",
     ];

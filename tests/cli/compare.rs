@@ -61,10 +61,6 @@ fn a_log_on_both_sides_is_refused_before_anything_is_written() {
     let folder = folder(1.5);
     let answer = compare(folder.path(), &["run_3.csv", "run_1.csv"]);
     assert_eq!(answer.code, 3, "{}{}", answer.out, answer.err);
-    assert!(
-        answer.err.contains("run run_1: it is among the logs before and after"),
-        "{}",
-        answer.err
-    );
+    assert!(answer.err.contains("run_1: it is among the logs before and after"), "{}", answer.err);
     assert!(!folder.path().join("out").exists());
 }

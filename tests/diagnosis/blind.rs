@@ -63,6 +63,51 @@ fn blind_a_large_offset_of_an_encoder_leaves_no_body_beside_it() {
     assert!((offset.value - 0.168).abs() < 0.002, "{offset:?}");
 }
 
+/// Logs without noise, as a simulation makes them that has no sensors: an error that is a part in a thousand of the
+/// effort has no name, and the friction has one. Commands are held for 2 ms in rows of 4 ms here, by a controller of
+/// which nothing is said.
+#[test]
+fn blind_a_log_without_noise_names_what_matters_and_nothing_else() {
+    for log_rate_hz in [250, 500] {
+        let folder = tempfile::tempdir().unwrap();
+        let effect = "effect=[{ coulomb_friction={ joint='j4_elbow_pitch', level_nm=1.5 } }]";
+        simulate(folder.path(), &[&format!("sensors={{ log_rate_hz={log_rate_hz} }}"), effect]);
+        let diagnosis = diagnose(&wam(), &read(folder.path()), &Settings::default(), &Silent);
+        let findings = diagnosis.unwrap().diagnosis.findings;
+        let names: Vec<String> = findings.iter().map(|f| f.at.words()).collect();
+        assert_eq!(names, ["FR02 Coulomb friction at j4_elbow_pitch"], "{log_rate_hz} Hz");
+        let level = &findings[0].parameters[0];
+        assert!((level.value - 1.5).abs() < 0.02, "{log_rate_hz} Hz: {level:?}");
+    }
+}
+
+/// Rows of 10 ms, and a controller that renews its commands every 2 ms, of which nothing is said: the log has them
+/// 4 ms later than it would were they held for a row, and a sentence says which rate that is.
+#[test]
+fn blind_commands_of_an_unknown_rate_are_told_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    simulate(folder.path(), &["sensors={ log_rate_hz=100 }"]);
+    let runs = read(folder.path());
+    let warned = |settings: &Settings| {
+        let answer = diagnose(&wam(), &runs, settings, &Silent).unwrap().diagnosis;
+        let names: Vec<String> = answer.findings.iter().map(|f| f.at.words()).collect();
+        (names, answer.warnings.join("\n"))
+    };
+    let (names, warnings) = warned(&Settings::default());
+    assert_eq!(names, ["SE02 time skew"]);
+    assert!(
+        warnings.contains("ms and held: if these efforts are commands, state control_rate_hz"),
+        "{warnings}"
+    );
+    let held = warnings.split("renewed every ").nth(1).and_then(|rest| rest.split(' ').next());
+    let held_ms: f64 = held.unwrap().parse().unwrap();
+    assert!((held_ms - 2.0).abs() < 0.2, "{warnings}");
+    let (names, warnings) =
+        warned(&Settings { control_rate_hz: Some(500.0), ..Settings::default() });
+    assert_eq!(names, [""; 0]);
+    assert!(!warnings.contains("renewed"), "{warnings}");
+}
+
 /// A limit is stated, not drawn: most draws of one make the arm run away.
 #[test]
 fn blind_a_drive_that_ends_at_a_limit_is_named_with_it() {

@@ -77,7 +77,8 @@ fn blind_a_second_encoder_measures_a_spring_that_the_effort_shows_only_about() {
     let runs = logs(&[SPRING, FRICTION], 3);
     let diagnosis = look(&runs);
     assert_eq!(diagnosis.findings.len(), 3, "{:?}", diagnosis.findings);
-    assert_eq!(diagnosis.verdict, Verdict::Explained);
+    let because: Vec<&str> = diagnosis.joints.iter().map(|j| j.because.as_str()).collect();
+    assert_eq!(diagnosis.verdict, Verdict::Explained, "{because:#?}");
     let stiffness = |d: &Diagnosis| {
         find(d, EffectKind::JointElasticity, "j2_shoulder_pitch").parameters[0].clone()
     };

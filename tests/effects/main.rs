@@ -2,6 +2,7 @@
 //! robot adds.
 #![allow(clippy::unwrap_used, reason = "a broken fixture should stop the test")]
 
+mod described;
 mod every_kind;
 mod undone;
 

@@ -155,7 +155,7 @@ fn unknown_joint_beside_all_of_the_robot_is_a_warning() {
     let read = file.read(&two_joints()).unwrap();
     let prepared = prepare(&[read], &PrepareSettings { cutoff_hz: Some(5.0) }).unwrap();
     let warnings: Vec<String> = prepared.warnings.iter().map(ToString::to_string).collect();
-    let expected = "run run: joint gripper of the log is not in the robot, it is left out";
+    let expected = "run: joint gripper of the log is not in the robot, it is left out";
     assert!(warnings.contains(&expected.to_owned()), "{warnings:?}");
 }
 
@@ -289,7 +289,7 @@ fn too_short_for_the_filter() {
     let error = prepare(&[short], &PrepareSettings { cutoff_hz: Some(2.0) }).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "run run: its longest piece without a gap is 0.990 s, at least 2.250 s were expected \
+        "run: its longest piece without a gap is 0.990 s, at least 2.250 s were expected \
          (4.5 periods of the 2.00 Hz cut-off)"
     );
 }
@@ -303,13 +303,13 @@ fn runs_that_cannot_be_prepared_together() {
     let other = run(time.clone(), vec![follows("j2", &time, f64::sin)]);
     assert_eq!(
         prepare(&[one.clone(), other], &settings).unwrap_err().to_string(),
-        "run run: its joints are j2, but those of run run are j1"
+        "run: its joints are j2, but those of run are j1"
     );
     let mut ragged = one.clone();
     ragged.joints[0].effort.pop();
     assert_eq!(
         prepare(&[ragged], &settings).unwrap_err().to_string(),
-        "run run: j1.effort has 499 samples, 500 were expected as in time"
+        "run: j1.effort has 499 samples, 500 were expected as in time"
     );
     let expected = LogError::CutoffOutOfRange { found_hz: 50.0, nyquist_hz: 50.0 };
     assert_eq!(prepare(&[one], &PrepareSettings { cutoff_hz: Some(50.0) }), Err(expected));

@@ -12,6 +12,7 @@ use crate::oscillations::limits::limits;
 use crate::oscillations::tones::{BAND, tones};
 use crate::outcome::between::between;
 use crate::outcome::held_out::HeldOut;
+use crate::outcome::hold::words_for_hold;
 use crate::outcome::traces::{RunTraces, traces};
 use crate::progress::Progress;
 use crate::readiness::at_limits::at_limits;
@@ -124,6 +125,11 @@ pub fn diagnose(
     };
     let (mut diagnosis, traces, extended, held_out) = searched(&study, progress)?;
     diagnosis.data.runs = runs.iter().map(summary).collect();
+    let rates = diagnosis.data.runs.iter().map(|run| run.rate_hz);
+    let fastest_hz = rates.fold(0.0, f64::max);
+    if settings.control_rate_hz.is_none() {
+        warnings.extend(words_for_hold(robot, &extended, fastest_hz.recip()));
+    }
     diagnosis.warnings = warnings;
     let read = inspected.read;
     if read.is_some() {
@@ -186,7 +192,13 @@ fn listened(study: &Study, runs: &[Run]) -> Result<Heard, DiagnosisError> {
     let motions = &study.design.motion;
     let all_differ = motions.len() >= 2 && motions.iter().enumerate().all(|(r, m)| *m == r);
     let slowest_hz = if all_differ { prepared.motion_hz } else { prepared.cutoff_hz };
-    Ok(tones(&extended, &wide, &Frame::of_logs(&wide), (&study.log, slowest_hz))?)
+    Ok(tones(
+        &extended,
+        &wide,
+        &Frame::of_logs(&wide),
+        (&study.log, slowest_hz),
+        &study.practical(),
+    )?)
 }
 
 fn words_for_ringing(robot: &Robot, (joint, hz): (usize, f64)) -> String {

@@ -1,4 +1,4 @@
-use logs::LogError;
+use logs::{LogError, of_run};
 
 /// Why a diagnosis cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -11,7 +11,7 @@ pub enum DiagnosisError {
     #[error("no log was given, at least one run was expected")]
     NoRuns,
     /// A run does not have the joints of the robot.
-    #[error("run {run}: it has {got} joints, the robot has {expected}")]
+    #[error("{of_run}: it has {got} joints, the robot has {expected}", of_run = of_run(run))]
     WrongJoints {
         /// Name of the run.
         run: String,
@@ -22,8 +22,7 @@ pub enum DiagnosisError {
     },
     /// A run is to be compared with itself.
     #[error(
-        "run {run}: it is among the logs before and after, two sets without a run in common were expected"
-    )]
+        "{of_run}: it is among the logs before and after, two sets without a run in common were expected", of_run = of_run(run))]
     InBoth {
         /// Name of the run.
         run: String,

@@ -124,13 +124,12 @@ impl Explain for FrictionTemperatureDrift {
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
         let Some(known) = of(drive) else { return };
-        let level = drive.coulomb_forward.min(drive.coulomb_backward);
-        let lost = |known: f64, change: &f64, cold: f64| (known + change).min(cold).max(0.0);
-        drive.warming = Some(Warming {
-            viscous_lost: lost(known.viscous_lost, viscous, drive.viscous),
-            coulomb_lost: lost(known.coulomb_lost, coulomb, level),
+        let lost = |known: f64, change: &f64| (known + change).max(0.0);
+        drive.warming = Some(drive.lost_at_most(Warming {
+            viscous_lost: lost(known.viscous_lost, viscous),
+            coulomb_lost: lost(known.coulomb_lost, coulomb),
             time_constant_s: known.time_constant_s + time.first().unwrap_or(&0.0),
-        });
+        }));
     }
 
     fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {

@@ -27,7 +27,8 @@ pub fn germs(robot: &Robot, scale: &Scale) -> Vec<Germ> {
         .collect()
 }
 
-/// `robot` without the germs that stayed without size: there it is as `nominal` is.
+/// `robot` without the germs that stayed without size: there it is as `nominal` is. Where less friction was
+/// found than a drive was described to lose by warming up, it loses that.
 pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
     for (j, link) in nominal.links().iter().enumerate() {
         let Some(changed) = robot.link_mut(j) else { continue };
@@ -42,6 +43,7 @@ pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
         if drive.warming.is_some_and(|w| w.viscous_lost <= 0.0 && w.coulomb_lost <= 0.0) {
             drive.warming = before.warming;
         }
+        drive.warming = drive.warming.map(|warming| drive.lost_at_most(warming));
         if drive.friction_wave.is_some_and(|w| w.share <= 0.0) {
             drive.friction_wave = before.friction_wave;
         }

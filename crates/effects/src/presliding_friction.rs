@@ -112,13 +112,15 @@ impl Explain for PreslidingFriction {
             None if level > 0.0 => SMALL * change / level,
             None => 0.0,
         };
-        let resolved = frame.resolution.get(j).map_or(0.0, |r| RESOLVED * r);
+        let resolved = frame.resolution.get(j).map_or(0.0, |r| RESOLVED * r).max(SHORTEST);
+        let is_way = way >= resolved;
         if drive.presliding.is_some() || way > 0.0 {
-            // What is not resolved has no way, which is not sound.
-            drive.presliding = Some(if way >= resolved { way } else { 0.5 * SHORTEST });
+            // What is not resolved has no way, which is not sound, and nothing to damp.
+            drive.presliding = Some(if is_way { way } else { 0.5 * SHORTEST });
         }
         if let [damping] = damping {
-            drive.presliding_damping = Some(drive.presliding_damping.unwrap_or(0.0) + damping);
+            let all = drive.presliding_damping.unwrap_or(0.0) + damping;
+            drive.presliding_damping = Some(if is_way { all } else { 0.0 });
         }
     }
 

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use diagnosis::{Outcome, Progress, RunTraces};
-use logs::{PrepareSettings, PreparedRun, Run, distinct, prepare};
+use logs::{PrepareSettings, PreparedRun, Run, distinct, of_run, prepare};
 use recording::{Arm, Bar, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
 use robot::Loaded;
 
@@ -154,7 +154,7 @@ fn events(
     (name, first_s): (&str, f64),
     (replayed, r): (&Replayed, usize),
 ) -> Result<(), EvaluationError> {
-    let begins = format!("run {name}, from {first_s:.3} s of its log");
+    let begins = format!("{}, from {first_s:.3} s of its log", of_run(name));
     recorder.event(start_s, Level::Info, &begins)?;
     for (model, runs) in [("nominal", &replayed.nominal), ("extended", &replayed.extended)] {
         if let Some(trouble) = &runs[r].trouble {

@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use logs::Run;
+use logs::{Run, of_run};
 use robot::Robot;
 
 use crate::{Observation, ObservationKind, Rival, Stretch};
@@ -190,9 +190,9 @@ impl Names<'_> {
     fn stretches(&self, all: &[Stretch]) -> String {
         let one = |s: &Stretch| {
             if s.to_s - s.from_s > 0.0 {
-                format!("run {}, {:.3} to {:.3} s", self.run(s.run), s.from_s, s.to_s)
+                format!("{}, {:.3} to {:.3} s", of_run(self.run(s.run)), s.from_s, s.to_s)
             } else {
-                format!("run {}, {:.3} s", self.run(s.run), s.from_s)
+                format!("{}, {:.3} s", of_run(self.run(s.run)), s.from_s)
             }
         };
         let first: Vec<String> = all.iter().take(MOST_STRETCHES).map(one).collect();

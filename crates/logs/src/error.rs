@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use crate::{Excerpt, allowance::Exceeded, kind::Stranger};
+use crate::{Excerpt, allowance::Exceeded, kind::Stranger, of_run};
 
 /// Why a log cannot be used.
 ///
@@ -369,10 +369,9 @@ pub enum LogError {
     NoRuns,
     /// Two runs are not of the same robot.
     #[error(
-        "run {run}: its joints are {}, but those of run {first} are {}",
+        "{of_run}: its joints are {}, but those of {of_first} are {}",
         list(found),
-        list(expected)
-    )]
+        list(expected), of_run = of_run(run), of_first = of_run(first))]
     JointsDiffer {
         /// The run.
         run: String,
@@ -384,7 +383,7 @@ pub enum LogError {
         expected: Vec<String>,
     },
     /// A signal does not have one value per sample of time.
-    #[error("run {run}: {column} has {found} samples, {expected} were expected as in time")]
+    #[error("{of_run}: {column} has {found} samples, {expected} were expected as in time", of_run = of_run(run))]
     WrongLength {
         /// The run.
         run: String,
@@ -397,9 +396,8 @@ pub enum LogError {
     },
     /// A run is too short for the filter.
     #[error(
-        "run {run}: its longest piece without a gap is {found_s:.3} s, at least {expected_s:.3} s were expected \
-        (4.5 periods of the {cutoff_hz:.2} Hz cut-off)"
-    )]
+        "{of_run}: its longest piece without a gap is {found_s:.3} s, at least {expected_s:.3} s were expected \
+        (4.5 periods of the {cutoff_hz:.2} Hz cut-off)", of_run = of_run(run))]
     RunTooShort {
         /// The run.
         run: String,

@@ -112,7 +112,7 @@ pub use prepared::{Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide};
 pub use presets::{Recognised, preset_names, recognised};
 pub use read::{ReadOptions, read_run, read_run_until_damage, run_of_columns};
 pub use rest::rest_speeds;
-pub use run::{Channel, Channels, Run};
+pub use run::{Channel, Channels, Run, of_run};
 pub use stretches::{ENOUGH_SAMPLES, stretches};
 pub use unit::Unit;
 pub use warning::LogWarning;

@@ -196,3 +196,9 @@ pub(crate) fn median(x: &[f64]) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
+
+/// A run in a sentence: `run wipe`, or its name alone where that begins with the word, as `run_2` does.
+pub fn of_run(name: &str) -> String {
+    let says_so = name.get(..3).is_some_and(|first| first.eq_ignore_ascii_case("run"));
+    if says_so { name.to_owned() } else { format!("run {name}") }
+}

@@ -1,11 +1,11 @@
-use crate::Mend;
+use crate::{Mend, of_run};
 
 /// Something about a log that its reader should know; it can be used nevertheless.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogWarning {
     /// The log has a joint that the robot does not have.
-    #[error("run {run}: joint {joint} of the log is not in the robot, it is left out")]
+    #[error("{of_run}: joint {joint} of the log is not in the robot, it is left out", of_run = of_run(run))]
     UnknownJoint {
         /// The run.
         run: String,
@@ -13,13 +13,13 @@ pub enum LogWarning {
         joint: String,
     },
     /// The file ends in the middle of a row.
-    #[error("run {run}: its last row was cut off while it was written, it is left out")]
+    #[error("{of_run}: its last row was cut off while it was written, it is left out", of_run = of_run(run))]
     TornLastRow {
         /// The run.
         run: String,
     },
     /// Something was put right while the run was read.
-    #[error("run {run}: {mend}")]
+    #[error("{of_run}: {mend}", of_run = of_run(run))]
     Mended {
         /// The run.
         run: String,
@@ -34,8 +34,7 @@ pub enum LogWarning {
     },
     /// Two runs have the same samples.
     #[error(
-        "run {run} has the same positions and efforts as run {of}: held-out results would be too good"
-    )]
+        "{of_run} has the same positions and efforts as {of_it}: held-out results would be too good", of_run = of_run(run), of_it = of_run(of))]
     Duplicate {
         /// The run.
         run: String,
@@ -43,8 +42,8 @@ pub enum LogWarning {
         of: String,
     },
     /// The measured velocity is not the derivative of the position.
-    #[error("run {run}: the velocity of {} is {scale:.3} times the derivative of the position and {}; \
-        the derivative of the position is used in all runs", named(joints), late(*lag_s))]
+    #[error("{of_run}: the velocity of {} is {scale:.3} times the derivative of the position and {}; \
+        the derivative of the position is used in all runs", named(joints), late(*lag_s), of_run = of_run(run))]
     VelocityDisagrees {
         /// The run in which it differs most, of the first joint.
         run: String,
@@ -56,8 +55,8 @@ pub enum LogWarning {
         scale: f64,
     },
     /// The measured acceleration is not the derivative of the velocity.
-    #[error("run {run}: the acceleration of {} is {scale:.3} times the derivative of the velocity and {}; \
-        the derivative of the velocity is used in all runs", named(joints), late(*lag_s))]
+    #[error("{of_run}: the acceleration of {} is {scale:.3} times the derivative of the velocity and {}; \
+        the derivative of the velocity is used in all runs", named(joints), late(*lag_s), of_run = of_run(run))]
     AccelerationDisagrees {
         /// The run in which it differs most, of the first joint.
         run: String,
@@ -70,8 +69,7 @@ pub enum LogWarning {
     },
     /// A second encoder is in some of the runs.
     #[error(
-        "run {run}: joint {joint} has no link_position here, as it has in other runs; it is left out of all"
-    )]
+        "{of_run}: joint {joint} has no link_position here, as it has in other runs; it is left out of all", of_run = of_run(run))]
     LinkPositionMissing {
         /// The first run without it.
         run: String,
@@ -89,7 +87,7 @@ pub enum LogWarning {
         lag_std_s: f64,
     },
     /// The clock was not uniform.
-    #[error("run {run}: its clock is not uniform (steps differ by up to {:.3} ms from the usual one); it was resampled at {rate_hz} Hz", 1e3 * deviation_s)]
+    #[error("{of_run}: its clock is not uniform (steps differ by up to {:.3} ms from the usual one); it was resampled at {rate_hz} Hz", 1e3 * deviation_s, of_run = of_run(run))]
     Resampled {
         /// The run.
         run: String,
@@ -100,9 +98,8 @@ pub enum LogWarning {
     },
     /// A run has gaps that are too long to be filled.
     #[error(
-        "run {run}: {gaps} gaps of more than {:.0} ms; it was split there, pieces under {shortest_s:.3} s left out",
-        1e3 * longest_s
-    )]
+        "{of_run}: {gaps} gaps of more than {:.0} ms; it was split there, pieces under {shortest_s:.3} s left out",
+        1e3 * longest_s, of_run = of_run(run))]
     Split {
         /// The run.
         run: String,
@@ -124,7 +121,7 @@ pub enum LogWarning {
         cutoff_hz: f64,
     },
     /// Many samples of the effort sit at its extreme values.
-    #[error("run {run}: {:.1} % of the effort of joint {joint} sits at its extreme values: the drive or its sensor may saturate", 100.0 * share)]
+    #[error("{of_run}: {:.1} % of the effort of joint {joint} sits at its extreme values: the drive or its sensor may saturate", 100.0 * share, of_run = of_run(run))]
     Saturated {
         /// The run.
         run: String,

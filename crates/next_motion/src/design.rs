@@ -1,6 +1,6 @@
 use std::ops::RangeInclusive;
 
-use logs::{Prepared, PreparedRun};
+use logs::{Prepared, PreparedRun, of_run};
 use motion::{Motion, MotionSpec};
 
 use crate::aim::Aim;
@@ -154,7 +154,7 @@ fn check(
     }
     let mut runs = runs.unwrap_or_default().iter();
     if let Some(run) = runs.find(|run| run.joints.len() != expected) {
-        return wrong(format!("run {}", run.name), run.joints.len());
+        return wrong(of_run(&run.name), run.joints.len());
     }
     let refuse = |name, found, expected| Err(NextMotionError::Setting { name, found, expected });
     if !DURATION_S.contains(&settings.duration_s) {

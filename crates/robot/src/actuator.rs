@@ -238,6 +238,16 @@ pub struct Actuator {
 }
 
 impl Actuator {
+    /// What it loses by warming up, no more than the friction that it has cold.
+    pub fn lost_at_most(&self, warming: Warming) -> Warming {
+        let level = self.coulomb_forward.min(self.coulomb_backward);
+        Warming {
+            viscous_lost: warming.viscous_lost.min(self.viscous.max(0.0)),
+            coulomb_lost: warming.coulomb_lost.min(level.max(0.0)),
+            ..warming
+        }
+    }
+
     /// The drive as it is `since_cold_s` after a cold start (s), with what it will lose from then on:
     ///
     /// ```text

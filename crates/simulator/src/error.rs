@@ -1,6 +1,6 @@
 use catalogue::EffectKind;
 use document::DocumentError;
-use logs::LogError;
+use logs::{LogError, of_run};
 use robot::MachineFault;
 
 use crate::strangers::StrangerKind;
@@ -57,8 +57,7 @@ pub enum SimulatorError {
     Log(#[from] LogError),
     /// A record has hours between its rows, which would be simulated without end.
     #[error(
-        "run {run}: it has {rate_hz} rows a second, at least {slowest_hz} were expected; is its time in seconds?"
-    )]
+        "{of_run}: it has {rate_hz} rows a second, at least {slowest_hz} were expected; is its time in seconds?", of_run = of_run(run))]
     TooSlow {
         /// Name of the run.
         run: String,
@@ -69,8 +68,7 @@ pub enum SimulatorError {
     },
     /// A record is shorter than the window it is to be replayed in.
     #[error(
-        "run {run}: {found_s:.3} s are left of it, at least a window of {window_s} s was expected"
-    )]
+        "{of_run}: {found_s:.3} s are left of it, at least a window of {window_s} s was expected", of_run = of_run(run))]
     TooShort {
         /// Name of the run.
         run: String,
@@ -114,7 +112,7 @@ pub enum SimulatorError {
         last: String,
     },
     /// A joint did what no joint may.
-    #[error("run {run} ended early: {fault}")]
+    #[error("{of_run} ended early: {fault}", of_run = of_run(run))]
     Fault {
         /// Name of the run.
         run: String,

@@ -1,5 +1,5 @@
 use crate::signals::tone::{Beat, Tone};
-use crate::thresholds::{OF_A_BAND, ONE_LINE};
+use crate::thresholds::{MOST, ONE_LINE};
 
 /// Oscillations in the logs.
 #[derive(Debug, Default)]
@@ -24,7 +24,7 @@ impl Heard {
             if lines[..i].iter().any(|stronger| is_beside(line, stronger)) {
                 continue;
             }
-            let least = OF_A_BAND * line.amplitude();
+            let least = MOST * line.amplitude();
             let mut weaker = lines[i + 1..].iter().filter(|weaker| is_beside(weaker, line));
             match line.beat {
                 Beat::Clock(hz) if weaker.any(|weaker| weaker.amplitude() > least) => {

@@ -11,7 +11,7 @@ use crate::regression::noise::integrated_time;
 use crate::signals::along::Along;
 use crate::signals::limit::Limit;
 use crate::signals::log::Log;
-use crate::thresholds::{LIMIT_LEFT, LIMIT_SHARE, LIMIT_STANDS_OUT};
+use crate::thresholds::{MOST, STANDS_OUT};
 
 /// Trial limits: so many quantiles of the absolute effort.
 const TRIALS: usize = 24;
@@ -92,7 +92,7 @@ fn moves_nothing(left: &Left, beyond: &DVector<f64>) -> bool {
     let gap = left.y.select_rows(&above) - left.x.select_rows(&above) * weights;
     let clamped = &gap - beyond.select_rows(&above);
     let power = gap.norm_squared() / above.len().max(1) as f64;
-    power > LIMIT_STANDS_OUT * noise && clamped.norm_squared() < LIMIT_LEFT * gap.norm_squared()
+    power > STANDS_OUT * noise && gap.norm_squared() > STANDS_OUT * clamped.norm_squared()
 }
 
 fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogError> {
@@ -114,7 +114,7 @@ fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogE
     };
     let unlimited = left.residual.norm_squared();
     // Where the least limit does best, less effort is better: it is not the limit that explains it.
-    if best == 0 || curve[best].1 > (1.0 - LIMIT_SHARE) * unlimited {
+    if best == 0 || curve[best].1 > (1.0 - MOST) * unlimited {
         return Ok(None);
     }
     // The trials next to the best bracket it: thirds of that are dropped until nothing is left.

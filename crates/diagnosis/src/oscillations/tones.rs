@@ -14,10 +14,7 @@ use crate::signals::along::Along;
 use crate::signals::log::Log;
 use crate::signals::rest::Rest;
 use crate::signals::tone::{Beat, Tone};
-use crate::thresholds::{
-    LINE_IS_EVEN, LINE_SHARE, LINE_SHARE_IN_BAND, LINE_SHARE_OF_SLOW, LINE_SHARE_OF_SPEED,
-    LINE_STANDS_OUT, LINE_STANDS_OUT_IN_FEW,
-};
+use crate::thresholds::{MOST, NAMED, STANDS_OUT};
 
 /// Cut-off of the band in which tones are looked for, as a share of the sampling rate.
 pub(crate) const BAND: f64 = 0.1;
@@ -47,7 +44,7 @@ const WINDOW_S: f64 = 5.0;
 const FEWEST_STILL: usize = 2;
 
 /// Most tones of one joint.
-const MOST: usize = 3;
+const MOST_TONES: usize = 3;
 
 /// Zeros that are added to a run before its spectrum is taken, in lengths of the longest.
 const PADDED: usize = 4;
@@ -59,7 +56,8 @@ const BESIDE: usize = 32;
 const AROUND: usize = 200;
 
 /// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
-/// lines of the spectrum over time and over position that stand out in every run.
+/// lines of the spectrum over time and over position that stand out in every run, and whose fall of the
+/// error counts at their joint (`practical`, N·m or N).
 ///
 /// A line below `slowest_hz` may be the motion's, unless it is most of what is left all the time, and
 /// some of the time no joint moves much at its frequency.
@@ -68,12 +66,13 @@ pub(crate) fn tones(
     wide: &Prepared,
     frame: &Frame,
     (log, slowest_hz): (&Log, f64),
+    practical: &[f64],
 ) -> Result<Heard, LogError> {
     let rest = |run| Rest::new(Along::new(robot, frame, run, wide.cutoff_hz, log.limits)?);
     let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
-    let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
+    let bands_hz = [wide.cutoff_hz, slowest_hz];
     let at = |j: usize| {
-        if log.moved[j] { at_joint(&runs, j, bands_hz) } else { Vec::new() }
+        if log.moved[j] { at_joint(&runs, (j, practical[j]), bands_hz) } else { Vec::new() }
     };
     let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
     let lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
@@ -95,6 +94,8 @@ enum Follows {
 /// One joint: its residual in every run, and what keeps time with it.
 struct Joint<'a> {
     index: usize,
+    /// Least fall of the RMS error that counts (N·m or N).
+    practical: f64,
     follows: Follows,
     runs: &'a [Rest<'a>],
     /// `[run][sample]`.
@@ -103,7 +104,11 @@ struct Joint<'a> {
     highest: &'a [Vec<f64>],
 }
 
-fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3]) -> Vec<Tone> {
+fn at_joint(
+    runs: &[Rest],
+    (j, practical): (usize, f64),
+    [cutoff_hz, slowest_hz]: [f64; 2],
+) -> Vec<Tone> {
     let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
     let highest = TAU * HIGHEST * cutoff_hz;
     // What holds a standing joint is a constant of any size, and with it a sine over position.
@@ -116,14 +121,14 @@ fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3])
     let anywhere: Vec<Vec<f64>> = runs.iter().map(|r| vec![highest; r.time.len()]).collect();
     let slowest_hz = slowest_hz.max(LOWEST_HZ);
     let mut tones: Vec<Tone> = Vec::new();
-    while tones.len() < MOST {
-        let of = |follows, highest| Joint { index: j, follows, runs, left: &left, highest };
+    while tones.len() < MOST_TONES {
+        let of =
+            |follows, highest| Joint { index: j, practical, follows, runs, left: &left, highest };
         let (clock, position) = (of(Follows::Clock, &anywhere), of(Follows::Position, &by_speed));
         let line = |band_hz: [f64; 2]| clock.found(|clock| clock.lines(band_hz));
         let found = [
             position.found(|position| position.waves()),
-            line([slowest_hz, HIGHEST * cutoff_hz])
-                .filter(|tone| is_much_of_its_band(tone, &clock, band_hz)),
+            line([slowest_hz, HIGHEST * cutoff_hz]),
             line([LOWEST_HZ, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, slowest_hz)),
         ];
         let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
@@ -132,17 +137,6 @@ fn at_joint(runs: &[Rest], j: usize, [cutoff_hz, band_hz, slowest_hz]: [f64; 3])
         tones.push(tone);
     }
     tones
-}
-
-/// Whether a tone is faster than the band of the diagnosis, or much of what is left in it.
-fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
-    let Beat::Clock(frequency_hz) = tone.beat else { return false };
-    let power = |left: &[Vec<f64>]| -> f64 {
-        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, band_hz);
-        left.iter().zip(clock.runs).flat_map(of).map(|x| x * x).sum()
-    };
-    frequency_hz > band_hz
-        || power(&clock.without(tone)) < (1.0 - LINE_SHARE_IN_BAND) * power(clock.left)
 }
 
 /// Whether a tone is most of what is left wherever one looks, and no motion: some of the time no joint
@@ -162,7 +156,7 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
     let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
     let is_most = |(r, w): (usize, Range<usize>)| {
-        in_window(&without[r], &w) < (1.0 - LINE_SHARE_OF_SLOW) * in_window(&with[r], &w)
+        in_window(&without[r], &w) < (1.0 - MOST) * in_window(&with[r], &w)
     };
     let is_still = |(r, w): &(usize, Range<usize>)| {
         let moves = |qd: &Vec<f64>| {
@@ -170,7 +164,7 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
             let turning = samples.map(|(v, t)| Complex::cis(-TAU * frequency_hz * t) * v);
             // Of a sine alone the sum is n / 2 times its amplitude, the power n / 2 times its square.
             2.0 * turning.sum::<Complex<f64>>().norm_sqr() / w.len().max(1) as f64
-                > LINE_SHARE_OF_SPEED * in_window(qd, w)
+                > MOST * in_window(qd, w)
         };
         !runs[*r].qd.iter().any(moves)
     };
@@ -239,8 +233,7 @@ impl Joint<'_> {
         let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
         tone.stands_out = ratios.fold(f64::INFINITY, f64::min);
         tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
-        let least = if self.left.len() < 3 { LINE_STANDS_OUT_IN_FEW } else { LINE_STANDS_OUT };
-        (tone.stands_out > least).then_some(tone)
+        (tone.stands_out > STANDS_OUT).then_some(tone)
     }
 
     /// What is left without a tone, `[run][sample]`.
@@ -343,14 +336,15 @@ impl Joint<'_> {
         let (least, most) =
             sizes.iter().fold((f64::INFINITY, 0.0), |(l, m), (z, _)| (z.min(l), z.max(m)));
         let expected: f64 = sizes.iter().map(|(z, n)| 0.5 * z * z * *n as f64).sum();
-        if most > LINE_IS_EVEN * least || expected < 0.5 * LINE_SHARE * self.power_of(self.left) {
+        if least < MOST * most || expected < 0.5 * NAMED * self.power_of(self.left) {
             return None;
         }
         let mut tone = self.fitted(at, step)?;
         // A tone of one phase that differs from run to run keeps time with something else.
-        let even = tone.amplitude() > least / LINE_IS_EVEN;
+        let even = tone.amplitude() > MOST * least;
         tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
-        (even && tone.share > LINE_SHARE).then_some(tone)
+        let pays = tone.share * self.power_of(self.left) > self.practical.powi(2) * self.counted();
+        (even && pays && tone.share > NAMED).then_some(tone)
     }
 
     /// The tone near a value of the beat (rad per unit), by least squares.
@@ -389,6 +383,11 @@ impl Joint<'_> {
         let error = [of_amplitude, of_beat / per_unit, of_phase];
         let beat = beat(fit.at);
         Some(Tone { joint: self.index, beat, z: fit.z, error, stands_out: 0.0, share: 0.0 })
+    }
+
+    /// Number of samples over all runs that count at any beat.
+    fn counted(&self) -> f64 {
+        self.highest.iter().flatten().filter(|highest| **highest > 0.0).count() as f64
     }
 
     /// Sum of squares over all runs, where samples count at any beat.

@@ -7,6 +7,7 @@ pub(crate) mod effect_at;
 pub(crate) mod findings;
 pub(crate) mod gain;
 pub(crate) mod held_out;
+pub(crate) mod hold;
 pub(crate) mod limit_finding;
 pub(crate) mod prediction;
 pub(crate) mod report;

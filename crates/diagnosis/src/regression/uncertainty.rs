@@ -8,7 +8,7 @@ use crate::regression::fit::{Fit, covariance, pick};
 use crate::regression::fitted::Fitted;
 use crate::regression::problem::{Model, Problem};
 use crate::result::Estimate;
-use crate::thresholds::DETERMINED;
+use crate::thresholds::MOST;
 
 /// Share of the largest eigenvalue of a correlation below which one is rounding.
 const ROUNDING: f64 = 1e-10;
@@ -115,7 +115,7 @@ impl Uncertainty {
                 nominal: quantity.nominal,
                 unit: quantity.unit,
                 // A quantity that no weight moves is not determined.
-                determined: before > 1e-9 * quantity.value.abs() && half < DETERMINED * before,
+                determined: before > 1e-9 * quantity.value.abs() && half < MOST * before,
             }
         };
         here.iter().enumerate().map(estimate).collect()
@@ -173,8 +173,7 @@ impl Uncertainty {
         if scaled.is_empty() || scaled.iter().any(|v| !v.is_finite()) {
             return (own.len(), own.len());
         }
-        let wide =
-            scaled.symmetric_eigenvalues().iter().filter(|v| **v > DETERMINED.powi(2)).count();
+        let wide = scaled.symmetric_eigenvalues().iter().filter(|v| **v > MOST.powi(2)).count();
         (wide, own.len())
     }
 }

@@ -1,7 +1,7 @@
 use crate::regression::problem::{Model, Problem};
 use crate::search::select::Selection;
 use crate::search::worse::Worse;
-use crate::thresholds::{EVIDENCE, RECOVERED};
+use crate::thresholds::{EVIDENCE, MOST};
 
 /// Least information on a weight, in those of its prior, that is more than rounding.
 const SHOWN: f64 = 1e-9;
@@ -40,7 +40,7 @@ pub(crate) fn contenders(
         return Vec::new();
     }
     let bare = problem.held_out(&without).deviance;
-    let much = RECOVERED * (bare - problem.held_out(model).deviance);
+    let much = MOST * (bare - problem.held_out(model).deviance);
     let recovers = |h: usize| {
         let replaced = replaced(problem, &without, group, h);
         let left = selection.is_possible(&replaced, h).then(|| problem.held_out(&replaced))?;

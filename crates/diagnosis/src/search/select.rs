@@ -7,7 +7,7 @@ use crate::regression::fit::Fit;
 use crate::regression::problem::{HeldOut, Model, Problem};
 use crate::regression::settle::settle;
 use crate::signals::look::Look;
-use crate::thresholds::{EVIDENCE, EVIDENCE_OF_DOUBTFUL, KEPT_BY_BODIES, SHARE_OF_REST};
+use crate::thresholds::{EVIDENCE, EVIDENCE_OF_DOUBTFUL, MOST};
 
 /// Rounds of entering, exchanging and leaving before the search is called settled.
 const ROUNDS: usize = 4;
@@ -302,7 +302,7 @@ impl Selection<'_> {
         let bare = problem.info.deviance(&fit.expand(design.width));
         let settled = settle(design, model, &problem.info, self.robot);
         let gain = bare - problem.info.deviance(weights);
-        bare - problem.info.deviance(&settled) >= KEPT_BY_BODIES * gain
+        bare - problem.info.deviance(&settled) >= MOST * gain
     }
 
     fn admits(&self, weights: &[f64], g: usize) -> bool {
@@ -313,13 +313,12 @@ impl Selection<'_> {
         changes && group.hypothesis.admissible(self.robot, &own)
     }
 
-    /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`: by
-    /// what counts in practice, or by a share of what was left.
+    /// Whether `larger`, which has `g`, does better on held-out blocks than `before` by what counts in practice.
     pub fn pays(&self, before: &HeldOut, larger: &Model, g: usize) -> bool {
         let after = self.problem.held_out(larger);
         let enough = |&j: &usize| {
             let fall = before.mean_square[j] - after.mean_square[j];
-            fall > self.practical[j].powi(2).min(SHARE_OF_REST * before.mean_square[j])
+            fall > self.practical[j].powi(2)
         };
         after.deviance < before.deviance && self.problem.design.groups[g].joints.iter().any(enough)
     }

@@ -60,7 +60,7 @@ impl Study<'_> {
     }
 
     /// Least fall of each joint's held-out RMS error that counts (N·m or N).
-    fn practical(&self) -> Vec<f64> {
+    pub fn practical(&self) -> Vec<f64> {
         let rms = |j: usize| {
             let joints = self.design.runs.iter().map(|run| &run.joints[j]);
             let efforts = joints.flat_map(|joint| joint.told(joint.measured.iter().copied()));

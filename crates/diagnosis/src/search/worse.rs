@@ -1,4 +1,4 @@
-use crate::thresholds::TOLD_APART;
+use crate::thresholds::ERRORS;
 
 /// How much worse a model does than another, over `n` parts of the data that are independent.
 ///
@@ -21,7 +21,7 @@ impl Worse {
     }
 
     pub fn is_told_apart(self) -> bool {
-        self.total > TOLD_APART * self.error
+        self.total > ERRORS * self.error
     }
 }
 

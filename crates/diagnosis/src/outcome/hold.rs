@@ -1,0 +1,28 @@
+use robot::{Robot, TorqueSource};
+
+/// What a robot does not say of its commands, where the skew of the log is what that makes.
+///
+/// A command that is held for `T` from its sample on is late by `T / 2`, and the log has it early by that: a skew of
+/// `-T / 2`. What is said to be a command is taken to be held for a row `I` where no rate is given
+/// ([`logs::centre_commands`]), which leaves `(I - T) / 2`.
+pub(crate) fn words_for_hold(robot: &Robot, extended: &Robot, row_s: f64) -> Option<String> {
+    let (first, found) = robot.links().first().zip(extended.links().first())?;
+    let skew_s = found.actuator.effort_skew_s - first.actuator.effort_skew_s;
+    let source = first.actuator.torque_source;
+    let (held_s, missing) = match source {
+        TorqueSource::Commanded => (row_s - 2.0 * skew_s, "control_rate_hz"),
+        TorqueSource::Unknown => {
+            (-2.0 * skew_s, "torque_source = \"commanded\" and control_rate_hz")
+        }
+        TorqueSource::Measured | TorqueSource::Current => return None,
+    };
+    let is_one = robot.links().iter().all(|link| link.actuator.torque_source == source);
+    (is_one && skew_s != 0.0 && held_s > 0.0 && held_s <= row_s).then(|| {
+        format!(
+            "the skew of {:.2} ms is what commands make that are renewed every {:.2} ms and held: if these efforts are \
+            commands, state {missing} in robot.toml",
+            1e3 * skew_s,
+            1e3 * held_s
+        )
+    })
+}
