@@ -20,8 +20,7 @@ pub(crate) const VARIATION: f64 = 0.25;
 pub(crate) const VARIATION_OF_ROUGH: f64 = 0.7;
 
 /// Half, wherever most of something is asked for: of a finding's held-out gain, that a rival must reach; of what is
-/// left, that a tone as slow as the motion must be, or the effort beyond a limit must take; of what a link's inertia
-/// explains, that a physical one must explain; of the amplitude of a tone
+/// left, that a tone as slow as the motion must be, or the effort beyond a limit must take; of the amplitude of a tone
 /// in one run or line, that it must have in another to be the same there; of the prior's standard deviation, below
 /// which that of a number must lie for the logs to tell it.
 pub(crate) const MOST: f64 = 0.5;
@@ -30,8 +29,8 @@ pub(crate) const MOST: f64 = 0.5;
 pub(crate) const ERRORS: f64 = 2.0;
 
 /// Least power over that around it: of a tone over the spectrum, in every run (one false tone in `exp(20)` frequencies
-/// of one run), and of what the other effects lack above a limit over what they leave below, and over what is left
-/// there of a clamped effort.
+/// of one run), of what the other effects lack above a limit over what they leave below and over what is left there of a
+/// clamped effort, and of what a link's inertia explains over what is lost where it is made physical.
 pub(crate) const STANDS_OUT: f64 = 20.0;
 
 /// Largest difference between the beats of two lines that are one, over the beat of the stronger.

@@ -70,7 +70,7 @@ pub(crate) fn tones(
 ) -> Result<Heard, LogError> {
     let rest = |run| Rest::new(Along::new(robot, frame, run, wide.cutoff_hz, log.limits)?);
     let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
-    let bands_hz = [wide.cutoff_hz, slowest_hz];
+    let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
     let at = |j: usize| {
         if log.moved[j] { at_joint(&runs, (j, practical[j]), bands_hz) } else { Vec::new() }
     };
@@ -107,7 +107,7 @@ struct Joint<'a> {
 fn at_joint(
     runs: &[Rest],
     (j, practical): (usize, f64),
-    [cutoff_hz, slowest_hz]: [f64; 2],
+    [cutoff_hz, band_hz, slowest_hz]: [f64; 3],
 ) -> Vec<Tone> {
     let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
     let highest = TAU * HIGHEST * cutoff_hz;
@@ -128,7 +128,8 @@ fn at_joint(
         let line = |band_hz: [f64; 2]| clock.found(|clock| clock.lines(band_hz));
         let found = [
             position.found(|position| position.waves()),
-            line([slowest_hz, HIGHEST * cutoff_hz]),
+            line([slowest_hz, HIGHEST * cutoff_hz])
+                .filter(|tone| is_much_of_its_band(tone, &clock, band_hz)),
             line([LOWEST_HZ, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, slowest_hz)),
         ];
         let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
@@ -137,6 +138,17 @@ fn at_joint(
         tones.push(tone);
     }
     tones
+}
+
+/// Whether a tone is faster than the band of the diagnosis, or half of what is left in it (RMS): what the motion
+/// makes of an effect that is not found has lines there too.
+fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
+    let Beat::Clock(frequency_hz) = tone.beat else { return false };
+    let power = |left: &[Vec<f64>]| -> f64 {
+        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, band_hz);
+        left.iter().zip(clock.runs).flat_map(of).map(|x| x * x).sum()
+    };
+    frequency_hz > band_hz || power(&clock.without(tone)) < (1.0 - MOST.powi(2)) * power(clock.left)
 }
 
 /// Whether a tone is most of what is left wherever one looks, and no motion: some of the time no joint

@@ -7,7 +7,7 @@ use crate::regression::fit::Fit;
 use crate::regression::problem::{HeldOut, Model, Problem};
 use crate::regression::settle::settle;
 use crate::signals::look::Look;
-use crate::thresholds::{EVIDENCE, EVIDENCE_OF_DOUBTFUL, MOST};
+use crate::thresholds::{EVIDENCE, EVIDENCE_OF_DOUBTFUL, STANDS_OUT};
 
 /// Rounds of entering, exchanging and leaving before the search is called settled.
 const ROUNDS: usize = 4;
@@ -289,7 +289,7 @@ impl Selection<'_> {
         self.admits(&all, g) && self.is_body(model, g, &all)
     }
 
-    /// Whether a change of a link's inertia keeps most of what it explains when every
+    /// Whether what a change of a link's inertia explains stands out from what is lost of it when every
     /// inertia is made physical; true for what is no link.
     fn is_body(&self, model: &Model, g: usize, weights: &[f64]) -> bool {
         let (problem, design) = (self.problem, self.problem.design);
@@ -302,7 +302,8 @@ impl Selection<'_> {
         let bare = problem.info.deviance(&fit.expand(design.width));
         let settled = settle(design, model, &problem.info, self.robot);
         let gain = bare - problem.info.deviance(weights);
-        bare - problem.info.deviance(&settled) >= MOST * gain
+        let lost = problem.info.deviance(&settled) - problem.info.deviance(weights);
+        STANDS_OUT * lost <= gain
     }
 
     fn admits(&self, weights: &[f64], g: usize) -> bool {
