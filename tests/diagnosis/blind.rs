@@ -64,16 +64,14 @@ fn blind_a_large_offset_of_an_encoder_leaves_no_body_beside_it() {
 }
 
 /// Logs without noise, as a simulation makes them that has no sensors: an error that is a part in a thousand of the
-/// effort has no name, and the friction has one. Commands are held for 2 ms in rows of 4 ms here, by a controller of
-/// which nothing is said.
+/// effort has no name, and the friction has one.
 #[test]
 fn blind_a_log_without_noise_names_what_matters_and_nothing_else() {
     for log_rate_hz in [250, 500] {
         let folder = tempfile::tempdir().unwrap();
         let effect = "effect=[{ coulomb_friction={ joint='j4_elbow_pitch', level_nm=1.5 } }]";
         simulate(folder.path(), &[&format!("sensors={{ log_rate_hz={log_rate_hz} }}"), effect]);
-        let diagnosis = diagnose(&wam(), &read(folder.path()), &Settings::default(), &Silent);
-        let findings = diagnosis.unwrap().diagnosis.findings;
+        let findings = look(folder.path()).findings;
         let names: Vec<String> = findings.iter().map(|f| f.at.words()).collect();
         assert_eq!(names, ["FR02 Coulomb friction at j4_elbow_pitch"], "{log_rate_hz} Hz");
         let level = &findings[0].parameters[0];

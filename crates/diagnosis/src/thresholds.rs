@@ -20,17 +20,21 @@ pub(crate) const VARIATION: f64 = 0.25;
 pub(crate) const VARIATION_OF_ROUGH: f64 = 0.7;
 
 /// Half, wherever most of something is asked for: of a finding's held-out gain, that a rival must reach; of what is
-/// left, that a tone as slow as the motion must be, or the effort beyond a limit must take; of the amplitude of a tone
+/// left (RMS), that a name may take instead of what counts in practice and that a tone in the band must be; of its
+/// power, that a tone as slow as the motion must be, or the effort beyond a limit must take; of the amplitude of a tone
 /// in one run or line, that it must have in another to be the same there; of the prior's standard deviation, below
 /// which that of a number must lie for the logs to tell it.
 pub(crate) const MOST: f64 = 0.5;
+
+/// Least share of what a link's inertia explains that a physical inertia must explain.
+pub(crate) const KEPT_BY_BODIES: f64 = 0.9;
 
 /// Standard errors by which two numbers differ: errors of two models over the blocks, an RMS and the noise.
 pub(crate) const ERRORS: f64 = 2.0;
 
 /// Least power over that around it: of a tone over the spectrum, in every run (one false tone in `exp(20)` frequencies
 /// of one run), of what the other effects lack above a limit over what they leave below and over what is left there of a
-/// clamped effort, and of what a link's inertia explains over what is lost where it is made physical.
+/// clamped effort.
 pub(crate) const STANDS_OUT: f64 = 20.0;
 
 /// Largest difference between the beats of two lines that are one, over the beat of the stronger.
@@ -48,6 +52,3 @@ pub(crate) const OF_COMMANDED_NOISE: f64 = 1.6;
 /// wrongly, a quarter leaves 15 wrong and 38 right ones, a tenth 13 and 33; the palm of a clean WAM in 30 s hides
 /// .16.
 pub(crate) const HIDDEN: f64 = 0.2;
-
-/// Least share of what is left that a signal or a tone must predict to be named.
-pub(crate) const NAMED: f64 = 0.03;

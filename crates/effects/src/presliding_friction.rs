@@ -112,8 +112,9 @@ impl Explain for PreslidingFriction {
             None if level > 0.0 => SMALL * change / level,
             None => 0.0,
         };
-        let resolved = frame.resolution.get(j).map_or(0.0, |r| RESOLVED * r).max(SHORTEST);
-        let is_way = way >= resolved;
+        let resolved = frame.resolution.get(j).map_or(0.0, |r| RESOLVED * r);
+        let was_way = drive.presliding.is_none_or(|way| way > 0.5 * SHORTEST);
+        let is_way = was_way && way >= resolved;
         if drive.presliding.is_some() || way > 0.0 {
             // What is not resolved has no way, which is not sound, and nothing to damp.
             drive.presliding = Some(if is_way { way } else { 0.5 * SHORTEST });

@@ -14,7 +14,7 @@ use crate::signals::along::Along;
 use crate::signals::log::Log;
 use crate::signals::rest::Rest;
 use crate::signals::tone::{Beat, Tone};
-use crate::thresholds::{MOST, NAMED, STANDS_OUT};
+use crate::thresholds::{MOST, STANDS_OUT};
 
 /// Cut-off of the band in which tones are looked for, as a share of the sampling rate.
 pub(crate) const BAND: f64 = 0.1;
@@ -347,8 +347,7 @@ impl Joint<'_> {
             sums.map(|(z, n)| (2.0 * z.norm() / n.max(1) as f64, n)).collect();
         let (least, most) =
             sizes.iter().fold((f64::INFINITY, 0.0), |(l, m), (z, _)| (z.min(l), z.max(m)));
-        let expected: f64 = sizes.iter().map(|(z, n)| 0.5 * z * z * *n as f64).sum();
-        if least < MOST * most || expected < 0.5 * NAMED * self.power_of(self.left) {
+        if least < MOST * most {
             return None;
         }
         let mut tone = self.fitted(at, step)?;
@@ -356,7 +355,7 @@ impl Joint<'_> {
         let even = tone.amplitude() > MOST * least;
         tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
         let pays = tone.share * self.power_of(self.left) > self.practical.powi(2) * self.counted();
-        (even && pays && tone.share > NAMED).then_some(tone)
+        (even && pays).then_some(tone)
     }
 
     /// The tone near a value of the beat (rad per unit), by least squares.

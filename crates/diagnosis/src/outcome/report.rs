@@ -152,7 +152,7 @@ impl Study<'_> {
             return Structure { share: 0.0, depends_on: Vec::new() };
         }
         let parts = (answer.by_run.blocks, answer.by_run.folds.as_slice());
-        Probe::new(self.robot, self.design, parts, j).structure(left)
+        Probe::new(self.robot, self.design, parts, j).structure(left, self.settings.open_share)
     }
 
     /// What is left of joint `j`, `[run][sample]`, at the samples that tell of its effort.

@@ -8,7 +8,6 @@ use crate::columns::run_design::RunDesign;
 use crate::regression::blocks::{Block, Fold};
 use crate::regression::noise::integrated_time;
 use crate::result::Dependence;
-use crate::thresholds::NAMED;
 
 /// Knots of the piecewise linear functions.
 const KNOTS: usize = 9;
@@ -129,8 +128,8 @@ impl<'a> Probe<'a> {
         Self { robot, blocks, folds, families, tells, features }
     }
 
-    /// The structure in a residual, given `[run][sample]`.
-    pub fn structure(&self, residual: &[Vec<f64>]) -> Structure {
+    /// The structure in a residual, given `[run][sample]`, with the signals that predict at least `share` of it.
+    pub fn structure(&self, residual: &[Vec<f64>], share: f64) -> Structure {
         let part = |b: &Block| {
             let told = residual[b.run][b.samples.clone()]
                 .iter()
@@ -152,7 +151,7 @@ impl<'a> Probe<'a> {
                 None => depends_on.push((family.signal, share)),
             }
         }
-        depends_on.retain(|(_, share)| *share >= NAMED);
+        depends_on.retain(|(_, predicted)| *predicted >= share);
         depends_on.sort_by(|a, b| b.1.total_cmp(&a.1));
         depends_on.truncate(LISTED);
         let named =

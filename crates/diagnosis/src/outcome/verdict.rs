@@ -1,5 +1,5 @@
 use crate::result::{NoiseFloorSource, Verdict};
-use crate::thresholds::{ERRORS, HIDDEN, NAMED, OF_COMMANDED_NOISE, OF_NOISE};
+use crate::thresholds::{ERRORS, HIDDEN, OF_COMMANDED_NOISE, OF_NOISE};
 
 /// Whether dry friction that goes unseen may matter: the logs say nothing of a joint then, however little is left.
 pub(crate) fn hides(unseen: f64, torque_rms: f64) -> bool {
@@ -179,7 +179,8 @@ impl Situation {
 
     /// What can be said of a rest that no function of the motion predicts.
     fn origin(&self) -> String {
-        let fast = self.above_hz.filter(|hz| *hz > self.motion_hz && self.structure < NAMED);
+        let fast =
+            self.above_hz.filter(|hz| *hz > self.motion_hz && self.structure < self.practical);
         fast.map_or_else(String::new, |hz| {
             format!(
                 ". It is vibration or noise of unknown origin: nine tenths of its power lie above {hz:.1} Hz, faster than the motion, and no function of the motion predicts it"

@@ -7,7 +7,7 @@ use crate::regression::fit::Fit;
 use crate::regression::problem::{HeldOut, Model, Problem};
 use crate::regression::settle::settle;
 use crate::signals::look::Look;
-use crate::thresholds::{EVIDENCE, EVIDENCE_OF_DOUBTFUL, STANDS_OUT};
+use crate::thresholds::{EVIDENCE, EVIDENCE_OF_DOUBTFUL, KEPT_BY_BODIES, MOST};
 
 /// Rounds of entering, exchanging and leaving before the search is called settled.
 const ROUNDS: usize = 4;
@@ -289,7 +289,7 @@ impl Selection<'_> {
         self.admits(&all, g) && self.is_body(model, g, &all)
     }
 
-    /// Whether what a change of a link's inertia explains stands out from what is lost of it when every
+    /// Whether a change of a link's inertia keeps most of what it explains when every
     /// inertia is made physical; true for what is no link.
     fn is_body(&self, model: &Model, g: usize, weights: &[f64]) -> bool {
         let (problem, design) = (self.problem, self.problem.design);
@@ -302,8 +302,7 @@ impl Selection<'_> {
         let bare = problem.info.deviance(&fit.expand(design.width));
         let settled = settle(design, model, &problem.info, self.robot);
         let gain = bare - problem.info.deviance(weights);
-        let lost = problem.info.deviance(&settled) - problem.info.deviance(weights);
-        STANDS_OUT * lost <= gain
+        bare - problem.info.deviance(&settled) >= KEPT_BY_BODIES * gain
     }
 
     fn admits(&self, weights: &[f64], g: usize) -> bool {
@@ -314,12 +313,13 @@ impl Selection<'_> {
         changes && group.hypothesis.admissible(self.robot, &own)
     }
 
-    /// Whether `larger`, which has `g`, does better on held-out blocks than `before` by what counts in practice.
+    /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`: by
+    /// what counts in practice, or by half of what was left (RMS).
     pub fn pays(&self, before: &HeldOut, larger: &Model, g: usize) -> bool {
         let after = self.problem.held_out(larger);
         let enough = |&j: &usize| {
             let fall = before.mean_square[j] - after.mean_square[j];
-            fall > self.practical[j].powi(2)
+            fall > self.practical[j].powi(2).min(MOST.powi(2) * before.mean_square[j])
         };
         after.deviance < before.deviance && self.problem.design.groups[g].joints.iter().any(enough)
     }
