@@ -113,15 +113,12 @@ impl Explain for PreslidingFriction {
             None => 0.0,
         };
         let resolved = frame.resolution.get(j).map_or(0.0, |r| RESOLVED * r);
-        let was_way = drive.presliding.is_none_or(|way| way > 0.5 * SHORTEST);
-        let is_way = was_way && way >= resolved;
         if drive.presliding.is_some() || way > 0.0 {
-            // What is not resolved has no way, which is not sound, and nothing to damp.
-            drive.presliding = Some(if is_way { way } else { 0.5 * SHORTEST });
+            // What is not resolved has no way, which is not sound.
+            drive.presliding = Some(if way >= resolved { way } else { 0.5 * SHORTEST });
         }
         if let [damping] = damping {
-            let all = drive.presliding_damping.unwrap_or(0.0) + damping;
-            drive.presliding_damping = Some(if is_way { all } else { 0.0 });
+            drive.presliding_damping = Some(drive.presliding_damping.unwrap_or(0.0) + damping);
         }
     }
 
