@@ -67,8 +67,7 @@ fn blind_a_large_offset_of_an_encoder_leaves_no_body_beside_it() {
 /// effort has no name, and the friction has one.
 #[test]
 fn blind_a_log_without_noise_names_what_matters_and_nothing_else() {
-    {
-        let log_rate_hz = 500;
+    for log_rate_hz in [250, 500] {
         let folder = tempfile::tempdir().unwrap();
         let effect = "effect=[{ coulomb_friction={ joint='j4_elbow_pitch', level_nm=1.5 } }]";
         simulate(folder.path(), &[&format!("sensors={{ log_rate_hz={log_rate_hz} }}"), effect]);

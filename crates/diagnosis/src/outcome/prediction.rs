@@ -5,7 +5,7 @@ use crate::error::DiagnosisError;
 use crate::outcome::gain::HeldOutGain;
 use crate::progress::Progress;
 use crate::regression::blocks::Fold;
-use crate::regression::problem::Problem;
+use crate::regression::problem::{Model, Problem};
 use crate::regression::solved::{Solved, solved};
 use crate::search::conclusion::Conclusion;
 use crate::search::failed::Failed;
@@ -52,7 +52,8 @@ impl Study<'_> {
         Ok((Conclusion { model, failed, ..conclusion }, best))
     }
 
-    /// What a search came to, without what has no name over the whole record and what failed.
+    /// What a search came to, without what has no name over the whole record, what failed, and what is nothing
+    /// about the robot that was fitted, such as bristles with a way that is not resolved.
     fn named(
         &self,
         searched: &Searched,
@@ -62,9 +63,20 @@ impl Study<'_> {
         let Searched { problem, model, solution } = searched;
         let mut named = failed.kept(problem, model);
         named.retain(|g| !withheld.contains_key(g));
-        if named == *model {
-            return Ok(solution.clone());
+        let mut solution = if named == *model {
+            solution.clone()
+        } else {
+            solved(self.robot, &self.log, problem, &named)?
+        };
+        loop {
+            let is_sound =
+                |g: &usize| problem.design.groups[*g].hypothesis.is_sound(&solution.robot);
+            let sound: Model = named.iter().copied().filter(is_sound).collect();
+            if sound == named {
+                return Ok(solution);
+            }
+            solution = solved(self.robot, &self.log, problem, &sound)?;
+            named = sound;
         }
-        solved(self.robot, &self.log, problem, &named)
     }
 }

@@ -8,10 +8,7 @@ use crate::regression::fit::{Complement, Fit};
 use crate::regression::problem::Problem;
 use crate::result::RuledOut;
 use crate::search::constancy::Variation;
-use crate::thresholds::{ERRORS, MOST};
-
-/// Standard errors beyond those of a test at which four of five are found: the quantile of .8 of a normal.
-const FOUR_IN_FIVE: f64 = 0.84;
+use crate::thresholds::{DETECTED_AT, MOST};
 
 impl Evidence<'_> {
     /// Every hypothesis that is no finding, with the smallest size that would have been one.
@@ -65,7 +62,7 @@ impl Evidence<'_> {
         let has_phases = nature.is_some_and(|n| n.weights == Weights::Phases);
         let errors = errors.get(..if has_phases { 2 } else { 1 })?;
         let error = errors.iter().copied().fold(0.0, f64::max);
-        Some((ERRORS + FOUR_IN_FIVE) * error * self.largest_unseen(g))
+        Some(DETECTED_AT * error * self.largest_unseen(g))
     }
 
     fn largest_unseen(&self, g: usize) -> f64 {
@@ -135,7 +132,7 @@ impl Evidence<'_> {
         let share = |k: usize| errors[k] / design.prior[columns[k]];
         let best =
             (0..errors.len().min(parameters)).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
-        let size = (ERRORS + FOUR_IN_FIVE) * errors[best] * self.largest_unseen(g);
+        let size = DETECTED_AT * errors[best] * self.largest_unseen(g);
         // The weights behind a centre of mass are first moments: m c.
         let mass = hypothesis.link().map(|l| self.selection.robot.links()[l].inertia.mass);
         let unit = if best > 0 { mass.filter(|m| *m > 0.0).unwrap_or(1.0) } else { 1.0 };

@@ -1,9 +1,9 @@
 use crate::result::{NoiseFloorSource, Verdict};
-use crate::thresholds::{ERRORS, HIDDEN, OF_COMMANDED_NOISE, OF_NOISE};
+use crate::thresholds::{DROWNED, ERRORS, OF_COMMANDED_NOISE, OF_NOISE, UNSEEN};
 
 /// Whether dry friction that goes unseen may matter: the logs say nothing of a joint then, however little is left.
 pub(crate) fn hides(unseen: f64, torque_rms: f64) -> bool {
-    unseen > HIDDEN * torque_rms
+    unseen > UNSEEN * torque_rms
 }
 
 /// What is known of one joint when its verdict is due.
@@ -72,7 +72,7 @@ impl Situation {
     /// turning joint is given more room.
     fn is_drowned(&self) -> bool {
         self.is_noise()
-            && self.remaining_rms > HIDDEN * self.torque_rms
+            && self.remaining_rms > DROWNED * self.torque_rms
             && (self.own > 0 || !self.is_within(OF_NOISE, self.noise.0))
     }
 
@@ -85,7 +85,7 @@ impl Situation {
     ///
     /// Nothing is open where what is left is within noise that has a source, or a share of the effort
     /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort. Above [`HIDDEN`] of the effort noise is the effort's own alone, beside no cause of the joint's own. Where a fit failed nothing is
+    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone, beside no cause of the joint's own. Where a fit failed nothing is
     /// consistent.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
@@ -247,37 +247,37 @@ mod tests {
     }
 
     #[test]
-    fn more_room_than_noise_has_closes_no_joint_of_which_it_is_a_fifth() {
+    fn more_room_than_noise_has_closes_no_joint_of_which_it_is_a_sixth() {
         let command = |findings, torque_rms| {
             Situation { torque_rms, is_command: true, ..joint(findings, 1.7, 1.2) }.verdict().0
         };
-        assert_eq!(command(0, 9.0), Verdict::Consistent);
-        assert_eq!(command(0, 8.0), Verdict::DataInadequate);
-        assert_eq!(command(1, 9.0), Verdict::Explained);
-        assert_eq!(command(1, 8.0), Verdict::PartlyExplained);
+        assert_eq!(command(0, 12.0), Verdict::Consistent);
+        assert_eq!(command(0, 11.0), Verdict::DataInadequate);
+        assert_eq!(command(1, 12.0), Verdict::Explained);
+        assert_eq!(command(1, 11.0), Verdict::PartlyExplained);
         let own = |findings, left| joint(findings, left, left).verdict().0;
-        assert_eq!([own(0, 2.1), own(1, 1.9)], [Verdict::Consistent, Verdict::Explained]);
-        assert_eq!(own(1, 2.1), Verdict::PartlyExplained);
-        let of_the_arm = Situation { own: 0, ..joint(1, 2.1, 2.1) };
+        assert_eq!([own(0, 1.6), own(1, 1.4)], [Verdict::Consistent, Verdict::Explained]);
+        assert_eq!(own(1, 1.6), Verdict::PartlyExplained);
+        let of_the_arm = Situation { own: 0, ..joint(1, 1.6, 1.6) };
         assert_eq!(of_the_arm.verdict().0, Verdict::Explained);
         // Nor does the friction of a joint that often turns.
-        let turning = |left| Situation { near_rest: 2.0, ..joint(0, left, 0.1) }.verdict().0;
-        assert_eq!(turning(1.9), Verdict::Consistent);
-        assert_eq!(turning(2.1), Verdict::DataInadequate);
+        let turning = |left| Situation { near_rest: 1.5, ..joint(0, left, 0.1) }.verdict().0;
+        assert_eq!(turning(1.4), Verdict::Consistent);
+        assert_eq!(turning(1.6), Verdict::DataInadequate);
     }
 
     #[test]
     fn a_joint_whose_friction_would_go_unseen_is_not_closed() {
         let joint = |findings, unseen| Situation { unseen, ..joint(findings, 0.19, 0.0) }.verdict();
-        assert_eq!(joint(0, 1.9).0, Verdict::Consistent);
-        assert_eq!(joint(1, 1.9).0, Verdict::Explained);
-        let (verdict, because) = joint(0, 2.1);
+        assert_eq!(joint(0, 2.4).0, Verdict::Consistent);
+        assert_eq!(joint(1, 2.4).0, Verdict::Explained);
+        let (verdict, because) = joint(0, 2.6);
         assert_eq!(verdict, Verdict::DataInadequate);
         assert!(
             because
-                .ends_with("dry friction of up to 2.100 N m, 21 % of its effort, would go unseen")
+                .ends_with("dry friction of up to 2.600 N m, 26 % of its effort, would go unseen")
         );
-        assert_eq!(joint(1, 2.1).0, Verdict::PartlyExplained);
+        assert_eq!(joint(1, 2.6).0, Verdict::PartlyExplained);
         assert!(joint(0, f64::INFINITY).1.ends_with("no friction of this joint, however large"));
     }
 
