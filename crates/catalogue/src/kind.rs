@@ -124,6 +124,30 @@ impl EffectKind {
         self.entry().words
     }
 
+    /// Whether it is felt the more the smaller its first parameter is, such as the stiffness of a spring.
+    pub const fn grows_as_its_size_falls(self) -> bool {
+        matches!(self, Self::JointElasticity)
+    }
+
+    /// The motion that tells it from `rivals`: its own, or a payload's where one is among them, which only a second
+    /// log settles. None where it has no rivals.
+    pub fn told_apart_from(self, rivals: impl IntoIterator<Item = Self>) -> Option<&'static str> {
+        let mut rivals = rivals.into_iter().peekable();
+        rivals.peek()?;
+        let payload = rivals.find(|kind| *kind == Self::Payload);
+        Some(payload.unwrap_or(self).entry().told_apart_by)
+    }
+
+    /// What two encoders of a joint leave open of it, in words.
+    pub const fn left_open_by_two_encoders(self) -> Option<&'static str> {
+        match self {
+            Self::EncoderOffset => Some(
+                "it is what the two encoders differ by: which of them is off, a pose measured from outside tells",
+            ),
+            _ => None,
+        }
+    }
+
     /// Code and name in words, such as `FR02 Coulomb friction`.
     pub fn label(self) -> String {
         format!("{} {}", self.code(), self.words())
@@ -170,6 +194,17 @@ mod tests {
     use serde::de::value::{Error, StrDeserializer};
 
     use super::*;
+
+    #[test]
+    fn a_payload_among_rivals_says_what_tells_them_apart() {
+        let own = EffectKind::CoulombFriction.entry().told_apart_by;
+        let rivals = [EffectKind::ViscousFriction, EffectKind::StribeckFriction];
+        assert_eq!(EffectKind::CoulombFriction.told_apart_from(rivals), Some(own));
+        assert_eq!(EffectKind::CoulombFriction.told_apart_from([]), None);
+        let payload = EffectKind::Payload.entry().told_apart_by;
+        let rivals = [EffectKind::GravityDirection, EffectKind::Payload];
+        assert_eq!(EffectKind::InertialParameters.told_apart_from(rivals), Some(payload));
+    }
 
     /// Never to be changed, only added to: see [`EffectKind::code`].
     const CODES: [(&str, &str); 27] = [

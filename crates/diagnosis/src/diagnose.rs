@@ -98,21 +98,8 @@ pub fn diagnose(
     let quiet = Log { described: Some(robot).filter(|r| turned(r, about)), ..quiet };
     let limits = limits(about, &quiet)?;
     let quiet = Log { limits: &limits, ..quiet };
-    let (mut sown, mut design) = tangents(about, &quiet)?;
-    let mut heard = Heard::default();
-    for _ in 0..LISTENINGS {
-        let log = Log { tones: &heard.tones, ..quiet };
-        let (robot, nominal, design_of, inadequate) = (&sown, robot, &design, &inadequate);
-        let study = Study { nominal, robot, settings, log, design: design_of, inadequate };
-        let now = listened(&study, runs)?;
-        let is_quiet = now.tones.is_empty() && heard.tones.is_empty();
-        heard = now;
-        if is_quiet {
-            break;
-        }
-        (sown, design) = tangents(about, &Log { tones: &heard.tones, ..quiet })?;
-    }
-    let Heard { tones, ringing } = heard;
+    let still = Still { nominal: robot, about, settings, log: quiet, inadequate: &inadequate };
+    let (Heard { tones, ringing }, (sown, design)) = still.heard(runs)?;
     warnings.extend(ringing.iter().map(|at| words_for_ringing(robot, *at)));
     progress.step();
     let study = Study {
@@ -172,6 +159,38 @@ fn tangents(robot: &Robot, log: &Log) -> Result<(Robot, Design), DiagnosisError>
     Ok((sown, design))
 }
 
+/// A study before its tones are known.
+struct Still<'a> {
+    nominal: &'a Robot,
+    /// The robot that residuals are taken about.
+    about: &'a Robot,
+    settings: &'a Settings,
+    log: Log<'a>,
+    inadequate: &'a [Option<String>],
+}
+
+impl Still<'_> {
+    /// The oscillations of the logs, and the tangents about a robot that has them: what hides beneath a tone is heard
+    /// once the tone is taken away.
+    fn heard(&self, runs: &[Run]) -> Result<(Heard, (Robot, Design)), DiagnosisError> {
+        let Self { nominal, about, settings, log: quiet, inadequate } = *self;
+        let mut about_them = tangents(about, &quiet)?;
+        let mut heard = Heard::default();
+        for _ in 0..LISTENINGS {
+            let log = Log { tones: &heard.tones, ..quiet };
+            let (robot, design) = (&about_them.0, &about_them.1);
+            let now = listened(&Study { nominal, robot, settings, log, design, inadequate }, runs)?;
+            let is_quiet = now.tones.is_empty() && heard.tones.is_empty();
+            heard = now;
+            if is_quiet {
+                break;
+            }
+            about_them = tangents(about, &Log { tones: &heard.tones, ..quiet })?;
+        }
+        Ok((heard, about_them))
+    }
+}
+
 /// The oscillations in what a search leaves, in a band much wider than the motion's.
 fn listened(study: &Study, runs: &[Run]) -> Result<Heard, DiagnosisError> {
     let (prepared, settings) = (study.log.prepared, study.settings);
@@ -197,7 +216,7 @@ fn listened(study: &Study, runs: &[Run]) -> Result<Heard, DiagnosisError> {
         &wide,
         &Frame::of_logs(&wide),
         (&study.log, slowest_hz),
-        &study.practical(),
+        (&study.practical(), settings.open_share),
     )?)
 }
 

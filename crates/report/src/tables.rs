@@ -248,7 +248,7 @@ fn ruled_out_row(ruled_out: &RuledOut) -> RuledOutRow {
     let smallest = match ruled_out.smallest_detectable {
         Some(size) => {
             let parameter = ruled_out.parameter.replace('_', " ");
-            let of = if ruled_out.at.effect == EffectKind::JointElasticity { "up to " } else { "" };
+            let of = if ruled_out.at.effect.grows_as_its_size_falls() { "up to " } else { "" };
             format!("{parameter} {of}{} {}", significant(size, 2), unit(ruled_out.unit))
         }
         None => "these logs cannot show any".to_owned(),

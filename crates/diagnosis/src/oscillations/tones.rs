@@ -56,8 +56,8 @@ const BESIDE: usize = 32;
 const AROUND: usize = 200;
 
 /// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
-/// lines of the spectrum over time and over position that stand out in every run, and whose fall of the
-/// error counts at their joint (`practical`, N·m or N).
+/// lines of the spectrum over time and over position that stand out in every run, whose fall of the error
+/// counts at their joint (`practical`, N·m or N), and which are more than `open_share` of what is left.
 ///
 /// A line below `slowest_hz` may be the motion's, unless it is most of what is left all the time, and
 /// some of the time no joint moves much at its frequency.
@@ -66,13 +66,17 @@ pub(crate) fn tones(
     wide: &Prepared,
     frame: &Frame,
     (log, slowest_hz): (&Log, f64),
-    practical: &[f64],
+    (practical, open_share): (&[f64], f64),
 ) -> Result<Heard, LogError> {
     let rest = |run| Rest::new(Along::new(robot, frame, run, wide.cutoff_hz, log.limits)?);
     let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
     let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
     let at = |j: usize| {
-        if log.moved[j] { at_joint(&runs, (j, practical[j]), bands_hz) } else { Vec::new() }
+        if log.moved[j] {
+            at_joint(&runs, (j, [practical[j], open_share]), bands_hz)
+        } else {
+            Vec::new()
+        }
     };
     let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
     let lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
@@ -94,8 +98,8 @@ enum Follows {
 /// One joint: its residual in every run, and what keeps time with it.
 struct Joint<'a> {
     index: usize,
-    /// Least fall of the RMS error that counts (N·m or N).
-    practical: f64,
+    /// Least fall of the RMS error that counts (N·m or N), and least share of what is left.
+    least: [f64; 2],
     follows: Follows,
     runs: &'a [Rest<'a>],
     /// `[run][sample]`.
@@ -106,7 +110,7 @@ struct Joint<'a> {
 
 fn at_joint(
     runs: &[Rest],
-    (j, practical): (usize, f64),
+    (j, least): (usize, [f64; 2]),
     [cutoff_hz, band_hz, slowest_hz]: [f64; 3],
 ) -> Vec<Tone> {
     let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
@@ -122,8 +126,7 @@ fn at_joint(
     let slowest_hz = slowest_hz.max(LOWEST_HZ);
     let mut tones: Vec<Tone> = Vec::new();
     while tones.len() < MOST_TONES {
-        let of =
-            |follows, highest| Joint { index: j, practical, follows, runs, left: &left, highest };
+        let of = |follows, highest| Joint { index: j, least, follows, runs, left: &left, highest };
         let (clock, position) = (of(Follows::Clock, &anywhere), of(Follows::Position, &by_speed));
         let line = |band_hz: [f64; 2]| clock.found(|clock| clock.lines(band_hz));
         let found = [
@@ -354,8 +357,9 @@ impl Joint<'_> {
         // A tone of one phase that differs from run to run keeps time with something else.
         let even = tone.amplitude() > MOST * least;
         tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
-        let pays = tone.share * self.power_of(self.left) > self.practical.powi(2) * self.counted();
-        (even && pays).then_some(tone)
+        let [practical, share] = self.least;
+        let pays = tone.share * self.power_of(self.left) > practical.powi(2) * self.counted();
+        (even && pays && tone.share > share).then_some(tone)
     }
 
     /// The tone near a value of the beat (rad per unit), by least squares.

@@ -1,12 +1,12 @@
 use std::collections::BTreeSet;
 
-use catalogue::EffectKind;
 use effects::Hypothesis;
 
 use crate::outcome::effect_at::effect_at;
+use crate::outcome::size::size;
 use crate::outcome::unnamed::Unnamed;
 use crate::regression::fitted::Fitted;
-use crate::regression::problem::{HeldOut, Model, Problem};
+use crate::regression::problem::{HeldOut, Model};
 use crate::regression::uncertainty::Uncertainty;
 use crate::result::Finding;
 use crate::search::contest::Apart;
@@ -15,9 +15,6 @@ use crate::search::rivals::rivals;
 use crate::search::select::Selection;
 use crate::search::settled::Withheld;
 use crate::signals::look::Look;
-
-/// What two encoders cannot say of their difference.
-const WHICH_ENCODER: &str = "it is what the two encoders differ by: which of them is off, a pose measured from outside tells";
 
 /// A finding together with what the verdict of each joint needs to know of it.
 #[derive(Debug, Clone)]
@@ -174,22 +171,27 @@ impl Evidence<'_> {
         let level: Vec<Hypothesis> =
             self.model.iter().filter(|m| self.bearer(**m) == Some(g)).map(hypothesis).collect();
         let (wide, all) = uncertainty.undetermined(fitted.problem, group.hypothesis);
+        let kind = |h: &usize| problem.design.groups[*h].hypothesis.kind;
+        let open = match problem.design.look {
+            Look::Effort => None,
+            Look::Twist => kind(&g).left_open_by_two_encoders(),
+        };
         Finding {
             at: effect_at(robot, group.hypothesis),
             parameters: uncertainty.estimates(fitted, group.hypothesis, &level),
             share_explained: share(before),
             held_out_gain: share(without),
             log_evidence: 0.0,
-            told_apart_by: told_apart_by(problem, g, &rivals),
+            told_apart_by: kind(&g).told_apart_from(rivals.iter().map(kind)),
             not_separable_from: rivals
                 .iter()
                 .map(|&h| effect_at(robot, problem.design.groups[h].hypothesis))
                 .collect(),
             evidence: Vec::new(),
-            undetermined: match (problem.design.look, group.hypothesis.kind) {
-                (Look::Twist, EffectKind::EncoderOffset) => vec![WHICH_ENCODER.to_owned()],
-                _ => undetermined(group.hypothesis, wide, all),
-            },
+            undetermined: open.map_or_else(
+                || undetermined(group.hypothesis, wide, all),
+                |words| vec![words.to_owned()],
+            ),
         }
     }
 
@@ -209,7 +211,8 @@ impl Evidence<'_> {
                 (&link.joint.name, if link.joint.kind.is_rotation() { "rad" } else { "m" });
             evidence.push(match problem.design.look {
                 Look::Effort => format!(
-                    "without it the held-out error at {name} is {before:.3} instead of {after:.3} N m RMS"
+                    "without it the held-out error at {name} is {} instead of {} N m RMS",
+                    size(before), size(after)
                 ),
                 Look::Twist => format!(
                     "without it the held-out error between the two encoders of {name} is {before:.1e} instead of {after:.1e} {unit} RMS"
@@ -219,16 +222,6 @@ impl Evidence<'_> {
         evidence.push(format!("log evidence {loss:.0} higher with it than without"));
         evidence
     }
-}
-
-/// The motion that separates a finding from its rivals: the catalogue's words for the
-/// finding, or for a payload where one is involved, which only a second log settles.
-fn told_apart_by(problem: &Problem, group: usize, rivals: &[usize]) -> Option<&'static str> {
-    let kind = |g: usize| problem.design.groups[g].hypothesis.kind;
-    rivals.first()?;
-    let payload = rivals.iter().any(|&h| kind(h) == EffectKind::Payload);
-    let of = if payload { EffectKind::Payload } else { kind(group) };
-    Some(of.entry().told_apart_by)
 }
 
 fn undetermined(hypothesis: Hypothesis, wide: usize, all: usize) -> Vec<String> {

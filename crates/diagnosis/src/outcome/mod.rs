@@ -12,6 +12,7 @@ pub(crate) mod limit_finding;
 pub(crate) mod prediction;
 pub(crate) mod report;
 pub(crate) mod ruled_out;
+pub(crate) mod size;
 pub(crate) mod spectrum;
 pub(crate) mod structure;
 pub(crate) mod told;

@@ -1,3 +1,4 @@
+use crate::outcome::size::size;
 use crate::result::{NoiseFloorSource, Verdict};
 use crate::thresholds::{DROWNED, ERRORS, OF_COMMANDED_NOISE, OF_NOISE, UNSEEN};
 
@@ -121,8 +122,8 @@ impl Situation {
         }
         let percent = 100.0 * self.unseen / self.torque_rms;
         format!(
-            "dry friction of up to {:.3} N m, {percent:.0} % of its effort, would go unseen",
-            self.unseen
+            "dry friction of up to {} N m, {percent:.0} % of its effort, would go unseen",
+            size(self.unseen)
         )
     }
 
@@ -138,7 +139,7 @@ impl Situation {
             (0, 0) => "the description leaves",
             _ => "the findings leave",
         };
-        let left = format!("{subject} {:.3} N m RMS while it moves", self.remaining_rms);
+        let left = format!("{subject} {} N m RMS while it moves", size(self.remaining_rms));
         if self.is_drowned() {
             let percent = 100.0 * self.remaining_rms / self.torque_rms;
             return format!(
@@ -169,10 +170,10 @@ impl Situation {
         let (rms, source) = self.noise;
         let noise = match source {
             NoiseFloorSource::Unknown => "of its noise the logs tell nothing".to_owned(),
-            _ => format!("{rms:.3} N m {}", source.words()),
+            _ => format!("{} N m {}", size(rms), source.words()),
         };
         if self.near_rest > rms {
-            return format!("{noise}, {:.3} N m of dry friction while it turns", self.near_rest);
+            return format!("{noise}, {} N m of dry friction while it turns", size(self.near_rest));
         }
         noise
     }

@@ -41,7 +41,7 @@ impl Failed {
 }
 
 /// Joints whose held-out error is larger than that of the description.
-fn worse(gain: &InverseGain) -> impl Iterator<Item = usize> {
+pub(crate) fn worse(gain: &InverseGain) -> impl Iterator<Item = usize> {
     let pairs = gain.rms_before_nm.iter().zip(&gain.rms_after_nm).enumerate();
     pairs.filter(|(_, (before, after))| after > before).map(|(j, _)| j)
 }

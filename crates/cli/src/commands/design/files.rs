@@ -2,7 +2,6 @@ use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use catalogue::EffectKind;
 use effects::{Frame, Motion as Along};
 use logs::{Channels, Prepared, Run};
 use motion::{MotionSpec, State};
@@ -44,9 +43,7 @@ fn titles(goal: Goal, robot: &Robot) -> (String, &'static str) {
     let words = |c| cause::words(c, robot);
     match goal {
         Goal::Separate { finding, rival } => {
-            // As the diagnosis says it: of a payload only a second log tells.
-            let payload = [finding, rival].into_iter().find(|c| c.kind == EffectKind::Payload);
-            let help = payload.unwrap_or(finding).kind.entry().told_apart_by;
+            let help = finding.kind.told_apart_from([rival.kind]).unwrap_or_default();
             (format!("{} or {}", words(finding), words(rival)), help)
         }
         Goal::Determine { finding } => {
