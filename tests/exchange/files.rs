@@ -97,9 +97,14 @@ fn a_usd_layer_has_bodies_and_joints_with_friction_per_degree() {
         let a = &link.actuator;
         let mean = 0.5 * (a.coulomb_forward + a.coulomb_backward);
         assert!((number(":dynamicFrictionEffort")[k] - mean.max(0.0)).abs() < 1e-12);
-        assert!((number(":armature")[k] - a.rotor_inertia).abs() < 1e-12);
-        let viscous = number(":viscousFrictionCoefficient")[k] * 57.29577951308232;
-        assert!((viscous - a.viscous.max(0.0)).abs() < 1e-12, "{viscous}");
+        assert!((number("newton:friction")[k] - mean.max(0.0)).abs() < 1e-12);
+        for armature in ["physxJointAxis:angular:armature", "newton:armature"] {
+            assert!((number(armature)[k] - a.rotor_inertia).abs() < 1e-12);
+        }
+        for key in [":viscousFrictionCoefficient", "newton:damping"] {
+            let viscous = number(key)[k] * 57.29577951308232;
+            assert!((viscous - a.viscous.max(0.0)).abs() < 1e-12, "{key} {viscous}");
+        }
         assert!((number("physics:mass")[k] - link.inertia.mass).abs() < 1e-12);
         let (low, _) = link.joint.limits.position.unwrap();
         let offset = a.encoder_offset;

@@ -6,5 +6,6 @@ mod files;
 mod held;
 mod held_out;
 mod mujoco;
+mod newton;
 mod rich;
 mod written_back;

@@ -16,7 +16,7 @@ pub enum Format {
     Mjcf,
     /// The Simulation Description Format of Gazebo.
     Sdf,
-    /// A text layer of Universal Scene Description with the schemas of PhysX, for Isaac Sim.
+    /// A text layer of Universal Scene Description with the schemas of PhysX and Newton, for Isaac Sim and Isaac Lab.
     Isaac,
 }
 

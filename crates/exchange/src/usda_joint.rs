@@ -1,4 +1,4 @@
-//! Joints of a USD layer, with the attributes of PhysX for the drive.
+//! Joints of a USD layer, with what PhysX and Newton read beside the schemas of USD itself.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use robot::{JointKind, Link};
@@ -20,14 +20,18 @@ pub struct Ends {
 /// Angles are in degrees, as USD has them: with `s = 180 / pi` at a rotation and 1 at a slide
 ///
 /// ```text
-/// limit = s q,   viscousFrictionCoefficient = viscous / s,   stiffness = spring_stiffness / s
+/// limit = s q,   viscousFrictionCoefficient = damping = viscous / s,   stiffness = spring_stiffness / s
 /// ```
+///
+/// Sources: PhysxJointAxisAPI of Isaac Sim 5, NewtonJointAPI of newton-usd-schemas 0.6.
 pub fn joint(text: &mut UsdText, prim: &str, ends: &Ends, link: &Link) {
     let (joint, a) = (&link.joint, &link.actuator);
     let rotates = joint.kind.is_rotation();
     let (kind, axis) = if rotates { ("Revolute", "angular") } else { ("Prismatic", "linear") };
     let scale = if rotates { 1f64.to_degrees() } else { 1.0 };
-    let schemas = ["PhysicsDriveAPI", "PhysxJointAxisAPI"].map(|api| format!("{api}:{axis}"));
+    let mut schemas: Vec<String> =
+        ["PhysicsDriveAPI", "PhysxJointAxisAPI"].map(|api| format!("{api}:{axis}")).into();
+    schemas.push("NewtonJointAPI".to_owned());
     text.open(&format!("Physics{kind}Joint"), prim, &schemas);
     text.told(&joint.name);
     text.set("uniform token physics:axis", "\"X\"");
@@ -66,6 +70,14 @@ pub fn joint(text: &mut UsdText, prim: &str, ends: &Ends, link: &Link) {
     if let Some(velocity) = joint.limits.velocity {
         physx("maxJointVelocity", scale * velocity);
     }
+    let mut newton =
+        |key: &str, value: f64| text.set(&format!("float newton:{key}"), &number(value));
+    newton("armature", a.rotor_inertia);
+    newton("friction", level);
+    newton("damping", a.viscous.max(0.0) / scale);
+    if let Some(velocity) = joint.limits.velocity {
+        newton("velocityLimit", scale * velocity);
+    }
     text.close();
 }
 
@@ -80,19 +92,21 @@ fn along_x(axis: &Vector3<f64>) -> UnitQuaternion<f64> {
 /// What becomes of a quantity of a joint.
 pub fn fate(quantity: Quantity, link: &Link) -> Fate {
     match quantity {
-        Quantity::Rotor => Fate::exact("armature of PhysxJointAxisAPI"),
+        Quantity::Rotor => Fate::exact("armature of PhysxJointAxisAPI and NewtonJointAPI"),
         Quantity::Viscous if link.actuator.viscous < 0.0 => {
-            Fate::dropped("PhysX takes no viscous friction below 0")
+            Fate::dropped("PhysX and Newton take no viscous friction below 0")
         }
-        Quantity::Viscous => Fate::exact("viscousFrictionCoefficient of PhysxJointAxisAPI"),
+        Quantity::Viscous => Fate::exact(
+            "viscousFrictionCoefficient of PhysxJointAxisAPI, damping of NewtonJointAPI",
+        ),
         Quantity::Coulomb if levels(&link.actuator).0 < 0.0 => {
-            Fate::dropped("PhysX takes no friction below 0")
+            Fate::dropped("PhysX and Newton take no friction below 0")
         }
         Quantity::Coulomb => {
-            Fate::exact("staticFrictionEffort, dynamicFrictionEffort of PhysxJointAxisAPI")
+            Fate::exact("dynamicFrictionEffort of PhysxJointAxisAPI, friction of NewtonJointAPI")
         }
         Quantity::Stribeck => Fate::near(
-            "staticFrictionEffort is higher by it: it is there at rest and gone at once in motion",
+            "staticFrictionEffort is higher by it, at rest and gone at once in motion; Newton has none",
         ),
         Quantity::Spring if link.actuator.spring_stiffness > 0.0 => Fate::near(
             "the drive holds it: a controller that sets the drive's gains takes its place",

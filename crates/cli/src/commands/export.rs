@@ -41,7 +41,7 @@ enum Target {
     Mjcf,
     /// The format of Gazebo: extended.sdf
     Sdf,
-    /// A USD layer with the schemas of PhysX, for Isaac Sim and Isaac Lab: extended.usda
+    /// A USD layer with the schemas of PhysX and Newton, for Isaac Sim and Isaac Lab: extended.usda
     Isaac,
 }
 
