@@ -36,6 +36,22 @@ fn a_kind_that_is_not_read_is_told_with_what_to_do() {
     }
 }
 
+/// What a shell's `*` picks up beside the logs: a README, a file of settings, a list of names.
+#[test]
+fn a_text_without_rows_is_told_to_be_no_log() {
+    for text in [
+        "# The arm\n\nThree runs, 30 s each, at noon.\nThe gripper was off, and 2 kg light.\n",
+        "[arm]\nname = \"elbow\"\ngains = [3, 4]\n",
+        "shoulder\nelbow\nwrist\n",
+    ] {
+        assert_eq!(
+            told(text.as_bytes()),
+            "FILE: this is text without a row of numbers in its first lines; \
+             a log has a line of names, then one of numbers for every moment"
+        );
+    }
+}
+
 /// A file of `formats` beside the recorded logs.
 pub fn given(name: &str) -> Option<PathBuf> {
     Some(recorded::folder()?.join("formats").join(name)).filter(|path| {

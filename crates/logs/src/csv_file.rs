@@ -8,6 +8,7 @@ use crate::{
     LogError,
     damage::Damage,
     dialect::{Dialect, Header, Numerals},
+    kind::PROSE,
     table::{Cell, Needed, Rows, Table},
 };
 
@@ -35,6 +36,9 @@ impl CsvFile {
             .and_then(|file| file.take(PREVIEW).read_to_end(&mut preview))
             .map_err(told)?;
         let dialect = Dialect::of(&preview);
+        if dialect.header == Header::Names && dialect.has_no_row_in(&preview) {
+            return Err(LogError::other_kind(path, PROSE));
+        }
         let torn_from = torn_from(&file).map_err(told)?;
         let path = path.to_owned();
         let mut csv = Self { path, file, dialect, names: Vec::new(), torn_from };

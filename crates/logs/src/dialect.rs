@@ -56,6 +56,18 @@ impl Dialect {
         }
     }
 
+    /// Whether there are lines below the first of a text and none of them, of those that are looked at, is a row: a
+    /// number in it, and as many fields as the first has.
+    pub(crate) fn has_no_row_in(self, text: &[u8]) -> bool {
+        let lines = fields(&text[self.start..], self.separator);
+        let is_row = |first: &Vec<Vec<u8>>, line: &Vec<Vec<u8>>| {
+            line.len() == first.len() && line.iter().any(|field| is_number(field, self.separator))
+        };
+        lines.split_first().is_some_and(|(first, below)| {
+            !below.is_empty() && !below.iter().any(|line| is_row(first, line))
+        })
+    }
+
     /// A reader of the records of a text that starts at `start`.
     pub(crate) fn records<R: std::io::Read>(self, text: R) -> csv::Reader<R> {
         reader(text, self.separator)

@@ -103,6 +103,10 @@ const STRANGERS: [(usize, &[u8], &str, &str); 23] = [
     (0, b"%PDF-", "a PDF document", NOT_A_TABLE),
 ];
 
+/// A text that holds no table.
+pub(crate) const PROSE: Stranger =
+    Stranger { found: "text without a row of numbers in its first lines", advice: NOT_A_TABLE };
+
 /// A packed file in a packed file.
 pub(crate) const TWICE: Stranger = Stranger { found: "packed twice", advice: PACKED };
 

@@ -269,8 +269,7 @@ fn whole_limits(whole: &Robot, joint: &str) -> Option<(f64, f64)> {
     whole.joint_index(joint).and_then(|i| whole.links()[i].joint.limits.position)
 }
 
-/// The text of a file, without a byte-order mark.
-/// A file that another one names: a pipe would be waited for.
+/// The text of a file that another one names: a pipe would be waited for.
 fn read_regular(path: &Path) -> Result<String, RobotError> {
     let reason = "it is no regular file, a URDF was expected".to_owned();
     match std::fs::metadata(path) {
@@ -281,10 +280,15 @@ fn read_regular(path: &Path) -> Result<String, RobotError> {
     }
 }
 
+/// The text of a file, without a byte-order mark.
 fn read(path: &Path) -> Result<String, RobotError> {
     let unreadable = |reason: String| RobotError::Unreadable { path: path.to_owned(), reason };
     if path.is_dir() {
-        return Err(unreadable("it is a directory, a URDF or a robot.toml was expected".into()));
+        let reason = match path.join("robot.toml") {
+            inside if inside.is_file() => format!("it is a directory, give {}", inside.display()),
+            _ => "it is a directory, a URDF or a robot.toml was expected".into(),
+        };
+        return Err(unreadable(reason));
     }
     let file = File::open(path).map_err(|e| unreadable(reason(&e)))?;
     let mut bytes = Vec::new();
