@@ -50,21 +50,6 @@ impl<'de> Deserializer<'de> for &'de Node {
         visitor.visit_newtype_struct(self)
     }
 
-    fn deserialize_struct<V: Visitor<'de>>(
-        self,
-        name: &'static str,
-        fields: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, Fault> {
-        match &self.value {
-            // How the date type of `toml` is read is that crate's own secret.
-            Value::Date(date) => toml::Value::Datetime(*date)
-                .deserialize_struct(name, fields, visitor)
-                .map_err(|error| Fault::custom(error.message())),
-            _ => self.deserialize_any(visitor),
-        }
-    }
-
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _name: &'static str,
@@ -90,7 +75,7 @@ impl<'de> Deserializer<'de> for &'de Node {
 
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit
-        unit_struct seq tuple tuple_struct map identifier
+        unit_struct struct seq tuple tuple_struct map identifier
     }
 }
 

@@ -93,7 +93,7 @@ impl Document {
     /// Enumerations are best written the way serde does without attributes,
     /// `coulomb_friction = { level_nm = 0.6 }`: what it has to put aside before it knows the
     /// type (`tag`, `untagged`, `flatten`) loses its place, and a mistake in it is shown at
-    /// the table around. A date is read only by the date types of the crate `toml`.
+    /// the table around. A date is no value of any type.
     ///
     /// # Errors
     ///

@@ -74,7 +74,8 @@ impl TrackingScenario {
     fn with_gains(&self, name: &str, gains: &[Gain]) -> Self {
         let mut scenario = Self { gains: gains.to_vec(), ..self.clone() };
         name.clone_into(&mut scenario.spec.control.gains);
-        if let Ok(mut resolved) = toml::from_str::<TrackingSpec>(&self.resolved) {
+        let resolved = Document::from_text("scenario.toml", &self.resolved);
+        if let Ok(mut resolved) = resolved.and_then(|text| text.parse::<TrackingSpec>()) {
             name.clone_into(&mut resolved.control.gains);
             scenario.resolved = toml::to_string(&resolved).unwrap_or_default();
         }

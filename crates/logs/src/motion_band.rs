@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use realfft::RealFftPlanner;
-
 use crate::{
     ChannelNoise, differentiate,
+    fourier::Fourier,
     spectrum::Density,
     uniform::{UniformJoint, UniformRun},
 };
@@ -67,11 +66,11 @@ impl Moved<'_> {
     /// The spectra are scaled to the same total and added; the motion lies below the frequency
     /// below which 99 % of the sum lies.
     pub(crate) fn band(&self) -> MotionBand {
-        let (mut sum, mut planner) = (Velocities::default(), RealFftPlanner::new());
+        let (mut sum, mut fourier) = (Velocities::default(), Fourier::default());
         let mut accelerations = vec![Accelerations::default(); self.noise.len()];
         for (k, (piece, moves)) in self.pieces.iter().zip(self.moving).enumerate() {
             for (j, joint) in piece.joints.iter().enumerate().filter(|(j, _)| moves[*j]) {
-                let velocity = velocity(joint, piece.rate_hz, &mut planner);
+                let velocity = velocity(joint, piece.rate_hz, &mut fourier);
                 let counted = counted(&velocity, &self.noise[j][k]);
                 sum.add(&counted);
                 accelerations[j].add(&counted, piece.duration_s());
@@ -117,7 +116,7 @@ const FASTEST: f64 = 3.0;
 
 /// Density of the velocity of a joint by differences of its position; what is three times as fast
 /// as all but one sample in 200 counts as that.
-fn velocity(joint: &UniformJoint, rate_hz: f64, planner: &mut RealFftPlanner<f64>) -> Density {
+fn velocity(joint: &UniformJoint, rate_hz: f64, fourier: &mut Fourier) -> Density {
     let mut velocity = differentiate(&joint.q, rate_hz);
     let mut speeds: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
     let place = ((1.0 - OUTLIERS) * speeds.len() as f64) as usize;
@@ -126,7 +125,7 @@ fn velocity(joint: &UniformJoint, rate_hz: f64, planner: &mut RealFftPlanner<f64
         // Differences of numbers of any size may be no number, which `clamp` does not take.
         velocity.iter_mut().for_each(|v| *v = v.min(fastest).max(-fastest));
     }
-    Density::of(&velocity, rate_hz, planner)
+    Density::of(&velocity, rate_hz, fourier)
 }
 
 /// Density of a velocity where it counts as motion, zero elsewhere.
@@ -204,6 +203,6 @@ mod tests {
         let q = (0..400).map(|k| if k % 2 == 0 { 1.7e308 } else { -1.7e308 }).collect();
         let joint =
             UniformJoint { q, effort: vec![], velocity: None, acceleration: None, link: None };
-        velocity(&joint, 1000.0, &mut RealFftPlanner::new());
+        velocity(&joint, 1000.0, &mut Fourier::default());
     }
 }

@@ -1,9 +1,9 @@
 //! The noise of channels, read from steps and spectra.
 
-use realfft::RealFftPlanner;
-
 use crate::{
-    ChannelNoise, Channels, JointNoise, NoiseSource, Run, lattice,
+    ChannelNoise, Channels, JointNoise, NoiseSource, Run,
+    fourier::Fourier,
+    lattice,
     run::range,
     sources::{Origin, Sources},
     spectrum::{Density, Flat},
@@ -128,7 +128,7 @@ fn together(each: Vec<(usize, Sum)>) -> ChannelNoise {
 }
 
 fn density(x: &[f64], piece: &UniformRun) -> Density {
-    Density::of(x, piece.rate_hz, &mut RealFftPlanner::new())
+    Density::of(x, piece.rate_hz, &mut Fourier::default())
 }
 
 /// Rounding of a signal to steps.

@@ -2,7 +2,9 @@
 
 use std::f64::consts::{LN_2, SQRT_2, TAU};
 
-use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
+use crate::fourier::Fourier;
 
 /// Share of half the sampling rate above which nothing is looked at: the filters of loggers and
 /// the interpolation of a clock end there.
@@ -55,7 +57,7 @@ impl Density {
     /// whose sum times the width of a bin is the variance of the signal. Its last few per cent
     /// are left out where a length of small factors is shorter: a prime one takes four times as
     /// long.
-    pub(crate) fn of(x: &[f64], rate_hz: f64, planner: &mut RealFftPlanner<f64>) -> Self {
+    pub(crate) fn of(x: &[f64], rate_hz: f64, fourier: &mut Fourier) -> Self {
         let x = &x[..of_small_factors(x.len())];
         let n = x.len();
         let mean = x.iter().sum::<f64>() / n.max(1) as f64;
@@ -66,13 +68,8 @@ impl Density {
         if n < 2 {
             return Self { step_hz, bins: vec![0.0] };
         }
-        let transform = planner.plan_fft_forward(n);
-        let mut spectrum = transform.make_output_vec();
-        // Lengths come from the plan itself, so it does not fail; no power is no claim.
-        let bins = match transform.process(&mut x, &mut spectrum) {
-            Ok(()) => spectrum.iter().map(|c| 2.0 * c.norm_sqr() / (rate_hz * weight)).collect(),
-            Err(_) => vec![0.0],
-        };
+        let power = |c: &Complex<f64>| 2.0 * c.norm_sqr() / (rate_hz * weight);
+        let bins = fourier.of(&mut x).iter().map(power).collect();
         Self { step_hz, bins }
     }
 

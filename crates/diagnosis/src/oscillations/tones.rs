@@ -2,10 +2,9 @@ use std::f64::consts::{LN_2, TAU};
 use std::ops::Range;
 
 use effects::Frame;
-use logs::{LogError, LowPass, Prepared};
+use logs::{Fourier, LogError, LowPass, Prepared};
 use nalgebra::Complex;
 use rayon::prelude::*;
-use realfft::RealFftPlanner;
 use robot::Robot;
 
 use crate::oscillations::heard::Heard;
@@ -315,12 +314,11 @@ impl Joint<'_> {
             return None;
         }
         let [first, last] = [lowest_hz, highest_hz].map(|f| (f / step) as usize);
-        let fft = RealFftPlanner::<f64>::new().plan_fft_forward(size);
+        let mut fourier = Fourier::default();
         let power = |x: &Vec<f64>| -> Option<Vec<f64>> {
             let mut padded = x.clone();
             padded.resize(size, 0.0);
-            let mut spectrum = fft.make_output_vec();
-            fft.process(&mut padded, &mut spectrum).ok()?;
+            let spectrum = fourier.of(&mut padded);
             let used = spectrum.get(first..=last)?;
             Some(used.iter().map(|z| z.norm_sqr() / x.len() as f64).collect())
         };

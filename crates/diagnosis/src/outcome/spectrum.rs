@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use realfft::RealFftPlanner;
+use logs::Fourier;
 
 /// Share of the power of a rest that must be above a frequency for all of it to be said to be there.
 const ABOVE: f64 = 0.9;
@@ -17,7 +17,7 @@ pub(crate) struct Spectrum {
 impl Spectrum {
     /// Of what is left, `[run][sample]`, at one rate: periodograms under a Hann window, without the mean.
     pub fn of(left: &[Vec<f64>], rate_hz: f64) -> Self {
-        let mut planner = RealFftPlanner::new();
+        let mut fourier = Fourier::default();
         let mut bins = Vec::new();
         for run in left.iter().filter(|run| run.len() > 8) {
             let n = run.len();
@@ -25,16 +25,11 @@ impl Spectrum {
             let hann = |t: usize| 0.5 - 0.5 * (TAU * t as f64 / n as f64).cos();
             let mut x: Vec<f64> =
                 run.iter().enumerate().map(|(t, v)| (v - mean) * hann(t)).collect();
-            let transform = planner.plan_fft_forward(n);
-            let mut spectrum = transform.make_output_vec();
-            if transform.process(&mut x, &mut spectrum).is_err() {
-                continue;
-            }
             // The window keeps 3/8 of the power, half of which is at negative frequencies.
             let scale = 2.0 / (0.375 * n as f64);
             let hz = |k: usize| k as f64 * rate_hz / n as f64;
             let power = |(k, c): (usize, &nalgebra::Complex<f64>)| (hz(k), scale * c.norm_sqr());
-            bins.extend(spectrum.iter().enumerate().skip(1).map(power));
+            bins.extend(fourier.of(&mut x).iter().enumerate().skip(1).map(power));
         }
         bins.sort_by(|a, b| a.0.total_cmp(&b.0));
         Self { bins, samples: left.iter().map(Vec::len).sum(), rate_hz }

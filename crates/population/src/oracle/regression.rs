@@ -1,7 +1,7 @@
 use faer::prelude::*;
 use faer::{Mat, Side};
+use logs::Fourier;
 use nalgebra::DMatrix;
-use realfft::RealFftPlanner;
 
 use super::{Column, JointNoise, SeenRun, StandIn};
 use crate::Strength;
@@ -65,15 +65,13 @@ fn whitened(
     };
     let height: usize = runs.iter().map(|run| 2 * bins(run) * noise.len()).sum();
     let mut rows = Mat::zeros(height, columns.len());
-    let mut planner = RealFftPlanner::<f64>::new();
+    let mut fourier = Fourier::default();
     let mut top = 0;
     for (r, run) in runs.iter().enumerate() {
         let (n, kept) = (run.rows(), bins(run));
         if n == 0 {
             continue;
         }
-        let transform = planner.plan_fft_forward(n);
-        let (mut signal, mut spectrum) = (transform.make_input_vec(), transform.make_output_vec());
         for (j, noise) in noise.iter().enumerate() {
             // An effort without noise of its own still is a number of so many digits.
             let digits = (1e-4 * scales[j]).powi(2).max(1e-16);
@@ -88,10 +86,8 @@ fn whitened(
                 if values.iter().all(|value| value.abs() <= 0.0) {
                     continue;
                 }
-                signal.iter_mut().zip(values.iter()).for_each(|(s, value)| *s = *value);
-                // Lengths are those of the plan.
-                let _ = transform.process(&mut signal, &mut spectrum);
-                for (bin, value) in spectrum.iter().enumerate().take(kept) {
+                let mut signal: Vec<f64> = values.iter().copied().collect();
+                for (bin, value) in fourier.of(&mut signal).iter().enumerate().take(kept) {
                     rows[(top + 2 * bin, c)] = value.re * weight(bin);
                     rows[(top + 2 * bin + 1, c)] = value.im * weight(bin);
                 }
