@@ -1,8 +1,7 @@
-use faer::linalg::matmul::triangular::{BlockStructure, matmul};
-use faer::{Accum, Mat, MatRef, Par};
+use faer::{Mat, MatRef};
 use nalgebra::DVector;
 
-use crate::DynamicsError;
+use crate::{DynamicsError, add_gram};
 
 /// Share of a column's square below which what is left of it is rounding.
 const ROUNDING: f64 = 1e-13;
@@ -42,17 +41,7 @@ impl NormalEquations {
         }
         let y = MatRef::from_row_major_slice(rows, tau.len(), width);
         let tau = MatRef::from_column_major_slice(tau, tau.len(), 1);
-        matmul(
-            self.gram.as_mut(),
-            BlockStructure::TriangularLower,
-            Accum::Add,
-            y.transpose(),
-            BlockStructure::Rectangular,
-            y,
-            BlockStructure::Rectangular,
-            1.0,
-            Par::Seq,
-        );
+        add_gram(self.gram.as_mut(), y);
         self.rhs += y.transpose() * tau;
         Ok(())
     }

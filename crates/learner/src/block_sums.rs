@@ -1,5 +1,5 @@
-use faer::linalg::matmul::triangular::{BlockStructure, matmul};
-use faer::{Accum, MatMut, MatRef, Par};
+use dynamics::add_gram;
+use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
 
 /// Most blocks that are kept; beyond it, neighbours are merged.
@@ -22,17 +22,7 @@ impl JointSums {
     pub fn of(rows: &[f64], width: usize) -> Self {
         let mut sums = DMatrix::zeros(width, width);
         let x = MatRef::from_row_major_slice(rows, rows.len() / width, width);
-        matmul(
-            MatMut::from_column_major_slice_mut(sums.as_mut_slice(), width, width),
-            BlockStructure::TriangularLower,
-            Accum::Replace,
-            x.transpose(),
-            BlockStructure::Rectangular,
-            x,
-            BlockStructure::Rectangular,
-            1.0,
-            Par::Seq,
-        );
+        add_gram(MatMut::from_column_major_slice_mut(sums.as_mut_slice(), width, width), x);
         Self(sums)
     }
 

@@ -1,7 +1,7 @@
 use std::ops::Range;
 
-use faer::linalg::matmul::triangular::{BlockStructure, matmul};
-use faer::{Accum, Mat, MatRef, Par};
+use dynamics::add_gram;
+use faer::{Mat, MatRef};
 use logs::{LogError, Prepared, PreparedRun};
 use robot::Robot;
 
@@ -176,18 +176,7 @@ fn sums(columns: &[f64], [samples, width]: [usize; 2], ranges: &[Range<usize>]) 
     let all = MatRef::from_column_major_slice(columns, samples, width);
     let mut gram = Mat::zeros(width, width);
     for range in ranges.iter().filter(|range| !range.is_empty()) {
-        let part = all.subrows(range.start, range.len());
-        matmul(
-            gram.as_mut(),
-            BlockStructure::TriangularLower,
-            Accum::Add,
-            part.transpose(),
-            BlockStructure::Rectangular,
-            part,
-            BlockStructure::Rectangular,
-            1.0,
-            Par::Seq,
-        );
+        add_gram(gram.as_mut(), all.subrows(range.start, range.len()));
     }
     for i in 0..width {
         for k in i + 1..width {
