@@ -57,11 +57,13 @@ impl Dialect {
     }
 
     /// Whether there are lines below the first of a text and none of them, of those that are looked at, is a row: a
-    /// number in it, and as many fields as the first has.
+    /// number in it and as many fields as the first has, or more numbers than words.
     pub(crate) fn has_no_row_in(self, text: &[u8]) -> bool {
         let lines = fields(&text[self.start..], self.separator);
         let is_row = |first: &Vec<Vec<u8>>, line: &Vec<Vec<u8>>| {
-            line.len() == first.len() && line.iter().any(|field| is_number(field, self.separator))
+            let filled = line.iter().filter(|field| !field.is_empty()).count();
+            let numbers = line.iter().filter(|field| is_number(field, self.separator)).count();
+            numbers > 0 && (line.len() == first.len() || 2 * numbers > filled)
         };
         lines.split_first().is_some_and(|(first, below)| {
             !below.is_empty() && !below.iter().any(|line| is_row(first, line))
