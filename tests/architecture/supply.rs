@@ -107,19 +107,38 @@ fn rules() -> Rules {
     toml::from_str(&text("deny.toml")).unwrap()
 }
 
-/// All that the workspace depends on, as `Cargo.lock` has it.
+/// All that the workspace depends on, as `Cargo.lock` has it. A build downloads the crates of its own platform only: where
+/// those of the others are absent, those of this one are held, and that is said.
 fn dependencies() -> Vec<Dependency> {
+    metadata(&[]).unwrap_or_else(|absent| {
+        eprintln!("of this platform alone: {absent}");
+        metadata(&["--filter-platform", &host()]).unwrap()
+    })
+}
+
+/// The packages that `cargo metadata` finds on this machine, or what it says where it cannot.
+fn metadata(arguments: &[&str]) -> Result<Vec<Dependency>, String> {
     #[derive(Deserialize)]
     struct Graph {
         packages: Vec<Dependency>,
     }
     let output = Command::new(env!("CARGO"))
         .args(["metadata", "--offline", "--locked", "--format-version", "1"])
+        .args(arguments)
         .current_dir(root())
         .output()
         .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice::<Graph>(&output.stdout).unwrap().packages
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    Ok(serde_json::from_slice::<Graph>(&output.stdout).unwrap().packages)
+}
+
+/// The platform that cargo builds for, as its triple.
+fn host() -> String {
+    let output = Command::new(env!("CARGO")).arg("-vV").output().unwrap();
+    let version = String::from_utf8(output.stdout).unwrap();
+    version.lines().find_map(|line| line.strip_prefix("host: ")).unwrap().to_owned()
 }
 
 #[test]

@@ -43,6 +43,8 @@ fn a_text_without_rows_is_told_to_be_no_log() {
         "# The arm\n\nThree runs, 30 s each, at noon.\nThe gripper was off, and 2 kg light.\n",
         "[arm]\nname = \"elbow\"\ngains = [3, 4]\n",
         "shoulder\nelbow\nwrist\n",
+        "# A scenario\nduration_s = 8\nseed = 1\ntimes_s = [\n    0.5,\n    1.5,\n]\n",
+        "name: elbow\nrate_hz: 500\n",
     ] {
         assert_eq!(
             told(text.as_bytes()),

@@ -57,13 +57,14 @@ impl Dialect {
     }
 
     /// Whether there are lines below the first of a text and none of them, of those that are looked at, is a row: a
-    /// number in it and as many fields as the first has, or more numbers than words.
+    /// number in it and as many fields as the first has, or several of which most are numbers. A setting is none.
     pub(crate) fn has_no_row_in(self, text: &[u8]) -> bool {
         let lines = fields(&text[self.start..], self.separator);
         let is_row = |first: &Vec<Vec<u8>>, line: &Vec<Vec<u8>>| {
             let filled = line.iter().filter(|field| !field.is_empty()).count();
             let numbers = line.iter().filter(|field| is_number(field, self.separator)).count();
-            numbers > 0 && (line.len() == first.len() || 2 * numbers > filled)
+            let is_mostly_numbers = filled > 1 && 2 * numbers > filled;
+            numbers > 0 && (line.len() == first.len() || is_mostly_numbers) && !is_setting(line)
         };
         lines.split_first().is_some_and(|(first, below)| {
             !below.is_empty() && !below.iter().any(|line| is_row(first, line))
@@ -79,6 +80,12 @@ impl Dialect {
     pub(crate) fn fields(self, record: &csv::ByteRecord) -> impl Iterator<Item = &[u8]> {
         of_record(record, self.separator)
     }
+}
+
+/// Whether a line sets one thing, as `rate = 3` and `rate: 3` do.
+fn is_setting(line: &[Vec<u8>]) -> bool {
+    line.first().is_some_and(|field| field.ends_with(b":"))
+        || line.get(1).is_some_and(|field| field == b"=")
 }
 
 fn reader<R: std::io::Read>(text: R, separator: u8) -> csv::Reader<R> {
