@@ -57,3 +57,36 @@ fn a_part_of_a_robot_is_described() {
     assert!(toml.contains("joints = [\"shoulder\"]"), "{toml}");
     assert!(!toml.contains("[joint.elbow]"), "{toml}");
 }
+
+#[test]
+fn a_mistake_in_a_robot_toml_is_underlined() {
+    let folder = arm::folder(Gap::None);
+    for (toml, told) in [
+        (
+            "urdf = \"arm.urdf\"\n[joint.elbow]\nviscous = 1\n",
+            "error: unknown key `viscous`, did you mean `viscous_nm_s_per_rad`?\n \
+             --> robot.toml:3:1\n  |\n3 | viscous = 1\n  | ^^^^^^^ joint.elbow.viscous\n  |\n  = help: expected ",
+        ),
+        (
+            "urdf = \"arm.urdf\"\n[joint.elbow]\ncoulomb_nm = 1\nactuator_delay_ms = -2\n",
+            "error: actuator_delay_ms is -2, a finite number not below 0 was expected\n \
+             --> robot.toml:4:21\n  |\n4 | actuator_delay_ms = -2\n  |                     ^^ joint.elbow.actuator_delay_ms\n",
+        ),
+        (
+            "urdf = \"arm.urdf\"\ndifferentials = [[\"shoulder\", \"elbwo\"]]\n",
+            "error: unknown joint `elbwo`, did you mean `elbow`?\n \
+             --> robot.toml:2:31\n  |\n2 | differentials = [[\"shoulder\", \"elbwo\"]]\n  \
+             |                               ^^^^^^^ differentials.0.1\n  |\n  = help: expected `shoulder` or `elbow`\n",
+        ),
+        (
+            "urdf = \"amr.urdf\"\n",
+            "error: amr.urdf: there is no such file, a URDF or a robot.toml was expected\n \
+             --> robot.toml:1:8\n  |\n1 | urdf = \"amr.urdf\"\n  |        ^^^^^^^^^^ urdf\n",
+        ),
+    ] {
+        arm::write(folder.path(), "robot.toml", toml);
+        let answer = run(folder.path(), &["robot", "check", "robot.toml"]);
+        assert_eq!(answer.code, 3, "{answer:?}");
+        assert!(answer.err.starts_with(told), "{}\ninstead of\n{told}", answer.err);
+    }
+}

@@ -135,24 +135,28 @@ fn keys_that_name_no_joint_or_say_two_things_are_refused() {
     for (toml, expected) in [
         (
             "joints = [\"sholder\"]",
-            "joints: there is no moving joint sholder, did you mean shoulder?",
+            "joints.0: unknown moving joint `sholder`, did you mean `shoulder`?",
         ),
-        (
-            "locked = { bolt = 0 }",
-            "locked: there is no moving joint bolt, one of lift, shoulder, elbow, wrist, grip, pan was expected",
-        ),
+        ("locked = { bolt = 0 }", "locked.bolt: unknown moving joint `bolt`"),
         (
             "joints = [\"lift\"]\nlocked = { lift = 0 }",
-            "joint lift: it is in joints and in locked, one of the two was expected",
+            "joints.0: joint lift is in joints and in locked, one of the two was expected",
         ),
-        ("locked = { lift = inf }", "joint lift: locked is inf, a finite number was expected"),
+        (
+            "locked = { lift = inf }",
+            "locked.lift: the position is inf, a finite number was expected",
+        ),
         ("joints = []", "robot lifted_arm: it has no moving joint, at least one was expected"),
         (
             "joints = [\"lift\"]\n[link.hand]\nmass_kg = 1\ncom_m = [0, 0, 0]\ninertia_kg_m2 = { xx = 1, xy = 0, xz = 0, yy = 1, yz = 0, zz = 1 }",
-            "[link]: there is no moving link hand, it is fixed to carriage, name that one",
+            "link.hand: link hand is fixed to carriage, name that one",
         ),
     ] {
-        assert_eq!(refused(toml), format!("robot.toml: {expected}"), "{toml}");
+        let told = refused(toml);
+        assert!(
+            told.starts_with("robot.toml:") && told.ends_with(&format!(": {expected}")),
+            "{told}"
+        );
     }
     assert_eq!(
         narrowed(Some("locked = { grip = 0.01 }"), &["elbow", "grip"]).unwrap_err(),

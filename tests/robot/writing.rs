@@ -58,7 +58,7 @@ fn what_the_file_cannot_say_is_refused() {
     let error = original.to_toml(&robot, "robot.urdf").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "link upper_arm: mass_kg is -1, a finite number above 0 was expected"
+        "robot.toml:71:11: link.upper_arm.mass_kg: mass_kg is -1, a finite number above 0 was expected"
     );
 }
 

@@ -291,7 +291,7 @@ impl CliError {
         }
     }
 
-    /// The error in words, of a mistake in a scenario with the place where it stands.
+    /// The error in words, of a mistake in a TOML file with the place where it stands.
     pub fn words(&self) -> String {
         match self.mistake() {
             Some(error) => error.render(Coloring::Plain),
@@ -343,12 +343,14 @@ impl CliError {
         }
     }
 
-    /// The mistake in a scenario, which is shown where it stands.
+    /// The mistake in a scenario, a column map or a robot.toml, which is shown where it stands.
     fn mistake(&self) -> Option<&DocumentError> {
         use EvaluationError as E;
         match self {
             Self::Document(error) | Self::Simulator(SimulatorError::Scenario(error)) => Some(error),
-            Self::Log(LogError::Map { problem }) => Some(problem),
+            Self::Log(LogError::Map { problem }) | Self::Robot(RobotError::InToml { problem }) => {
+                Some(problem)
+            }
             Self::Evaluation(error) => match &**error {
                 E::Document(error) | E::Simulator(SimulatorError::Scenario(error)) => Some(error),
                 _ => None,

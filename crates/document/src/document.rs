@@ -68,7 +68,7 @@ impl Document {
             None => Ok(Self { root }),
             Some(extends) => {
                 let path = KeyPath::root().key(read::EXTENDS);
-                let message = "only a file can extend files";
+                let message = "nothing can be extended here";
                 Err(DocumentError::at(extends.key_place(), path, message, None))
             }
         }

@@ -309,6 +309,6 @@ mod tests {
     #[test]
     fn a_text_has_no_folder_to_extend_from() {
         let error = Document::from_text("built in", "extends = \"a.toml\"").unwrap_err();
-        assert_eq!(error.to_string(), "built in:1:1: extends: only a file can extend files");
+        assert_eq!(error.to_string(), "built in:1:1: extends: nothing can be extended here");
     }
 }

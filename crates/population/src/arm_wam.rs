@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use document::Document;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
@@ -46,10 +47,7 @@ pub(crate) fn draw(random: &mut ChaCha8Rng) -> Result<Arm, PopulationError> {
     let base = Base::draw(random);
     let gravity = base.gravity(random);
     let mut robot = Robot::from_urdf(URDF)?.with_gravity(Vector3::from(gravity));
-    let stated: Stated = toml::from_str(TOML).map_err(|error| {
-        let reason = error.message().to_owned();
-        robot::RobotError::BadToml { line: 1, column: 1, reason }
-    })?;
+    let stated: Stated = Document::from_text("robots/wam7/robot.toml", TOML)?.parse()?;
     let names: Vec<String> = robot.joint_names().map(str::to_owned).collect();
     let (mut kp, mut limits) = (Vec::new(), Vec::new());
     for (i, name) in names.iter().enumerate() {

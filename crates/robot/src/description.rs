@@ -1,12 +1,14 @@
 use std::collections::BTreeMap;
 
+use document::KeyPath;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::joint_entry::{JointEntry, gain};
+use crate::misfit::Misfit;
 use crate::part::Part;
 use crate::range::{Range, in_range};
-use crate::{Gain, Inertia, Loaded, RobotError, RobotWarning, SensingSide, TorqueSource};
+use crate::{Gain, Inertia, Loaded, RobotWarning, SensingSide, TorqueSource};
 
 /// The keys of `robot.toml`: what a URDF cannot say.
 ///
@@ -86,20 +88,6 @@ pub(crate) struct InertiaEntry {
 }
 
 impl Description {
-    /// Reads the text of a `robot.toml`.
-    pub(crate) fn parse(text: &str) -> Result<Self, RobotError> {
-        toml::from_str(text).map_err(|error| {
-            let start = error.span().map_or(0, |span| span.start);
-            let before = text.get(..start).unwrap_or("");
-            let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-            RobotError::BadToml {
-                line: before.matches('\n').count() + 1,
-                column: before[line_start..].chars().count() + 1,
-                reason: error.message().split_whitespace().collect::<Vec<_>>().join(" "),
-            }
-        })
-    }
-
     /// The joints that the file lets move and where it locks the others.
     pub(crate) fn part(&self) -> Part {
         Part { joints: self.joints.clone(), locked: self.locked.clone() }
@@ -107,15 +95,16 @@ impl Description {
 
     /// Puts everything the file says into the robot, whose locked joints are locked already. What
     /// it says of a locked joint has no effect.
-    pub(crate) fn apply(&self, loaded: &mut Loaded) -> Result<(), RobotError> {
+    pub(crate) fn apply(&self, loaded: &mut Loaded) -> Result<(), Misfit> {
+        let root = KeyPath::root();
         if let Some(gravity) = self.gravity_m_per_s2 {
             for value in gravity {
-                in_range("robot", "gravity_m_per_s2", value, Range::Finite)?;
+                in_range(&root, "gravity_m_per_s2", value, Range::Finite)?;
             }
             loaded.robot = loaded.robot.clone().with_gravity(Vector3::from(gravity));
         }
         if let Some(rate) = self.control_rate_hz {
-            in_range("robot", "control_rate_hz", rate, Range::Positive)?;
+            in_range(&root, "control_rate_hz", rate, Range::Positive)?;
             loaded.control.rate_hz = Some(rate);
         }
         for index in 0..loaded.robot.joint_count() {
@@ -132,7 +121,8 @@ impl Description {
         self.link.iter().try_for_each(|(name, entry)| entry.apply(name, loaded))?;
         loaded.control.differentials = self.pairs(loaded)?;
         if let Some(EffortSourceEntry::PositionLoop(entry)) = &self.effort_source {
-            let gains = entry.gains("effort_source.position_loop", loaded.robot.joint_count())?;
+            let site = root.key("effort_source").key("position_loop");
+            let gains = entry.gains(&site, loaded.robot.joint_count())?;
             for (index, gain) in gains.into_iter().enumerate() {
                 if let Some(link) = loaded.robot.link_mut(index) {
                     link.actuator.position_loop = Some(gain);
@@ -140,7 +130,8 @@ impl Description {
             }
         }
         self.gains.iter().try_for_each(|(name, entry)| {
-            let set = entry.gains(&format!("gains {name}"), loaded.robot.joint_count())?;
+            let site = root.key("gains").key(name);
+            let set = entry.gains(&site, loaded.robot.joint_count())?;
             loaded.control.gain_sets.insert(name.clone(), set);
             Ok(())
         })
@@ -148,21 +139,25 @@ impl Description {
 
     /// The pairs of joints by index; no joint stands in them twice. A pair with a locked joint is
     /// none: both motors drive the other.
-    fn pairs(&self, loaded: &Loaded) -> Result<Vec<[usize; 2]>, RobotError> {
-        let refuse = |name: &str, found, expected| {
-            Err(RobotError::KeysDisagree { thing: format!("joint {name}"), found, expected })
-        };
-        let index = |name: &str| loaded.joint_index("differentials", name);
+    fn pairs(&self, loaded: &Loaded) -> Result<Vec<[usize; 2]>, Misfit> {
         let mut pairs: Vec<[usize; 2]> = Vec::new();
-        let is_locked = |pair: &&[String; 2]| pair.iter().any(|name| loaded.lock(name).is_some());
-        for [first, second] in self.differentials.iter().filter(|pair| !is_locked(pair)) {
-            let pair = [index(first)?, index(second)?];
-            if pair[0] == pair[1] {
-                return refuse(first, "differentials pairs it with itself", "another joint");
+        let is_locked = |pair: &[String; 2]| pair.iter().any(|name| loaded.lock(name).is_some());
+        for (at, names) in self.differentials.iter().enumerate() {
+            if is_locked(names) {
+                continue;
             }
-            for (joint, name) in pair.iter().zip([first, second]) {
+            let key = |side| KeyPath::root().key("differentials").index(at).index(side);
+            let refuse = |side: usize, found: &str| {
+                Err(Misfit::new(key(side), format!("joint {} {found}", names[side])))
+            };
+            let index = |side: usize| loaded.joint_index(&key(side), &names[side]);
+            let pair = [index(0)?, index(1)?];
+            if pair[0] == pair[1] {
+                return refuse(1, "is paired with itself, another joint was expected");
+            }
+            for (side, joint) in pair.iter().enumerate() {
                 if pairs.as_flattened().contains(joint) {
-                    return refuse(name, "differentials has it in two pairs", "one at most");
+                    return refuse(side, "stands in two pairs, one at most was expected");
                 }
             }
             pairs.push(pair);
@@ -173,35 +168,33 @@ impl Description {
 
 impl GainEntry {
     /// One pair of gains a joint.
-    fn gains(&self, thing: &str, expected: usize) -> Result<Vec<Gain>, RobotError> {
+    fn gains(&self, site: &KeyPath, expected: usize) -> Result<Vec<Gain>, Misfit> {
         for (quantity, list) in
             [("kp_nm_per_rad", &self.kp_nm_per_rad), ("kd_nm_s_per_rad", &self.kd_nm_s_per_rad)]
         {
             if list.len() != expected {
-                return Err(RobotError::WrongLength {
-                    thing: thing.to_owned(),
-                    quantity,
-                    found: list.len(),
-                    expected,
-                });
+                let found = list.len();
+                let sentence =
+                    format!("found {found} entries, {expected} were expected, one per joint");
+                return Err(Misfit::new(site.key(quantity), sentence));
             }
         }
         let pairs = self.kp_nm_per_rad.iter().zip(&self.kd_nm_s_per_rad);
-        pairs.map(|(&kp, &kd)| gain(thing, kp, kd)).collect()
+        pairs.map(|(&kp, &kd)| gain(site, kp, kd)).collect()
     }
 }
 
 impl LinkEntry {
-    fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), RobotError> {
-        let index = moving_link(name, loaded)?;
-        let thing = format!("link {name}");
+    fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), Misfit> {
+        let site = KeyPath::root().key("link").key(name);
+        let index = moving_link(&site, name, loaded)?;
         let i = &self.inertia_kg_m2;
-        in_range(&thing, "mass_kg", self.mass_kg, Range::Positive)?;
+        in_range(&site, "mass_kg", self.mass_kg, Range::Positive)?;
         for value in self.com_m {
-            in_range(&thing, "com_m", value, Range::Finite)?;
+            in_range(&site, "com_m", value, Range::Finite)?;
         }
         for value in [i.xx, i.xy, i.xz, i.yy, i.yz, i.zz] {
-            in_range(&thing, "inertia_kg_m2", value, Range::Finite)?;
+            in_range(&site, "inertia_kg_m2", value, Range::Finite)?;
         }
         let inertia = Inertia {
             mass: self.mass_kg,
@@ -221,20 +214,20 @@ impl LinkEntry {
     }
 }
 
-fn moving_link(name: &str, loaded: &Loaded) -> Result<usize, RobotError> {
+fn moving_link(site: &KeyPath, name: &str, loaded: &Loaded) -> Result<usize, Misfit> {
     let links = loaded.robot.links();
     if let Some(index) = links.iter().position(|l| l.name == name) {
         return Ok(index);
     }
-    let known: Vec<&str> = links.iter().map(|l| l.name.as_str()).collect();
     let carrier = links.iter().find(|l| l.merged.iter().any(|m| m == name));
     Err(match carrier {
-        Some(carrier) => RobotError::UnknownName {
-            place: "[link]".to_owned(),
-            what: "moving link",
-            name: name.to_owned(),
-            hint: format!("it is fixed to {}, name that one", carrier.name),
-        },
-        None => RobotError::unknown_name("[link]", "moving link", name, &known),
+        Some(carrier) => {
+            let sentence = format!("link {name} is fixed to {}, name that one", carrier.name);
+            Misfit::new(site.clone(), sentence)
+        }
+        None => {
+            let known = links.iter().map(|l| l.name.as_str());
+            Misfit::name(site.clone(), "moving link", name, known)
+        }
     })
 }

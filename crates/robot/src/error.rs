@@ -1,5 +1,7 @@
 use std::path::{Path, PathBuf};
 
+use document::DocumentError;
+
 /// Why a robot description cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -101,15 +103,11 @@ pub enum RobotError {
         /// What was found and what was expected.
         reason: String,
     },
-    /// The `robot.toml` is not TOML, or a key or value has no meaning there.
-    #[error("line {line}, column {column}: {reason}")]
-    BadToml {
-        /// Line in the file, from 1.
-        line: usize,
-        /// Column in the line, from 1.
-        column: usize,
-        /// What was found and what was expected.
-        reason: String,
+    /// Something in a `robot.toml` is not what was expected.
+    #[error("{problem}")]
+    InToml {
+        /// What, and where it stands.
+        problem: Box<DocumentError>,
     },
     /// A joint moves in a way that is not modelled.
     #[error(
@@ -122,17 +120,6 @@ pub enum RobotError {
         joint: String,
         /// The type found.
         kind: &'static str,
-    },
-    /// A joint that should move by itself copies another one.
-    #[error(
-        "joint {joint}: it mimics joint {of} and is held where that one has it, an independent \
-         joint was expected among those that move"
-    )]
-    MimicJoint {
-        /// Name of the joint.
-        joint: String,
-        /// Name of the joint it copies.
-        of: String,
     },
     /// Joints copy one another in a ring.
     #[error(
@@ -212,28 +199,6 @@ pub enum RobotError {
         /// The nearest name, or the names there are.
         hint: String,
     },
-    /// A list has the wrong number of entries.
-    #[error("{thing}: {quantity} has {found} entries, {expected} were expected, one per joint")]
-    WrongLength {
-        /// What the list belongs to.
-        thing: String,
-        /// The key.
-        quantity: &'static str,
-        /// Number of entries found.
-        found: usize,
-        /// Number of joints.
-        expected: usize,
-    },
-    /// Two keys say the same thing twice, or one is useless without the other.
-    #[error("{thing}: {found}, {expected} was expected")]
-    KeysDisagree {
-        /// What the keys belong to.
-        thing: String,
-        /// The keys found.
-        found: &'static str,
-        /// The keys expected.
-        expected: &'static str,
-    },
     /// The robot differs from its URDF in something `robot.toml` has no key for.
     #[error("{thing}: its {quantity} differs from the URDF, robot.toml has no key for it")]
     NotDescribable {
@@ -271,13 +236,8 @@ impl RobotError {
         name: &str,
         known: &[&str],
     ) -> Self {
-        let nearest = known
-            .iter()
-            .map(|k| (strsim::damerau_levenshtein(name, k), *k))
-            .min()
-            .filter(|(distance, k)| 3 * distance <= k.chars().count().max(3));
-        let hint = match nearest {
-            Some((_, k)) => format!("did you mean {k}?"),
+        let hint = match document::suggest(name, known.iter().copied()) {
+            Some(nearest) => format!("did you mean {nearest}?"),
             None => format!("one of {} was expected", known.join(", ")),
         };
         Self::UnknownName { place: place.into(), what, name: name.to_owned(), hint }

@@ -1,9 +1,11 @@
+use document::KeyPath;
 use serde::{Deserialize, Serialize};
 
+use crate::misfit::Misfit;
 use crate::range::{Range, in_range};
 use crate::{
-    Actuator, Counterbalance, Coupling, Gain, Loaded, Ripple, RobotError, SensingSide, Stribeck,
-    TorqueSource, Warming, Wave,
+    Actuator, Counterbalance, Coupling, Gain, Loaded, Ripple, SensingSide, Stribeck, TorqueSource,
+    Warming, Wave,
 };
 
 /// `[joint.<name>]`
@@ -154,38 +156,39 @@ pub(crate) struct RippleEntry {
 
 impl JointEntry {
     /// Puts what the entry of joint `name` says into the robot.
-    pub(crate) fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), RobotError> {
-        let index = loaded.joint_index("[joint]", name)?;
-        let thing = format!("joint {name}");
-        if let Some(gain) = self.gain(&thing)? {
+    pub(crate) fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), Misfit> {
+        let site = KeyPath::root().key("joint").key(name);
+        let index = loaded.joint_index(&site, name)?;
+        if let Some(gain) = self.gain(&site)? {
             loaded.control.gains[index] = Some(gain);
         }
-        let coupling = self.coupling(&thing, index, loaded)?;
+        let coupling = self.coupling(&site, index, loaded)?;
         let Some(link) = loaded.robot.link_mut(index) else { return Ok(()) };
-        self.actuate(&thing, &mut link.actuator)?;
+        self.actuate(&site, &mut link.actuator)?;
         if link.actuator.counterbalance.is_some() && !link.joint.kind.is_rotation() {
             let found = "counterbalance is at a joint that slides";
-            return lonely(&thing, found, "one that turns");
+            return lonely(&site, found, "one that turns");
         }
         link.actuator.coupling = coupling.or(link.actuator.coupling);
         if let Some(limit) = self.torque_limit_nm {
             let unknown = limit.is_infinite() && limit > 0.0;
             if !unknown {
-                in_range(&thing, "torque_limit_nm", limit, Range::Positive)?;
+                in_range(&site, "torque_limit_nm", limit, Range::Positive)?;
             }
             link.joint.limits.effort = Some(limit).filter(|_| !unknown);
         }
         Ok(())
     }
 
-    fn actuate(&self, thing: &str, actuator: &mut Actuator) -> Result<(), RobotError> {
+    fn actuate(&self, site: &KeyPath, actuator: &mut Actuator) -> Result<(), Misfit> {
         let split = self.coulomb_forward_nm.is_some() || self.coulomb_backward_nm.is_some();
         if self.coulomb_nm.is_some() && split {
-            return Err(RobotError::KeysDisagree {
-                thing: thing.to_owned(),
-                found: "coulomb_nm beside coulomb_forward_nm or coulomb_backward_nm",
-                expected: "either one value for both directions or one per direction",
-            });
+            let found = "coulomb_nm beside coulomb_forward_nm or coulomb_backward_nm";
+            return lonely(
+                site,
+                found,
+                "either one value for both directions or one per direction",
+            );
         }
         let forward = self.coulomb_nm.or(self.coulomb_forward_nm);
         let backward = self.coulomb_nm.or(self.coulomb_backward_nm);
@@ -204,7 +207,7 @@ impl JointEntry {
             ("transmission_ratio", self.transmission_ratio, Positive, &mut a.transmission_ratio),
         ] {
             if let Some(value) = value {
-                in_range(thing, key, value, range)?;
+                in_range(site, key, value, range)?;
                 *field = value;
             }
         }
@@ -213,24 +216,24 @@ impl JointEntry {
             ("presliding_rad", self.presliding_rad, &mut a.presliding),
         ] {
             if let Some(value) = value {
-                in_range(thing, key, value, Positive)?;
+                in_range(site, key, value, Positive)?;
                 *field = Some(value);
             }
         }
-        self.spring(thing, a)?;
-        self.bristles(thing, a)?;
-        self.times(thing, a)?;
-        a.stribeck = self.stribeck(thing)?.or(a.stribeck);
-        a.friction_wave = self.wave(thing)?.or(a.friction_wave);
-        a.warming = self.warming(thing, a)?.or(a.warming);
-        a.ripple = self.ripple(thing)?.or(a.ripple);
-        a.counterbalance = self.counterbalance(thing)?.or(a.counterbalance);
+        self.spring(site, a)?;
+        self.bristles(site, a)?;
+        self.times(site, a)?;
+        a.stribeck = self.stribeck(site)?.or(a.stribeck);
+        a.friction_wave = self.wave(site)?.or(a.friction_wave);
+        a.warming = self.warming(site, a)?.or(a.warming);
+        a.ripple = self.ripple(site)?.or(a.ripple);
+        a.counterbalance = self.counterbalance(site)?.or(a.counterbalance);
         a.sensing = self.sensing.unwrap_or(a.sensing);
         a.torque_source = self.torque_source.unwrap_or(a.torque_source);
         Ok(())
     }
 
-    fn spring(&self, thing: &str, a: &mut Actuator) -> Result<(), RobotError> {
+    fn spring(&self, site: &KeyPath, a: &mut Actuator) -> Result<(), Misfit> {
         use Range::{Finite, NotNegative};
         for (key, value, range, field) in [
             (
@@ -254,18 +257,18 @@ impl JointEntry {
             ),
         ] {
             if let Some(value) = value {
-                in_range(thing, key, value, range)?;
+                in_range(site, key, value, range)?;
                 *field = value;
             }
         }
         if a.spring_hysteresis > 0.0 && a.spring_stiffness <= 0.0 {
             let found = "spring_hysteresis_nm is there without a spring that holds it";
-            return lonely(thing, found, "spring_stiffness_nm_per_rad above 0 as well");
+            return lonely(site, found, "spring_stiffness_nm_per_rad above 0 as well");
         }
         Ok(())
     }
 
-    fn times(&self, thing: &str, a: &mut Actuator) -> Result<(), RobotError> {
+    fn times(&self, site: &KeyPath, a: &mut Actuator) -> Result<(), Misfit> {
         use Range::{Finite, NotNegative};
         for (key, value_ms, range, field) in [
             ("actuator_delay_ms", self.actuator_delay_ms, NotNegative, &mut a.delay_s),
@@ -273,60 +276,60 @@ impl JointEntry {
             ("effort_skew_ms", self.effort_skew_ms, Finite, &mut a.effort_skew_s),
         ] {
             if let Some(value_ms) = value_ms {
-                in_range(thing, key, value_ms, range)?;
+                in_range(site, key, value_ms, range)?;
                 *field = 1e-3 * value_ms;
             }
         }
         Ok(())
     }
 
-    fn bristles(&self, thing: &str, a: &mut Actuator) -> Result<(), RobotError> {
+    fn bristles(&self, site: &KeyPath, a: &mut Actuator) -> Result<(), Misfit> {
         let key = "presliding_damping_nm_s_per_rad";
         let Some(damping) = self.presliding_damping_nm_s_per_rad else { return Ok(()) };
         if a.presliding.is_none() {
             let found = "presliding_damping_nm_s_per_rad is there alone";
-            return lonely(thing, found, "presliding_rad as well");
+            return lonely(site, found, "presliding_rad as well");
         }
-        in_range(thing, key, damping, Range::NotNegative)?;
+        in_range(site, key, damping, Range::NotNegative)?;
         a.presliding_damping = Some(damping);
         Ok(())
     }
 
-    fn stribeck(&self, thing: &str) -> Result<Option<Stribeck>, RobotError> {
+    fn stribeck(&self, site: &KeyPath) -> Result<Option<Stribeck>, Misfit> {
         let (excess, velocity) = match (self.stribeck_excess_nm, self.stribeck_velocity_rad_per_s) {
             (None, None) => return Ok(None),
             (Some(excess), Some(velocity)) => (excess, velocity),
             (Some(_), None) => {
                 return lonely(
-                    thing,
+                    site,
                     "stribeck_excess_nm is there alone",
                     "stribeck_velocity_rad_per_s as well",
                 );
             }
             (None, Some(_)) => {
                 return lonely(
-                    thing,
+                    site,
                     "stribeck_velocity_rad_per_s is there alone",
                     "stribeck_excess_nm as well",
                 );
             }
         };
-        in_range(thing, "stribeck_excess_nm", excess, Range::NotNegative)?;
-        in_range(thing, "stribeck_velocity_rad_per_s", velocity, Range::Positive)?;
+        in_range(site, "stribeck_excess_nm", excess, Range::NotNegative)?;
+        in_range(site, "stribeck_velocity_rad_per_s", velocity, Range::Positive)?;
         Ok(Some(Stribeck { excess, velocity }))
     }
 
-    fn wave(&self, thing: &str) -> Result<Option<Wave>, RobotError> {
+    fn wave(&self, site: &KeyPath) -> Result<Option<Wave>, Misfit> {
         let Some(WaveEntry { share, periods_per_turn, phase_rad }) = self.friction_wave else {
             return Ok(None);
         };
-        in_range(thing, "friction_wave.share", share, Range::Share)?;
-        in_range(thing, "friction_wave.periods_per_turn", periods_per_turn, Range::NotNegative)?;
-        in_range(thing, "friction_wave.phase_rad", phase_rad, Range::Finite)?;
+        in_range(site, "friction_wave.share", share, Range::Share)?;
+        in_range(site, "friction_wave.periods_per_turn", periods_per_turn, Range::NotNegative)?;
+        in_range(site, "friction_wave.phase_rad", phase_rad, Range::Finite)?;
         Ok(Some(Wave { share, periods: periods_per_turn, phase: phase_rad }))
     }
 
-    fn warming(&self, thing: &str, a: &Actuator) -> Result<Option<Warming>, RobotError> {
+    fn warming(&self, site: &KeyPath, a: &Actuator) -> Result<Option<Warming>, Misfit> {
         use Range::{NotNegative, Positive};
         let Some(entry) = self.friction_warming else { return Ok(None) };
         let WarmingEntry {
@@ -339,48 +342,48 @@ impl JointEntry {
             ("friction_warming.coulomb_lost_nm", coulomb_lost, NotNegative),
             ("friction_warming.time_constant_s", time_constant_s, Positive),
         ] {
-            in_range(thing, key, value, range)?;
+            in_range(site, key, value, range)?;
         }
         let level = a.coulomb_forward.min(a.coulomb_backward);
         if viscous_lost > a.viscous.max(0.0) || coulomb_lost > level.max(0.0) {
             let found = "friction_warming loses more friction than the cold drive has";
-            return lonely(thing, found, "viscous_nm_s_per_rad and coulomb_nm at least as large");
+            return lonely(site, found, "viscous_nm_s_per_rad and coulomb_nm at least as large");
         }
         Ok(Some(Warming { viscous_lost, coulomb_lost, time_constant_s }))
     }
 
-    fn ripple(&self, thing: &str) -> Result<Option<Ripple>, RobotError> {
+    fn ripple(&self, site: &KeyPath) -> Result<Option<Ripple>, Misfit> {
         let Some(RippleEntry { amplitude_nm, periods_per_turn, phase_rad }) = self.torque_ripple
         else {
             return Ok(None);
         };
-        in_range(thing, "torque_ripple.amplitude_nm", amplitude_nm, Range::NotNegative)?;
-        in_range(thing, "torque_ripple.periods_per_turn", periods_per_turn, Range::NotNegative)?;
-        in_range(thing, "torque_ripple.phase_rad", phase_rad, Range::Finite)?;
+        in_range(site, "torque_ripple.amplitude_nm", amplitude_nm, Range::NotNegative)?;
+        in_range(site, "torque_ripple.periods_per_turn", periods_per_turn, Range::NotNegative)?;
+        in_range(site, "torque_ripple.phase_rad", phase_rad, Range::Finite)?;
         Ok(Some(Ripple { amplitude: amplitude_nm, periods: periods_per_turn, phase: phase_rad }))
     }
 
-    fn counterbalance(&self, thing: &str) -> Result<Option<Counterbalance>, RobotError> {
+    fn counterbalance(&self, site: &KeyPath) -> Result<Option<Counterbalance>, Misfit> {
         let Some(CounterbalanceEntry { amplitude_nm, phase_rad }) = self.counterbalance else {
             return Ok(None);
         };
-        in_range(thing, "counterbalance.amplitude_nm", amplitude_nm, Range::NotNegative)?;
-        in_range(thing, "counterbalance.phase_rad", phase_rad, Range::Finite)?;
+        in_range(site, "counterbalance.amplitude_nm", amplitude_nm, Range::NotNegative)?;
+        in_range(site, "counterbalance.phase_rad", phase_rad, Range::Finite)?;
         Ok(Some(Counterbalance { amplitude: amplitude_nm, phase: phase_rad }))
     }
 
     fn coupling(
         &self,
-        thing: &str,
+        site: &KeyPath,
         index: usize,
         loaded: &Loaded,
-    ) -> Result<Option<Coupling>, RobotError> {
+    ) -> Result<Option<Coupling>, Misfit> {
         let Some(entry) = &self.coupling else { return Ok(None) };
-        let other = loaded.joint_index("coupling.with", &entry.with)?;
+        let other = loaded.joint_index(&site.key("coupling").key("with"), &entry.with)?;
         if other == index {
-            return lonely(thing, "coupling.with names the joint itself", "another joint");
+            return lonely(site, "coupling.with names the joint itself", "another joint");
         }
-        in_range(thing, "coupling.ratio", entry.ratio, Range::Positive)?;
+        in_range(site, "coupling.ratio", entry.ratio, Range::Positive)?;
         let CouplingEntry {
             coulomb_sum_nm,
             coulomb_difference_nm,
@@ -394,7 +397,7 @@ impl JointEntry {
             ("coupling.viscous_sum_nm_s_per_rad", viscous_sum_nm_s_per_rad),
             ("coupling.viscous_difference_nm_s_per_rad", viscous_difference_nm_s_per_rad),
         ] {
-            in_range(thing, key, value, Range::NotNegative)?;
+            in_range(site, key, value, Range::NotNegative)?;
         }
         Ok(Some(Coupling {
             other,
@@ -404,28 +407,28 @@ impl JointEntry {
         }))
     }
 
-    fn gain(&self, thing: &str) -> Result<Option<Gain>, RobotError> {
+    fn gain(&self, site: &KeyPath) -> Result<Option<Gain>, Misfit> {
         match (self.kp_nm_per_rad, self.kd_nm_s_per_rad) {
             (None, None) => Ok(None),
-            (Some(kp), Some(kd)) => gain(thing, kp, kd).map(Some),
+            (Some(kp), Some(kd)) => gain(site, kp, kd).map(Some),
             (Some(_), None) => {
-                lonely(thing, "kp_nm_per_rad is there alone", "kd_nm_s_per_rad as well")
+                lonely(site, "kp_nm_per_rad is there alone", "kd_nm_s_per_rad as well")
             }
             (None, Some(_)) => {
-                lonely(thing, "kd_nm_s_per_rad is there alone", "kp_nm_per_rad as well")
+                lonely(site, "kd_nm_s_per_rad is there alone", "kp_nm_per_rad as well")
             }
         }
     }
 }
 
-/// Refuses a key without the one that it needs.
-fn lonely<T>(thing: &str, found: &'static str, expected: &'static str) -> Result<T, RobotError> {
-    Err(RobotError::KeysDisagree { thing: thing.to_owned(), found, expected })
+/// Refuses keys that say the same twice, or one without another that it needs.
+fn lonely<T>(site: &KeyPath, found: &str, expected: &str) -> Result<T, Misfit> {
+    Err(Misfit::new(site.clone(), format!("{found}, {expected} was expected")))
 }
 
 /// A pair of gains, if they can be used.
-pub(crate) fn gain(thing: &str, kp: f64, kd: f64) -> Result<Gain, RobotError> {
-    in_range(thing, "kp_nm_per_rad", kp, Range::Positive)?;
-    in_range(thing, "kd_nm_s_per_rad", kd, Range::NotNegative)?;
+pub(crate) fn gain(site: &KeyPath, kp: f64, kd: f64) -> Result<Gain, Misfit> {
+    in_range(site, "kp_nm_per_rad", kp, Range::Positive)?;
+    in_range(site, "kd_nm_s_per_rad", kd, Range::NotNegative)?;
     Ok(Gain { kp, kd })
 }

@@ -2,8 +2,11 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::description::Description;
+use document::KeyPath;
+
+use crate::description_file::DescriptionFile;
 use crate::lumping::Lumping;
+use crate::misfit::Misfit;
 use crate::mjcf;
 use crate::part::{self, LockedJoint, Part};
 use crate::urdf::{self, UrdfModel};
@@ -75,8 +78,8 @@ impl Robot {
     ///
     /// # Errors
     ///
-    /// [`RobotError::Unreadable`], or [`RobotError::InFile`] around what is wrong
-    /// with the URDF or the `robot.toml`.
+    /// [`RobotError::Unreadable`], [`RobotError::InFile`] around what is wrong with the URDF, and
+    /// [`RobotError::InToml`] for what is wrong with the `robot.toml`.
     pub fn load(path: &Path) -> Result<Loaded, RobotError> {
         Self::load_with(path, &LoadOptions::default())
     }
@@ -97,20 +100,20 @@ impl Robot {
             Some("urdf" | "xml") => false,
             _ => !text.trim_start().starts_with('<'),
         };
-        let (description, urdf_path, text) = if is_toml {
-            let description = Description::parse(&text).map_err(|e| e.in_file(path))?;
-            let urdf_path = path.parent().unwrap_or(Path::new("")).join(&description.urdf);
-            let text = read_regular(&urdf_path).map_err(|e| e.in_file(path))?;
-            (Some(description), urdf_path, text)
+        let (file, urdf_path, text) = if is_toml {
+            let file = DescriptionFile::parse(&text, path)?;
+            let urdf_path = file.urdf_path();
+            let text = read_regular(&urdf_path).map_err(|e| file.of_urdf(&e))?;
+            (Some(file), urdf_path, text)
         } else {
             (None, path.to_owned(), text)
         };
         let model = model(&text, &urdf_path).map_err(|e| e.in_file(&urdf_path))?;
-        let part = description.as_ref().map(Description::part).unwrap_or_default();
+        let part = file.as_ref().map(|file| file.part(&model)).transpose()?.unwrap_or_default();
         let mut loaded =
             Loaded::from_urdf(&model, part, &urdf_path).map_err(|e| e.in_file(path))?;
-        if let Some(description) = &description {
-            description.apply(&mut loaded).map_err(|e| e.in_file(path))?;
+        if let Some(file) = &file {
+            file.apply(&mut loaded)?;
         }
         if let Some(joints) = &options.joints {
             loaded = loaded.narrowed(&model, joints)?;
@@ -163,8 +166,8 @@ impl Loaded {
     /// What the files say of a body goes on holding where that body still is one, and is lumped
     /// into another where it is not.
     fn narrowed(self, model: &UrdfModel, joints: &[String]) -> Result<Self, RobotError> {
-        for name in joints {
-            self.joint_index("joints to keep", name)?;
+        if let Some(name) = joints.iter().find(|name| self.robot.joint_index(name).is_none()) {
+            return Err(self.no_joint_to_keep(name));
         }
         let kept = |name: &&str| joints.iter().any(|joint| joint == name);
         let names = || self.robot.joint_names();
@@ -226,19 +229,32 @@ impl Loaded {
         Ok(())
     }
 
-    /// The joint called `name` at `place`.
-    pub(crate) fn joint_index(&self, place: &str, name: &str) -> Result<usize, RobotError> {
+    /// What is told of a name to keep that no joint has that moves.
+    fn no_joint_to_keep(&self, name: &str) -> RobotError {
+        const PLACE: &str = "joints to keep";
+        let Some(lock) = self.lock(name) else {
+            let known: Vec<&str> = self.robot.joint_names().collect();
+            return RobotError::unknown_name(PLACE, "joint", name, &known);
+        };
+        RobotError::UnknownName {
+            place: PLACE.to_owned(),
+            what: "moving joint",
+            name: name.to_owned(),
+            hint: format!("it is locked at {}", lock.position),
+        }
+    }
+
+    /// The joint called `name` at a key of `robot.toml`.
+    pub(crate) fn joint_index(&self, key: &KeyPath, name: &str) -> Result<usize, Misfit> {
         self.robot.joint_index(name).ok_or_else(|| match self.lock(name) {
-            Some(lock) => RobotError::UnknownName {
-                place: place.to_owned(),
-                what: "moving joint",
-                name: name.to_owned(),
-                hint: format!("it is locked at {}", lock.position),
-            },
-            None => {
-                let known: Vec<&str> = self.robot.joint_names().collect();
-                RobotError::unknown_name(place, "joint", name, &known)
+            Some(lock) => {
+                let sentence = format!(
+                    "joint {name} is locked at {}, one that moves was expected",
+                    lock.position
+                );
+                Misfit::new(key.clone(), sentence)
             }
+            None => Misfit::name(key.clone(), "joint", name, self.robot.joint_names()),
         })
     }
 

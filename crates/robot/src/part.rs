@@ -1,5 +1,9 @@
 use std::collections::BTreeMap;
 
+use document::KeyPath;
+
+use crate::misfit::Misfit;
+use crate::range::Range;
 use crate::{Robot, RobotError};
 
 /// The joints of a robot that move; the others are locked, and what they carry is fixed.
@@ -51,14 +55,12 @@ impl Part {
     ///
     /// # Errors
     ///
-    /// [`RobotError::UnknownName`], [`RobotError::NotFinite`], [`RobotError::KeysDisagree`] and
-    /// [`RobotError::MimicJoint`] for a name or a position that cannot be meant.
+    /// [`RobotError::NotFinite`] for the position of a joint that mimics another.
     pub(crate) fn locks(
         &self,
         whole: &Robot,
         mimics: &Mimics,
     ) -> Result<Vec<LockedJoint>, RobotError> {
-        self.check(whole, mimics)?;
         let mut locks = vec![];
         for joint in whole.joint_names() {
             let lock = |position, mimics| LockedJoint { joint: joint.into(), position, mimics };
@@ -86,27 +88,38 @@ impl Part {
         whole.joint_names().nth(index)
     }
 
-    fn check(&self, whole: &Robot, mimics: &Mimics) -> Result<(), RobotError> {
-        let kept = self.joints.iter().flatten();
-        for (place, name) in
-            kept.clone().map(|n| ("joints", n)).chain(self.locked.keys().map(|n| ("locked", n)))
-        {
-            known(place, name, whole)?;
-        }
-        for name in kept {
-            if let Some(mimic) = mimics.get(name) {
-                let (joint, of) = (name.clone(), mimic.master.clone());
-                return Err(RobotError::MimicJoint { joint, of });
+    /// Refuses what the keys say of joints that do not move, say twice or cannot mean.
+    pub(crate) fn check(&self, whole: &Robot, mimics: &Mimics) -> Result<(), Misfit> {
+        let root = KeyPath::root();
+        let known = |key: &KeyPath, name: &str| match whole.joint_index(name) {
+            Some(_) => Ok(()),
+            None => Err(Misfit::name(key.clone(), "moving joint", name, whole.joint_names())),
+        };
+        for (at, name) in self.joints.iter().flatten().enumerate() {
+            let key = root.key("joints").index(at);
+            known(&key, name)?;
+            if let Some(Mimic { master, .. }) = mimics.get(name) {
+                let sentence = format!(
+                    "joint {name} mimics joint {master} and is held where that one has it, an \
+                     independent joint was expected among those that move"
+                );
+                return Err(Misfit::new(key, sentence));
             }
             if self.locked.contains_key(name) {
-                return Err(RobotError::KeysDisagree {
-                    thing: format!("joint {name}"),
-                    found: "it is in joints and in locked",
-                    expected: "one of the two",
-                });
+                let sentence =
+                    format!("joint {name} is in joints and in locked, one of the two was expected");
+                return Err(Misfit::new(key, sentence));
             }
         }
-        self.locked.iter().try_for_each(|(name, &position)| finite(name, "locked", position))
+        for (name, &position) in &self.locked {
+            let key = root.key("locked").key(name);
+            known(&key, name)?;
+            if let Some(expected) = Range::Finite.expects(position) {
+                let sentence = format!("the position is {position}, {expected} was expected");
+                return Err(Misfit::new(key, sentence));
+            }
+        }
+        Ok(())
     }
 
     /// The position at which the keys lock a joint (rad or m).
@@ -141,15 +154,6 @@ impl Part {
 /// The positions by the names of the joints.
 pub(crate) fn positions(locks: &[LockedJoint]) -> BTreeMap<String, f64> {
     locks.iter().map(|lock| (lock.joint.clone(), lock.position)).collect()
-}
-
-/// Refuses a name that no joint has.
-fn known(place: &str, name: &str, whole: &Robot) -> Result<(), RobotError> {
-    if whole.joint_index(name).is_some() {
-        return Ok(());
-    }
-    let names: Vec<&str> = whole.joint_names().collect();
-    Err(RobotError::unknown_name(place, "moving joint", name, &names))
 }
 
 fn finite(joint: &str, quantity: &'static str, value: f64) -> Result<(), RobotError> {

@@ -1,4 +1,6 @@
-use crate::RobotError;
+use document::KeyPath;
+
+use crate::misfit::Misfit;
 
 /// Numbers that a key may have.
 #[derive(Clone, Copy)]
@@ -25,22 +27,30 @@ impl Most {
     pub const NUMBER: Self = Self(LARGEST, "a number of up to 1e12");
 }
 
-/// Refuses a number outside the range.
+impl Range {
+    /// What was expected in place of a number outside the range; `None` inside it.
+    pub fn expects(self, value: f64) -> Option<&'static str> {
+        let (inside, expected) = match self {
+            Self::Finite => (true, "a finite number"),
+            Self::NotNegative => (value >= 0.0, "a finite number not below 0"),
+            Self::Positive => (value > 0.0, "a finite number above 0"),
+            Self::Share => ((0.0..=1.0).contains(&value), "a number from 0 to 1"),
+        };
+        if inside && value.abs() <= LARGEST {
+            return None;
+        }
+        Some(if inside && value.is_finite() { Most::NUMBER.1 } else { expected })
+    }
+}
+
+/// Refuses a number outside the range; `quantity`, with dots where it stands in a table, is a key of the table at `site`.
 pub(crate) fn in_range(
-    thing: &str,
-    quantity: &'static str,
+    site: &KeyPath,
+    quantity: &str,
     value: f64,
     range: Range,
-) -> Result<(), RobotError> {
-    let (inside, expected) = match range {
-        Range::Finite => (true, "a finite number"),
-        Range::NotNegative => (value >= 0.0, "a finite number not below 0"),
-        Range::Positive => (value > 0.0, "a finite number above 0"),
-        Range::Share => ((0.0..=1.0).contains(&value), "a number from 0 to 1"),
-    };
-    if inside && value.abs() <= LARGEST {
-        return Ok(());
-    }
-    let expected = if inside && value.is_finite() { Most::NUMBER.1 } else { expected };
-    Err(RobotError::OutOfRange { thing: thing.to_owned(), quantity, value, expected })
+) -> Result<(), Misfit> {
+    let Some(expected) = range.expects(value) else { return Ok(()) };
+    let key = quantity.split('.').fold(site.clone(), |path, key| path.key(key));
+    Err(Misfit::new(key, format!("{quantity} is {value}, {expected} was expected")))
 }

@@ -1,6 +1,9 @@
+use std::path::Path;
+
 use nalgebra::Vector3;
 
 use crate::description::{Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry};
+use crate::description_file::DescriptionFile;
 use crate::joint_entry::{
     CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WarmingEntry, WaveEntry,
 };
@@ -22,12 +25,13 @@ impl Loaded {
     /// [`RobotError::NotDescribable`] when `robot` differs from the URDF in something
     /// `robot.toml` has no key for: joints, links, axes, origins, position and velocity
     /// limits. Numbers that `robot.toml` refuses, such as a negative mass, are refused
-    /// here in the same words.
+    /// here in the same words, at their place in the text.
     pub fn to_toml(&self, robot: &Robot, urdf: &str) -> Result<String, RobotError> {
         same_tree(robot, &self.robot_in_urdf)?;
-        let description = self.describe(robot, urdf);
-        description.apply(&mut self.clone())?;
-        toml::to_string(&description).map_err(|e| RobotError::Unwritable { reason: e.to_string() })
+        let text = toml::to_string(&self.describe(robot, urdf))
+            .map_err(|e| RobotError::Unwritable { reason: e.to_string() })?;
+        DescriptionFile::parse(&text, Path::new("robot.toml"))?.apply(&mut self.clone())?;
+        Ok(text)
     }
 
     fn describe(&self, robot: &Robot, urdf: &str) -> Description {

@@ -1,0 +1,61 @@
+use std::path::{Path, PathBuf};
+
+use document::{Document, KeyPath};
+
+use crate::description::Description;
+use crate::misfit::Misfit;
+use crate::part::Part;
+use crate::urdf::UrdfModel;
+use crate::{Loaded, RobotError};
+
+/// A `robot.toml` that was read, with the places of what it says.
+pub(crate) struct DescriptionFile {
+    document: Document,
+    description: Description,
+    path: PathBuf,
+}
+
+impl DescriptionFile {
+    /// Reads the text of the file at `path`.
+    ///
+    /// # Errors
+    ///
+    /// [`RobotError::InToml`] for a text that is not TOML, an unknown key or a value of another type.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, RobotError> {
+        let in_toml = |problem| RobotError::InToml { problem: Box::new(problem) };
+        let document = Document::from_text(&path.display().to_string(), text).map_err(in_toml)?;
+        let description = document.parse().map_err(in_toml)?;
+        Ok(Self { document, description, path: path.to_owned() })
+    }
+
+    /// Path of the URDF or MJCF that it describes.
+    pub fn urdf_path(&self) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(&self.description.urdf)
+    }
+
+    /// An error about the URDF that it describes, shown where it names that file.
+    pub fn of_urdf(&self, error: &RobotError) -> RobotError {
+        Misfit::new(KeyPath::root().key("urdf"), error.to_string()).shown_in(&self.document)
+    }
+
+    /// The part of the robot that it lets move.
+    ///
+    /// # Errors
+    ///
+    /// [`RobotError::InToml`] for what the keys say of joints that do not move, say twice or cannot mean.
+    pub fn part(&self, model: &UrdfModel) -> Result<Part, RobotError> {
+        let part = self.description.part();
+        let checked = part.check(&model.robot, &model.mimics);
+        checked.map_err(|misfit| misfit.shown_in(&self.document))?;
+        Ok(part)
+    }
+
+    /// Puts everything it says into the robot, whose locked joints are locked already.
+    ///
+    /// # Errors
+    ///
+    /// [`RobotError::InToml`] for a name that nothing carries, a number out of its range and keys that disagree.
+    pub fn apply(&self, loaded: &mut Loaded) -> Result<(), RobotError> {
+        self.description.apply(loaded).map_err(|misfit| misfit.shown_in(&self.document))
+    }
+}
