@@ -110,6 +110,10 @@ fn the_content_decides_when_the_extension_says_nothing() {
     let toml = "urdf = \"arm.urdf\"";
     let loaded = load(&[("robot.txt", toml), ("arm.urdf", &urdf)]).unwrap();
     assert_eq!(loaded.robot.joint_count(), 2);
+    assert_eq!(
+        load(&[("robot.csv", "time,q\n0,1\n")]).unwrap_err(),
+        "robot.csv: it is neither XML nor TOML, a URDF or a robot.toml was expected"
+    );
 }
 
 #[test]

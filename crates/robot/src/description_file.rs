@@ -20,10 +20,14 @@ impl DescriptionFile {
     ///
     /// # Errors
     ///
-    /// [`RobotError::InToml`] for a text that is not TOML, an unknown key or a value of another type.
+    /// [`RobotError::InToml`] for a text that is not TOML, an unknown key or a value of another type;
+    /// [`RobotError::Unreadable`] for a text that is not TOML in a file with another extension.
     pub fn parse(text: &str, path: &Path) -> Result<Self, RobotError> {
         let in_toml = |problem| RobotError::InToml { problem: Box::new(problem) };
-        let document = Document::from_text(&path.display().to_string(), text).map_err(in_toml)?;
+        let is_named_so = path.extension().is_some_and(|extension| extension == "toml");
+        let document = Document::from_text(&path.display().to_string(), text).map_err(|error| {
+            if is_named_so { in_toml(error) } else { RobotError::neither_xml_nor_toml(path) }
+        })?;
         let description = document.parse().map_err(in_toml)?;
         Ok(Self { document, description, path: path.to_owned() })
     }

@@ -229,6 +229,12 @@ impl RobotError {
         Self::InFile { path: path.to_owned(), problem: Box::new(self) }
     }
 
+    /// What a file is told that is neither a URDF nor a `robot.toml`.
+    pub(crate) fn neither_xml_nor_toml(path: &Path) -> Self {
+        let reason = "it is neither XML nor TOML, a URDF or a robot.toml was expected".to_owned();
+        Self::Unreadable { path: path.to_owned(), reason }
+    }
+
     /// A name that none of `known` is.
     pub(crate) fn unknown_name(
         place: impl Into<String>,
