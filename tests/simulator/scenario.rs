@@ -200,11 +200,21 @@ fn two_runs_of_one_name_are_refused_at_the_second() {
 #[test]
 fn a_robot_without_gains_is_refused_where_they_would_stand() {
     let robot = workspace_root().join("robots/wam7/robot.urdf");
-    let mut document = document("[control]\nkp_nm_per_rad.j1_base_yaw = 10.0");
-    document.set(&format!("robot={robot:?}")).unwrap();
-    let mistake = refusal(&document);
-    assert!(mistake.to_string().contains("control: joint j2_shoulder_pitch has no gains"));
-    assert_eq!(mistake.place().unwrap().text(), "[control]");
+    let named = format!("{robot:?}");
+    for (control, told, shown) in [
+        (
+            "[control]\nkp_nm_per_rad.j1_base_yaw = 10.0",
+            "control: joint j2_shoulder_pitch",
+            "[control]",
+        ),
+        ("", "robot: joint j1_base_yaw", named.as_str()),
+    ] {
+        let mut document = document(control);
+        document.set(&format!("robot={named}")).unwrap();
+        let mistake = refusal(&document);
+        assert!(mistake.to_string().contains(&format!("{told} has no gains")), "{mistake}");
+        assert_eq!(mistake.place().unwrap().text(), shown);
+    }
 }
 
 /// A disturbance at a time of the log acts at that time, however long the arm was held before.

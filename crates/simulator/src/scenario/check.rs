@@ -265,12 +265,22 @@ impl Checker<'_> {
         }
         let missing = gains.iter().position(Option::is_none);
         if let Some(name) = missing.and_then(|i| self.loaded.robot.joint_names().nth(i)) {
-            let message = format!(
-                "joint {name} has no gains, neither in robot.toml nor here: give control.gains or kp_nm_per_rad and kd_nm_s_per_rad"
-            );
-            return Err(self.mistake(&control, message));
+            return Err(self.no_gains(name));
         }
         Ok(gains.into_iter().flatten().collect())
+    }
+
+    /// The mistake that a joint has no gains, shown where some are given or else at the robot.
+    fn no_gains(&self, joint: &str) -> DocumentError {
+        let given = &self.spec.control;
+        let is_silent = given.gains.is_none()
+            && given.kp_nm_per_rad.is_empty()
+            && given.kd_nm_s_per_rad.is_empty();
+        let path = KeyPath::root().key(if is_silent { "robot" } else { "control" });
+        let message = format!("joint {joint} has no gains, neither in the robot's file nor here");
+        let help = "`plumbline robot init` writes a robot.toml with guessed ones; `control` takes `gains`, \
+                    or `kp_nm_per_rad` and `kd_nm_s_per_rad`";
+        self.document.mistake(&path, message, Some(help.to_owned()))
     }
 
     /// Refuses joints that the robot does not have, and values outside of `0..=high`.
