@@ -1,14 +1,14 @@
 //! Drive: from the effort that is asked for to the torque that acts.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, TORQUE, always, parameter, phase};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, CableSpring, ExternalDisturbance,
     FrictionTemperatureDrift, GravityDirection, InertialParameters, JointElasticity,
     LoadDependentFriction, Payload, PositionDependentFriction, RotorInertia, StribeckFriction,
     TimeSkew, TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation, TransmissionRatio,
     ViscousFriction,
 };
-use crate::entry::{TORQUE, always, parameter, phase};
-use crate::{Entry, Family};
 
 pub(crate) const TORQUE_RIPPLE: Entry = Entry {
     kind: TorqueRipple,

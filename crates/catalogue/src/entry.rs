@@ -1,4 +1,6 @@
-use crate::{EffectKind, Family, drive, environment, friction, inertia, sensing, transmission};
+use crate::family::Family;
+use crate::kind::EffectKind;
+use crate::{drive, environment, friction, inertia, sensing, transmission};
 
 /// One parameter of an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]

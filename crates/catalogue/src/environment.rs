@@ -1,12 +1,12 @@
 //! Environment: how the arm is mounted, and what pulls and pushes it from outside.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, POSITION, TORQUE, always, parameter, phase};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     AsymmetricFriction, CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance,
     GravityDirection, InertialParameters, Payload, PositionDependentFriction, PreslidingFriction,
     TorqueOffset, TorqueRipple, TorqueSaturation,
 };
-use crate::entry::{POSITION, TORQUE, always, parameter, phase};
-use crate::{Entry, Family};
 
 pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
     kind: GravityDirection,

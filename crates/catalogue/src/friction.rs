@@ -1,13 +1,13 @@
 //! Friction: what resists the motion of one joint.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, TORQUE, always, parameter, phase};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, Backlash, CableSpring, CoulombFriction,
     DifferentialCoupling, FrictionTemperatureDrift, JointElasticity, LoadDependentFriction,
     PositionDependentFriction, PreslidingFriction, StribeckFriction, TimeSkew, TorqueConstant,
     TorqueOffset, TorqueRipple, ViscousFriction,
 };
-use crate::entry::{TORQUE, always, parameter, phase};
-use crate::{Entry, Family};
 
 pub(crate) const VISCOUS: Entry = Entry {
     kind: ViscousFriction,

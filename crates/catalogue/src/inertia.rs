@@ -1,11 +1,11 @@
 //! Inertia: what has to be moved and carried.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, Parameter, always, parameter};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance, GravityDirection,
     InertialParameters, Payload, RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
 };
-use crate::entry::{always, parameter};
-use crate::{Entry, Family, Parameter};
 
 /// Mass and centre of mass of a body, with their plausible ranges (kg, m).
 const fn body(mass: (f64, f64), com: (f64, f64)) -> [Parameter; 4] {

@@ -3,7 +3,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Family;
+use crate::family::Family;
 
 /// A named cause of a gap between a robot and its simulation.
 ///

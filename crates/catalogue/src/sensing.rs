@@ -1,11 +1,11 @@
 //! Sensors: what is reported for what is there.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, POSITION, always, parameter};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, EncoderOffset, GravityDirection, InertialParameters, TimeSkew,
     TransmissionRatio, ViscousFriction,
 };
-use crate::entry::{POSITION, always, parameter};
-use crate::{Entry, Family};
 
 pub(crate) const ENCODER_OFFSET: Entry = Entry {
     kind: EncoderOffset,

@@ -1,12 +1,12 @@
 //! Transmission: what lies between motor and link.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, POSITION, TORQUE, always, parameter};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, Backlash, CoulombFriction, DifferentialCoupling, EncoderOffset,
     JointElasticity, PreslidingFriction, RotorInertia, StribeckFriction, TorqueConstant,
     TorqueRipple, TransmissionRatio,
 };
-use crate::entry::{POSITION, TORQUE, always, parameter};
-use crate::{Entry, Family};
 
 pub(crate) const BACKLASH: Entry = Entry {
     kind: Backlash,

@@ -2,10 +2,13 @@ use nalgebra::{Rotation3, Vector3};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
+use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, direction, rounded, weighted};
 use crate::electronics::Electronics;
-use crate::{ArmClass, make::Make};
-use crate::{EffortClass, PopulationError, RobotFiles, arm_generated, arm_wam};
+use crate::error::PopulationError;
+use crate::make::Make;
+use crate::robot_files::RobotFiles;
+use crate::{arm_generated, arm_wam};
 
 /// An arm: what it is, what its user has of it, and what its motions must keep to.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,12 +9,14 @@ use robot::{Robot, SensingSide, TorqueSource};
 use crate::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
 use crate::bodies::BodyError;
 use crate::chain::Chain;
+use crate::corner::ArmClass;
 use crate::dice::{between, happens};
 use crate::drives::{Drive, accelerations, counterbalance, fit, put};
 use crate::electronics::Electronics;
+use crate::error::PopulationError;
 use crate::make::Make;
+use crate::robot_files::RobotFiles;
 use crate::urdf_text::urdf;
-use crate::{ArmClass, PopulationError, RobotFiles};
 
 /// An arm of a class that is generated, with so many joints.
 pub(crate) fn draw(

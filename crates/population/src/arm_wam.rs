@@ -9,10 +9,12 @@ use robot::Robot;
 
 use crate::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
 use crate::bodies::BodyError;
+use crate::corner::{ArmClass, EffortClass};
 use crate::drives::accelerations;
 use crate::electronics::Electronics;
+use crate::error::PopulationError;
 use crate::make::Make;
-use crate::{ArmClass, EffortClass, PopulationError, RobotFiles};
+use crate::robot_files::RobotFiles;
 
 const URDF: &str = include_str!("../../../robots/wam7/robot.urdf");
 const TOML: &str = include_str!("../../../robots/wam7/robot.toml");

@@ -4,11 +4,14 @@ use rand_chacha::ChaCha8Rng;
 use simulator::scenario::{ControlSpec, RunSpec, SensorSpec};
 
 use crate::arm::Arm;
+use crate::corner::{ArmClass, EffortClass, MotionClass};
 use crate::dice::{between, happens, spread, weighted};
+use crate::error::PopulationError;
 use crate::ground::Ground;
 use crate::make::Make;
-use crate::motions::{self, Place};
-use crate::{ArmClass, EffortClass, MotionClass, PopulationError, RobotFiles, sensors};
+use crate::motions::Place;
+use crate::robot_files::RobotFiles;
+use crate::{motions, sensors};
 
 /// Arms that are drawn before a bench is given up.
 const TRIES: usize = 40;

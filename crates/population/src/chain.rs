@@ -7,8 +7,8 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::JointKind;
 
-use crate::ArmClass;
 use crate::bodies::{Body, BodyError};
+use crate::corner::ArmClass;
 use crate::dice::{between, happens, one_of, spread};
 use crate::make::Make;
 

@@ -6,7 +6,7 @@ use motion::MotionError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
-use crate::{ArmClass, MotionClass};
+use crate::corner::{ArmClass, MotionClass};
 
 /// What keeps a trial from being made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

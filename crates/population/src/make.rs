@@ -1,4 +1,4 @@
-use crate::ArmClass;
+use crate::corner::ArmClass;
 
 /// What arms of a class have in common.
 #[derive(Debug, Clone, Copy)]

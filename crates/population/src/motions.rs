@@ -4,9 +4,11 @@ use motion::{Chirp, Growth, MotionSpec, Sinusoids};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use crate::corner::MotionClass;
 use crate::dice::{between, happens, one_of, rounded};
+use crate::error::PopulationError;
 use crate::ground::Ground;
-use crate::{MotionClass, PopulationError, by_joint, postures};
+use crate::{by_joint, postures};
 
 /// Draws of a motion before an arm is given up; smaller where the one before was too much for it.
 const TRIES: usize = 20;

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use logs::LogError;
 use robot::{Loaded, Robot};
 
-use crate::PopulationError;
+use crate::error::PopulationError;
 
 /// A robot as two files: `robot.urdf` and `robot.toml`.
 #[derive(Debug, Clone, PartialEq, Eq)]

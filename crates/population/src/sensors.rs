@@ -7,8 +7,8 @@ use simulator::scenario::{DropoutSpec, Logged, SensorSpec};
 use simulator::{PositionSide, VelocitySource};
 
 use crate::arm::Arm;
+use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, happens, one_of, rounded, spread};
-use crate::{ArmClass, EffortClass};
 
 /// Sensors of an arm.
 pub(crate) fn draw(class: ArmClass, arm: &Arm, random: &mut ChaCha8Rng) -> SensorSpec {

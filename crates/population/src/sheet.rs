@@ -3,7 +3,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
-use crate::{Corner, PopulationError};
+use crate::corner::Corner;
+use crate::error::PopulationError;
 
 /// What is true of a trial: `sheet.json`, sealed until its logs are diagnosed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -120,7 +121,7 @@ impl Sheet {
     /// [`PopulationError::Log`] when it cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), PopulationError> {
         let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
-        crate::trial::write(&folder.join(Self::FILE), &text)
+        crate::trial::make::write(&folder.join(Self::FILE), &text)
     }
 
     /// Opens the sheet of a folder.

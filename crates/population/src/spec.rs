@@ -4,7 +4,7 @@ use document::{Document, DocumentError, KeyPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{ArmClass, MotionClass, Origin};
+use crate::corner::{ArmClass, MotionClass, Origin};
 
 /// Most trials of a population.
 const MOST_TRIALS: usize = 1_000_000;

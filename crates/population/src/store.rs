@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::{FORMAT, PopulationError, PopulationSpec, make};
+use crate::error::PopulationError;
+use crate::spec::PopulationSpec;
+use crate::{FORMAT, make};
 
 /// Name of the file that lists those of an entry; it is the last to appear.
 const ENTRY: &str = "entry.json";

@@ -1,6 +1,8 @@
 use std::fmt::Write as _;
 
-use crate::{Link, Loaded, RobotError};
+use crate::error::RobotError;
+use crate::link::Link;
+use crate::load::Loaded;
 
 impl Loaded {
     /// What the files say of the robot's motion, as one text: the same wherever they lie, whatever they are

@@ -4,11 +4,15 @@ use document::KeyPath;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::actuator::{SensingSide, TorqueSource};
+use crate::control::Gain;
+use crate::inertia::Inertia;
 use crate::joint_entry::{JointEntry, gain};
+use crate::load::Loaded;
 use crate::misfit::Misfit;
 use crate::part::Part;
 use crate::range::{Range, in_range};
-use crate::{Gain, Inertia, Loaded, RobotWarning, SensingSide, TorqueSource};
+use crate::warning::RobotWarning;
 
 /// The keys of `robot.toml`: what a URDF cannot say.
 ///

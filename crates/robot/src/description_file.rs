@@ -3,10 +3,11 @@ use std::path::{Path, PathBuf};
 use document::{Document, KeyPath};
 
 use crate::description::Description;
+use crate::error::RobotError;
+use crate::load::Loaded;
 use crate::misfit::Misfit;
 use crate::part::Part;
 use crate::urdf::UrdfModel;
-use crate::{Loaded, RobotError};
 
 /// A `robot.toml` that was read, with the places of what it says.
 pub(crate) struct DescriptionFile {

@@ -1,4 +1,6 @@
-use crate::{Actuator, Inertia, Joint};
+use crate::actuator::Actuator;
+use crate::inertia::Inertia;
+use crate::joint::Joint;
 
 /// A moving link: the body, the joint that carries it and that joint's actuator.
 ///

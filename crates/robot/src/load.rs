@@ -4,13 +4,18 @@ use std::path::{Path, PathBuf};
 
 use document::KeyPath;
 
+use crate::control::{ControlSettings, Gain};
 use crate::description_file::DescriptionFile;
+use crate::error::RobotError;
+use crate::looks::Looks;
 use crate::lumping::Lumping;
 use crate::misfit::Misfit;
-use crate::mjcf;
-use crate::part::{self, LockedJoint, Part};
-use crate::urdf::{self, UrdfModel};
-use crate::{ControlSettings, Gain, Looks, Packages, Robot, RobotError, RobotWarning};
+use crate::model::Robot;
+use crate::packages::Packages;
+use crate::part::{LockedJoint, Part};
+use crate::urdf::UrdfModel;
+use crate::warning::RobotWarning;
+use crate::{mjcf, part, urdf};
 
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;

@@ -2,7 +2,12 @@ use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
 
-use crate::{Actuator, ControlSettings, Coupling, Gain, Link, Looks, Robot, RobotError};
+use crate::actuator::{Actuator, Coupling};
+use crate::control::{ControlSettings, Gain};
+use crate::error::RobotError;
+use crate::link::Link;
+use crate::looks::Looks;
+use crate::model::Robot;
 
 /// Where the links of a robot end up when some of its joints are locked.
 ///

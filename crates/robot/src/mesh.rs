@@ -1,7 +1,10 @@
 use std::path::{Component, Path, PathBuf};
 
+use crate::load::MeshFolders;
+use crate::looks::{Looks, Shape, Visual};
 use crate::mesh_kind::is_mesh;
-use crate::{Looks, MeshFolders, Packages, RobotWarning, Shape, Visual};
+use crate::packages::Packages;
+use crate::warning::RobotWarning;
 
 /// Folders, from that of the URDF upwards, beside which a package is looked for.
 const FOLDERS: usize = 5;

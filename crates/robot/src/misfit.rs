@@ -1,6 +1,6 @@
 use document::{Document, KeyPath};
 
-use crate::RobotError;
+use crate::error::RobotError;
 
 /// What a key of a `robot.toml` says that cannot be meant.
 #[derive(Debug)]

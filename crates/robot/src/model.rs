@@ -2,8 +2,9 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
+use crate::error::RobotError;
+use crate::link::Link;
 use crate::range::{LARGEST, Most};
-use crate::{Link, RobotError};
 
 /// A robot: a tree of moving links on a fixed base.
 ///

@@ -2,9 +2,10 @@ use std::collections::BTreeMap;
 
 use document::KeyPath;
 
+use crate::error::RobotError;
 use crate::misfit::Misfit;
+use crate::model::Robot;
 use crate::range::Range;
-use crate::{Robot, RobotError};
 
 /// The joints of a robot that move; the others are locked, and what they carry is fixed.
 #[derive(Debug, Clone, PartialEq, Default)]

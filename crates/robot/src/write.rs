@@ -2,14 +2,18 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
+use crate::actuator::{SensingSide, TorqueSource, Warming, Wave};
+use crate::control::Gain;
 use crate::description::{Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry};
 use crate::description_file::DescriptionFile;
+use crate::error::RobotError;
+use crate::inertia::Inertia;
 use crate::joint_entry::{
     CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WarmingEntry, WaveEntry,
 };
-use crate::{
-    Gain, Inertia, Link, Loaded, Robot, RobotError, SensingSide, TorqueSource, Warming, Wave,
-};
+use crate::link::Link;
+use crate::load::Loaded;
+use crate::model::Robot;
 
 impl Loaded {
     /// A `robot.toml` that describes `robot`, this one or a changed copy of it.

@@ -2,7 +2,7 @@ use nalgebra::Isometry3;
 
 use crate::engine::{Body, Engine, Load, Push};
 use crate::inject::Efforts;
-use crate::{Plant, Transmission};
+use crate::plant::{Plant, Transmission};
 
 /// The moving arm: joints on one side, the engine's degrees of freedom on the other.
 ///

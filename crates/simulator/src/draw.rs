@@ -3,11 +3,16 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::effects::{EffectSpec, JointLevel, Surroundings};
+use crate::effects::spec::EffectSpec;
+use crate::effects::{JointLevel, Surroundings};
+use crate::error::SimulatorError;
 use crate::run::{Following, PutIn, Row, follow, mixed, simulator};
-use crate::scenario::{HiddenSpec, Scenario, ScenarioRun};
-use crate::strangers::{StrangerKind, StrangerSpec};
-use crate::{JointSensor, Sensors, Simulator, SimulatorError};
+use crate::scenario::check::{Scenario, ScenarioRun};
+use crate::scenario::spec::HiddenSpec;
+use crate::sensors::{JointSensor, Sensors};
+use crate::simulator::Simulator;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::spec::StrangerSpec;
 
 /// Longest part of the first run that sizes are measured on (s).
 const MEASURED_S: f64 = 10.0;

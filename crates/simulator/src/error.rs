@@ -3,7 +3,7 @@ use document::DocumentError;
 use logs::{LogError, of_run};
 use robot::MachineFault;
 
-use crate::strangers::StrangerKind;
+use crate::strangers::kind::StrangerKind;
 
 /// What keeps an arm from being simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,7 +1,7 @@
 use robot::Reading;
 
-use crate::Plant;
 use crate::engine::Push;
+use crate::plant::Plant;
 
 /// Where the arm is when an effect is asked for its torque.
 #[derive(Debug, Clone, Copy)]

@@ -3,7 +3,8 @@ use std::borrow::Cow;
 use logs::{PreparedJoint, PreparedRun};
 use robot::{Actuator, Robot, SensingSide, TorqueSource};
 
-use crate::{Simulator, Transmission};
+use crate::plant::Transmission;
+use crate::simulator::Simulator;
 
 /// Positions (rad or m) and velocities (rad/s or m/s), one a joint.
 pub(crate) struct State {

@@ -4,8 +4,10 @@ use logs::{Channels, PreparedRun, Run};
 use rayon::prelude::*;
 use robot::{Gain, Machine, MachineFault, Reading, Robot};
 
+use crate::error::SimulatorError;
 use crate::recorded::{State, begin, between, held, in_time, late_s, seen, warmed};
-use crate::{Sensors, Simulator, SimulatorError, Stepping};
+use crate::sensors::Sensors;
+use crate::simulator::{Simulator, Stepping};
 
 /// Longest step of the engine where no other is given (s).
 const STEP_S: f64 = 1e-4;

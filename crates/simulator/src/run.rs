@@ -13,10 +13,17 @@ use robot::{Gain, Machine, MachineFault, Reading, Robot};
 use serde::Serialize;
 
 use crate::draw::draw_hidden;
-use crate::effects::EffectSpec;
-use crate::scenario::{DropoutSpec, Logged, Scenario, ScenarioRun, injected};
-use crate::strangers::{self, StrangerSpec, StrangerTruth};
-use crate::{EffortSource, Inject, Sensors, Simulator, SimulatorError, Stepping, Truth};
+use crate::effects::spec::EffectSpec;
+use crate::error::SimulatorError;
+use crate::inject::Inject;
+use crate::scenario::check::{Scenario, ScenarioRun, injected};
+use crate::scenario::spec::{DropoutSpec, Logged};
+use crate::sensors::{EffortSource, Sensors};
+use crate::simulator::{Simulator, Stepping};
+use crate::strangers;
+use crate::strangers::spec::StrangerSpec;
+use crate::strangers::truth::StrangerTruth;
+use crate::truth::Truth;
 
 /// The part of a run's seed that its dropouts are drawn from.
 const DROPOUTS: u64 = 3;

@@ -2,9 +2,10 @@ use robot::{Machine, MachineFault, Reading, Robot};
 
 use crate::arm::Arm;
 use crate::effects::described;
+use crate::error::SimulatorError;
 use crate::inject::{Efforts, Inject, Moment};
+use crate::plant::Plant;
 use crate::sensors::{EffortSource, PositionSide, Sensors};
-use crate::{Plant, SimulatorError};
 
 /// Speed at which a joint counts as run away (rad/s or m/s): ten times what arms reach.
 const RUNAWAY_SPEED: f64 = 200.0;

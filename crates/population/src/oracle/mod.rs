@@ -1,11 +1,11 @@
 //! What an oracle that knows the true model, the motion and the sensors sees of each cause: a Cramer-Rao
 //! bound on its size, everything else unknown.
 
-mod column;
-mod motion;
-mod noise;
-mod regression;
-mod stand_ins;
+pub(crate) mod column;
+pub(crate) mod motion;
+pub(crate) mod noise;
+pub(crate) mod regression;
+pub(crate) mod stand_ins;
 
 pub(crate) use column::{Column, StandIn};
 pub(crate) use motion::SeenRun;

@@ -3,8 +3,10 @@ use faer::{Mat, Side};
 use logs::Fourier;
 use nalgebra::DMatrix;
 
-use super::{Column, JointNoise, SeenRun, StandIn};
-use crate::Strength;
+use crate::oracle::column::{Column, StandIn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::noise::JointNoise;
+use crate::sheet::Strength;
 
 /// Highest frequency that counts (Hz): beyond it a rigid arm with a gear is none.
 const HIGHEST_HZ: f64 = 25.0;

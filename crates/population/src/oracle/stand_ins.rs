@@ -1,8 +1,9 @@
 use nalgebra::DMatrix;
 use robot::{Inertia, Robot};
 
-use super::{Column, SeenRun, StandIn};
 use crate::moving::Moving;
+use crate::oracle::column::{Column, StandIn};
+use crate::oracle::motion::SeenRun;
 
 /// Speed at which dry friction has three quarters of its level (rad/s or m/s).
 const CREEP: f64 = 2e-3;

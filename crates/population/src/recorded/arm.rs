@@ -3,8 +3,10 @@ use std::path::{Path, PathBuf};
 use logs::{ReadOptions, Run, read_run};
 use robot::Robot;
 
-use super::cut::{Part, part, thinned, until};
-use crate::{EffortClass, MotionClass, PopulationError, RobotFiles};
+use crate::corner::{EffortClass, MotionClass};
+use crate::error::PopulationError;
+use crate::recorded::cut::{Part, part, thinned, until};
+use crate::robot_files::RobotFiles;
 
 /// Longest part of a log that is used (s).
 const LONGEST_S: f64 = 60.0;

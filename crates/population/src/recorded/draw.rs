@@ -5,11 +5,11 @@ use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use super::cut::rate_hz;
-use super::law::{Law, most_periods};
-use super::point_mass::PointMass;
-use super::size::Measured;
-use super::transplant::Transplant;
+use crate::recorded::cut::rate_hz;
+use crate::recorded::law::{Law, most_periods};
+use crate::recorded::point_mass::PointMass;
+use crate::recorded::size::Measured;
+use crate::recorded::transplant::Transplant;
 
 /// Least and largest RMS of what is added to a joint, over the RMS of its effort.
 const SHARES: [f64; 2] = [0.03, 0.5];

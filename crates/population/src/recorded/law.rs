@@ -3,8 +3,8 @@ use std::f64::consts::TAU;
 use logs::Run;
 use robot::Robot;
 
-use super::point_mass::{PointMass, point_mass_torque};
-use super::signals::{at, velocity};
+use crate::recorded::point_mass::{PointMass, point_mass_torque};
+use crate::recorded::signals::{at, velocity};
 
 /// Speed below which dry friction is in proportion to it (rad/s or m/s): the clock and the encoder tell
 /// the direction no better.

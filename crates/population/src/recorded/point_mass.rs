@@ -2,7 +2,7 @@ use logs::Run;
 use nalgebra::{Isometry3, Point3, Vector3};
 use robot::Robot;
 
-use super::signals::{acceleration, averaged};
+use crate::recorded::signals::{acceleration, averaged};
 
 /// A point mass on the last link.
 #[derive(Debug, Clone, Copy, PartialEq)]

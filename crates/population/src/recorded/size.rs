@@ -1,9 +1,9 @@
 use logs::Run;
 use robot::{JointKind, Robot};
 
-use super::law::dry;
-use super::signals::{acceleration, averaged, half, rms, velocity};
-use crate::Strength;
+use crate::recorded::law::dry;
+use crate::recorded::signals::{acceleration, averaged, half, rms, velocity};
+use crate::sheet::Strength;
 
 /// Least range of a joint that moves (rad, m).
 const MOVES: [f64; 2] = [0.1, 0.01];

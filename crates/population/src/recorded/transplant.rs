@@ -3,10 +3,10 @@ use logs::Run;
 use robot::Robot;
 use simulator::Truth;
 
-use super::law::Law;
-use super::signals::averaged;
-use super::size::{Added, Measured, Own};
-use crate::{Cause, Role, Strength, Unnamed};
+use crate::recorded::law::Law;
+use crate::recorded::signals::averaged;
+use crate::recorded::size::{Added, Measured, Own};
+use crate::sheet::{Cause, Role, Strength, Unnamed};
 
 /// A cause put into recorded logs by adding a closed form to their efforts.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,13 +5,16 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use super::arm::{HeldOut, RecordedArm, Used, available};
-use super::cut::{Part, length_s, part};
-use super::draw::draw;
-use super::signals::rms;
-use super::size::Measured;
-use super::transplant::Told;
-use crate::{Corner, Knowledge, Origin, PopulationError, RobotFiles, Sheet};
+use crate::corner::{Corner, Origin};
+use crate::error::PopulationError;
+use crate::recorded::arm::{HeldOut, RecordedArm, Used, available};
+use crate::recorded::cut::{Part, length_s, part};
+use crate::recorded::draw::draw;
+use crate::recorded::signals::rms;
+use crate::recorded::size::Measured;
+use crate::recorded::transplant::Told;
+use crate::robot_files::RobotFiles;
+use crate::sheet::{Knowledge, Sheet};
 
 /// A trial of recorded logs.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,7 +104,8 @@ fn split(held_out: HeldOut, used: &[Used], choice: usize) -> Split<'_> {
 
 /// A trial of logs as they are.
 fn plain(arm: &RecordedArm, (robot, steps): (&Robot, &[f64]), split: Split) -> RecordedTrial {
-    let motion = split.given.first().map_or(crate::MotionClass::Sinusoids, |(log, _)| log.motion);
+    let motion =
+        split.given.first().map_or(crate::corner::MotionClass::Sinusoids, |(log, _)| log.motion);
     let paths: Vec<u8> = split.given.iter().map(|(log, _)| log.path).collect();
     let runs: Vec<Run> = split.given.into_iter().map(|(_, run)| run).collect();
     let length: f64 = runs.iter().map(length_s).sum();

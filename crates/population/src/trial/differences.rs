@@ -3,8 +3,10 @@ use nalgebra::DMatrix;
 use robot::{Inertia, Robot};
 use simulator::Truth;
 
-use crate::Role;
-use crate::oracle::{Column, SeenRun, StandIn, dry};
+use crate::oracle::column::{Column, StandIn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::stand_ins::dry;
+use crate::sheet::Role;
 
 /// A way in which an arm differs from its nominal model, and the torque that comes of it.
 pub(crate) struct Difference {

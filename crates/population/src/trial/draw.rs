@@ -4,8 +4,8 @@ use rand_chacha::ChaCha8Rng;
 use simulator::effects::EffectSpec;
 use simulator::strangers::{StrangerKind, StrangerSpec};
 
-use super::pilot::{Pilot, Sized};
-use crate::ArmClass;
+use crate::corner::ArmClass;
+use crate::trial::pilot::{Pilot, Sized};
 
 /// Draws of one effect before it is left out.
 const TRIES: usize = 6;

@@ -2,8 +2,9 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::{Loaded, Robot};
 
-use super::background::Friction;
-use crate::{PopulationError, RobotFiles};
+use crate::error::PopulationError;
+use crate::robot_files::RobotFiles;
+use crate::trial::background::Friction;
 
 /// What the nominal model says of everyday friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

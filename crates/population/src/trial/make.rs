@@ -10,19 +10,21 @@ use simulator::effects::EffectSpec;
 use simulator::scenario::{EngineSpec, RunSpec, Scenario, ScenarioSpec};
 use simulator::{EffortSource, SimulatorError, simulate_only, simulate_silent};
 
-use super::background::{Friction, effects, everyday};
-use super::differences::{Drives, differences};
-use super::draw::HiddenThings;
-use super::known::{Known, described};
-use super::pilot::Pilot;
-use super::seen::{Seen, inertias};
-use super::spoilt::Spoilt;
-use super::step::{step_ms, whole_step_ms};
-use crate::oracle::JointNoise;
-use crate::{
-    Bench as LabBench, BenchWishes, Corner, Knowledge, Origin, PopulationError, PopulationSpec,
-    RobotFiles, Sheet, draw_bench,
-};
+use crate::bench::{Bench as LabBench, BenchWishes, draw_bench};
+use crate::corner::{Corner, Origin};
+use crate::error::PopulationError;
+use crate::oracle::noise::JointNoise;
+use crate::robot_files::RobotFiles;
+use crate::sheet::{Knowledge, Sheet};
+use crate::spec::PopulationSpec;
+use crate::trial::background::{Friction, effects, everyday};
+use crate::trial::differences::{Drives, differences};
+use crate::trial::draw::HiddenThings;
+use crate::trial::known::{Known, described};
+use crate::trial::pilot::Pilot;
+use crate::trial::seen::{Seen, inertias};
+use crate::trial::spoilt::Spoilt;
+use crate::trial::step::{step_ms, whole_step_ms};
 
 /// Longest step of the simulation in which sizes are settled (ms).
 const PILOT_MS: f64 = 2.0;

@@ -6,10 +6,15 @@ use simulator::scenario::Scenario;
 use simulator::strangers::StrangerSpec;
 use simulator::{Bench, simulate_silent};
 
-use super::draw::Hidden;
-use super::seen::scales;
-use crate::oracle::{Column, JointNoise, SeenRun, StandIn, stand_ins, strengths};
-use crate::{PopulationError, Strength};
+use crate::error::PopulationError;
+use crate::oracle::column::{Column, StandIn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::noise::JointNoise;
+use crate::oracle::regression::strengths;
+use crate::oracle::stand_ins;
+use crate::sheet::Strength;
+use crate::trial::draw::Hidden;
+use crate::trial::seen::scales;
 
 /// Torque share that is asked for first.
 const FIRST_SHARE: f64 = 0.1;

@@ -5,11 +5,16 @@ use simulator::scenario::Scenario;
 use simulator::strangers::StrangerSpec;
 use simulator::{StrangerTruth, Truth, simulate_silent};
 
-use super::differences::Difference;
-use super::draw::HiddenThings;
-use crate::oracle::{Column, JointNoise, SeenRun, StandIn, effort_rms, stand_ins, strengths};
+use crate::error::PopulationError;
+use crate::oracle::column::{Column, StandIn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::noise::JointNoise;
+use crate::oracle::regression::{effort_rms, strengths};
+use crate::oracle::stand_ins;
 use crate::rigid::mass_matrix;
-use crate::{Cause, PopulationError, Role, Unnamed};
+use crate::sheet::{Cause, Role, Unnamed};
+use crate::trial::differences::Difference;
+use crate::trial::draw::HiddenThings;
 
 /// The runs of a trial without noise, and the torque of each hidden thing in them:
 ///

@@ -7,8 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
 use crate::moving::body_torque;
-use crate::oracle::SeenRun;
-use crate::{Strength, Unnamed};
+use crate::oracle::motion::SeenRun;
+use crate::sheet::{Strength, Unnamed};
 
 /// Periods of a log that a logger holds (s).
 const HELD_S: f64 = 1.5;

@@ -2,7 +2,7 @@ use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
 use simulator::simulate_silent_start;
 
-use crate::PopulationError;
+use crate::error::PopulationError;
 
 /// Longest step that is tried (ms).
 const LONGEST_MS: f64 = 2.0;

@@ -2,14 +2,18 @@
 
 use nalgebra::{Isometry3, Matrix3};
 
-use super::classes::{Classes, MAIN};
-use super::compiler::{Compiler, InertiaSource};
-use super::element::Element;
-use super::geom::{Geom, Meshes};
-use super::joint::{Motion, driven, motion};
-use super::unread::Unread;
-use super::view::View;
-use crate::{Inertia, Link, Looks, RobotError, RobotWarning};
+use crate::error::RobotError;
+use crate::inertia::Inertia;
+use crate::link::Link;
+use crate::looks::Looks;
+use crate::mjcf::classes::{Classes, MAIN};
+use crate::mjcf::compiler::{Compiler, InertiaSource};
+use crate::mjcf::element::Element;
+use crate::mjcf::geom::{Geom, Meshes};
+use crate::mjcf::joint::{Motion, driven, motion};
+use crate::mjcf::unread::Unread;
+use crate::mjcf::view::View;
+use crate::warning::RobotWarning;
 
 /// The frame that what is inside of an element is described in.
 #[derive(Clone)]

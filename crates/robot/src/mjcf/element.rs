@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::RobotError;
+use crate::error::RobotError;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 200;

@@ -1,7 +1,9 @@
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::view::View;
-use crate::{Actuator, Joint, JointKind, Limits, RobotError};
+use crate::actuator::Actuator;
+use crate::error::RobotError;
+use crate::joint::{Joint, JointKind, Limits};
+use crate::mjcf::view::View;
 
 /// How a joint of an MJCF moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,31 +1,36 @@
 //! An MJCF read into what a URDF is read into: bodies, hinges and slides, inertias, friction,
 //! armature and the gains of servos. What is not understood is a warning.
 
-mod actuators;
-mod body;
-mod classes;
-mod compiler;
-mod element;
-mod geom;
-mod joint;
-mod unread;
-mod view;
+pub(crate) mod actuators;
+pub(crate) mod body;
+pub(crate) mod classes;
+pub(crate) mod compiler;
+pub(crate) mod element;
+pub(crate) mod geom;
+pub(crate) mod joint;
+pub(crate) mod unread;
+pub(crate) mod view;
 
 use std::path::Path;
 
 use nalgebra::Vector3;
 
-use self::actuators::Motor;
-use self::body::Walk;
-use self::classes::{Classes, MAIN};
-use self::compiler::Compiler;
 pub(crate) use self::element::is_mjcf;
-use self::element::{Element, Files};
-use self::unread::Unread;
-use self::view::View;
+use crate::control::Gain;
+use crate::error::RobotError;
+use crate::inertia::Inertia;
+use crate::link::Link;
+use crate::mjcf::actuators::Motor;
+use crate::mjcf::body::Walk;
+use crate::mjcf::classes::{Classes, MAIN};
+use crate::mjcf::compiler::Compiler;
+use crate::mjcf::element::{Element, Files};
+use crate::mjcf::unread::Unread;
+use crate::mjcf::view::View;
+use crate::model::Robot;
 use crate::part::{Mimic, Mimics};
 use crate::urdf::UrdfModel;
-use crate::{Gain, Inertia, Link, Robot, RobotError, RobotWarning};
+use crate::warning::RobotWarning;
 
 /// Free fall of a model that does not say another (m/s²).
 const GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);

@@ -1,9 +1,9 @@
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::classes::Classes;
-use super::compiler::Compiler;
-use super::element::Element;
-use crate::RobotError;
+use crate::error::RobotError;
+use crate::mjcf::classes::Classes;
+use crate::mjcf::compiler::Compiler;
+use crate::mjcf::element::Element;
 
 /// An element with the defaults that hold where it stands.
 #[derive(Clone, Copy)]

@@ -1,19 +1,26 @@
 //! A URDF read into a [`Robot`] and its [`Looks`].
 
-mod convert;
-mod followers;
-mod outline;
-mod tree;
-mod visual;
+pub(crate) mod convert;
+pub(crate) mod followers;
+pub(crate) mod outline;
+pub(crate) mod tree;
+pub(crate) mod visual;
 
 use nalgebra::{Isometry3, Vector3};
 use urdf_rs::JointType;
 
-use self::outline::{Element, Outline};
-use self::tree::Tree;
-use self::visual::Visuals;
+use crate::actuator::Actuator;
+use crate::control::Gain;
+use crate::error::RobotError;
+use crate::inertia::Inertia;
+use crate::link::Link;
+use crate::looks::Looks;
+use crate::model::Robot;
 use crate::part::Mimics;
-use crate::{Actuator, Gain, Inertia, Link, Looks, Robot, RobotError, RobotWarning};
+use crate::urdf::outline::{Element, Outline};
+use crate::urdf::tree::Tree;
+use crate::urdf::visual::Visuals;
+use crate::warning::RobotWarning;
 
 /// Free fall in a base frame whose z axis points up (m/s²).
 const UPRIGHT_GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);

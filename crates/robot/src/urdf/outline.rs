@@ -1,7 +1,8 @@
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::{RobotError, RobotWarning};
+use crate::error::RobotError;
+use crate::warning::RobotWarning;
 
 /// Deepest nesting of elements; a URDF needs six.
 const MAX_DEPTH: usize = 64;

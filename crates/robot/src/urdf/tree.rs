@@ -1,6 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::RobotError;
+use crate::error::RobotError;
 
 /// Which joint hangs on which link; every link is reached from one root.
 #[derive(Debug)]

@@ -5,9 +5,10 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use urdf_rs::Geometry;
 
-use super::convert;
-use super::outline::{attribute, one_line};
-use crate::{RobotWarning, Shape, Visual};
+use crate::looks::{Shape, Visual};
+use crate::urdf::convert;
+use crate::urdf::outline::{attribute, one_line};
+use crate::warning::RobotWarning;
 
 /// Largest size and distance that is drawn (m): a number beyond it is a mistake.
 const LARGEST_M: f64 = 1e4;

@@ -4,9 +4,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::delay_line::DelayLine;
-use crate::{Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::{Inject, Moment};
+use crate::truth::Truth;
 
 /// Torque that comes a fixed time after its command.
 ///

@@ -4,8 +4,9 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::{Inject, Moment};
+use crate::truth::Truth;
 
 /// Torque that follows its command as through a first-order filter.
 ///

@@ -7,8 +7,9 @@ use robot::{Actuator, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::truth::Truth;
 
 /// A hose or cable along the arm: a spring at the link with a loop.
 ///

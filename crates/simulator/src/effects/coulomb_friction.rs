@@ -4,8 +4,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Inject, Plant, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
+use crate::plant::Plant;
+use crate::truth::Truth;
 
 /// Torque of constant size against the motion; a joint at rest is held by up to as much.
 ///

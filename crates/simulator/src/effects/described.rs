@@ -1,12 +1,12 @@
 use robot::{Actuator, Robot};
 
-use super::{
+use crate::effects::{
     actuator_delay, actuator_lag, cable_spring, counterbalance, differential_coupling,
     encoder_offset, friction_temperature_drift, load_dependent_friction,
     position_dependent_friction, presliding_friction, stribeck_friction, torque_ripple,
     transmission_ratio,
 };
-use crate::Inject;
+use crate::inject::Inject;
 
 /// Inertia of a rotor that holds the bristles of a shared motor where the robot names none
 /// (kg m² or kg).

@@ -7,8 +7,9 @@ use robot::{Coupling, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::truth::Truth;
 
 /// Frequency of a rotor on the bristles (Hz): 0.19 rad a step of 0.2 ms.
 const BRISTLE_HZ: f64 = 150.0;

@@ -5,8 +5,9 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Inject, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
+use crate::truth::Truth;
 
 /// Largest offset that is drawn (rad or m): a joint that stands 17 degrees off is seen by eye.
 const LARGEST_DRAWN: f64 = 0.3;

@@ -8,8 +8,9 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, link_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, link_of, within};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::truth::Truth;
 
 /// What the world around does to the arm, whatever the arm does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,8 +5,9 @@ use robot::{Robot, Warming};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::truth::Truth;
 
 /// Largest share of friction that may go: a warm joint keeps some.
 const MAX_SHARE: f64 = 0.9;

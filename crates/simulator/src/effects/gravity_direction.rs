@@ -8,8 +8,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, within};
-use crate::{Inject, Plant, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, within};
+use crate::inject::Inject;
+use crate::plant::Plant;
+use crate::truth::Truth;
 
 /// A base that does not stand as the description says: seen from it, gravity is turned.
 ///

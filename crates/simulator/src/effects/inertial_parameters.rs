@@ -6,9 +6,11 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::payload::{body, mass_and_com, symmetric};
-use super::{Effect, Mistake, Surroundings, direction, link_of};
-use crate::{Inject, Plant, Truth};
+use crate::effects::payload::{body, mass_and_com, symmetric};
+use crate::effects::{Effect, Mistake, Surroundings, direction, link_of};
+use crate::inject::Inject;
+use crate::plant::Plant;
+use crate::truth::Truth;
 
 /// The mass, centre of mass and inertia that a link truly has.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

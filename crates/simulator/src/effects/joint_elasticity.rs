@@ -7,9 +7,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::plant::damping;
-use crate::{Inject, Plant, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
+use crate::plant::{Plant, damping};
+use crate::truth::Truth;
 
 /// A spring with damping between motor and link, such as a cable drive or a harmonic gear.
 ///

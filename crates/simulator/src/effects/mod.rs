@@ -1,34 +1,34 @@
 //! The truth side of every effect, one file each, named as in the catalogue.
 
-mod actuator_delay;
-mod actuator_lag;
-mod asymmetric_friction;
-mod backlash;
-mod cable_spring;
-mod coulomb_friction;
-mod counterbalance;
-mod described;
-mod differential_coupling;
-mod encoder_offset;
-mod external_disturbance;
-mod friction_temperature_drift;
-mod gravity_direction;
-mod inertial_parameters;
-mod joint_elasticity;
-mod load_dependent_friction;
-mod payload;
-mod position_dependent_friction;
-mod presliding_friction;
-mod rotor_inertia;
-mod spec;
-mod stribeck_friction;
-mod time_skew;
-mod torque_constant;
-mod torque_offset;
-mod torque_ripple;
-mod torque_saturation;
-mod transmission_ratio;
-mod viscous_friction;
+pub(crate) mod actuator_delay;
+pub(crate) mod actuator_lag;
+pub(crate) mod asymmetric_friction;
+pub(crate) mod backlash;
+pub(crate) mod cable_spring;
+pub(crate) mod coulomb_friction;
+pub(crate) mod counterbalance;
+pub(crate) mod described;
+pub(crate) mod differential_coupling;
+pub(crate) mod encoder_offset;
+pub(crate) mod external_disturbance;
+pub(crate) mod friction_temperature_drift;
+pub(crate) mod gravity_direction;
+pub(crate) mod inertial_parameters;
+pub(crate) mod joint_elasticity;
+pub(crate) mod load_dependent_friction;
+pub(crate) mod payload;
+pub(crate) mod position_dependent_friction;
+pub(crate) mod presliding_friction;
+pub(crate) mod rotor_inertia;
+pub(crate) mod spec;
+pub(crate) mod stribeck_friction;
+pub(crate) mod time_skew;
+pub(crate) mod torque_constant;
+pub(crate) mod torque_offset;
+pub(crate) mod torque_ripple;
+pub(crate) mod torque_saturation;
+pub(crate) mod transmission_ratio;
+pub(crate) mod viscous_friction;
 
 use catalogue::EffectKind;
 use nalgebra::Vector3;
@@ -67,7 +67,8 @@ pub use torque_saturation::TorqueSaturation;
 pub use transmission_ratio::TransmissionRatio;
 pub use viscous_friction::ViscousFriction;
 
-use crate::{Inject, Truth};
+use crate::inject::Inject;
+use crate::truth::Truth;
 
 /// A value of a scenario that cannot be meant.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,8 +5,9 @@ use robot::{Actuator, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::truth::Truth;
 
 /// Damping ratio of a rotor on bristles that a description gives: it has no key for it.
 const DAMPING_RATIO: f64 = 0.5;

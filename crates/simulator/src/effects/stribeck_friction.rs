@@ -5,8 +5,9 @@ use robot::{Robot, Stribeck};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::truth::Truth;
 
 /// Dry friction that is larger at rest and falls as the motor begins to move.
 ///

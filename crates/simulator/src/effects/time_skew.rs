@@ -5,9 +5,10 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::delay_line::DelayLine;
-use crate::{Inject, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
+use crate::truth::Truth;
 
 /// Effort and position of different instants in one row of the log.
 ///

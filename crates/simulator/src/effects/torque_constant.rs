@@ -5,8 +5,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Inject, Plant, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
+use crate::plant::Plant;
+use crate::truth::Truth;
 
 /// Largest factor that is drawn: constants of one motor differ by a tenth, and what is off by more
 /// than this nobody takes for a torque.

@@ -5,8 +5,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Inject, Plant, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
+use crate::plant::Plant;
+use crate::truth::Truth;
 
 /// A constant in the reported effort.
 ///

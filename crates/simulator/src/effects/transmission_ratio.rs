@@ -5,8 +5,10 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Inject, Plant, Truth};
+use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
+use crate::plant::Plant;
+use crate::truth::Truth;
 
 /// Largest factor that is drawn: a pulley of 24 teeth taken for one of 20.
 const LARGEST_DRAWN: f64 = 1.2;

@@ -5,11 +5,16 @@ use document::{Document, DocumentError, KeyPath};
 use motion::{Motion, MotionError};
 use robot::{Gain, Loaded, Robot};
 
-use super::files::resolved;
-use super::{HiddenSpec, ScenarioSpec};
-use crate::effects::{EffectSpec, Mistake, chain_rank};
-use crate::strangers::{self, StrangerSpec};
-use crate::{Inject, JointSensor, LinkEncoder, Sensors, SimulatorError, Stepping, VelocitySource};
+use crate::effects::spec::EffectSpec;
+use crate::effects::{Mistake, chain_rank};
+use crate::error::SimulatorError;
+use crate::inject::Inject;
+use crate::scenario::files::resolved;
+use crate::scenario::spec::{HiddenSpec, ScenarioSpec};
+use crate::sensors::{JointSensor, LinkEncoder, Sensors, VelocitySource};
+use crate::simulator::Stepping;
+use crate::strangers;
+use crate::strangers::spec::StrangerSpec;
 
 /// A scenario whose every value can be meant: ready to run.
 #[derive(Debug, Clone)]

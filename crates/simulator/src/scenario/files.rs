@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use document::{Document, KeyPath};
 
-use super::ScenarioSpec;
+use crate::scenario::spec::ScenarioSpec;
 
 /// The scenario as TOML that says everything, extends nothing and can be read from any folder.
 pub(super) fn resolved(document: &Document, spec: &ScenarioSpec) -> String {

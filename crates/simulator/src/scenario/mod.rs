@@ -1,8 +1,8 @@
 //! Scenario files: what they may say, and how they are checked.
 
-mod check;
-mod files;
-mod spec;
+pub(crate) mod check;
+pub(crate) mod files;
+pub(crate) mod spec;
 
 pub(crate) use check::injected;
 pub use check::{Scenario, ScenarioRun};

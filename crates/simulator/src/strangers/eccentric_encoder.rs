@@ -6,8 +6,10 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::Inject;
+use crate::inject::Inject;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::truth::StrangerTruth;
+use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, within};
 
 /// Largest eccentricity that is drawn (rad): a disc of 20 mm that is 2 mm off.
 const LARGEST_DRAWN: f64 = 0.1;

@@ -1,20 +1,20 @@
 //! Effects of no catalogue, one file each: what a workshop has and a diagnosis has no name for.
 
-mod drive_dead_zone;
-mod eccentric_encoder;
-mod integrator_windup;
-mod kind;
-mod magnet_well;
-mod snag;
-mod soft_mount;
-mod soft_wall;
-mod spec;
-mod speed_crosstalk;
-mod square_drag;
-mod tilting_bearing;
-mod torque_dropout;
-mod torque_rate_limit;
-mod truth;
+pub(crate) mod drive_dead_zone;
+pub(crate) mod eccentric_encoder;
+pub(crate) mod integrator_windup;
+pub(crate) mod kind;
+pub(crate) mod magnet_well;
+pub(crate) mod snag;
+pub(crate) mod soft_mount;
+pub(crate) mod soft_wall;
+pub(crate) mod spec;
+pub(crate) mod speed_crosstalk;
+pub(crate) mod square_drag;
+pub(crate) mod tilting_bearing;
+pub(crate) mod torque_dropout;
+pub(crate) mod torque_rate_limit;
+pub(crate) mod truth;
 
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
@@ -35,8 +35,8 @@ pub use torque_dropout::TorqueDropout;
 pub use torque_rate_limit::TorqueRateLimit;
 pub use truth::StrangerTruth;
 
-use crate::Inject;
 use crate::effects::{Mistake, Surroundings, joint_of, within};
+use crate::inject::Inject;
 
 /// Largest angular frequency at which a drawn spring rings on what its joint turns (rad/s), so
 /// that steps of up to 2 ms do.

@@ -7,9 +7,12 @@ use robot::{Link, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, within};
-use crate::effects::horizontal;
-use crate::{Efforts, Inject, Moment, Plant};
+use crate::effects::gravity_direction::horizontal;
+use crate::inject::{Efforts, Inject, Moment};
+use crate::plant::Plant;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::truth::StrangerTruth;
+use crate::strangers::{Mistake, Stranger, Surroundings, within};
 
 /// A base that tilts under the weight of its arm, as one on rubber or on a thin table does.
 ///

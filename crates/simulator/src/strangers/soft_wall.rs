@@ -4,10 +4,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, span, stiffest, within,
-};
-use crate::{Efforts, Inject, Moment};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::truth::StrangerTruth;
+use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, span, stiffest, within};
 
 /// Something soft in the way of a link: a spring with damping on one side.
 ///

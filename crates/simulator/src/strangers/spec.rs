@@ -3,9 +3,23 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::*;
-use crate::Inject;
 use crate::effects::{Mistake, Surroundings};
+use crate::inject::Inject;
+use crate::strangers::Stranger;
+use crate::strangers::drive_dead_zone::DriveDeadZone;
+use crate::strangers::eccentric_encoder::EccentricEncoder;
+use crate::strangers::integrator_windup::IntegratorWindup;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::magnet_well::MagnetWell;
+use crate::strangers::snag::Snag;
+use crate::strangers::soft_mount::SoftMount;
+use crate::strangers::soft_wall::SoftWall;
+use crate::strangers::speed_crosstalk::SpeedCrosstalk;
+use crate::strangers::square_drag::SquareDrag;
+use crate::strangers::tilting_bearing::TiltingBearing;
+use crate::strangers::torque_dropout::TorqueDropout;
+use crate::strangers::torque_rate_limit::TorqueRateLimit;
+use crate::strangers::truth::StrangerTruth;
 
 /// Makes [`StrangerSpec`] of the list of strangers, and calls the [`Stranger`] that it is.
 macro_rules! strangers {

@@ -3,8 +3,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::truth::StrangerTruth;
+use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, within};
 
 /// Drag with the square of the speed, as of a link that moves through water, or of much oil.
 ///

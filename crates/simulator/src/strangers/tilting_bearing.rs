@@ -3,8 +3,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment};
+use crate::inject::{Efforts, Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::truth::StrangerTruth;
+use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, within};
 
 /// Largest coefficient, of a bearing whose neighbours carry little.
 const MAX_COEFFICIENT: f64 = 10.0;

@@ -6,9 +6,11 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
+use crate::inject::{Inject, Moment};
 use crate::run::mixed;
-use crate::{Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::truth::StrangerTruth;
+use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, within};
 
 /// Torque that is gone for moments, as with a loose plug.
 ///

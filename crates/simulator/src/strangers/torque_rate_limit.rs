@@ -4,8 +4,10 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::{Inject, Moment};
+use crate::inject::{Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::truth::StrangerTruth;
+use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, within};
 
 /// Torque that changes no faster than it can, as of a drive short of voltage.
 ///

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::StrangerKind;
+use crate::strangers::kind::StrangerKind;
 
 /// One stranger that was put into a simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
