@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::delay_line::DelayLine;
-use crate::run::mixed;
+use crate::seed::mix_seed;
 
 /// The part of a seed that the encoders at the links draw from.
 const LINKS: u64 = 2;
@@ -172,10 +172,10 @@ impl Sensors {
     /// q_measured = resolution round((q + noise) / resolution)
     /// qd_measured: first-order low pass of the difference of q_measured
     /// ```
-    pub(crate) fn look(&mut self, reading: &mut Reading, period_s: f64) {
+    pub(crate) fn measure(&mut self, reading: &mut Reading, period_s: f64) {
         for (q, sensor) in reading.q.iter_mut().zip(&self.joints) {
             *q += draw(&mut self.random, sensor.position_noise);
-            *q = counted(*q, sensor.resolution);
+            *q = round_to_step(*q, sensor.resolution);
         }
         if let VelocitySource::FilteredDifference { cutoff_hz } = self.velocity {
             let kept = (-std::f64::consts::TAU * cutoff_hz * period_s).exp();
@@ -191,10 +191,10 @@ impl Sensors {
     }
 
     /// What the encoders at the links say at a time (s) of the true positions of the links.
-    pub(crate) fn look_at_links(&mut self, time_s: f64, q: &[f64]) -> Vec<Option<f64>> {
+    pub(crate) fn measure_links(&mut self, time_s: f64, q: &[f64]) -> Vec<Option<f64>> {
         let q = self.link_lag.seen(time_s, q);
         let mut reading = |encoder: LinkEncoder, q: f64| {
-            counted(q + draw(&mut self.link_random, encoder.noise), encoder.resolution)
+            round_to_step(q + draw(&mut self.link_random, encoder.noise), encoder.resolution)
         };
         self.links.iter().zip(q).map(|(link, &q)| link.map(|link| reading(link, q))).collect()
     }
@@ -205,7 +205,7 @@ impl Sensors {
             *tau += draw(&mut self.random, sensor.effort_noise);
         }
         for (tau, step) in effort.iter_mut().zip(&self.effort_steps) {
-            *tau = counted(*tau, *step);
+            *tau = round_to_step(*tau, *step);
         }
     }
 }
@@ -251,11 +251,11 @@ impl LinkLag {
 
 /// The draws of the sensors that the controller reads, and those of the encoders at the links.
 fn streams(seed: u64) -> [ChaCha8Rng; 2] {
-    [seed, mixed(seed, LINKS)].map(ChaCha8Rng::seed_from_u64)
+    [seed, mix_seed(seed, LINKS)].map(ChaCha8Rng::seed_from_u64)
 }
 
 /// The nearest whole count; the value itself where there are none.
-fn counted(q: f64, resolution: f64) -> f64 {
+fn round_to_step(q: f64, resolution: f64) -> f64 {
     if resolution > 0.0 { resolution * (q / resolution).round() } else { q }
 }
 

@@ -1,10 +1,10 @@
 use robot::{Machine, MachineFault, Reading, Robot};
 
-use crate::arm::Arm;
-use crate::effects::described;
+use crate::effects::described::described_effects;
 use crate::error::SimulatorError;
-use crate::inject::{Efforts, Inject, Moment};
-use crate::plant::Plant;
+use crate::mechanics::arm::Arm;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
+use crate::mechanics::plant::Plant;
 use crate::sensors::{EffortSource, PositionSide, Sensors};
 
 /// Speed at which a joint counts as run away (rad/s or m/s): ten times what arms reach.
@@ -75,7 +75,7 @@ impl Simulator {
         sensors: Sensors,
         stepping: Stepping,
     ) -> Result<Self, SimulatorError> {
-        let mut effects: Vec<Box<dyn Inject>> = described(robot).chain(effects).collect();
+        let mut effects: Vec<Box<dyn Inject>> = described_effects(robot).chain(effects).collect();
         let mut plant = Plant::new(robot.clone());
         for effect in &mut effects {
             effect.on_build(&mut plant);
@@ -300,8 +300,8 @@ impl Machine for Simulator {
             effect.on_reading(reading);
         }
         let period_s = self.period_s();
-        self.sensors.look(reading, period_s);
-        self.links_at_read = self.sensors.look_at_links(reading.time_s, self.arm.q());
+        self.sensors.measure(reading, period_s);
+        self.links_at_read = self.sensors.measure_links(reading.time_s, self.arm.q());
         Ok(())
     }
 

@@ -5,9 +5,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::delay_line::DelayLine;
-use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::inject::{Inject, Moment};
-use crate::truth::Truth;
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::{Inject, Moment};
 
 /// Torque that comes a fixed time after its command.
 ///

@@ -6,7 +6,7 @@ use crate::effects::{
     position_dependent_friction, presliding_friction, stribeck_friction, torque_ripple,
     transmission_ratio,
 };
-use crate::inject::Inject;
+use crate::mechanics::inject::Inject;
 
 /// Inertia of a rotor that holds the bristles of a shared motor where the robot names none
 /// (kg m² or kg).
@@ -17,7 +17,7 @@ const LEAST_ROTOR: f64 = 1e-3;
 ///
 /// Where several meet at a joint, dry friction is gathered before it is bent, and what is
 /// reported is `q / ratio + offset`.
-pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
+pub(crate) fn described_effects(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
     let rotor = |j: usize| {
         let known = robot.links().get(j).map_or(0.0, |link| link.actuator.rotor_inertia);
         known.max(LEAST_ROTOR)

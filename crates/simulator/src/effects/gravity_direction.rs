@@ -8,10 +8,12 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::{Effect, Mistake, Surroundings, within};
-use crate::inject::Inject;
-use crate::plant::Plant;
-use crate::truth::Truth;
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
+use crate::mechanics::plant::Plant;
 
 /// A base that does not stand as the description says: seen from it, gravity is turned.
 ///

@@ -7,10 +7,13 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::inject::Inject;
-use crate::plant::{Plant, damping};
-use crate::truth::Truth;
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
+use crate::mechanics::plant::Plant;
+use crate::mechanics::transmission::damping;
 
 /// A spring with damping between motor and link, such as a cable drive or a harmonic gear.
 ///

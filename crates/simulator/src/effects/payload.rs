@@ -8,10 +8,12 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::{Effect, Mistake, Surroundings, direction, link_of, within};
-use crate::inject::Inject;
-use crate::plant::Plant;
-use crate::truth::Truth;
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, link_of, within};
+use crate::effects::surroundings::{Surroundings, direction};
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
+use crate::mechanics::plant::Plant;
 
 /// Density of what is hung on an arm to load it (kg/m³): steel.
 const DENSITY: f64 = 7850.0;

@@ -12,6 +12,7 @@ use crate::effects::cable_spring::CableSpring;
 use crate::effects::coulomb_friction::CoulombFriction;
 use crate::effects::counterbalance::Counterbalance;
 use crate::effects::differential_coupling::DifferentialCoupling;
+use crate::effects::effect::Effect;
 use crate::effects::encoder_offset::EncoderOffset;
 use crate::effects::external_disturbance::ExternalDisturbance;
 use crate::effects::friction_temperature_drift::FrictionTemperatureDrift;
@@ -19,21 +20,22 @@ use crate::effects::gravity_direction::GravityDirection;
 use crate::effects::inertial_parameters::InertialParameters;
 use crate::effects::joint_elasticity::JointElasticity;
 use crate::effects::load_dependent_friction::LoadDependentFriction;
+use crate::effects::mistake::Mistake;
 use crate::effects::payload::Payload;
 use crate::effects::position_dependent_friction::PositionDependentFriction;
 use crate::effects::presliding_friction::PreslidingFriction;
 use crate::effects::rotor_inertia::RotorInertia;
 use crate::effects::stribeck_friction::StribeckFriction;
+use crate::effects::surroundings::Surroundings;
 use crate::effects::time_skew::TimeSkew;
 use crate::effects::torque_constant::TorqueConstant;
 use crate::effects::torque_offset::TorqueOffset;
 use crate::effects::torque_ripple::TorqueRipple;
 use crate::effects::torque_saturation::TorqueSaturation;
 use crate::effects::transmission_ratio::TransmissionRatio;
+use crate::effects::truth::Truth;
 use crate::effects::viscous_friction::ViscousFriction;
-use crate::effects::{Effect, Mistake, Surroundings};
-use crate::inject::Inject;
-use crate::truth::Truth;
+use crate::mechanics::inject::Inject;
 
 /// Makes [`EffectSpec`] of the list of effects, and calls the [`Effect`] that it is.
 macro_rules! effects {

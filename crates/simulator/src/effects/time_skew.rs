@@ -6,9 +6,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::delay_line::DelayLine;
-use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::inject::Inject;
-use crate::truth::Truth;
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
 
 /// Effort and position of different instants in one row of the log.
 ///

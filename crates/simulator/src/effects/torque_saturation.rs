@@ -6,9 +6,11 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::inject::{Inject, Moment};
-use crate::truth::Truth;
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::{Inject, Moment};
 
 /// A drive that gives no more than its limit, whatever it is asked for.
 ///

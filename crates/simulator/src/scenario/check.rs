@@ -1,4 +1,4 @@
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
@@ -6,15 +6,13 @@ use motion::{Motion, MotionError};
 use robot::{Gain, Loaded, Robot};
 
 use crate::effects::spec::EffectSpec;
-use crate::effects::{Mistake, chain_rank};
 use crate::error::SimulatorError;
-use crate::inject::Inject;
-use crate::scenario::files::resolved;
+use crate::scenario::resolved::resolve;
 use crate::scenario::spec::{HiddenSpec, ScenarioSpec};
 use crate::sensors::{JointSensor, LinkEncoder, Sensors, VelocitySource};
 use crate::simulator::Stepping;
-use crate::strangers;
 use crate::strangers::spec::StrangerSpec;
+use crate::{effects, strangers};
 
 /// A scenario whose every value can be meant: ready to run.
 #[derive(Debug, Clone)]
@@ -63,7 +61,7 @@ impl Scenario {
         check.hidden()?;
         let rows_per_log = check.rows_per_log()?;
         let runs = check.runs()?;
-        let resolved = resolved(document, &spec);
+        let resolved = resolve(document, &spec);
         Ok(Self {
             robot: loaded.robot,
             robot_file,
@@ -175,24 +173,6 @@ impl Scenario {
         let joints = vec![joint; self.robot.joint_count()];
         Sensors::new(s.position, s.effort, VelocitySource::Ideal, joints, 0).with_links(links)
     }
-}
-
-/// Effects ready to act, in the order of the chain from command to reading.
-///
-/// # Errors
-///
-/// The index of the first effect that cannot act on the robot, with its mistake.
-pub(crate) fn injected(
-    effects: &[EffectSpec],
-    robot: &Robot,
-) -> Result<Vec<Box<dyn Inject>>, (usize, Mistake)> {
-    let mut ranked = Vec::with_capacity(effects.len());
-    for (index, effect) in effects.iter().enumerate() {
-        let inject = effect.inject(robot).map_err(|mistake| (index, mistake))?;
-        ranked.push((chain_rank(effect.kind()), inject));
-    }
-    ranked.sort_by_key(|(rank, _)| *rank);
-    Ok(ranked.into_iter().map(|(_, inject)| inject).collect())
 }
 
 struct Checker<'a> {
@@ -364,7 +344,9 @@ impl Checker<'_> {
     }
 
     fn effects(&self) -> Result<(), DocumentError> {
-        let Err((index, mistake)) = injected(&self.spec.effect, &self.loaded.robot) else {
+        let Err((index, mistake)) =
+            effects::chain::inject_all(&self.spec.effect, &self.loaded.robot)
+        else {
             return Ok(());
         };
         let name = self.spec.effect[index].kind().name();
@@ -373,7 +355,7 @@ impl Checker<'_> {
     }
 
     fn strangers(&self) -> Result<(), DocumentError> {
-        let injected = strangers::injected(&self.spec.stranger, &self.loaded.robot);
+        let injected = strangers::chain::inject_all(&self.spec.stranger, &self.loaded.robot);
         let Err((index, mistake)) = injected else { return Ok(()) };
         let name = self.spec.stranger[index].kind().name();
         let path = KeyPath::root().key("stranger").index(index).key(name);

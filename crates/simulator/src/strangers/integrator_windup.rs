@@ -4,10 +4,12 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::inject::{Inject, Moment};
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Inject, Moment};
 use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
 use crate::strangers::truth::StrangerTruth;
-use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, within};
 
 /// An integrator in the drive that nobody asked for: a slow torque up to its limit.
 ///

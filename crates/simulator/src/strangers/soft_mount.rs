@@ -8,11 +8,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::effects::gravity_direction::horizontal;
-use crate::inject::{Efforts, Inject, Moment};
-use crate::plant::Plant;
+use crate::effects::mistake::{Mistake, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
+use crate::mechanics::plant::Plant;
 use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
 use crate::strangers::truth::StrangerTruth;
-use crate::strangers::{Mistake, Stranger, Surroundings, within};
 
 /// A base that tilts under the weight of its arm, as one on rubber or on a thin table does.
 ///

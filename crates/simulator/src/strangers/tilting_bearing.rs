@@ -3,10 +3,12 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::inject::{Efforts, Inject, Moment};
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
 use crate::strangers::truth::StrangerTruth;
-use crate::strangers::{Mistake, Stranger, Surroundings, joint_of, within};
 
 /// Largest coefficient, of a bearing whose neighbours carry little.
 const MAX_COEFFICIENT: f64 = 10.0;

@@ -1,5 +1,4 @@
-use nalgebra::{Rotation3, Vector3};
-use robot::{Actuator, Inertia, Robot};
+use robot::Actuator;
 
 /// Damping of a described transmission as a share of critical damping against the rotor: the
 /// description has no key for it. Cable drives and harmonic gears have 0.5 to 5 %.
@@ -42,46 +41,24 @@ impl Transmission {
         -(self.stiffness.map_or(0.0, |k| load / k) + 0.5 * self.gap.copysign(load))
     }
 
+    /// Torque on the link from an elastic transmission with free play (N m or N):
+    ///
+    /// ```text
+    /// outside the gap: -k (delta -+ gap/2) - d delta_dot, never pulling;  inside: 0
+    /// ```
+    pub(crate) fn contact(&self, deflection: f64, velocity: f64) -> f64 {
+        let half = 0.5 * self.gap;
+        let pressed = deflection - deflection.clamp(-half, half);
+        if pressed.abs() <= 0.0 {
+            return 0.0;
+        }
+        let torque = -self.stiffness.unwrap_or(0.0) * pressed - self.damping * velocity;
+        if pressed > 0.0 { torque.min(0.0) } else { torque.max(0.0) }
+    }
+
     /// Whether motor and link move as one.
     pub fn is_rigid(&self) -> bool {
         self.stiffness.is_none() && self.gap <= 0.0
-    }
-}
-
-/// What the simulated arm is made of, before the engine is built from it.
-///
-/// The robot's actuators count: `viscous`, `coulomb_forward`, `coulomb_backward` and
-/// `rotor_inertia` act at the motor, the spring at the link, gain and offset in the drive:
-/// `effort = torque_gain tau + torque_offset`. What else the actuators say acts as the effect of
-/// the same name would: friction beyond the Coulomb level, presliding and ripple at the motor,
-/// delay and lag on the way of the command, ratio and offset of the encoder in what is reported.
-/// Bristles of presliding whose damping is not said are damped with half of critical damping.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Plant {
-    /// Links, joints, actuators, gravity.
-    pub robot: Robot,
-    /// One a joint.
-    pub transmissions: Vec<Transmission>,
-}
-
-impl Plant {
-    /// The robot as described.
-    pub fn new(robot: Robot) -> Self {
-        let described = robot.links().iter().map(|l| Transmission::described(&l.actuator));
-        Self { transmissions: described.collect(), robot }
-    }
-
-    /// Fixes a body, given in the frame of the link, to a link.
-    pub fn attach(&mut self, link: usize, body: &Inertia) {
-        if let Some(link) = self.robot.link_mut(link) {
-            link.inertia = link.inertia.merged_with(body);
-        }
-    }
-
-    /// Turns gravity by a rotation vector in the frame of the base (rad), as a tilted base does.
-    pub fn tilt(&mut self, rotation_in_base: Vector3<f64>) {
-        let gravity = Rotation3::new(rotation_in_base) * self.robot.gravity_in_base();
-        self.robot = self.robot.clone().with_gravity(gravity);
     }
 }
 

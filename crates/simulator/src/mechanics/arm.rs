@@ -1,8 +1,9 @@
 use nalgebra::Isometry3;
 
-use crate::engine::{Body, Engine, Load, Push};
-use crate::inject::Efforts;
-use crate::plant::{Plant, Transmission};
+use crate::mechanics::engine::{Body, Engine, Load, Push};
+use crate::mechanics::inject::Efforts;
+use crate::mechanics::plant::Plant;
+use crate::mechanics::transmission::Transmission;
 
 /// The moving arm: joints on one side, the engine's degrees of freedom on the other.
 ///
@@ -236,21 +237,4 @@ impl Drive {
 fn motor_effort(efforts: &Efforts, i: usize) -> f64 {
     let shift = 0.5 * (efforts.dry_forward[i] - efforts.dry_backward[i]);
     efforts.motor[i] + efforts.bristles[i] - shift
-}
-
-impl Transmission {
-    /// Torque on the link from an elastic transmission with free play (N m or N):
-    ///
-    /// ```text
-    /// outside the gap: -k (delta -+ gap/2) - d delta_dot, never pulling;  inside: 0
-    /// ```
-    fn contact(&self, deflection: f64, velocity: f64) -> f64 {
-        let half = 0.5 * self.gap;
-        let pressed = deflection - deflection.clamp(-half, half);
-        if pressed.abs() <= 0.0 {
-            return 0.0;
-        }
-        let torque = -self.stiffness.unwrap_or(0.0) * pressed - self.damping * velocity;
-        if pressed > 0.0 { torque.min(0.0) } else { torque.max(0.0) }
-    }
 }

@@ -1,7 +1,7 @@
 use robot::Reading;
 
-use crate::engine::Push;
-use crate::plant::Plant;
+use crate::mechanics::engine::Push;
+use crate::mechanics::plant::Plant;
 
 /// Where the arm is when an effect is asked for its torque.
 #[derive(Debug, Clone, Copy)]

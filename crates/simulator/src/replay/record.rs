@@ -3,8 +3,10 @@ use std::borrow::Cow;
 use logs::{PreparedJoint, PreparedRun};
 use robot::{Actuator, Robot, SensingSide, TorqueSource};
 
-use crate::plant::Transmission;
-use crate::simulator::Simulator;
+use crate::error::SimulatorError;
+use crate::mechanics::transmission::Transmission;
+use crate::sensors::Sensors;
+use crate::simulator::{Simulator, Stepping};
 
 /// Positions (rad or m) and velocities (rad/s or m/s), one a joint.
 pub(crate) struct State {
@@ -57,7 +59,12 @@ const LAGS: f64 = 7.0;
 
 /// Puts a simulation into the state of a sample: positions and velocities as measured and
 /// corrected for what the encoders are known to be off, every transmission twisted by the load of that instant, and what was asked for before on its way.
-pub(crate) fn begin(simulator: &mut Simulator, robot: &Robot, record: &PreparedRun, sample: usize) {
+pub(crate) fn start_at_sample(
+    simulator: &mut Simulator,
+    robot: &Robot,
+    record: &PreparedRun,
+    sample: usize,
+) {
     let (mut motor_q, mut motor_qd, mut twist) = (Vec::new(), Vec::new(), Vec::new());
     for (link, joint) in robot.links().iter().zip(&record.joints) {
         let drive = &link.actuator;
@@ -76,7 +83,7 @@ pub(crate) fn begin(simulator: &mut Simulator, robot: &Robot, record: &PreparedR
     let longest_s = robot.links().iter().map(|l| memory_s(&l.actuator)).fold(0.0, f64::max);
     if longest_s > 0.0 {
         let first = sample.saturating_sub((longest_s * record.rate_hz).ceil() as usize + 1);
-        let past: Vec<Vec<f64>> = (first..sample).map(|k| held(robot, record, k)).collect();
+        let past: Vec<Vec<f64>> = (first..sample).map(|k| held_torque(robot, record, k)).collect();
         simulator.recall(&past);
     }
 }
@@ -127,7 +134,7 @@ fn true_position(drive: &Actuator, q: f64) -> f64 {
 }
 
 /// What the robot's encoders would show.
-pub(crate) fn seen(simulator: &Simulator, robot: &Robot) -> State {
+pub(crate) fn encoder_state(simulator: &Simulator, robot: &Robot) -> State {
     let pick = |link: &[f64], motor: &[f64]| -> Vec<f64> {
         let sides = robot.links().iter().map(|l| l.actuator.sensing);
         let of = |(side, (link, motor)): (SensingSide, (&f64, &f64))| match side {
@@ -147,7 +154,7 @@ pub(crate) fn seen(simulator: &Simulator, robot: &Robot) -> State {
 }
 
 /// Torques from one sample to the next.
-pub(crate) fn held(robot: &Robot, record: &PreparedRun, sample: usize) -> Vec<f64> {
+pub(crate) fn held_torque(robot: &Robot, record: &PreparedRun, sample: usize) -> Vec<f64> {
     let of = |(joint, link): (&PreparedJoint, &robot::Link)| match link.actuator.torque_source {
         TorqueSource::Commanded => joint.effort[sample],
         _ => 0.5 * (joint.effort[sample] + joint.effort[sample + 1]),
@@ -157,7 +164,7 @@ pub(crate) fn held(robot: &Robot, record: &PreparedRun, sample: usize) -> Vec<f6
 
 /// Position and velocity a part of the way from one sample to the next: the cubic that has the
 /// positions and velocities of both.
-pub(crate) fn between(
+pub(crate) fn interpolate(
     joint: &PreparedJoint,
     sample: usize,
     part: f64,
@@ -169,6 +176,47 @@ pub(crate) fn between(
     let q = a + part * (va + part * (second + part * third));
     let qd = (va + part * (2.0 * second + 3.0 * part * third)) / interval_s;
     [q, qd]
+}
+
+/// Longest step of the engine where no other is given (s).
+pub(crate) const STEP_S: f64 = 1e-4;
+
+/// Slowest record that is simulated (Hz): between two of its rows an arm moves as it likes.
+pub(crate) const SLOWEST_HZ: f64 = 1.0;
+
+pub(crate) fn check_rate(record: &PreparedRun) -> Result<(), SimulatorError> {
+    if record.rate_hz >= SLOWEST_HZ {
+        return Ok(());
+    }
+    let (run, rate_hz) = (record.name.clone(), record.rate_hz);
+    Err(SimulatorError::TooSlow { run, rate_hz, slowest_hz: SLOWEST_HZ })
+}
+
+pub(crate) fn too_short(record: &PreparedRun, window_s: f64) -> SimulatorError {
+    let found_s = record.time.len().saturating_sub(1) as f64 / record.rate_hz;
+    SimulatorError::TooShort { run: record.name.clone(), found_s, window_s }
+}
+
+/// A simulator that holds commands for one sample of a record.
+pub(crate) fn simulator_of_record(
+    robot: &Robot,
+    rate_hz: f64,
+    longest_step_s: f64,
+) -> Result<Simulator, SimulatorError> {
+    let steps = (1.0 / (rate_hz * longest_step_s)).ceil().max(1.0);
+    let stepping = Stepping {
+        step_s: 1.0 / (rate_hz * steps),
+        steps_per_period: steps as usize,
+        stops: false,
+    };
+    let mut robot = robot.clone();
+    for i in 0..robot.joint_count() {
+        if let Some(link) = robot.link_mut(i) {
+            let a = &mut link.actuator;
+            [a.delay_s, a.lag_s] = late_s(a);
+        }
+    }
+    Simulator::new(&robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping)
 }
 
 #[cfg(test)]
@@ -207,7 +255,7 @@ mod tests {
                 session_start_s: 0.0,
                 joints,
             };
-            let put_back = in_time(&robot(skew_s), &record);
+            let put_back = with_efforts_in_time(&robot(skew_s), &record);
             let inside = time.iter().zip(&put_back.joints[0].effort).skip(3).take(94);
             for (t, found) in inside {
                 assert!((found - effort(*t)).abs() < 1e-12, "{found} at {t} s, {skew_s} s late");

@@ -5,7 +5,7 @@ use document::{Document, KeyPath};
 use crate::scenario::spec::ScenarioSpec;
 
 /// The scenario as TOML that says everything, extends nothing and can be read from any folder.
-pub(super) fn resolved(document: &Document, spec: &ScenarioSpec) -> String {
+pub(crate) fn resolve(document: &Document, spec: &ScenarioSpec) -> String {
     let mut spec = spec.clone();
     let folder = |path: &KeyPath| document.directory_of(path).to_owned();
     spec.robot = absolute(&folder(&KeyPath::root().key("robot")).join(&spec.robot));

@@ -4,9 +4,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use crate::effects::spec::EffectSpec;
-use crate::effects::{JointLevel, Surroundings};
+use crate::effects::surroundings::{JointLevel, Surroundings};
 use crate::error::SimulatorError;
-use crate::run::{Following, PutIn, Row, follow, mixed, simulator};
+use crate::run::follow::{Causes, Following, Row, follow, simulator};
 use crate::scenario::check::{Scenario, ScenarioRun};
 use crate::scenario::spec::HiddenSpec;
 use crate::sensors::{JointSensor, Sensors};
@@ -25,42 +25,6 @@ const CORRECTIONS: usize = 8;
 
 /// How close to the size asked for is close enough.
 const TOLERANCE: f64 = 0.1;
-
-/// The effects that a scenario hides: kind, joint and size drawn from its seed.
-///
-/// A size is drawn log-uniformly as a share of torque,
-///
-/// ```text
-/// share = rms(tau - tau_without) / sqrt(rms(tau_without)^2 + noise^2)
-/// ```
-///
-/// of the torque that the sensors report, their noise included: where a wrist lifts next to
-/// nothing, a share of its torque alone is one of millinewton metres that no log could show. It
-/// is taken at the effect's joint, or over all joints together for an effect of a link or of the whole
-/// arm. The effect's parameter is then corrected until the simulated share is within a tenth of
-/// it. An effect that cannot have the size at the joint drawn is drawn again.
-///
-/// # Errors
-///
-/// [`SimulatorError::NothingDrawn`] after many draws, or what keeps the arm without hidden
-/// effects from being simulated.
-pub(crate) fn draw_hidden(scenario: &Scenario) -> Result<Vec<EffectSpec>, SimulatorError> {
-    let Some(hidden) = scenario.hidden() else { return Ok(Vec::new()) };
-    let seed = hidden.seed.unwrap_or_else(|| mixed(scenario.seed(), u64::MAX));
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let count = random.random_range(hidden.count[0]..=hidden.count[1]);
-    if count == 0 {
-        return Ok(Vec::new());
-    }
-    let all = EffectKind::ALL.to_vec();
-    let kinds = if hidden.from.is_empty() { &all } else { &hidden.from };
-    let bench = Bench::new(scenario)?;
-    let mut drawn: Vec<EffectSpec> = Vec::with_capacity(count);
-    for _ in 0..count {
-        drawn.push(bench.draw(hidden, kinds, &drawn, &mut random)?);
-    }
-    Ok(drawn)
-}
 
 /// The first run of a scenario, at most 10 s of it, in which sizes are measured: without noise, and
 /// without the effects that are to be drawn.
@@ -141,8 +105,8 @@ impl<'a> Bench<'a> {
         let seen = &scenario.spec().sensors;
         let silent = vec![silent; joints];
         let sensors = Sensors::new(seen.position, seen.effort, seen.velocity, silent, 0);
-        let put_in = PutIn { effects: &effects, strangers: scenario.strangers() };
-        simulator(scenario.robot(), put_in, sensors, scenario.stepping())
+        let causes = Causes { effects: &effects, strangers: scenario.strangers() };
+        simulator(scenario.robot(), causes, sensors, scenario.stepping())
     }
 
     /// The run with the scenario's effects and more.
@@ -171,7 +135,7 @@ impl<'a> Bench<'a> {
         Some((added / torque).sqrt()).filter(|share| share.is_finite())
     }
 
-    fn draw(
+    pub(crate) fn draw(
         &self,
         hidden: &HiddenSpec,
         kinds: &[EffectKind],

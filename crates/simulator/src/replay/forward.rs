@@ -1,0 +1,155 @@
+use std::collections::BTreeMap;
+
+use logs::{Channels, PreparedRun, Run};
+use rayon::prelude::*;
+use robot::{Machine, MachineFault, Robot};
+
+use crate::error::SimulatorError;
+use crate::replay::record::{
+    STEP_S, State, check_rate, encoder_state, held_torque, simulator_of_record, start_at_sample,
+    too_short,
+};
+
+/// How a record is rolled forward: in windows one after the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Windows {
+    /// Time of a window (s), which becomes a whole number of samples.
+    pub window_s: f64,
+    /// Longest step of the engine (s): a sample of the record takes a whole number of steps.
+    pub longest_step_s: f64,
+}
+
+impl Windows {
+    /// Windows of this length (s), with steps of at most 0.1 ms.
+    pub fn of(window_s: f64) -> Self {
+        Self { window_s, longest_step_s: STEP_S }
+    }
+}
+
+/// How far a simulation drifts from a record when it is rolled forward for a while.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForwardReplay {
+    /// Time that was rolled forward from each start (s).
+    pub window_s: f64,
+    /// Number of windows, one after the other without overlap.
+    pub windows: usize,
+    /// Windows in which a joint ran away; they are left out of the drift.
+    pub runaways: Vec<MachineFault>,
+    /// Root mean square over the windows of `q_simulated - q_measured` at their ends, for each
+    /// joint (rad or m); `None` when a joint ran away in every window.
+    pub drift_rms: Option<Vec<f64>>,
+    /// The simulated motion: positions and velocities of every sample of every window, with the
+    /// measured positions as `<joint>.measured_position`.
+    pub motion: Run,
+}
+
+/// Rolls a robot's simulation forward under the torques of a record, from its states.
+///
+/// ```text
+/// (q, qd)(t_start) = measured,   tau(t) = measured,   drift = q_simulated - q_measured
+/// ```
+///
+/// A torque that was commanded is held from its sample to the next, one that was measured is the
+/// mean of both; where the robot says that efforts are logged late they are put back to their
+/// time. Windows are simulated side by side. Transmissions start under the load that the drive's
+/// description and the torque of the first sample say; what is compared is what the robot's
+/// encoders would show. A spring that rings at the start of a window rings on from the
+/// state of rest under that load, which one encoder cannot tell.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when the robot cannot be simulated, [`SimulatorError::TooSlow`] below one row a
+/// second, or [`SimulatorError::TooShort`] when no window fits into the record.
+pub fn replay_torque(
+    robot: &Robot,
+    record: &PreparedRun,
+    windows: Windows,
+) -> Result<ForwardReplay, SimulatorError> {
+    let Windows { window_s, longest_step_s } = windows;
+    check_rate(record)?;
+    let record = &*with_efforts_in_time(robot, record);
+    let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
+    let count = record.time.len().saturating_sub(1) / samples;
+    if count == 0 {
+        return Err(too_short(record, window_s));
+    }
+    let starts: Vec<usize> = (0..count).map(|w| w * samples).collect();
+    let windows: Result<Vec<Window>, SimulatorError> = starts
+        .par_iter()
+        .map(|&start| roll_window(robot, record, start, samples, longest_step_s))
+        .collect();
+    let windows = windows?;
+    let (mut squares, mut kept) = (vec![0.0; robot.joint_count()], 0_usize);
+    for (window, start) in windows.iter().zip(&starts) {
+        let (Some(State { q, .. }), None) = (window.states.last(), &window.fault) else { continue };
+        kept += 1;
+        for (i, square) in squares.iter_mut().enumerate() {
+            *square += (q[i] - record.joints[i].q[start + samples]).powi(2);
+        }
+    }
+    Ok(ForwardReplay {
+        window_s: samples as f64 / record.rate_hz,
+        windows: count,
+        drift_rms: (kept > 0).then(|| squares.iter().map(|s| (s / kept as f64).sqrt()).collect()),
+        motion: motion_of(robot, record, &starts, &windows),
+        runaways: windows.into_iter().filter_map(|w| w.fault).collect(),
+    })
+}
+
+/// What one window came to: positions and velocities at every sample after its start.
+struct Window {
+    states: Vec<State>,
+    fault: Option<MachineFault>,
+}
+
+fn roll_window(
+    robot: &Robot,
+    record: &PreparedRun,
+    start: usize,
+    samples: usize,
+    longest_step_s: f64,
+) -> Result<Window, SimulatorError> {
+    let robot = &*with_friction_of_sample(robot, record, start);
+    let mut simulator = simulator_of_record(robot, record.rate_hz, longest_step_s)?;
+    start_at_sample(&mut simulator, robot, record, start);
+    let mut window = Window { states: Vec::with_capacity(samples), fault: None };
+    for sample in start..start + samples {
+        let tau = held_torque(robot, record, sample);
+        if let Err(fault) = simulator.actuate(&tau) {
+            window.fault = Some(fault);
+            break;
+        }
+        window.states.push(encoder_state(&simulator, robot));
+    }
+    Ok(window)
+}
+
+fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[Window]) -> Run {
+    let sample = |start: usize, i: usize| start + 1 + i;
+    let places: Vec<(usize, &State)> = windows
+        .iter()
+        .zip(starts)
+        .flat_map(|(w, &s)| w.states.iter().enumerate().map(move |(i, x)| (sample(s, i), x)))
+        .collect();
+    let joint = |(j, name): (usize, &str)| Channels {
+        name: name.to_owned(),
+        position: places.iter().map(|(_, at)| at.q[j]).collect(),
+        velocity: Some(places.iter().map(|(_, at)| at.qd[j]).collect()),
+        effort: places.iter().map(|(k, _)| record.joints[j].effort[*k]).collect(),
+        ..Channels::default()
+    };
+    let measured = |(j, name): (usize, &str)| {
+        let column = places.iter().map(|(k, _)| record.joints[j].q[*k]).collect();
+        (format!("{name}.measured_position"), column)
+    };
+    Run {
+        name: record.name.clone(),
+        source: Default::default(),
+        sha256: String::new(),
+        is_torn: false,
+        mended: Vec::new(),
+        time: places.iter().map(|(k, _)| record.time[*k]).collect(),
+        joints: robot.joint_names().enumerate().map(joint).collect(),
+        extra: robot.joint_names().enumerate().map(measured).collect::<BTreeMap<_, _>>(),
+    }
+}
