@@ -1,6 +1,5 @@
 use crate::family::Family;
 use crate::kind::EffectKind;
-use crate::{drive, environment, friction, inertia, sensing, transmission};
 
 /// One parameter of an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,12 +23,8 @@ pub struct Parameter {
 pub struct Entry {
     /// The effect.
     pub kind: EffectKind,
-    /// The code, as [`EffectKind::code`].
-    pub code: &'static str,
     /// The family.
     pub family: Family,
-    /// The name used in files and on the command line.
-    pub name: &'static str,
     /// The name in words, for sentences.
     pub words: &'static str,
     /// What it is, in a few words.
@@ -48,41 +43,6 @@ pub struct Entry {
     pub told_apart_by: &'static str,
     /// Where the model comes from.
     pub source: &'static str,
-}
-
-impl EffectKind {
-    /// What is known about this effect.
-    pub const fn entry(self) -> &'static Entry {
-        match self {
-            Self::ViscousFriction => &friction::VISCOUS,
-            Self::CoulombFriction => &friction::COULOMB,
-            Self::AsymmetricFriction => &friction::ASYMMETRIC,
-            Self::StribeckFriction => &friction::STRIBECK,
-            Self::PreslidingFriction => &friction::PRESLIDING,
-            Self::LoadDependentFriction => &friction::LOAD_DEPENDENT,
-            Self::PositionDependentFriction => &friction::POSITION_DEPENDENT,
-            Self::FrictionTemperatureDrift => &friction::TEMPERATURE_DRIFT,
-            Self::Backlash => &transmission::BACKLASH,
-            Self::JointElasticity => &transmission::JOINT_ELASTICITY,
-            Self::RotorInertia => &inertia::ROTOR_INERTIA,
-            Self::DifferentialCoupling => &transmission::DIFFERENTIAL_COUPLING,
-            Self::Payload => &inertia::PAYLOAD,
-            Self::InertialParameters => &inertia::INERTIAL_PARAMETERS,
-            Self::GravityDirection => &environment::GRAVITY_DIRECTION,
-            Self::CableSpring => &environment::CABLE_SPRING,
-            Self::TorqueRipple => &drive::TORQUE_RIPPLE,
-            Self::TorqueConstant => &drive::TORQUE_CONSTANT,
-            Self::TorqueOffset => &drive::TORQUE_OFFSET,
-            Self::ActuatorLag => &drive::ACTUATOR_LAG,
-            Self::ActuatorDelay => &drive::ACTUATOR_DELAY,
-            Self::TorqueSaturation => &drive::TORQUE_SATURATION,
-            Self::EncoderOffset => &sensing::ENCODER_OFFSET,
-            Self::TransmissionRatio => &transmission::TRANSMISSION_RATIO,
-            Self::TimeSkew => &sensing::TIME_SKEW,
-            Self::ExternalDisturbance => &environment::EXTERNAL_DISTURBANCE,
-            Self::Counterbalance => &environment::COUNTERBALANCE,
-        }
-    }
 }
 
 /// Units of a torque and of a position, at a revolute and at a prismatic joint.

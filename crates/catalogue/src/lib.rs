@@ -13,6 +13,8 @@
 //! elsewhere under the same name.
 
 mod drive;
+mod effect_list;
+mod entries;
 mod entry;
 mod environment;
 mod family;

@@ -9,9 +9,7 @@ use crate::kind::EffectKind::{
 
 pub(crate) const ENCODER_OFFSET: Entry = Entry {
     kind: EncoderOffset,
-    code: "SE01",
     family: Family::Sensing,
-    name: "encoder_offset",
     words: "encoder offset",
     summary: "reported position off by a constant",
     equation: "tau(q - offset) - tau(q)",
@@ -31,9 +29,7 @@ pub(crate) const ENCODER_OFFSET: Entry = Entry {
 
 pub(crate) const TIME_SKEW: Entry = Entry {
     kind: TimeSkew,
-    code: "SE02",
     family: Family::Sensing,
-    name: "time_skew",
     words: "time skew",
     summary: "effort and position not of one instant",
     equation: "tau(t - skew) - tau(t)",

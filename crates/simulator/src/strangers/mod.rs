@@ -5,6 +5,7 @@ pub(crate) mod drive_dead_zone;
 pub(crate) mod eccentric_encoder;
 pub(crate) mod integrator_windup;
 pub(crate) mod kind;
+pub(crate) mod list;
 pub(crate) mod magnet_well;
 pub(crate) mod snag;
 pub(crate) mod soft_mount;
