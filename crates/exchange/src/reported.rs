@@ -9,7 +9,7 @@ use robot::{Joint, Robot};
 /// ```
 ///
 /// The offsets are then 0; limits and the rest of a spring are moved by them.
-pub fn as_reported(robot: &Robot) -> Robot {
+pub fn at_reported_positions(robot: &Robot) -> Robot {
     let mut robot = robot.clone();
     for index in 0..robot.joint_count() {
         let Some(link) = robot.link_mut(index) else { continue };

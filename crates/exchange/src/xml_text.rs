@@ -2,7 +2,7 @@ use quick_xml::escape::escape;
 
 /// XML that is being written, an element a line.
 #[derive(Debug, Default)]
-pub struct Sheet {
+pub struct XmlText {
     text: String,
     open: Vec<&'static str>,
 }
@@ -10,7 +10,7 @@ pub struct Sheet {
 /// Attributes by name.
 pub type Attributes<'a> = &'a [(&'static str, String)];
 
-impl Sheet {
+impl XmlText {
     /// An empty sheet.
     pub fn new() -> Self {
         Self { text: "<?xml version=\"1.0\"?>\n".to_owned(), open: vec![] }
@@ -24,17 +24,17 @@ impl Sheet {
 
     /// An element without children.
     pub fn leaf(&mut self, name: &'static str, attributes: Attributes<'_>) {
-        self.line(&format!("<{name}{}/>", listed(attributes)));
+        self.line(&format!("<{name}{}/>", attribute_text(attributes)));
     }
 
     /// An element that holds a text.
     pub fn text(&mut self, name: &'static str, attributes: Attributes<'_>, text: &str) {
-        self.line(&format!("<{name}{}>{}</{name}>", listed(attributes), escape(text)));
+        self.line(&format!("<{name}{}>{}</{name}>", attribute_text(attributes), escape(text)));
     }
 
     /// Opens an element.
     pub fn open(&mut self, name: &'static str, attributes: Attributes<'_>) {
-        self.line(&format!("<{name}{}>", listed(attributes)));
+        self.line(&format!("<{name}{}>", attribute_text(attributes)));
         self.open.push(name);
     }
 
@@ -60,6 +60,6 @@ impl Sheet {
     }
 }
 
-fn listed(attributes: Attributes<'_>) -> String {
+fn attribute_text(attributes: Attributes<'_>) -> String {
     attributes.iter().map(|(key, value)| format!(" {key}=\"{}\"", escape(value.as_str()))).collect()
 }

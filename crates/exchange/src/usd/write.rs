@@ -4,11 +4,11 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Ve
 use robot::{Inertia, Loaded, Robot};
 
 use crate::numbers::number;
-use crate::usd_text::{PrimNames, UsdText, rotation, vector};
-use crate::usda_joint::{Ends, joint};
+use crate::usd::joint::{Ends, joint};
+use crate::usd::text::{PrimNames, UsdText, rotation, vector};
 
 /// The robot as a USD layer, its base fixed to the world, all joints at zero.
-pub fn written(loaded: &Loaded, robot: &Robot) -> String {
+pub fn write(loaded: &Loaded, robot: &Robot) -> String {
     let mut names = PrimNames::default();
     let root = names.of(robot.name());
     let mut prims = PrimNames::default();
@@ -18,7 +18,7 @@ pub fn written(loaded: &Loaded, robot: &Robot) -> String {
     text.open("Xform", &root, &["PhysicsArticulationRootAPI".to_owned()]);
     let base = prims.of(&loaded.base_link);
     text.open("Xform", &base, &["PhysicsRigidBodyAPI".to_owned()]);
-    text.told(&loaded.base_link);
+    text.original_name(&loaded.base_link);
     text.close();
     text.open("PhysicsFixedJoint", &prims.of("base_to_world"), &[]);
     text.set("rel physics:body1", &format!("<{}>", path(base.clone())));
@@ -31,7 +31,7 @@ pub fn written(loaded: &Loaded, robot: &Robot) -> String {
         };
         let pose = parent_pose * link.joint.parent_from_joint;
         let own = prims.of(&link.name);
-        body(&mut text, (&own, &link.name), &pose, &link.inertia);
+        body(&mut text, &own, &link.name, &pose, &link.inertia);
         let ends = Ends { parent: path(parent), child: path(own.clone()) };
         joint(&mut text, &prims.of(&link.joint.name), &ends, link);
         placed.push((pose, own));
@@ -49,10 +49,10 @@ fn scene(text: &mut UsdText, name: &str, gravity_in_base: Vector3<f64>) {
     text.close();
 }
 
-fn body(text: &mut UsdText, (prim, name): (&str, &str), pose: &Isometry3<f64>, inertia: &Inertia) {
+fn body(text: &mut UsdText, prim: &str, name: &str, pose: &Isometry3<f64>, inertia: &Inertia) {
     let schemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"].map(str::to_owned);
     text.open("Xform", prim, &schemas);
-    text.told(name);
+    text.original_name(name);
     text.set("float physics:mass", &number(inertia.mass));
     text.set("point3f physics:centerOfMass", &vector(&inertia.com_in_link));
     let (moments, axes) = principal(&inertia.about_com);

@@ -1,9 +1,10 @@
 use robot::{Actuator, Inertia, Link, Loaded, Robot};
 
-use crate::export::{Format, fate_of};
 use crate::fate::Fate;
+use crate::fates::fate_of;
+use crate::format::Format;
 use crate::quantity::{Quantity, levels, quantities};
-use crate::{mjcf, mjcf_joint, usda};
+use crate::{mjcf, usd};
 
 /// The robot that a file of `format` describes, of `reported`, whose positions are those that its encoders report.
 ///
@@ -11,7 +12,7 @@ use crate::{mjcf, mjcf_joint, usda};
 /// constant torque as a soft spring and raised moments, in a USD layer no friction beyond the Coulomb level
 /// in motion. A URDF leaves gravity as its readers have it, and an SDF stands in a world whose gravity is as
 /// strong as the robot's.
-pub(crate) fn held(loaded: &Loaded, reported: &Robot, format: Format) -> Robot {
+pub(crate) fn robot_in_file(loaded: &Loaded, reported: &Robot, format: Format) -> Robot {
     let mut held = reported.clone();
     if format == Format::Urdf {
         held = held.with_gravity(loaded.robot_in_urdf.gravity_in_base());
@@ -34,8 +35,12 @@ pub(crate) fn held(loaded: &Loaded, reported: &Robot, format: Format) -> Robot {
 /// A body as it is written.
 fn inertia(inertia: &Inertia, format: Format) -> Inertia {
     match format {
-        Format::Mjcf if !inertia.defects().is_empty() => mjcf::balanced(inertia),
-        Format::Isaac if !inertia.defects().is_empty() => usda::without_negative_moments(inertia),
+        Format::Mjcf if !inertia.defects().is_empty() => {
+            mjcf::write::with_possible_moments(inertia)
+        }
+        Format::Isaac if !inertia.defects().is_empty() => {
+            usd::write::without_negative_moments(inertia)
+        }
         _ => inertia.clone(),
     }
 }
@@ -45,7 +50,7 @@ fn write(quantity: Quantity, link: &Link, format: Format, drive: &mut Actuator) 
     match (quantity, format) {
         // The constant torque is in the rest of the spring.
         (Quantity::Asymmetry, Format::Mjcf) => {
-            if let Some([stiffness, cubic, rest]) = mjcf_joint::springs(link) {
+            if let Some([stiffness, cubic, rest]) = mjcf::joint::springs(link) {
                 drive.spring_stiffness = stiffness;
                 drive.spring_cubic = cubic;
                 drive.spring_rest = rest;

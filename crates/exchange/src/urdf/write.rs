@@ -5,11 +5,11 @@ use robot::{JointKind, Link, Loaded, Robot};
 
 use crate::numbers::{moments, number, numbers};
 use crate::quantity::levels;
-use crate::sheet::Sheet;
+use crate::xml_text::XmlText;
 
 /// The robot as a new URDF.
-pub fn written(loaded: &Loaded, robot: &Robot) -> String {
-    let mut sheet = Sheet::new();
+pub fn write(loaded: &Loaded, robot: &Robot) -> String {
+    let mut sheet = XmlText::new();
     sheet.open("robot", &[("name", robot.name().to_owned())]);
     sheet.leaf("link", &[("name", loaded.base_link.clone())]);
     for link in robot.links() {
@@ -20,13 +20,13 @@ pub fn written(loaded: &Loaded, robot: &Robot) -> String {
     sheet.finish()
 }
 
-fn origin(sheet: &mut Sheet, frame: &Isometry3<f64>) {
+fn origin(sheet: &mut XmlText, frame: &Isometry3<f64>) {
     let (roll, pitch, yaw) = frame.rotation.euler_angles();
     let xyz = numbers(frame.translation.vector.iter());
     sheet.leaf("origin", &[("xyz", xyz), ("rpy", numbers(&[roll, pitch, yaw]))]);
 }
 
-fn body(sheet: &mut Sheet, link: &Link) {
+fn body(sheet: &mut XmlText, link: &Link) {
     let (inertia, i) = (&link.inertia, &link.inertia.about_com);
     sheet.open("link", &[("name", link.name.clone())]);
     sheet.open("inertial", &[]);
@@ -37,7 +37,7 @@ fn body(sheet: &mut Sheet, link: &Link) {
     sheet.close();
 }
 
-fn joint(sheet: &mut Sheet, link: &Link, parent: &str) {
+fn joint(sheet: &mut XmlText, link: &Link, parent: &str) {
     let (joint, limits) = (&link.joint, &link.joint.limits);
     let kind = match joint.kind {
         JointKind::Revolute if limits.position.is_none() => "continuous",

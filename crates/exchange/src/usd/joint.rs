@@ -3,11 +3,11 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use robot::{JointKind, Link};
 
-use crate::export::unknown_friction;
 use crate::fate::Fate;
 use crate::numbers::number;
 use crate::quantity::{Quantity, levels};
-use crate::usd_text::{UsdText, rotation, vector};
+use crate::unsupported::fate_of_unsupported;
+use crate::usd::text::{UsdText, rotation, vector};
 
 /// The paths of the bodies that a joint connects.
 pub struct Ends {
@@ -33,7 +33,7 @@ pub fn joint(text: &mut UsdText, prim: &str, ends: &Ends, link: &Link) {
         ["PhysicsDriveAPI", "PhysxJointAxisAPI"].map(|api| format!("{api}:{axis}")).into();
     schemas.push("NewtonJointAPI".to_owned());
     text.open(&format!("Physics{kind}Joint"), prim, &schemas);
-    text.told(&joint.name);
+    text.original_name(&joint.name);
     text.set("uniform token physics:axis", "\"X\"");
     text.set("rel physics:body0", &format!("<{}>", ends.parent));
     text.set("rel physics:body1", &format!("<{}>", ends.child));
@@ -112,6 +112,6 @@ pub fn fate(quantity: Quantity, link: &Link) -> Fate {
             "the drive holds it: a controller that sets the drive's gains takes its place",
         ),
         Quantity::EncoderOffset => Fate::exact("localPos0, localRot0 of the joint"),
-        other => unknown_friction(other),
+        other => fate_of_unsupported(other),
     }
 }

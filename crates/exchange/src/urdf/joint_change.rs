@@ -5,7 +5,7 @@ use robot::Link;
 use crate::numbers::{number, numbers};
 use crate::quantity::levels;
 use crate::reported::motion;
-use crate::urdf::{pose, text};
+use crate::urdf::tag::{pose, text};
 
 /// What differs at a joint of a URDF.
 pub struct JointChange {
@@ -45,7 +45,7 @@ impl JointChange {
     }
 
     /// The tag that is written in the place of one inside of the joint, if it differs.
-    pub fn edited(&mut self, name: &str, tag: &BytesStart<'_>) -> Option<BytesStart<'static>> {
+    pub fn replacement(&mut self, name: &str, tag: &BytesStart<'_>) -> Option<BytesStart<'static>> {
         match name {
             "dynamics" if !self.has_dynamics => {
                 self.has_dynamics = true;

@@ -4,7 +4,7 @@ use robot::{Link, Robot};
 
 use crate::numbers::{number, numbers};
 use crate::quantity::levels;
-use crate::sheet::Sheet;
+use crate::xml_text::XmlText;
 
 /// Stiffness of the spring that stands for a constant torque, over that torque (1/rad).
 const SOFT: f64 = 1e-4;
@@ -40,7 +40,7 @@ pub fn gives(link: &Link) -> bool {
 }
 
 /// The joint of a body, and a second one where its transmission gives way.
-pub fn joints(sheet: &mut Sheet, link: &Link) {
+pub fn joints(sheet: &mut XmlText, link: &Link) {
     let (joint, a) = (&link.joint, &link.actuator);
     let kind = if joint.kind.is_rotation() { "hinge" } else { "slide" };
     let common = [("type", kind.to_owned()), ("axis", numbers(joint.axis_in_joint.iter()))];
@@ -83,7 +83,7 @@ pub fn joints(sheet: &mut Sheet, link: &Link) {
 }
 
 /// The two tendons of motors that drive a joint and another one together.
-pub fn tendons(sheet: &mut Sheet, robot: &Robot, link: &Link) {
+pub fn tendons(sheet: &mut XmlText, robot: &Robot, link: &Link) {
     let Some(coupling) = link.actuator.coupling else { return };
     let Some(other) = robot.joint_names().nth(coupling.other) else { return };
     let name = &link.joint.name;
@@ -107,7 +107,7 @@ pub fn tendons(sheet: &mut Sheet, robot: &Robot, link: &Link) {
 /// ```text
 /// effort = gain tau + offset,   tau = effort / gain - offset / gain
 /// ```
-pub fn actuator(sheet: &mut Sheet, link: &Link) {
+pub fn actuator(sheet: &mut XmlText, link: &Link) {
     let a = &link.actuator;
     let name = || ("name", link.joint.name.clone());
     let joint = || ("joint", link.joint.name.clone());

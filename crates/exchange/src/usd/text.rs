@@ -45,7 +45,7 @@ impl UsdText {
     }
 
     /// The name that a prim had elsewhere.
-    pub fn told(&mut self, name: &str) {
+    pub fn original_name(&mut self, name: &str) {
         let plain: String = name.chars().filter(|c| !c.is_control()).collect();
         let quoted = plain.replace('\\', "\\\\").replace('"', "\\\"");
         self.set("custom string plumbline:name", &format!("\"{quoted}\""));

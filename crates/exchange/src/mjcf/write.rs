@@ -3,12 +3,12 @@
 use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Vector3};
 use robot::{Inertia, Link, Loaded, Robot, Shape, Visual};
 
-use crate::export::unknown_friction;
 use crate::fate::Fate;
-use crate::mjcf_joint::{actuator, gives, joints, springs, tendons};
+use crate::mjcf::joint::{actuator, gives, joints, springs, tendons};
 use crate::numbers::{number, numbers};
 use crate::quantity::Quantity;
-use crate::sheet::Sheet;
+use crate::unsupported::fate_of_unsupported;
+use crate::xml_text::XmlText;
 
 /// Mass (kg) and moment (kg m²) of a body that has none: MuJoCo refuses a moving body without.
 const LEAST: f64 = 1e-9;
@@ -23,8 +23,8 @@ const FRICTION_REFERENCE: &str = "0.004 1";
 const FRICTION_IMPEDANCE: &str = "0.999 0.999 0.001";
 
 /// The robot as an MJCF.
-pub fn written(loaded: &Loaded, robot: &Robot) -> String {
-    let mut sheet = Sheet::new();
+pub fn write(loaded: &Loaded, robot: &Robot) -> String {
+    let mut sheet = XmlText::new();
     sheet.open("mujoco", &[("model", robot.name().to_owned())]);
     let mut compiler = vec![
         ("angle", "radian".to_owned()),
@@ -51,7 +51,7 @@ pub fn written(loaded: &Loaded, robot: &Robot) -> String {
     sheet.finish()
 }
 
-fn defaults(sheet: &mut Sheet) {
+fn defaults(sheet: &mut XmlText) {
     let friction = [
         ("solreffriction", FRICTION_REFERENCE.to_owned()),
         ("solimpfriction", FRICTION_IMPEDANCE.to_owned()),
@@ -65,7 +65,7 @@ fn defaults(sheet: &mut Sheet) {
 }
 
 /// The bodies, each inside of its parent.
-fn bodies(sheet: &mut Sheet, loaded: &Loaded, robot: &Robot) {
+fn bodies(sheet: &mut XmlText, loaded: &Loaded, robot: &Robot) {
     enum Step {
         Open(usize),
         Close,
@@ -93,7 +93,7 @@ fn bodies(sheet: &mut Sheet, loaded: &Loaded, robot: &Robot) {
     }
 }
 
-fn inertial(sheet: &mut Sheet, link: &Link) {
+fn inertial(sheet: &mut XmlText, link: &Link) {
     let (inertia, i) = (&link.inertia, positive(&link.inertia.about_com));
     let moments = [i.m11, i.m22, i.m33, i.m12, i.m13, i.m23];
     sheet.leaf(
@@ -108,7 +108,7 @@ fn inertial(sheet: &mut Sheet, link: &Link) {
 
 /// An impossible body as MuJoCo takes it: no mass and no moment below the least, and three equal moments, their mean, where one is
 /// larger than the two others together (`balanceinertia`).
-pub fn balanced(inertia: &Inertia) -> Inertia {
+pub fn with_possible_moments(inertia: &Inertia) -> Inertia {
     let mut about_com = positive(&inertia.about_com);
     let moments = about_com.symmetric_eigenvalues();
     if 2.0 * moments.max() > moments.sum() {
@@ -142,7 +142,7 @@ pub fn pose(frame: &Isometry3<f64>) -> Vec<(&'static str, String)> {
 }
 
 /// A shape to look at; surfaces of files are left out.
-fn geom(sheet: &mut Sheet, visual: &Visual) {
+fn geom(sheet: &mut XmlText, visual: &Visual) {
     let (kind, size) = match &visual.shape {
         Shape::Box { size_m } => ("box", numbers((0.5 * size_m).iter())),
         Shape::Sphere { radius_m } => ("sphere", number(*radius_m)),
@@ -189,6 +189,6 @@ pub fn fate(quantity: Quantity, link: &Link) -> Fate {
         Q::Backlash | Q::Elasticity => Fate::dropped(
             "a second joint needs a rotor inertia between the two: give rotor_inertia_kg_m2",
         ),
-        other => unknown_friction(other),
+        other => fate_of_unsupported(other),
     }
 }

@@ -6,7 +6,7 @@ use robot::Inertia;
 /// ```text
 /// pi_written = pi_of_the_link + (pi_new - pi_old)     ten parameters about the link's origin
 /// ```
-pub fn changed(own: &Inertia, old: &Inertia, new: &Inertia) -> Inertia {
+pub fn with_change(own: &Inertia, old: &Inertia, new: &Inertia) -> Inertia {
     let (own, old, new) = (own.parameters(), old.parameters(), new.parameters());
     let written: [f64; 10] = std::array::from_fn(|i| own[i] + (new[i] - old[i]));
     Inertia::from_parameters(&written)

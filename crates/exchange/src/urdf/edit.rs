@@ -2,21 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use nalgebra::Isometry3;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, Writer};
 use robot::{Inertia, Link, Loaded, Robot};
 
 use crate::error::ExchangeError;
-use crate::export::unknown_friction;
 use crate::fate::Fate;
-use crate::inertial::{changed, from_urdf};
 use crate::numbers::{moments, number, numbers};
 use crate::quantity::Quantity;
-use crate::urdf_joint::JointChange;
+use crate::unsupported::fate_of_unsupported;
+use crate::urdf::inertial::{from_urdf, with_change};
+use crate::urdf::joint_change::JointChange;
+use crate::urdf::tag::{pose, text, value};
 
 /// The text with every change of `robot` written into it.
-pub fn edited(loaded: &Loaded, robot: &Robot, source: &str) -> Result<String, ExchangeError> {
+pub fn edit(loaded: &Loaded, robot: &Robot, source: &str) -> Result<String, ExchangeError> {
     let mut edit = Edit::new(loaded, robot);
     let mut reader = Reader::from_str(source);
     loop {
@@ -40,7 +41,7 @@ pub fn fate(quantity: Quantity) -> Fate {
         Quantity::Viscous => Fate::exact("<dynamics damping>"),
         Quantity::Coulomb => Fate::exact("<dynamics friction>"),
         Quantity::EncoderOffset => Fate::exact("<origin> of the joint, <limit>"),
-        other => unknown_friction(other),
+        other => fate_of_unsupported(other),
     }
 }
 
@@ -72,7 +73,7 @@ impl Own {
         Self { mass: 0.0, pose: Isometry3::identity(), moments: [0.0; 6] }
     }
 
-    fn learn(&mut self, tag: &BytesStart<'_>) {
+    fn read(&mut self, tag: &BytesStart<'_>) {
         match tag.name().as_ref() {
             b"mass" => self.mass = value(tag, "value"),
             b"origin" => self.pose = pose(tag),
@@ -139,7 +140,7 @@ impl<'a> Edit<'a> {
     fn take(&mut self, event: Event<'_>) -> Result<(), String> {
         match event {
             Event::Start(tag) => {
-                self.learn(&tag);
+                self.read(&tag);
                 let kept = self.skipped_from.is_none() && self.open(&tag, Form::Holds)?;
                 if !kept && self.skipped_from.is_none() {
                     self.skipped_from = Some(self.depth);
@@ -148,7 +149,7 @@ impl<'a> Edit<'a> {
                 Ok(())
             }
             Event::Empty(tag) => {
-                self.learn(&tag);
+                self.read(&tag);
                 if self.skipped_from.is_none() {
                     self.open(&tag, Form::Empty)?;
                 }
@@ -171,9 +172,9 @@ impl<'a> Edit<'a> {
     }
 
     /// Takes what a tag inside of an inertia says.
-    fn learn(&mut self, tag: &BytesStart<'_>) {
+    fn read(&mut self, tag: &BytesStart<'_>) {
         if let (Current::Inertial(_, own), 3) = (&mut self.current, self.depth) {
-            own.learn(tag);
+            own.read(tag);
         }
     }
 
@@ -181,7 +182,7 @@ impl<'a> Edit<'a> {
     fn open(&mut self, tag: &BytesStart<'_>, form: Form) -> Result<bool, String> {
         let name = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
         if self.depth == 1 {
-            self.current = self.entered(&name, tag);
+            self.current = self.element(&name, tag);
             if let (Current::Link(link), Form::Empty) = (&self.current, form) {
                 let link = link.clone();
                 self.write(Event::Start(tag.to_owned()))?;
@@ -205,7 +206,7 @@ impl<'a> Edit<'a> {
                 }
                 Current::Joint(joint) => {
                     let change = self.joints.get_mut(joint);
-                    if let Some(tag) = change.and_then(|change| change.edited(&name, tag)) {
+                    if let Some(tag) = change.and_then(|change| change.replacement(&name, tag)) {
                         self.write(form.event(tag))?;
                         return Ok(true);
                     }
@@ -218,7 +219,7 @@ impl<'a> Edit<'a> {
         Ok(true)
     }
 
-    fn entered(&mut self, name: &str, tag: &BytesStart<'_>) -> Current {
+    fn element(&mut self, name: &str, tag: &BytesStart<'_>) -> Current {
         let called = text(tag, "name").unwrap_or_default();
         match name {
             "joint" => match self.joints.get_mut(&called) {
@@ -264,7 +265,7 @@ impl<'a> Edit<'a> {
         let Some(change) = self.links.get_mut(link) else { return Ok(()) };
         change.written = true;
         let own = from_urdf(own.mass, &own.pose, own.moments);
-        let new = changed(&own, change.old, change.new);
+        let new = with_change(&own, change.old, change.new);
         let i = &new.about_com;
         let origin = BytesStart::new("origin")
             .with_attributes([("xyz", numbers(new.com_in_link.iter()).as_str()), ("rpy", "0 0 0")]);
@@ -289,28 +290,4 @@ impl<'a> Edit<'a> {
     fn write(&mut self, event: Event<'_>) -> Result<(), String> {
         self.writer.write_event(event).map_err(|e| e.to_string())
     }
-}
-
-/// An attribute, without entities.
-pub fn text(tag: &BytesStart<'_>, key: &str) -> Option<String> {
-    let found = tag.try_get_attribute(key).ok().flatten()?;
-    Some(found.unescape_value().ok()?.into_owned())
-}
-
-/// A number of an attribute; 0 where there is none.
-fn value(tag: &BytesStart<'_>, key: &str) -> f64 {
-    text(tag, key).and_then(|text| text.trim().parse().ok()).unwrap_or(0.0)
-}
-
-/// `xyz` and `rpy` of a tag.
-pub fn pose(tag: &BytesStart<'_>) -> Isometry3<f64> {
-    let three = |key| {
-        let text = text(tag, key).unwrap_or_default();
-        let mut numbers = text.split_whitespace().filter_map(|t| t.parse().ok());
-        let mut next = || numbers.next().unwrap_or(0.0);
-        [next(), next(), next()]
-    };
-    let ([x, y, z], [roll, pitch, yaw]) = (three("xyz"), three("rpy"));
-    let rotation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-    Isometry3::from_parts(Translation3::new(x, y, z), rotation)
 }
