@@ -3,15 +3,15 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use simulator::scenario::{ControlSpec, RunSpec, SensorSpec};
 
-use crate::arm::Arm;
+use crate::arms::arm::Arm;
+use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass, MotionClass};
 use crate::dice::{between, happens, spread, weighted};
 use crate::error::PopulationError;
-use crate::ground::Ground;
-use crate::make::Make;
-use crate::motions::Place;
+use crate::motions::ground::Ground;
+use crate::motions::log_plan::LogPlan;
 use crate::robot_files::RobotFiles;
-use crate::{motions, sensors};
+use crate::sensors;
 
 /// Arms that are drawn before a bench is given up.
 const TRIES: usize = 40;
@@ -124,13 +124,13 @@ fn moved(
             true => other(wishes, motion, random),
             false => motion,
         };
-        let place = Place { log, logs, length_s: length(typical_s, wishes, random) };
-        let Some(spec) = motions::draw(class, &ground, place, random)? else { return Ok(None) };
+        let place = LogPlan { log, logs, length_s: length(typical_s, wishes, random) };
+        let Some(spec) = motions::draw::draw(class, &ground, place, random)? else { return Ok(None) };
         runs.push(run(name(log), spec));
     }
     // What all joints do in one log says most of a model.
-    let place = Place { log: 0, logs: 1, length_s: length(typical_s, wishes, random) };
-    let held_out = motions::draw(motion, &ground, place, random)?;
+    let place = LogPlan { log: 0, logs: 1, length_s: length(typical_s, wishes, random) };
+    let held_out = motions::draw::draw(motion, &ground, place, random)?;
     Ok(held_out.map(|spec| Moved { runs, held_out: run("held_out".to_owned(), spec), repeats }))
 }
 

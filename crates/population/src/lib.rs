@@ -9,24 +9,14 @@
 //! All of it is on the truth side: nothing here uses the project's dynamics, its effects' columns or its
 //! diagnosis.
 
-mod arm;
-mod arm_generated;
-mod arm_wam;
+mod arms;
 mod bench;
-mod bodies;
-mod by_joint;
-mod chain;
 mod corner;
 mod dice;
-mod drives;
-mod electronics;
 mod error;
-mod ground;
-mod make;
 mod motions;
 mod moving;
 mod oracle;
-mod postures;
 mod recorded;
 mod rigid;
 mod robot_files;
@@ -34,22 +24,21 @@ mod sensors;
 mod sheet;
 mod spec;
 mod store;
+mod text_file;
 mod trial;
-mod urdf_text;
 
-pub use bench::{Bench, BenchWishes, draw_bench};
-pub use corner::{ArmClass, Corner, EffortClass, MotionClass, Origin};
-pub use error::PopulationError;
-pub use oracle::JointNoise;
-pub use recorded::{
-    Law, PointMass, RecordedArm, RecordedTrial, Transplant, available, draw_recorded,
-    point_mass_torque,
-};
-pub use robot_files::RobotFiles;
-pub use sheet::{Cause, Knowledge, Role, Sheet, Strength, Unnamed};
-pub use spec::{PopulationSpec, RecordedSpec};
-pub use store::{Came, Kept, Remade, Store};
-pub use trial::{make, make_any};
-
-/// Version of all that logs and sheets follow from besides a [`PopulationSpec`]: draws, simulator, oracle.
-pub const FORMAT: u32 = 1;
+pub use crate::bench::{Bench, BenchWishes, draw_bench};
+pub use crate::corner::{ArmClass, Corner, EffortClass, MotionClass, Origin};
+pub use crate::error::PopulationError;
+pub use crate::oracle::noise::JointNoise;
+pub use crate::recorded::arm::{RecordedArm, available};
+pub use crate::recorded::law::Law;
+pub use crate::recorded::point_mass::{PointMass, point_mass_torque};
+pub use crate::recorded::transplant::Transplant;
+pub use crate::recorded::trial::{RecordedTrial, draw_recorded};
+pub use crate::robot_files::RobotFiles;
+pub use crate::sheet::{Cause, Knowledge, Role, Sheet, Strength, Unnamed};
+pub use crate::spec::{FORMAT, PopulationSpec, RecordedSpec};
+pub use crate::store::{Came, Kept, Remade, Store};
+pub use crate::trial::any::make_any;
+pub use crate::trial::make::make;

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use simulator::scenario::{DropoutSpec, Logged, SensorSpec};
 use simulator::{PositionSide, VelocitySource};
 
-use crate::arm::Arm;
+use crate::arms::arm::Arm;
 use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, happens, one_of, rounded, spread};
 

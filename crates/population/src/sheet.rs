@@ -5,6 +5,7 @@ use simulator::Truth;
 
 use crate::corner::Corner;
 use crate::error::PopulationError;
+use crate::text_file::write_text;
 
 /// What is true of a trial: `sheet.json`, sealed until its logs are diagnosed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -121,7 +122,7 @@ impl Sheet {
     /// [`PopulationError::Log`] when it cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), PopulationError> {
         let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
-        crate::trial::make::write(&folder.join(Self::FILE), &text)
+        write_text(&folder.join(Self::FILE), &text)
     }
 
     /// Opens the sheet of a folder.

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::corner::{ArmClass, MotionClass, Origin};
 
+/// Version of all that logs and sheets follow from besides a [`PopulationSpec`]: draws, simulator, oracle.
+pub const FORMAT: u32 = 1;
+
 /// Most trials of a population.
 const MOST_TRIALS: usize = 1_000_000;
 /// Most causes hidden at a time.
@@ -136,7 +139,7 @@ impl PopulationSpec {
         let recorded = self.recorded.clone();
         let recorded = recorded.map(|r| RecordedSpec { data: PathBuf::new(), ..r });
         let spec = Self { recorded, ..self.clone() };
-        format!("{}\n{}", crate::FORMAT, serde_json::to_string(&spec).unwrap_or_default())
+        format!("{}\n{}", FORMAT, serde_json::to_string(&spec).unwrap_or_default())
     }
 }
 

@@ -1,14 +1,15 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::fs::{self, File};
+use std::fs;
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
+use sha2::Sha256;
 
 use crate::error::PopulationError;
-use crate::spec::PopulationSpec;
-use crate::{FORMAT, make};
+use crate::spec::{FORMAT, PopulationSpec};
+use crate::trial::make::make;
 
 /// Name of the file that lists those of an entry; it is the last to appear.
 const ENTRY: &str = "entry.json";

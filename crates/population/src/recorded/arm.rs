@@ -164,7 +164,7 @@ impl RecordedArm {
         let folder = data.join(entry.folder);
         let robot = match entry.robot {
             Described::BesideTheLogs => RobotFiles::read(&folder)?,
-            Described::Here => crate::arm_wam::files(),
+            Described::Here => crate::arms::wam::files(),
         };
         let arm = Self { entry, folder, robot };
         arm.logs().iter().all(|log| log.is_file()).then_some(arm)

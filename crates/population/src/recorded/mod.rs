@@ -14,9 +14,3 @@ pub(crate) mod signals;
 pub(crate) mod size;
 pub(crate) mod transplant;
 pub(crate) mod trial;
-
-pub use arm::{RecordedArm, available};
-pub use law::Law;
-pub use point_mass::{PointMass, point_mass_torque};
-pub use transplant::Transplant;
-pub use trial::{RecordedTrial, draw_recorded};

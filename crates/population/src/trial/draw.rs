@@ -5,31 +5,14 @@ use simulator::effects::EffectSpec;
 use simulator::strangers::{StrangerKind, StrangerSpec};
 
 use crate::corner::ArmClass;
-use crate::trial::pilot::{Pilot, Sized};
+use crate::trial::hidden::{HiddenKind, HiddenSpec, HiddenThings};
+use crate::trial::pilot::Pilot;
 
 /// Draws of one effect before it is left out.
 const TRIES: usize = 6;
 
 /// Least and largest strength over what an oracle just sees: a fifth of them is below.
 const STRENGTHS: [f64; 2] = [0.4, 25.0];
-
-/// A kind of what is hidden.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Hidden {
-    /// An effect of the catalogue.
-    Cause(EffectKind),
-    /// An effect of no catalogue.
-    Stranger(StrangerKind),
-}
-
-/// What is hidden in an arm beyond everyday friction.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct HiddenThings {
-    /// Effects of the catalogue.
-    pub causes: Vec<EffectSpec>,
-    /// Effects of no catalogue.
-    pub strangers: Vec<StrangerSpec>,
-}
 
 /// Kinds that are hidden in an arm: all of the catalogue but everyday friction, which is everywhere, rotors,
 /// which a nominal model may not know anyway, drives that reach their limit, with which a controller loses
@@ -61,13 +44,13 @@ impl HiddenThings {
         let mut all = Self::default();
         for _ in 0..causes {
             all.add(pilot, random, |random| {
-                Hidden::Cause(kinds[random.random_range(0..kinds.len())])
+                HiddenKind::Cause(kinds[random.random_range(0..kinds.len())])
             });
         }
         for _ in 0..strangers {
             all.add(pilot, random, |random| {
                 let number = random.random_range(0..StrangerKind::ALL.len());
-                Hidden::Stranger(StrangerKind::ALL[number])
+                HiddenKind::Stranger(StrangerKind::ALL[number])
             });
         }
         all
@@ -77,18 +60,18 @@ impl HiddenThings {
         &mut self,
         pilot: &Pilot<'_>,
         random: &mut ChaCha8Rng,
-        kind: impl Fn(&mut ChaCha8Rng) -> Hidden,
+        kind: impl Fn(&mut ChaCha8Rng) -> HiddenKind,
     ) {
         let [least, largest] = STRENGTHS;
         for _ in 0..TRIES {
             let hidden = kind(random);
             let wanted = least * (largest / least).powf(random.random::<f64>());
             match pilot.sized(hidden, wanted, random) {
-                Some(Sized::Cause(effect)) if !self.holds(&effect) => {
+                Some(HiddenSpec::Cause(effect)) if !self.holds(&effect) => {
                     self.causes.push(effect);
                     return;
                 }
-                Some(Sized::Stranger(stranger)) => {
+                Some(HiddenSpec::Stranger(stranger)) => {
                     self.strangers.push(stranger);
                     return;
                 }

@@ -17,9 +17,10 @@ use crate::oracle::noise::JointNoise;
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, Sheet};
 use crate::spec::PopulationSpec;
+use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
 use crate::trial::differences::{Drives, differences};
-use crate::trial::draw::HiddenThings;
+use crate::trial::hidden::HiddenThings;
 use crate::trial::known::{Known, described};
 use crate::trial::pilot::Pilot;
 use crate::trial::seen::{Seen, inertias};
@@ -297,7 +298,7 @@ impl Draft {
         };
         write_runs(&folder.join("logs"), &noisy.runs)?;
         write_runs(&folder.join("held_out"), &held_out)?;
-        write(&folder.join("truth").join("scenario.toml"), &self.portable(&scenario))?;
+        write_text(&folder.join("truth").join("scenario.toml"), &self.portable(&scenario))?;
         sheet.write(folder)?;
         Ok(sheet)
     }
@@ -351,10 +352,5 @@ pub(crate) fn write_runs(folder: &Path, runs: &[Run]) -> Result<(), PopulationEr
     for run in runs {
         logs::write_parquet(&folder.join(format!("{}.parquet", run.name)), run)?;
     }
-    Ok(())
-}
-
-pub(crate) fn write(path: &Path, text: &str) -> Result<(), PopulationError> {
-    logs::replace_file(path, |file| Ok(std::io::Write::write_all(file, text.as_bytes())?))?;
     Ok(())
 }

@@ -4,13 +4,10 @@ pub(crate) mod any;
 pub(crate) mod background;
 pub(crate) mod differences;
 pub(crate) mod draw;
+pub(crate) mod hidden;
 pub(crate) mod known;
 pub(crate) mod make;
 pub(crate) mod pilot;
 pub(crate) mod seen;
 pub(crate) mod spoilt;
 pub(crate) mod step;
-
-pub use any::make_any;
-pub use make::make;
-pub(crate) use make::write;

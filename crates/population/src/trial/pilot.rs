@@ -11,10 +11,10 @@ use crate::oracle::column::{Column, StandIn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::noise::JointNoise;
 use crate::oracle::regression::strengths;
-use crate::oracle::stand_ins;
+use crate::oracle::scales::torque_scales;
+use crate::oracle::stand_ins::stand_ins;
 use crate::sheet::Strength;
-use crate::trial::draw::Hidden;
-use crate::trial::seen::scales;
+use crate::trial::hidden::{HiddenKind, HiddenSpec};
 
 /// Torque share that is asked for first.
 const FIRST_SHARE: f64 = 0.1;
@@ -52,16 +52,21 @@ impl<'a> Pilot<'a> {
         let seen = first(scenario, base, &[])?;
         let stand_ins = stand_ins(robot, std::slice::from_ref(&seen));
         let bench = Bench::new(scenario)?;
-        let scales = scales(std::slice::from_ref(&seen), robot, noise);
+        let scales = torque_scales(std::slice::from_ref(&seen), robot, noise);
         Ok(Self { scenario, robot, noise, base: base.to_vec(), bench, seen, scales, stand_ins })
     }
 
     /// What is to be hidden, of about the strength wanted (1 for what an oracle just sees); none where the
     /// arm runs away with it or it does nothing.
-    pub fn sized(&self, hidden: Hidden, wanted: f64, random: &mut ChaCha8Rng) -> Option<Sized> {
+    pub fn sized(
+        &self,
+        hidden: HiddenKind,
+        wanted: f64,
+        random: &mut ChaCha8Rng,
+    ) -> Option<HiddenSpec> {
         let joint = random.random_range(0..self.robot.joint_count());
         let seed = random.random::<u64>();
-        if matches!(hidden, Hidden::Stranger(kind) if !kind.fits(self.robot, joint)) {
+        if matches!(hidden, HiddenKind::Stranger(kind) if !kind.fits(self.robot, joint)) {
             return None;
         }
         let first = self.of_share(hidden, joint, FIRST_SHARE, seed);
@@ -74,22 +79,24 @@ impl<'a> Pilot<'a> {
         self.strength(&sized).map(|_| sized)
     }
 
-    fn of_share(&self, hidden: Hidden, joint: usize, share: f64, seed: u64) -> Sized {
+    fn of_share(&self, hidden: HiddenKind, joint: usize, share: f64, seed: u64) -> HiddenSpec {
         match hidden {
-            Hidden::Cause(kind) => Sized::Cause(self.bench.effect(kind, joint, share, seed)),
-            Hidden::Stranger(kind) => {
-                Sized::Stranger(self.bench.stranger(kind, joint, share, seed))
+            HiddenKind::Cause(kind) => {
+                HiddenSpec::Cause(self.bench.effect(kind, joint, share, seed))
+            }
+            HiddenKind::Stranger(kind) => {
+                HiddenSpec::Stranger(self.bench.stranger(kind, joint, share, seed))
             }
         }
     }
 
     /// What an oracle sees of it in the first run; none where the arm cannot be simulated with it.
-    fn strength(&self, sized: &Sized) -> Option<Strength> {
+    fn strength(&self, sized: &HiddenSpec) -> Option<Strength> {
         let mut effects = self.base.clone();
         let mut strangers = Vec::new();
         match sized {
-            Sized::Cause(effect) => effects.push(effect.clone()),
-            Sized::Stranger(stranger) => strangers.push(stranger.clone()),
+            HiddenSpec::Cause(effect) => effects.push(effect.clone()),
+            HiddenSpec::Stranger(stranger) => strangers.push(stranger.clone()),
         }
         let with = first(self.scenario, &effects, &strangers).ok()?;
         let rows = with.rows().min(self.seen.rows());
@@ -99,15 +106,6 @@ impl<'a> Pilot<'a> {
             std::iter::once(column).chain(self.stand_ins.iter().cloned()).collect();
         strengths(std::slice::from_ref(&self.seen), &columns, 1, self.noise, &self.scales).pop()
     }
-}
-
-/// An effect or a stranger with a size.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Sized {
-    /// Of the catalogue.
-    Cause(EffectSpec),
-    /// Of no catalogue.
-    Stranger(StrangerSpec),
 }
 
 /// How many times what an oracle just sees.

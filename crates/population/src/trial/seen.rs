@@ -9,12 +9,13 @@ use crate::error::PopulationError;
 use crate::oracle::column::{Column, StandIn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::noise::JointNoise;
-use crate::oracle::regression::{effort_rms, strengths};
-use crate::oracle::stand_ins;
+use crate::oracle::regression::strengths;
+use crate::oracle::scales::torque_scales;
+use crate::oracle::stand_ins::stand_ins;
 use crate::rigid::mass_matrix;
 use crate::sheet::{Cause, Role, Unnamed};
 use crate::trial::differences::Difference;
-use crate::trial::draw::HiddenThings;
+use crate::trial::hidden::HiddenThings;
 
 /// The runs of a trial without noise, and the torque of each hidden thing in them:
 ///
@@ -55,9 +56,9 @@ impl Seen {
         Ok(Self { runs, causes, strangers })
     }
 
-    /// What torques of each joint count by; see [`crate::Sheet::torque_rms`].
+    /// What torques of each joint count by; see [`crate::sheet::Sheet::torque_rms`].
     pub fn scales(&self, robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
-        scales(&self.runs, robot, noise)
+        torque_scales(&self.runs, robot, noise)
     }
 
     /// What an oracle sees of every difference from the nominal model and every hidden thing.
@@ -87,7 +88,7 @@ impl Seen {
         let mut strengths = strengths(&self.runs, &columns, count, noise, &scales).into_iter();
         let roles = places
             .into_iter()
-            .chain(self.causes.iter().map(|(truth, _)| (Role::Hidden, truth.clone())));
+            .chain(self.causes.iter().map(|(truth, _)| (Role::HiddenKind, truth.clone())));
         let mut causes: Vec<Cause> = roles
             .zip(strengths.by_ref())
             .map(|((role, truth), strength)| Cause { role, truth, strength })
@@ -104,16 +105,6 @@ impl Seen {
         let strangers = self.strangers.iter().zip(strengths).map(unnamed).collect();
         (causes, strangers)
     }
-}
-
-/// What torques of each joint count by: RMS of its effort, at least the deviation of its noise and a thousandth of
-/// the drive's limit (N m or N).
-pub(crate) fn scales(runs: &[SeenRun], robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
-    let joint = |(j, (link, noise)): (usize, (&robot::Link, &JointNoise))| {
-        let limit = link.joint.limits.effort.filter(|limit| limit.is_finite()).unwrap_or(0.0);
-        effort_rms(runs, j).max(noise.effort.sqrt()).max(1e-3 * limit).max(1e-6)
-    };
-    robot.links().iter().zip(noise).enumerate().map(joint).collect()
 }
 
 fn without<T: Clone>(all: &[T], k: usize) -> Vec<T> {

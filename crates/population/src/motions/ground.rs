@@ -4,7 +4,7 @@ use motion::{MotionError, MotionSpec, State};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use crate::arm::Arm;
+use crate::arms::arm::Arm;
 use crate::dice::between;
 use crate::rigid::torque;
 

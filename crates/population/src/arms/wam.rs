@@ -1,23 +1,21 @@
 //! Barrett's arm, as `robots/wam7` has it.
 
-use std::fmt::Write;
-
 use document::Document;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use crate::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
-use crate::bodies::BodyError;
+use crate::arms::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
+use crate::arms::bodies::BodyError;
+use crate::arms::drives::accelerations;
+use crate::arms::electronics::Electronics;
+use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
-use crate::drives::accelerations;
-use crate::electronics::Electronics;
 use crate::error::PopulationError;
-use crate::make::Make;
 use crate::robot_files::RobotFiles;
 
-const URDF: &str = include_str!("../../../robots/wam7/robot.urdf");
-const TOML: &str = include_str!("../../../robots/wam7/robot.toml");
+const URDF: &str = include_str!("../../../../robots/wam7/robot.urdf");
+const TOML: &str = include_str!("../../../../robots/wam7/robot.toml");
 
 /// The arm as the project describes it.
 pub(crate) fn files() -> RobotFiles {

@@ -7,37 +7,27 @@ use rand_chacha::ChaCha8Rng;
 use crate::corner::MotionClass;
 use crate::dice::{between, happens, one_of, rounded};
 use crate::error::PopulationError;
-use crate::ground::Ground;
-use crate::{by_joint, postures};
+use crate::motions::ground::Ground;
+use crate::motions::log_plan::LogPlan;
+use crate::motions::{by_joint, postures};
 
 /// Draws of a motion before an arm is given up; smaller where the one before was too much for it.
 const TRIES: usize = 20;
 /// By how much a motion may be longer than was wished (s).
 const LONGER_S: f64 = 0.05;
 
-/// Which of an arm's logs a motion is for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Place {
-    /// Number of the log.
-    pub log: usize,
-    /// Logs in all.
-    pub logs: usize,
-    /// Length of the log (s).
-    pub length_s: f64,
-}
-
 /// A motion of a kind that the arm carries; `None` where none of some draws was one.
 pub(crate) fn draw(
     class: MotionClass,
     ground: &Ground<'_>,
-    wished: Place,
+    wished: LogPlan,
     random: &mut ChaCha8Rng,
 ) -> Result<Option<MotionSpec>, PopulationError> {
     // Moves between the parts of a sequence make it longer than its parts.
     let (mut moves_s, mut scale) = (0.0, 1.0);
     for _ in 0..TRIES {
         let ground = ground.smaller(scale);
-        let place = Place { length_s: (wished.length_s - moves_s).max(1.0), ..wished };
+        let place = LogPlan { length_s: (wished.length_s - moves_s).max(1.0), ..wished };
         let spec = match class {
             MotionClass::JointByJoint => by_joint::one_by_one(&ground, place, random),
             MotionClass::Sinusoids => sinusoids(&ground, place.length_s, random),

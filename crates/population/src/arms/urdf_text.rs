@@ -1,12 +1,10 @@
 //! A chain as a URDF.
 
-use std::fmt::Write;
-
 use nalgebra::{Isometry3, Vector3};
 use robot::{Inertia, JointKind};
 
-use crate::bodies::{Body, Hull};
-use crate::chain::{Chain, ChainJoint};
+use crate::arms::bodies::{Body, Hull};
+use crate::arms::chain::{Chain, ChainJoint};
 use crate::dice::rounded;
 
 /// `<dynamics>` of a joint: damping (N m s/rad) and friction (N m).

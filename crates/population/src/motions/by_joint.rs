@@ -7,12 +7,16 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::dice::{between, happens};
-use crate::ground::{Ground, glide_s};
-use crate::motions::Place;
-use crate::postures::Path;
+use crate::motions::ground::{Ground, glide_s};
+use crate::motions::log_plan::LogPlan;
+use crate::motions::postures::Path;
 
 /// One joint after the other, the others at rest: one a log where there are as many logs, else all in each.
-pub(crate) fn one_by_one(ground: &Ground<'_>, place: Place, random: &mut ChaCha8Rng) -> MotionSpec {
+pub(crate) fn one_by_one(
+    ground: &Ground<'_>,
+    place: LogPlan,
+    random: &mut ChaCha8Rng,
+) -> MotionSpec {
     let count = ground.count();
     let joints: Vec<usize> = match place.logs >= count {
         true => vec![place.log % count],

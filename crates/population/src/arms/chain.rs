@@ -7,10 +7,10 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::JointKind;
 
-use crate::bodies::{Body, BodyError};
+use crate::arms::bodies::{Body, BodyError};
+use crate::arms::make::Make;
 use crate::corner::ArmClass;
 use crate::dice::{between, happens, one_of, spread};
-use crate::make::Make;
 
 /// A joint and the link that it carries.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,9 +4,9 @@ use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;
 use robot::{JointKind, Robot};
 
+use crate::arms::electronics::Electronics;
+use crate::arms::make::Make;
 use crate::dice::{between, rounded};
-use crate::electronics::Electronics;
-use crate::make::Make;
 use crate::rigid::{mass_matrix, torque};
 
 /// Postures at which an arm is weighed.

@@ -1,22 +1,20 @@
 //! Generated serial arms.
 
-use std::fmt::Write;
-
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use robot::{Robot, SensingSide, TorqueSource};
 
-use crate::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
-use crate::bodies::BodyError;
-use crate::chain::Chain;
+use crate::arms::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
+use crate::arms::bodies::BodyError;
+use crate::arms::chain::Chain;
+use crate::arms::drives::{Drive, accelerations, counterbalance, fit, put};
+use crate::arms::electronics::Electronics;
+use crate::arms::make::Make;
+use crate::arms::urdf_text::urdf;
 use crate::corner::ArmClass;
 use crate::dice::{between, happens};
-use crate::drives::{Drive, accelerations, counterbalance, fit, put};
-use crate::electronics::Electronics;
 use crate::error::PopulationError;
-use crate::make::Make;
 use crate::robot_files::RobotFiles;
-use crate::urdf_text::urdf;
 
 /// An arm of a class that is generated, with so many joints.
 pub(crate) fn draw(

@@ -2,9 +2,9 @@ use rand_chacha::ChaCha8Rng;
 use robot::{SensingSide, TorqueSource};
 use simulator::{EffortSource, PositionSide};
 
+use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, happens, one_of, weighted};
-use crate::make::Make;
 
 /// The loop of an arm and where its signals come from.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::dice::{between, happens};
-use crate::ground::Ground;
+use crate::motions::ground::Ground;
 
 /// Least share of a log that a motion between two postures may take up.
 const LONGEST_SHARE: f64 = 0.25;

@@ -4,8 +4,8 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Vector3};
 use rand_chacha::ChaCha8Rng;
 use robot::Inertia;
 
+use crate::arms::make::Make;
 use crate::dice::{between, direction, happens, small_rotation};
-use crate::make::Make;
 
 /// Outline of a body, its long side along z of its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,13 +2,11 @@ use nalgebra::{Rotation3, Vector3};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
+use crate::arms::electronics::Electronics;
+use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, direction, rounded, weighted};
-use crate::electronics::Electronics;
-use crate::error::PopulationError;
-use crate::make::Make;
 use crate::robot_files::RobotFiles;
-use crate::{arm_generated, arm_wam};
 
 /// An arm: what it is, what its user has of it, and what its motions must keep to.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,20 +28,6 @@ pub(crate) struct Arm {
 }
 
 impl Arm {
-    /// An arm of a class; a generated one has so many joints.
-    pub(crate) fn draw(
-        class: ArmClass,
-        count: usize,
-        random: &mut ChaCha8Rng,
-    ) -> Result<Self, PopulationError> {
-        match class {
-            ArmClass::Wam => arm_wam::draw(random),
-            ArmClass::Hobby | ArmClass::Cobot | ArmClass::Industrial => {
-                arm_generated::draw(class, count, random)
-            }
-        }
-    }
-
     /// Typical Coulomb friction of each drive (N m or N).
     pub(crate) fn friction(&self, class: ArmClass, random: &mut ChaCha8Rng) -> Vec<f64> {
         let make = Make::of(class);
