@@ -11,7 +11,7 @@ use crate::error::PopulationError;
 use crate::motions::ground::Ground;
 use crate::motions::log_plan::LogPlan;
 use crate::robot_files::RobotFiles;
-use crate::sensors;
+use crate::{motions, sensors};
 
 /// Arms that are drawn before a bench is given up.
 const TRIES: usize = 40;
@@ -125,7 +125,9 @@ fn moved(
             false => motion,
         };
         let place = LogPlan { log, logs, length_s: length(typical_s, wishes, random) };
-        let Some(spec) = motions::draw::draw(class, &ground, place, random)? else { return Ok(None) };
+        let Some(spec) = motions::draw::draw(class, &ground, place, random)? else {
+            return Ok(None);
+        };
         runs.push(run(name(log), spec));
     }
     // What all joints do in one log says most of a model.

@@ -123,9 +123,11 @@ impl Robot {
         if let Some(joints) = &options.joints {
             loaded = loaded.narrowed(&model, joints)?;
         }
-        loaded
-            .warnings
-            .extend(loaded.looks.find_meshes(&urdf_path, (&options.packages, options.meshes)));
+        loaded.warnings.extend(loaded.looks.find_meshes(
+            &urdf_path,
+            &options.packages,
+            options.meshes,
+        ));
         loaded.judge(&model).map_err(|e| e.in_file(&urdf_path))?;
         Ok(loaded)
     }

@@ -20,7 +20,8 @@ impl Looks {
     pub(crate) fn find_meshes(
         &mut self,
         urdf: &Path,
-        (packages, folders): (&Packages, MeshFolders),
+        packages: &Packages,
+        folders: MeshFolders,
     ) -> Option<RobotWarning> {
         let below = folder_of(urdf).canonicalize().ok();
         let is_let_in = |name: &str, path: &Path| {

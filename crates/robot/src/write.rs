@@ -54,7 +54,7 @@ impl Loaded {
         };
         let names: Vec<&str> = robot.joint_names().collect();
         for (i, (new, old)) in robot.links().iter().zip(old.links()).enumerate() {
-            let entry = joint_entry([new, old], &names, control.gains.get(i).copied().flatten());
+            let entry = joint_entry(new, old, &names, control.gains.get(i).copied().flatten());
             if entry != JointEntry::default() {
                 description.joint.insert(new.joint.name.clone(), entry);
             }
@@ -108,7 +108,7 @@ fn gravity(new: &Robot, old: &Robot) -> Option<[f64; 3]> {
     (gravity != old.gravity_in_base()).then_some(gravity.into())
 }
 
-fn joint_entry([new, old]: [&Link; 2], names: &[&str], gain: Option<Gain>) -> JointEntry {
+fn joint_entry(new: &Link, old: &Link, names: &[&str], gain: Option<Gain>) -> JointEntry {
     let (a, b) = (&new.actuator, &old.actuator);
     let (forward, backward) = (
         changed(a.coulomb_forward, b.coulomb_forward),

@@ -49,7 +49,8 @@ impl Body {
     pub(crate) fn draw(
         name: String,
         make: &Make,
-        [mass, length]: [f64; 2],
+        mass: f64,
+        length: f64,
         along: Vector3<f64>,
         random: &mut ChaCha8Rng,
     ) -> Self {

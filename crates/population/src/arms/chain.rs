@@ -75,7 +75,7 @@ impl Chain {
             let length = drawn.length(random);
             let axis = drawn.axis(random);
             let mass = drawn.mass(random);
-            let body = Body::draw(format!("link{}", i + 1), &make, [mass, length], along, random);
+            let body = Body::draw(format!("link{}", i + 1), &make, mass, length, along, random);
             let (range, speed) = (drawn.range(length, random), drawn.speed(random));
             let frame = match frames {
                 Frames::Aligned => Rotation3::identity(),
@@ -220,7 +220,7 @@ fn gripper(
     let mass = last.body.inertia.mass * spread(random, [0.15, 0.6]);
     let length = make.length_m[0] * between(random, [0.8, 2.0]);
     let out = at.try_normalize(1e-9).unwrap_or_else(Vector3::z);
-    let body = Body::draw("gripper".to_owned(), make, [mass, length], Vector3::z(), random);
+    let body = Body::draw("gripper".to_owned(), make, mass, length, Vector3::z(), random);
     let turn = Rotation3::rotation_between(&Vector3::z(), &out);
     let turn =
         turn.unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), 2.0 * FRAC_PI_2));

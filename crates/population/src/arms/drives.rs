@@ -87,7 +87,7 @@ pub(crate) fn fit(
         });
     }
     put(robot, &drives);
-    tune(robot, &postures, (&mut drives, weighed.gravity), electronics, random);
+    tune(robot, &postures, &mut drives, &weighed.gravity, electronics, random);
     drives
 }
 
@@ -132,7 +132,8 @@ pub(crate) fn counterbalance(
 fn tune(
     robot: &Robot,
     postures: &[Vec<f64>],
-    (drives, gravity): (&mut [Drive], Vec<f64>),
+    drives: &mut [Drive],
+    gravity: &[f64],
     electronics: &Electronics,
     random: &mut ChaCha8Rng,
 ) {

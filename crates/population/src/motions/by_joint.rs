@@ -26,8 +26,8 @@ pub(crate) fn one_by_one(
     let time_s = place.length_s / joints.len() as f64;
     let strokes = happens(random, 0.6);
     let parts = joints.iter().map(|&j| {
-        let sweep = if strokes { stroked(ground, &posture, (j, time_s)) } else { None };
-        sweep.unwrap_or_else(|| glided(ground, &posture, (j, time_s), random))
+        let sweep = if strokes { strokes_of_joint(ground, &posture, j, time_s) } else { None };
+        sweep.unwrap_or_else(|| glides_of_joint(ground, &posture, j, time_s, random))
     });
     MotionSpec::Sequence(parts.collect())
 }
@@ -36,7 +36,12 @@ pub(crate) fn one_by_one(
 const STROKES: [f64; 3] = [1.0, 0.45, 0.15];
 
 /// A joint back and forth at constant speeds, in a time (s); `None` where there is too little of it.
-fn stroked(ground: &Ground<'_>, posture: &[f64], (j, time_s): (usize, f64)) -> Option<MotionSpec> {
+fn strokes_of_joint(
+    ground: &Ground<'_>,
+    posture: &[f64],
+    j: usize,
+    time_s: f64,
+) -> Option<MotionSpec> {
     let (most, fastest) = (ground.acceleration[j], ground.speed[j]);
     let strokes = match time_s {
         ..2.0 => return None,
@@ -58,7 +63,7 @@ fn stroked(ground: &Ground<'_>, posture: &[f64], (j, time_s): (usize, f64)) -> O
     for _ in 0..40 {
         let highest = fastest.min(0.95 * (2.0 * half * most / 1.5).sqrt());
         if needed(half, highest) <= time_s {
-            let speed = slowed(|speed| needed(half, speed), highest, time_s);
+            let speed = speed_for_time(|speed| needed(half, speed), highest, time_s);
             return Some(MotionSpec::Sweep(Sweep {
                 speeds_rad_per_s: ratios.iter().map(|ratio| ratio * speed).collect(),
                 joints: Some(vec![ground.names[j].clone()]),
@@ -76,7 +81,7 @@ fn stroked(ground: &Ground<'_>, posture: &[f64], (j, time_s): (usize, f64)) -> O
 }
 
 /// The speed at which strokes take a time (s): they take less at the highest.
-fn slowed(needed: impl Fn(f64) -> f64, highest: f64, time_s: f64) -> f64 {
+fn speed_for_time(needed: impl Fn(f64) -> f64, highest: f64, time_s: f64) -> f64 {
     let [mut low, mut high] = [1e-3 * highest, highest];
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
@@ -86,10 +91,11 @@ fn slowed(needed: impl Fn(f64) -> f64, highest: f64, time_s: f64) -> f64 {
 }
 
 /// A joint to and fro between random positions, in a time (s).
-fn glided(
+fn glides_of_joint(
     ground: &Ground<'_>,
     posture: &[f64],
-    (j, time_s): (usize, f64),
+    j: usize,
+    time_s: f64,
     random: &mut ChaCha8Rng,
 ) -> MotionSpec {
     let (most, fastest) = (ground.acceleration[j], ground.speed[j]);

@@ -49,7 +49,7 @@ impl SeenRun {
         let mut tau = vec![0.0; joints];
         for i in 0..rows {
             let of = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<f64>>();
-            body_torque(robot, [&of(&q), &of(&qd), &of(&qdd)], &mut tau);
+            body_torque(robot, &of(&q), &of(&qd), &of(&qdd), &mut tau);
             tau.iter().enumerate().for_each(|(j, tau)| beyond[(i, j)] -= tau);
         }
         let [q, qd, qdd, effort, beyond] =

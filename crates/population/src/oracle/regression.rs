@@ -149,6 +149,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
+    use crate::oracle::noise::ReadingError;
 
     const ROWS: usize = 1000;
     const STEP_S: f64 = 0.01;
@@ -181,24 +182,29 @@ mod tests {
 
     /// `a sin` of whole periods in white noise has `a sqrt(N / 2) / sigma` deviations, a cosine beside it or not;
     /// with half of it said by another column, the half that is left.
+    fn noise(effort: f64, position: f64, inertia: f64) -> JointNoise {
+        let error = |deviation| ReadingError { deviation, step: 0.0 };
+        JointNoise::new(error(effort), error(position), inertia)
+    }
+
     #[test]
     fn a_sine_in_white_noise_is_as_sure_as_the_closed_form_says() {
         let sine = |a: f64| wave(move |t| a * (TAU * t).sin());
         let runs = [run(sine(2.0))];
-        let noise = [JointNoise::new([0.5, 0.0], [0.0, 0.0], 1.0)];
+        let noises = [noise(0.5, 0.0, 1.0)];
         let expected = 2.0 * (ROWS as f64 / 2.0).sqrt() / 0.5;
         let cosine = itself(wave(|t| (TAU * t).cos()));
-        let [told] = seen(&runs, &[itself(sine(2.0)), cosine], &noise)[..] else { panic!() };
+        let [told] = seen(&runs, &[itself(sine(2.0)), cosine], &noises)[..] else { panic!() };
         assert!((told.sigmas / expected - 1.0).abs() < 1e-3, "{} for {expected}", told.sigmas);
         assert!((told.share - 1.0).abs() < 1e-6 && (told.torque - 1.0).abs() < 1e-6);
         assert!(told.visible());
 
         let beside = itself(wave(|t| (TAU * t).sin() + (TAU * t).cos()));
-        let [told] = seen(&runs, &[itself(sine(2.0)), beside], &noise)[..] else { panic!() };
+        let [told] = seen(&runs, &[itself(sine(2.0)), beside], &noises)[..] else { panic!() };
         assert!((told.sigmas / expected - 0.5_f64.sqrt()).abs() < 1e-3);
 
         let same = itself(sine(1.0));
-        let [told] = seen(&runs, &[itself(sine(2.0)), same], &noise)[..] else { panic!() };
+        let [told] = seen(&runs, &[itself(sine(2.0)), same], &noises)[..] else { panic!() };
         assert!(told.sigmas < 1e-3 * expected && !told.visible());
     }
 
@@ -208,8 +214,8 @@ mod tests {
         let runs = [run(wave(|t| (TAU * t).sin()))];
         let fast = |hz: f64| vec![itself(wave(move |t| (TAU * hz * t).sin()))];
         let sigmas = |hz, sigma_q| {
-            let noise = [JointNoise::new([1e-3, 0.0], [sigma_q, 0.0], 2.0)];
-            seen(&runs, &fast(hz), &noise)[0].sigmas
+            let noises = [noise(1e-3, sigma_q, 2.0)];
+            seen(&runs, &fast(hz), &noises)[0].sigmas
         };
         let carried = |hz: f64| 2.0 * (TAU * hz).powi(2) * 1e-3;
         for hz in [1.0, 10.0] {
@@ -224,10 +230,11 @@ mod tests {
     #[test]
     fn a_stand_in_that_is_known_explains_no_more_than_it_may() {
         let sine = || wave(|t| (TAU * t).sin());
-        let noise = [JointNoise::new([0.1, 0.0], [0.0, 0.0], 1.0)];
+        let noises = [noise(0.1, 0.0, 1.0)];
         let known = |deviation: f64| Column { prior: deviation.powi(-2), ..itself(sine()) };
-        let sigmas =
-            |deviation| seen(&[run(sine())], &[itself(sine()), known(deviation)], &noise)[0].sigmas;
+        let sigmas = |deviation| {
+            seen(&[run(sine())], &[itself(sine()), known(deviation)], &noises)[0].sigmas
+        };
         // One Gaussian of deviation d on top of another of 1 / sigmas.
         let alone = (ROWS as f64 / 2.0).sqrt() / 0.1;
         for deviation in [1e-3, 1e-2, 1e-1] {

@@ -82,6 +82,6 @@ impl SeenRun {
     /// How the links move at a sample.
     pub fn moving(&self, robot: &Robot, i: usize) -> Moving {
         let of = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<f64>>();
-        Moving::new(robot, [&of(&self.q), &of(&self.qd), &of(&self.qdd)])
+        Moving::new(robot, &of(&self.q), &of(&self.qd), &of(&self.qdd))
     }
 }

@@ -18,7 +18,7 @@ pub struct Transplant {
 }
 
 /// A transplant as a sheet states it.
-pub(super) enum Told {
+pub(super) enum AddedCause {
     /// An effect of the catalogue.
     Named(Cause),
     /// An effect of no catalogue.
@@ -63,13 +63,13 @@ impl Transplant {
     }
 
     /// It as a sheet states it, with its parameters under the catalogue's names.
-    pub(super) fn told(&self, robot: &Robot, strength: Strength) -> Told {
+    pub(super) fn cause(&self, robot: &Robot, strength: Strength) -> AddedCause {
         let here = robot.links()[self.joint].joint.name.as_str();
         let tip = robot.links().last().map_or("", |link| link.name.as_str());
         let at = |effect, parameters: &[(&str, f64)]| Truth::at_joint(effect, here, parameters);
         let stranger = |name: &str| {
             let joint = Some(here.to_owned());
-            Told::Stranger(Unnamed { name: name.to_owned(), joint, strength })
+            AddedCause::Stranger(Unnamed { name: name.to_owned(), joint, strength })
         };
         let truth = match self.law {
             Law::Coulomb { level } => at(EffectKind::CoulombFriction, &[("level", level)]),
@@ -100,7 +100,7 @@ impl Transplant {
             Law::Drag { .. } => return stranger("square_drag"),
             Law::Well { .. } => return stranger("magnet_well"),
         };
-        Told::Named(Cause { role: Role::Hidden, truth, strength })
+        AddedCause::Named(Cause { role: Role::Hidden, truth, strength })
     }
 }
 

@@ -12,7 +12,7 @@ use crate::recorded::cut::{Part, length_s, part};
 use crate::recorded::draw::draw;
 use crate::recorded::signals::rms;
 use crate::recorded::size::Measured;
-use crate::recorded::transplant::Told;
+use crate::recorded::transplant::AddedCause;
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, Sheet};
 
@@ -57,10 +57,10 @@ pub fn draw_recorded(
     let robot = arm.robot().load()?.robot;
     let (used, steps) = arm.read(&robot)?;
     let split = split(arm.held_out(), &used, random.random_range(0..arm.splits()));
-    let mut trial = plain(arm, (&robot, &steps), split);
+    let mut trial = plain_trial(arm, &robot, &steps, split);
     trial.sheet.seed = seed;
     if origin == Origin::Transplant {
-        transplanted(&mut trial, &robot, random)?;
+        add_transplant(&mut trial, &robot, random)?;
     }
     Ok(trial)
 }
@@ -103,7 +103,7 @@ fn split(held_out: HeldOut, used: &[Used], choice: usize) -> Split<'_> {
 }
 
 /// A trial of logs as they are.
-fn plain(arm: &RecordedArm, (robot, steps): (&Robot, &[f64]), split: Split) -> RecordedTrial {
+fn plain_trial(arm: &RecordedArm, robot: &Robot, steps: &[f64], split: Split) -> RecordedTrial {
     let motion =
         split.given.first().map_or(crate::corner::MotionClass::Sinusoids, |(log, _)| log.motion);
     let paths: Vec<u8> = split.given.iter().map(|(log, _)| log.path).collect();
@@ -137,7 +137,7 @@ fn plain(arm: &RecordedArm, (robot, steps): (&Robot, &[f64]), split: Split) -> R
 }
 
 /// Adds a cause to a plain trial.
-fn transplanted(
+fn add_transplant(
     trial: &mut RecordedTrial,
     robot: &Robot,
     random: &mut ChaCha8Rng,
@@ -152,9 +152,9 @@ fn transplanted(
     trial.sheet.corner.origin = Origin::Transplant;
     trial.sheet.knowledge = Knowledge::Added;
     trial.sheet.torque_rms = torque_rms(&trial.runs, robot.joint_count());
-    match transplant.told(robot, strength) {
-        Told::Named(cause) => trial.sheet.causes.push(cause),
-        Told::Stranger(stranger) => trial.sheet.strangers.push(stranger),
+    match transplant.cause(robot, strength) {
+        AddedCause::Named(cause) => trial.sheet.causes.push(cause),
+        AddedCause::Stranger(stranger) => trial.sheet.strangers.push(stranger),
     }
     Ok(())
 }

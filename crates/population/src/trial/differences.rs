@@ -7,6 +7,7 @@ use crate::oracle::column::{Column, StandIn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::stand_ins::dry;
 use crate::sheet::Role;
+use crate::trial::background::Friction;
 
 /// A way in which an arm differs from its nominal model, and the torque that comes of it.
 pub(crate) struct Difference {
@@ -32,11 +33,11 @@ pub(crate) enum Drives {
 /// ```
 pub(crate) fn differences(
     truth: &Robot,
-    friction: &[super::background::Friction],
+    friction: &[Friction],
     nominal: &Robot,
-    seen: (&[SeenRun], Drives),
+    runs: &[SeenRun],
+    drives: Drives,
 ) -> Vec<Difference> {
-    let (runs, drives) = seen;
     let mut all = Vec::new();
     for (j, (link, model)) in truth.links().iter().zip(nominal.links()).enumerate() {
         let name = link.joint.name.as_str();

@@ -37,7 +37,8 @@ impl HiddenThings {
     pub fn draw(
         pilot: &Pilot<'_>,
         class: ArmClass,
-        [causes, strangers]: [usize; 2],
+        causes: usize,
+        strangers: usize,
         random: &mut ChaCha8Rng,
     ) -> Self {
         let kinds = kinds(class);

@@ -13,7 +13,7 @@ use simulator::{EffortSource, SimulatorError, simulate_only, simulate_silent};
 use crate::bench::{Bench as LabBench, BenchWishes, draw_bench};
 use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
-use crate::oracle::noise::JointNoise;
+use crate::oracle::noise::{JointNoise, ReadingError};
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, Sheet};
 use crate::spec::PopulationSpec;
@@ -89,7 +89,7 @@ fn attempted(
     let [least, most] = spec.causes;
     let causes = if clean { 0 } else { random.random_range(least..=most) };
     let strangers = usize::from(!clean && random.random_bool(spec.strangers));
-    let hidden = draft.hide([causes, strangers], random)?;
+    let hidden = draft.hide(causes, strangers, random)?;
     let step = draft.step_ms(&hidden)?;
     let spoilt = !clean && random.random_bool(spec.spoilt);
     let spoilt = spoilt.then(|| Spoilt::draw(&draft.truth.robot, random));
@@ -230,15 +230,16 @@ impl Draft {
     /// What is hidden, of sizes that an oracle just sees or more.
     fn hide(
         &self,
-        counts: [usize; 2],
+        causes: usize,
+        strangers: usize,
         random: &mut ChaCha8Rng,
     ) -> Result<HiddenThings, PopulationError> {
-        if counts == [0, 0] {
+        if causes == 0 && strangers == 0 {
             return Ok(HiddenThings::default());
         }
         let scenario = self.scenario(self.coarse_ms(), &HiddenThings::default())?;
         let pilot = Pilot::new(&scenario, &self.noise, &self.friction())?;
-        Ok(HiddenThings::draw(&pilot, self.bench.class, counts, random))
+        Ok(HiddenThings::draw(&pilot, self.bench.class, causes, strangers, random))
     }
 
     /// What an oracle looks at, in steps as long as the springs of what is hidden allow, at least those of the
@@ -278,7 +279,7 @@ impl Draft {
             EffortSource::Commanded | EffortSource::Motor => Drives::Seen,
         };
         let models = [&self.truth.robot, &self.nominal.robot];
-        let differ = differences(models[0], &self.friction, models[1], (&seen.runs, drives));
+        let differ = differences(models[0], &self.friction, models[1], &seen.runs, drives);
         let (causes, mut strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
         let scales = seen.scales(&self.truth.robot, &self.noise);
         if let Some(spoilt) = spoilt {
@@ -339,8 +340,11 @@ fn noise(bench: &LabBench, robot: &Robot) -> Vec<JointNoise> {
         let of =
             |map: &std::collections::BTreeMap<String, f64>| map.get(name).copied().unwrap_or(0.0);
         JointNoise::new(
-            [of(&s.effort_noise_nm), of(&s.effort_resolution_nm)],
-            [of(&s.position_noise_rad), of(&s.position_resolution_rad)],
+            ReadingError { deviation: of(&s.effort_noise_nm), step: of(&s.effort_resolution_nm) },
+            ReadingError {
+                deviation: of(&s.position_noise_rad),
+                step: of(&s.position_resolution_rad),
+            },
             inertia,
         )
     };

@@ -231,7 +231,7 @@ fn lift(robot: &Robot, run: &mut Run, row: usize) {
     let q: Vec<f64> = run.joints.iter().map(|joint| joint.position[row]).collect();
     let rest = vec![0.0; q.len()];
     let mut held = rest.clone();
-    body_torque(robot, [&q, &rest, &rest], &mut held);
+    body_torque(robot, &q, &rest, &rest, &mut held);
     for (joint, held) in run.joints.iter_mut().zip(held) {
         joint.effort[row] -= held;
         if let Some(commanded) = &mut joint.commanded_effort {
