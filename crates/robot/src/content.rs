@@ -1,8 +1,8 @@
 use std::fmt::Write as _;
 
 use crate::error::RobotError;
-use crate::link::Link;
-use crate::load::Loaded;
+use crate::loaded::Loaded;
+use crate::structure::link::Link;
 
 impl Loaded {
     /// What the files say of the robot's motion, as one text: the same wherever they lie, whatever they are
@@ -45,7 +45,7 @@ fn line(link: &Link) -> String {
 mod tests {
     use std::path::Path;
 
-    use crate::Robot;
+    use crate::structure::robot::Robot;
 
     fn content(folder: &Path, urdf: &str, toml: &str) -> String {
         std::fs::create_dir_all(folder).unwrap();

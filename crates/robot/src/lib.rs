@@ -10,44 +10,36 @@
 //! `robot.toml`, or from an MJCF. Data only: no dynamics is computed here. [`Machine`] is what a controller
 //! sees of an arm, simulated or real.
 
-mod actuator;
 mod content;
-mod control;
-mod description;
-mod description_file;
 mod error;
-mod inertia;
-mod joint;
-mod joint_entry;
-mod link;
 mod load;
-mod looks;
-mod lumping;
+mod loaded;
 mod machine;
-mod mesh;
-mod mesh_kind;
+mod meshes;
 mod misfit;
 mod mjcf;
-mod model;
-mod packages;
-mod part;
+mod one_line;
 mod range;
+mod robot_toml;
+mod structure;
 mod urdf;
 mod warning;
-mod write;
+mod whole_robot;
 
-pub use actuator::{
+pub use crate::error::RobotError;
+pub use crate::load::LoadOptions;
+pub use crate::loaded::Loaded;
+pub use crate::machine::{Machine, MachineFault, Reading};
+pub use crate::meshes::folders::MeshFolders;
+pub use crate::meshes::packages::Packages;
+pub use crate::structure::actuator::{
     Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
 };
-pub use control::{ControlSettings, Gain};
-pub use error::RobotError;
-pub use inertia::{Inertia, InertiaDefect};
-pub use joint::{Joint, JointKind, Limits};
-pub use link::Link;
-pub use load::{LoadOptions, Loaded, MeshFolders};
-pub use looks::{Looks, Shape, Visual};
-pub use machine::{Machine, MachineFault, Reading};
-pub use model::Robot;
-pub use packages::Packages;
-pub use part::{LockedJoint, Part};
-pub use warning::RobotWarning;
+pub use crate::structure::control::{ControlSettings, Gain};
+pub use crate::structure::inertia::{Inertia, InertiaDefect};
+pub use crate::structure::joint::{Joint, JointKind, Limits};
+pub use crate::structure::link::Link;
+pub use crate::structure::looks::{Looks, Shape, Visual};
+pub use crate::structure::part::{LockedJoint, Part};
+pub use crate::structure::robot::Robot;
+pub use crate::warning::RobotWarning;

@@ -1,21 +1,20 @@
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use document::KeyPath;
-
-use crate::control::{ControlSettings, Gain};
-use crate::description_file::DescriptionFile;
 use crate::error::RobotError;
-use crate::looks::Looks;
-use crate::lumping::Lumping;
-use crate::misfit::Misfit;
-use crate::model::Robot;
-use crate::packages::Packages;
-use crate::part::{LockedJoint, Part};
-use crate::urdf::UrdfModel;
+use crate::loaded::Loaded;
+use crate::meshes::folders::MeshFolders;
+use crate::meshes::packages::Packages;
+use crate::robot_toml::file::DescriptionFile;
+use crate::structure::control::{ControlSettings, Gain};
+use crate::structure::lumping::Lumping;
+
+use crate::structure::part::{Part, positions};
+use crate::structure::robot::Robot;
 use crate::warning::RobotWarning;
-use crate::{mjcf, part, urdf};
+use crate::whole_robot::WholeRobot;
+use crate::{mjcf, urdf};
 
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -33,44 +32,6 @@ pub struct LoadOptions {
     pub packages: Packages,
     /// Which folders meshes may lie in beside packages.
     pub meshes: MeshFolders,
-}
-
-/// Which folders the meshes of a URDF may lie in, packages apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum MeshFolders {
-    /// That of the URDF, and those in it.
-    #[default]
-    Below,
-    /// All.
-    Anywhere,
-}
-
-/// A robot as its files describe it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Loaded {
-    /// The robot, with everything that `robot.toml` says. Joints that are locked are no joints of
-    /// it: the links they carry are merged into what they hang on.
-    pub robot: Robot,
-    /// The robot as the URDF alone describes it, with the same joints locked.
-    pub robot_in_urdf: Robot,
-    /// What the robot looks like, as the URDF says.
-    pub looks: Looks,
-    /// The URDF or MJCF that was read.
-    pub urdf_path: PathBuf,
-    /// Its text with all that it includes, where it includes other files.
-    pub expanded: Option<String>,
-    /// Name of the link that does not move; its frame is the base frame.
-    pub base_link: String,
-    /// Names of the links fixed to the base; they have no part in the dynamics.
-    pub fixed_to_base: Vec<String>,
-    /// Which joints were asked for and which locked, in the words of `robot.toml`.
-    pub part: Part,
-    /// The joints of the URDF that are locked, in its order.
-    pub locked: Vec<LockedJoint>,
-    /// How the real robot is controlled; nothing is known without a `robot.toml`.
-    pub control: ControlSettings,
-    /// What the owner of the files should know.
-    pub warnings: Vec<RobotWarning>,
 }
 
 impl Robot {
@@ -138,7 +99,7 @@ impl Robot {
     ///
     /// What is wrong with the URDF, without the name of a file.
     pub fn from_urdf(text: &str) -> Result<Self, RobotError> {
-        let model = urdf::parse(text)?;
+        let model = urdf::parse::parse(text)?;
         let mut loaded = Loaded::from_urdf(&model, Part::default(), Path::new(""))?;
         loaded.judge(&model)?;
         Ok(loaded.robot)
@@ -146,10 +107,10 @@ impl Robot {
 }
 
 impl Loaded {
-    fn from_urdf(model: &UrdfModel, part: Part, path: &Path) -> Result<Self, RobotError> {
+    fn from_urdf(model: &WholeRobot, part: Part, path: &Path) -> Result<Self, RobotError> {
         let whole = &model.robot;
         let locked = part.locks(whole, &model.mimics)?;
-        let lumping = Lumping::new(whole, &part::positions(&locked));
+        let lumping = Lumping::new(whole, &positions(&locked));
         let robot = lumping.robot(whole)?;
         let fixed = model.fixed_to_base.iter().cloned();
         Ok(Self {
@@ -172,7 +133,7 @@ impl Loaded {
     ///
     /// What the files say of a body goes on holding where that body still is one, and is lumped
     /// into another where it is not.
-    fn narrowed(self, model: &UrdfModel, joints: &[String]) -> Result<Self, RobotError> {
+    fn narrowed(self, model: &WholeRobot, joints: &[String]) -> Result<Self, RobotError> {
         if let Some(name) = joints.iter().find(|name| self.robot.joint_index(name).is_none()) {
             return Err(self.no_joint_to_keep(name));
         }
@@ -202,7 +163,7 @@ impl Loaded {
 
     /// Refuses a body that is said to have no mass and moves, and more joints than are computed with, and adds what to know of the joints
     /// that are held.
-    fn judge(&mut self, model: &UrdfModel) -> Result<(), RobotError> {
+    fn judge(&mut self, model: &WholeRobot) -> Result<(), RobotError> {
         let found = self.robot.joint_count();
         if found > MOST_JOINTS {
             let robot = self.robot.name().to_owned();
@@ -250,38 +211,19 @@ impl Loaded {
             hint: format!("it is locked at {}", lock.position),
         }
     }
-
-    /// The joint called `name` at a key of `robot.toml`.
-    pub(crate) fn joint_index(&self, key: &KeyPath, name: &str) -> Result<usize, Misfit> {
-        self.robot.joint_index(name).ok_or_else(|| match self.lock(name) {
-            Some(lock) => {
-                let sentence = format!(
-                    "joint {name} is locked at {}, one that moves was expected",
-                    lock.position
-                );
-                Misfit::new(key.clone(), sentence)
-            }
-            None => Misfit::name(key.clone(), "joint", name, self.robot.joint_names()),
-        })
-    }
-
-    /// How the joint called `name` is locked, if it is.
-    pub(crate) fn lock(&self, name: &str) -> Option<&LockedJoint> {
-        self.locked.iter().find(|lock| lock.joint == name)
-    }
 }
 
 /// What the text of a URDF or an MJCF says.
-fn model(text: &str, path: &Path) -> Result<UrdfModel, RobotError> {
-    if mjcf::is_mjcf(text) {
-        mjcf::parse(text, path.parent().unwrap_or(Path::new("")), &read)
+fn model(text: &str, path: &Path) -> Result<WholeRobot, RobotError> {
+    if mjcf::element::is_mjcf(text) {
+        mjcf::parse::parse(text, path.parent().unwrap_or(Path::new("")), &read)
     } else {
-        urdf::parse(text)
+        urdf::parse::parse(text)
     }
 }
 
 /// The gains that a file gives, one entry a joint.
-fn whole_gains(model: &UrdfModel) -> Vec<Option<Gain>> {
+fn whole_gains(model: &WholeRobot) -> Vec<Option<Gain>> {
     let mut gains = model.gains.clone();
     gains.resize(model.robot.joint_count(), None);
     gains

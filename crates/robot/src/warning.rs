@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::inertia::InertiaDefect;
+use crate::structure::inertia::InertiaDefect;
 
 /// Something about a robot that is allowed, but that its owner should know.
 #[derive(Debug, Clone, PartialEq)]

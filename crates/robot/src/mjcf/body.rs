@@ -3,9 +3,6 @@
 use nalgebra::{Isometry3, Matrix3};
 
 use crate::error::RobotError;
-use crate::inertia::Inertia;
-use crate::link::Link;
-use crate::looks::Looks;
 use crate::mjcf::classes::{Classes, MAIN};
 use crate::mjcf::compiler::{Compiler, InertiaSource};
 use crate::mjcf::element::Element;
@@ -13,6 +10,9 @@ use crate::mjcf::geom::{Geom, Meshes};
 use crate::mjcf::joint::{Motion, driven, motion};
 use crate::mjcf::unread::Unread;
 use crate::mjcf::view::View;
+use crate::structure::inertia::Inertia;
+use crate::structure::link::Link;
+use crate::structure::looks::Looks;
 use crate::warning::RobotWarning;
 
 /// The frame that what is inside of an element is described in.

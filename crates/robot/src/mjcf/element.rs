@@ -5,6 +5,7 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
 use crate::error::RobotError;
+use crate::one_line::one_line;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 200;
@@ -139,7 +140,7 @@ impl<'a> Files<'a> {
             line += text.as_bytes()[counted..at].iter().filter(|&&b| b == b'\n').count();
             counted = at;
             let malformed = |reason: String| RobotError::Malformed { line, reason };
-            match event.map_err(|e| malformed(super::one_line(&e.to_string())))? {
+            match event.map_err(|e| malformed(one_line(&e.to_string())))? {
                 Event::Start(tag) => {
                     if open.len() == MAX_DEPTH {
                         let reason = format!("elements are nested more than {MAX_DEPTH} deep");
@@ -177,7 +178,7 @@ impl<'a> Files<'a> {
         let name = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
         let mut attributes = vec![];
         for found in tag.attributes() {
-            let found = found.map_err(|e| malformed(super::one_line(&e.to_string())))?;
+            let found = found.map_err(|e| malformed(one_line(&e.to_string())))?;
             let value = found.unescape_value().map_err(|e| malformed(e.to_string()))?.into_owned();
             attributes.push((String::from_utf8_lossy(found.key.as_ref()).into_owned(), value));
         }

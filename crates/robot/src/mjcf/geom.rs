@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, Vector3};
 
 use crate::error::RobotError;
-use crate::inertia::Inertia;
-use crate::looks::{Shape, Visual};
 use crate::mjcf::element::Element;
 use crate::mjcf::view::{View, turned_to};
+use crate::structure::inertia::Inertia;
+use crate::structure::looks::{Shape, Visual};
 
 /// Density of a shape that does not say another (kg/m³).
 const DENSITY: f64 = 1000.0;

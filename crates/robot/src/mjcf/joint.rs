@@ -1,9 +1,9 @@
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use crate::actuator::Actuator;
 use crate::error::RobotError;
-use crate::joint::{Joint, JointKind, Limits};
 use crate::mjcf::view::View;
+use crate::structure::actuator::Actuator;
+use crate::structure::joint::{Joint, JointKind, Limits};
 
 /// How a joint of an MJCF moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

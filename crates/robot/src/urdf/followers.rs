@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use crate::error::RobotError;
-use crate::part::Mimics;
+use crate::structure::part::Mimics;
 use crate::urdf::convert;
 
 /// The joints that mimic another one; every chain of them ends at a joint that mimics none.

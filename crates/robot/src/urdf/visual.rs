@@ -5,9 +5,10 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use urdf_rs::Geometry;
 
-use crate::looks::{Shape, Visual};
+use crate::one_line::one_line;
+use crate::structure::looks::{Shape, Visual};
 use crate::urdf::convert;
-use crate::urdf::outline::{attribute, one_line};
+use crate::urdf::outline::attribute;
 use crate::warning::RobotWarning;
 
 /// Largest size and distance that is drawn (m): a number beyond it is a mistake.

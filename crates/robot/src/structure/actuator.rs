@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::control::Gain;
+use crate::structure::control::Gain;
 
 /// Where the position of a joint is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -1,6 +1,6 @@
-use crate::actuator::Actuator;
-use crate::inertia::Inertia;
-use crate::joint::Joint;
+use crate::structure::actuator::Actuator;
+use crate::structure::inertia::Inertia;
+use crate::structure::joint::Joint;
 
 /// A moving link: the body, the joint that carries it and that joint's actuator.
 ///

@@ -4,14 +4,14 @@ use document::KeyPath;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::actuator::{SensingSide, TorqueSource};
-use crate::control::Gain;
-use crate::inertia::Inertia;
-use crate::joint_entry::{JointEntry, gain};
-use crate::load::Loaded;
+use crate::loaded::Loaded;
 use crate::misfit::Misfit;
-use crate::part::Part;
 use crate::range::{Range, in_range};
+use crate::robot_toml::joint_entry::{JointEntry, gain};
+use crate::structure::actuator::{SensingSide, TorqueSource};
+use crate::structure::control::Gain;
+use crate::structure::inertia::Inertia;
+use crate::structure::part::Part;
 use crate::warning::RobotWarning;
 
 /// The keys of `robot.toml`: what a URDF cannot say.

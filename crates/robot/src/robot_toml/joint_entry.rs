@@ -1,13 +1,13 @@
 use document::KeyPath;
 use serde::{Deserialize, Serialize};
 
-use crate::actuator::{
-    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
-};
-use crate::control::Gain;
-use crate::load::Loaded;
+use crate::loaded::Loaded;
 use crate::misfit::Misfit;
 use crate::range::{Range, in_range};
+use crate::structure::actuator::{
+    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
+};
+use crate::structure::control::Gain;
 
 /// `[joint.<name>]`
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]

@@ -2,18 +2,20 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::actuator::{SensingSide, TorqueSource, Warming, Wave};
-use crate::control::Gain;
-use crate::description::{Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry};
-use crate::description_file::DescriptionFile;
 use crate::error::RobotError;
-use crate::inertia::Inertia;
-use crate::joint_entry::{
+use crate::loaded::Loaded;
+use crate::robot_toml::description::{
+    Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry,
+};
+use crate::robot_toml::file::DescriptionFile;
+use crate::robot_toml::joint_entry::{
     CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WarmingEntry, WaveEntry,
 };
-use crate::link::Link;
-use crate::load::Loaded;
-use crate::model::Robot;
+use crate::structure::actuator::{SensingSide, TorqueSource, Warming, Wave};
+use crate::structure::control::Gain;
+use crate::structure::inertia::Inertia;
+use crate::structure::link::Link;
+use crate::structure::robot::Robot;
 
 impl Loaded {
     /// A `robot.toml` that describes `robot`, this one or a changed copy of it.

@@ -1,10 +1,6 @@
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
-use crate::load::MeshFolders;
-use crate::looks::{Looks, Shape, Visual};
-use crate::mesh_kind::is_mesh;
-use crate::packages::Packages;
-use crate::warning::RobotWarning;
+use crate::meshes::kind::is_mesh;
 
 /// Folders, from that of the URDF upwards, beside which a package is looked for.
 const FOLDERS: usize = 5;

@@ -3,8 +3,8 @@ use std::collections::BTreeSet;
 use nalgebra::Vector3;
 
 use crate::error::RobotError;
-use crate::link::Link;
 use crate::range::{LARGEST, Most};
+use crate::structure::link::Link;
 
 /// A robot: a tree of moving links on a fixed base.
 ///

@@ -2,12 +2,12 @@ use std::path::{Path, PathBuf};
 
 use document::{Document, KeyPath};
 
-use crate::description::Description;
 use crate::error::RobotError;
-use crate::load::Loaded;
+use crate::loaded::Loaded;
 use crate::misfit::Misfit;
-use crate::part::Part;
-use crate::urdf::UrdfModel;
+use crate::robot_toml::description::Description;
+use crate::structure::part::Part;
+use crate::whole_robot::WholeRobot;
 
 /// A `robot.toml` that was read, with the places of what it says.
 pub(crate) struct DescriptionFile {
@@ -48,7 +48,7 @@ impl DescriptionFile {
     /// # Errors
     ///
     /// [`RobotError::InToml`] for what the keys say of joints that do not move, say twice or cannot mean.
-    pub fn part(&self, model: &UrdfModel) -> Result<Part, RobotError> {
+    pub fn part(&self, model: &WholeRobot) -> Result<Part, RobotError> {
         let part = self.description.part();
         let checked = part.check(&model.robot, &model.mimics);
         checked.map_err(|misfit| misfit.shown_in(&self.document))?;

@@ -2,12 +2,12 @@ use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
 
-use crate::actuator::{Actuator, Coupling};
-use crate::control::{ControlSettings, Gain};
 use crate::error::RobotError;
-use crate::link::Link;
-use crate::looks::Looks;
-use crate::model::Robot;
+use crate::structure::actuator::{Actuator, Coupling};
+use crate::structure::control::{ControlSettings, Gain};
+use crate::structure::link::Link;
+use crate::structure::looks::Looks;
+use crate::structure::robot::Robot;
 
 /// Where the links of a robot end up when some of its joints are locked.
 ///
