@@ -26,20 +26,20 @@ mod urdf;
 mod warning;
 mod whole_robot;
 
-pub use crate::error::RobotError;
-pub use crate::load::LoadOptions;
-pub use crate::loaded::Loaded;
-pub use crate::machine::{Machine, MachineFault, Reading};
-pub use crate::meshes::folders::MeshFolders;
-pub use crate::meshes::packages::Packages;
-pub use crate::structure::actuator::{
+pub use error::RobotError;
+pub use load::LoadOptions;
+pub use loaded::Loaded;
+pub use machine::{Machine, MachineFault, Reading};
+pub use meshes::folders::MeshFolders;
+pub use meshes::packages::Packages;
+pub use structure::actuator::{
     Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
 };
-pub use crate::structure::control::{ControlSettings, Gain};
-pub use crate::structure::inertia::{Inertia, InertiaDefect};
-pub use crate::structure::joint::{Joint, JointKind, Limits};
-pub use crate::structure::link::Link;
-pub use crate::structure::looks::{Looks, Shape, Visual};
-pub use crate::structure::part::{LockedJoint, Part};
-pub use crate::structure::robot::Robot;
-pub use crate::warning::RobotWarning;
+pub use structure::control::{ControlSettings, Gain};
+pub use structure::inertia::{Inertia, InertiaDefect};
+pub use structure::joint::{Joint, JointKind, Limits};
+pub use structure::link::Link;
+pub use structure::looks::{Looks, Shape, Visual};
+pub use structure::part::{LockedJoint, Part};
+pub use structure::robot::Robot;
+pub use warning::RobotWarning;

@@ -1,10 +1,11 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
 use motion::{Motion, MotionError};
 use robot::{Gain, Loaded, Robot};
 
+use crate::effects::mistake::Mistake;
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;
 use crate::scenario::resolved::resolve;
