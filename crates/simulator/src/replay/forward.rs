@@ -7,7 +7,7 @@ use robot::{Machine, MachineFault, Robot};
 use crate::error::SimulatorError;
 use crate::replay::record::{
     STEP_S, State, check_rate, encoder_state, held_torque, simulator_of_record, start_at_sample,
-    too_short,
+    too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
 /// How a record is rolled forward: in windows one after the other.

@@ -4,7 +4,7 @@ use robot::{Gain, Machine, Reading, Robot};
 use crate::error::SimulatorError;
 use crate::replay::record::{
     STEP_S, State, check_rate, encoder_state, held_torque, interpolate, simulator_of_record,
-    start_at_sample, too_short,
+    start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
 /// Slowest rate of the controller that follows a recorded motion (Hz).
