@@ -54,57 +54,68 @@ const fn log(name: &'static str, motion: MotionClass, path: u8) -> Log {
     Log { name, motion, path }
 }
 
+const fn entry(
+    name: &'static str,
+    folder: &'static str,
+    robot: Described,
+    effort: EffortClass,
+    held_out: HeldOut,
+    logs: &'static [Log],
+) -> Entry {
+    Entry { name, folder, robot, effort, held_out, logs }
+}
+
 /// The first two logs of the LWR4 are of one motion, and so are the first two of the Gen3.
 static ARMS: [Entry; 7] = [
-    Entry {
-        name: "lwr4",
-        folder: "kuka_lwr4",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::JointTorque,
-        held_out: HeldOut::Log,
-        logs: &[
+    entry(
+        "lwr4",
+        "kuka_lwr4",
+        Described::BesideTheLogs,
+        EffortClass::JointTorque,
+        HeldOut::Log,
+        &[
             log("measurements_1", MotionClass::Sinusoids, 0),
             log("measurements_2", MotionClass::Sinusoids, 0),
             log("measurements_3", MotionClass::Sinusoids, 1),
         ],
-    },
-    Entry {
-        name: "gen3",
-        folder: "kinova_gen3",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::Log,
-        logs: &[
+    ),
+    entry(
+        "gen3",
+        "kinova_gen3",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::Log,
+        &[
             log("Trajectory1", MotionClass::PointToPoint, 0),
             log("RunTrajectory1", MotionClass::PointToPoint, 0),
             log("RecordTrajectory_quadratic", MotionClass::PointToPoint, 1),
             log("opti_traj_testing1", MotionClass::Sinusoids, 2),
             log("opti_traj_testing2", MotionClass::Sinusoids, 3),
         ],
-    },
-    Entry {
-        name: "tx40",
-        folder: "staubli_tx40",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::LastQuarter,
-        logs: &[log("excitation", MotionClass::Sinusoids, 0)],
-    },
-    Entry {
-        name: "barrett_wam",
-        folder: "barrett_wam",
-        robot: Described::Here,
-        effort: EffortClass::Command,
-        held_out: HeldOut::LastQuarter,
-        logs: &[log("shoulder_elbow_sweep", MotionClass::Sweep, 0)],
-    },
-    Entry {
-        name: "ur10e",
-        folder: "ur10e_joint_by_joint",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::Quarter,
-        logs: &[
+    ),
+    entry(
+        "tx40",
+        "staubli_tx40",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::LastQuarter,
+        &[log("excitation", MotionClass::Sinusoids, 0)],
+    ),
+    entry(
+        "barrett_wam",
+        "barrett_wam",
+        Described::Here,
+        EffortClass::Command,
+        HeldOut::LastQuarter,
+        &[log("shoulder_elbow_sweep", MotionClass::Sweep, 0)],
+    ),
+    entry(
+        "ur10e",
+        "ur10e_joint_by_joint",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::Quarter,
+        &[
             log("joint_1", MotionClass::JointByJoint, 0),
             log("joint_2", MotionClass::JointByJoint, 1),
             log("joint_3", MotionClass::JointByJoint, 2),
@@ -112,28 +123,28 @@ static ARMS: [Entry; 7] = [
             log("joint_5", MotionClass::JointByJoint, 4),
             log("joint_6", MotionClass::JointByJoint, 5),
         ],
-    },
-    Entry {
-        name: "dfki_pendulum",
-        folder: "dfki_pendulum",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::Log,
-        logs: &[
+    ),
+    entry(
+        "dfki_pendulum",
+        "dfki_pendulum",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::Log,
+        &[
             log("ddp", MotionClass::SwingUp, 0),
             log("direct_collocation", MotionClass::SwingUp, 1),
             log("pd", MotionClass::SwingUp, 2),
             log("gravity_compensation", MotionClass::LedByHand, 3),
         ],
-    },
-    Entry {
-        name: "panda",
-        folder: "panda",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::JointTorque,
-        held_out: HeldOut::LastQuarter,
-        logs: &[log("whole", MotionClass::Sinusoids, 0)],
-    },
+    ),
+    entry(
+        "panda",
+        "panda",
+        Described::BesideTheLogs,
+        EffortClass::JointTorque,
+        HeldOut::LastQuarter,
+        &[log("whole", MotionClass::Sinusoids, 0)],
+    ),
 ];
 
 /// A real arm whose recorded logs are there.

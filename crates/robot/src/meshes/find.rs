@@ -1,6 +1,10 @@
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
+use crate::meshes::folders::MeshFolders;
 use crate::meshes::kind::is_mesh;
+use crate::meshes::packages::Packages;
+use crate::structure::looks::{Looks, Shape, Visual};
+use crate::warning::RobotWarning;
 
 /// Folders, from that of the URDF upwards, beside which a package is looked for.
 const FOLDERS: usize = 5;

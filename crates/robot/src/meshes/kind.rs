@@ -1,5 +1,5 @@
 use std::fs::File;
-use std::io::{Read, SeekFrom};
+use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 /// Bytes of a text that say what it is.

@@ -4,6 +4,7 @@ use document::KeyPath;
 
 use crate::error::RobotError;
 use crate::misfit::Misfit;
+use crate::range::Range;
 use crate::structure::robot::Robot;
 
 /// The joints of a robot that move; the others are locked, and what they carry is fixed.

@@ -1,5 +1,6 @@
 //! Effects of no catalogue, one file each: what a workshop has and a diagnosis has no name for.
 
+pub(crate) mod bump;
 pub(crate) mod chain;
 pub(crate) mod drive_dead_zone;
 pub(crate) mod eccentric_encoder;
