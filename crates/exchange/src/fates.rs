@@ -3,7 +3,7 @@ use robot::{Link, Loaded};
 use crate::fate::{Fate, Fated};
 use crate::format::Format;
 use crate::numbers::size;
-use crate::quantity::{Quantity, quantities};
+use crate::quantity::{DriveQuantity, quantities};
 use crate::{mjcf, sdf, urdf, usd};
 
 pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
@@ -44,7 +44,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
 }
 
 /// What becomes of a quantity of a joint.
-pub(crate) fn fate_of(quantity: Quantity, link: &Link, format: Format) -> Fate {
+pub(crate) fn fate_of(quantity: DriveQuantity, link: &Link, format: Format) -> Fate {
     match format {
         Format::Urdf => urdf::edit::fate(quantity),
         Format::Mjcf => mjcf::write::fate(quantity, link),

@@ -4,7 +4,7 @@ use crate::numbers::size;
 
 /// A quantity of a joint that is not that of an ideal drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum DriveQuantity {
     /// Inertia of the rotor.
     Rotor,
     /// Viscous friction.
@@ -64,13 +64,13 @@ pub fn levels(a: &Actuator) -> (f64, f64) {
 }
 
 /// All that the drive of a link adds to the ideal one, each with its size in words.
-pub fn quantities(robot: &Robot, link: &Link) -> Vec<(Quantity, String)> {
-    use Quantity as Q;
+pub fn quantities(robot: &Robot, link: &Link) -> Vec<(DriveQuantity, String)> {
+    use DriveQuantity as Q;
     let a = &link.actuator;
     let rotates = link.joint.kind.is_rotation();
     let [nm, rad, kg] = if rotates { ["N·m", "rad", "kg·m²"] } else { ["N", "m", "kg"] };
     let (mean, difference) = levels(a);
-    let mut list: Vec<(Quantity, String)> = vec![];
+    let mut list: Vec<(DriveQuantity, String)> = vec![];
     let mut add = |quantity, value: f64, ideal: f64, words: &str, unit: &str| {
         if (value - ideal).abs() > 0.0 {
             list.push((quantity, format!("{words} {} {unit}", size(value)).trim_end().to_owned()));

@@ -3,7 +3,7 @@ use robot::{Actuator, Inertia, Link, Loaded, Robot};
 use crate::fate::Fate;
 use crate::fates::fate_of;
 use crate::format::Format;
-use crate::quantity::{Quantity, levels, quantities};
+use crate::quantity::{DriveQuantity, levels, quantities};
 use crate::{mjcf, usd};
 
 /// The robot that a file of `format` describes, of `reported`, whose positions are those that its encoders report.
@@ -46,10 +46,10 @@ fn inertia(inertia: &Inertia, format: Format) -> Inertia {
 }
 
 /// Writes a quantity that stands in the file as another one.
-fn write(quantity: Quantity, link: &Link, format: Format, drive: &mut Actuator) {
+fn write(quantity: DriveQuantity, link: &Link, format: Format, drive: &mut Actuator) {
     match (quantity, format) {
         // The constant torque is in the rest of the spring.
-        (Quantity::Asymmetry, Format::Mjcf) => {
+        (DriveQuantity::Asymmetry, Format::Mjcf) => {
             if let Some([stiffness, cubic, rest]) = mjcf::joint::springs(link) {
                 drive.spring_stiffness = stiffness;
                 drive.spring_cubic = cubic;
@@ -58,14 +58,14 @@ fn write(quantity: Quantity, link: &Link, format: Format, drive: &mut Actuator) 
             leave_out(quantity, drive);
         }
         // The level at rest is gone at once in motion.
-        (Quantity::Stribeck, Format::Isaac) => drive.stribeck = None,
+        (DriveQuantity::Stribeck, Format::Isaac) => drive.stribeck = None,
         _ => {}
     }
 }
 
 /// Makes a quantity that of an ideal drive.
-fn leave_out(quantity: Quantity, drive: &mut Actuator) {
-    use Quantity as Q;
+fn leave_out(quantity: DriveQuantity, drive: &mut Actuator) {
+    use DriveQuantity as Q;
     let (mean, difference) = levels(drive);
     match quantity {
         Q::Rotor => drive.rotor_inertia = 0.0,

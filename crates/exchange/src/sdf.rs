@@ -5,7 +5,7 @@ use robot::{Inertia, JointKind, Link, Loaded, Robot};
 
 use crate::fate::Fate;
 use crate::numbers::{moments, number, numbers};
-use crate::quantity::{Quantity, levels};
+use crate::quantity::{DriveQuantity, levels};
 use crate::unsupported::fate_of_unsupported;
 use crate::xml_text::XmlText;
 
@@ -105,15 +105,15 @@ fn joint(sheet: &mut XmlText, link: &Link, parent: &str) {
 }
 
 /// What becomes of a quantity of a joint.
-pub fn fate(quantity: Quantity, link: &Link) -> Fate {
+pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
     match quantity {
-        Quantity::Viscous => Fate::exact("<damping>"),
-        Quantity::Coulomb => Fate::exact("<friction>"),
-        Quantity::Spring if link.actuator.spring_stiffness > 0.0 => {
+        DriveQuantity::Viscous => Fate::exact("<damping>"),
+        DriveQuantity::Coulomb => Fate::exact("<friction>"),
+        DriveQuantity::Spring if link.actuator.spring_stiffness > 0.0 => {
             Fate::exact("<spring_stiffness>, <spring_reference>")
         }
-        Quantity::Spring => Fate::dropped("Gazebo takes no spring below 0"),
-        Quantity::EncoderOffset => Fate::exact("<pose> of the link"),
+        DriveQuantity::Spring => Fate::dropped("Gazebo takes no spring below 0"),
+        DriveQuantity::EncoderOffset => Fate::exact("<pose> of the link"),
         other => fate_of_unsupported(other),
     }
 }

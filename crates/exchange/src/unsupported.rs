@@ -1,9 +1,9 @@
 use crate::fate::Fate;
-use crate::quantity::Quantity;
+use crate::quantity::DriveQuantity;
 
 /// Why a format has no place for a quantity that only the models of this program know.
-pub(crate) fn fate_of_unsupported(quantity: Quantity) -> Fate {
-    use Quantity as Q;
+pub(crate) fn fate_of_unsupported(quantity: DriveQuantity) -> Fate {
+    use DriveQuantity as Q;
     Fate::dropped(match quantity {
         Q::Stribeck => "dry friction of the format has one level at all speeds",
         Q::LoadFriction => "dry friction of the format has one level at all loads",

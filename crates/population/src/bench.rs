@@ -3,10 +3,10 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use simulator::scenario::{ControlSpec, RunSpec, SensorSpec};
 
-use crate::arms::arm::Arm;
+use crate::arms::arm::SampledArm;
 use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass, MotionClass};
-use crate::dice::{between, happens, spread, weighted};
+use crate::dice::{between, happens, log_uniform_between, weighted_index};
 use crate::error::PopulationError;
 use crate::motions::ground::Ground;
 use crate::motions::log_plan::LogPlan;
@@ -20,7 +20,7 @@ const LEAD_IN_S: f64 = 1.0;
 
 /// An arm on its bench: what a truth is made of before anything is hidden in it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bench {
+pub struct LabBench {
     /// Kind of arm.
     pub class: ArmClass,
     /// The arm as it is: bodies, rotors, gravity, gains, limits, sensing; no friction.
@@ -65,17 +65,20 @@ pub struct BenchWishes {
 ///
 /// [`PopulationError::NothingToDraw`], or [`PopulationError::NoBench`] where no arm carries a motion of the
 /// kind that was drawn.
-pub fn draw_bench(wishes: &BenchWishes, random: &mut ChaCha8Rng) -> Result<Bench, PopulationError> {
+pub fn draw_bench(
+    wishes: &BenchWishes,
+    random: &mut ChaCha8Rng,
+) -> Result<LabBench, PopulationError> {
     let class = pick("classes", &wishes.classes, random)?;
     let motion = pick("motions", &wishes.motions, random)?;
     // Settled once, so that arms which are hard to move are not rare.
-    let count = 1 + weighted(random, &Make::of(class).joints);
+    let count = 1 + weighted_index(random, &Make::of(class).joints);
     for _ in 0..TRIES {
-        let arm = Arm::draw(class, count, random)?;
+        let arm = SampledArm::draw(class, count, random)?;
         let sensors = sensors::draw(class, &arm, random);
         let friction = arm.friction(class, random);
-        if let Some(moved) = moved(&arm, motion, wishes, random)? {
-            return Ok(Bench {
+        if let Some(moved) = draw_runs(&arm, motion, wishes, random)? {
+            return Ok(LabBench {
                 class,
                 control: ControlSpec::default(),
                 sensors,
@@ -94,23 +97,23 @@ pub fn draw_bench(wishes: &BenchWishes, random: &mut ChaCha8Rng) -> Result<Bench
 }
 
 /// The runs of a bench.
-struct Moved {
+struct BenchRuns {
     runs: Vec<RunSpec>,
     held_out: RunSpec,
     repeats: bool,
 }
 
 /// Runs of an arm; `None` where it carries no such motion.
-fn moved(
-    arm: &Arm,
+fn draw_runs(
+    arm: &SampledArm,
     motion: MotionClass,
     wishes: &BenchWishes,
     random: &mut ChaCha8Rng,
-) -> Result<Option<Moved>, PopulationError> {
+) -> Result<Option<BenchRuns>, PopulationError> {
     let ground = Ground::new(arm, between(random, [0.2, 1.0]));
     let logs = log_count(ground.count(), motion, wishes, random);
     let repeats = motion == MotionClass::Repeated && logs > 1;
-    let typical_s = spread(random, wishes.log_s);
+    let typical_s = log_uniform_between(random, wishes.log_s);
     let mixed = happens(random, 0.2)
         && !matches!(motion, MotionClass::Repeated | MotionClass::JointByJoint);
     let mut runs: Vec<RunSpec> = Vec::with_capacity(logs);
@@ -133,7 +136,7 @@ fn moved(
     // What all joints do in one log says most of a model.
     let place = LogPlan { log: 0, logs: 1, length_s: length(typical_s, wishes, random) };
     let held_out = motions::draw::draw(motion, &ground, place, random)?;
-    Ok(held_out.map(|spec| Moved { runs, held_out: run("held_out".to_owned(), spec), repeats }))
+    Ok(held_out.map(|spec| BenchRuns { runs, held_out: run("held_out".to_owned(), spec), repeats }))
 }
 
 fn log_count(

@@ -27,7 +27,7 @@ mod store;
 mod text_file;
 mod trial;
 
-pub use bench::{Bench, BenchWishes, draw_bench};
+pub use bench::{BenchWishes, LabBench, draw_bench};
 pub use corner::{ArmClass, Corner, EffortClass, MotionClass, Origin};
 pub use error::PopulationError;
 pub use recorded::arm::{RecordedArm, available};

@@ -85,8 +85,8 @@ impl PopulationSpec {
     ) -> Result<Self, DocumentError> {
         let check = Check { document, key };
         check.number("trials", spec.trials as f64, [1.0, MOST_TRIALS as f64])?;
-        check.filled("arms", spec.arms.len())?;
-        check.filled("motions", spec.motions.len())?;
+        check.not_empty("arms", spec.arms.len())?;
+        check.not_empty("motions", spec.motions.len())?;
         check.range("logs", spec.logs.map(|n| n as f64), [1.0, MOST_LOGS as f64])?;
         check.range("log_s", spec.log_s, [5.0, 60.0])?;
         check.number("longest_s", spec.longest_s, [5.0, 480.0])?;
@@ -177,7 +177,7 @@ impl Check<'_> {
         Err(self.mistake(name, found))
     }
 
-    fn filled(&self, name: &str, count: usize) -> Result<(), DocumentError> {
+    fn not_empty(&self, name: &str, count: usize) -> Result<(), DocumentError> {
         if count > 0 {
             return Ok(());
         }

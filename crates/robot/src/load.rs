@@ -74,7 +74,7 @@ impl Robot {
         } else {
             (None, path.to_owned(), text)
         };
-        let model = model(&text, &urdf_path).map_err(|e| e.in_file(&urdf_path))?;
+        let model = read_model(&text, &urdf_path).map_err(|e| e.in_file(&urdf_path))?;
         let part = file.as_ref().map(|file| file.part(&model)).transpose()?.unwrap_or_default();
         let mut loaded =
             Loaded::from_urdf(&model, part, &urdf_path).map_err(|e| e.in_file(path))?;
@@ -82,14 +82,14 @@ impl Robot {
             file.apply(&mut loaded)?;
         }
         if let Some(joints) = &options.joints {
-            loaded = loaded.narrowed(&model, joints)?;
+            loaded = loaded.keep_joints(&model, joints)?;
         }
         loaded.warnings.extend(loaded.looks.find_meshes(
             &urdf_path,
             &options.packages,
             options.meshes,
         ));
-        loaded.judge(&model).map_err(|e| e.in_file(&urdf_path))?;
+        loaded.check(&model).map_err(|e| e.in_file(&urdf_path))?;
         Ok(loaded)
     }
 
@@ -101,7 +101,7 @@ impl Robot {
     pub fn from_urdf(text: &str) -> Result<Self, RobotError> {
         let model = urdf::parse::parse(text)?;
         let mut loaded = Loaded::from_urdf(&model, Part::default(), Path::new(""))?;
-        loaded.judge(&model)?;
+        loaded.check(&model)?;
         Ok(loaded.robot)
     }
 }
@@ -133,7 +133,7 @@ impl Loaded {
     ///
     /// What the files say of a body goes on holding where that body still is one, and is lumped
     /// into another where it is not.
-    fn narrowed(self, model: &WholeRobot, joints: &[String]) -> Result<Self, RobotError> {
+    fn keep_joints(self, model: &WholeRobot, joints: &[String]) -> Result<Self, RobotError> {
         if let Some(name) = joints.iter().find(|name| self.robot.joint_index(name).is_none()) {
             return Err(self.no_joint_to_keep(name));
         }
@@ -163,7 +163,7 @@ impl Loaded {
 
     /// Refuses a body that is said to have no mass and moves, and more joints than are computed with, and adds what to know of the joints
     /// that are held.
-    fn judge(&mut self, model: &WholeRobot) -> Result<(), RobotError> {
+    fn check(&mut self, model: &WholeRobot) -> Result<(), RobotError> {
         let found = self.robot.joint_count();
         if found > MOST_JOINTS {
             let robot = self.robot.name().to_owned();
@@ -214,7 +214,7 @@ impl Loaded {
 }
 
 /// What the text of a URDF or an MJCF says.
-fn model(text: &str, path: &Path) -> Result<WholeRobot, RobotError> {
+fn read_model(text: &str, path: &Path) -> Result<WholeRobot, RobotError> {
     if mjcf::element::is_mjcf(text) {
         mjcf::parse::parse(text, path.parent().unwrap_or(Path::new("")), &read)
     } else {

@@ -35,7 +35,7 @@ impl Misfit {
     }
 
     /// The mistake where it stands in the file.
-    pub fn shown_in(self, document: &Document) -> RobotError {
+    pub fn locate_in(self, document: &Document) -> RobotError {
         let mistake = match self.problem {
             Problem::Sentence(sentence) => document.mistake(&self.key, sentence, None),
             Problem::Name { what, found, known } => {

@@ -192,7 +192,7 @@ impl Sensors {
 
     /// What the encoders at the links say at a time (s) of the true positions of the links.
     pub(crate) fn measure_links(&mut self, time_s: f64, q: &[f64]) -> Vec<Option<f64>> {
-        let q = self.link_lag.seen(time_s, q);
+        let q = self.link_lag.read(time_s, q);
         let mut reading = |encoder: LinkEncoder, q: f64| {
             round_to_step(q + draw(&mut self.link_random, encoder.noise), encoder.resolution)
         };
@@ -238,7 +238,7 @@ impl LinkLag {
     }
 
     /// What is seen of the positions `q` of now.
-    fn seen<'a>(&'a mut self, time_s: f64, q: &'a [f64]) -> &'a [f64] {
+    fn seen(&'a mut self, time_s: f64, q: &'a [f64]) -> &'a [f64] {
         if self.lag_s <= 0.0 {
             return q;
         }

@@ -2,7 +2,7 @@ use robot::{Machine, MachineFault, Reading, Robot};
 
 use crate::effects::described::described_effects;
 use crate::error::SimulatorError;
-use crate::mechanics::arm::Arm;
+use crate::mechanics::arm::EngineArm;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::mechanics::plant::Plant;
 use crate::sensors::{EffortSource, PositionSide, Sensors};
@@ -35,7 +35,7 @@ pub struct Stepping {
 /// steps in it.
 pub struct Simulator {
     joints: Vec<Joint>,
-    arm: Arm,
+    arm: EngineArm,
     effects: Vec<Box<dyn Inject>>,
     sensors: Sensors,
     steps_per_period: usize,
@@ -88,7 +88,7 @@ impl Simulator {
             }
         }
         check_motors(&plant)?;
-        let mut arm = Arm::new(&plant, stepping.step_s)
+        let mut arm = EngineArm::new(&plant, stepping.step_s)
             .ok_or_else(|| SimulatorError::NoTree { robot: robot.name().to_owned() })?;
         let joints: Vec<Joint> = plant.robot.links().iter().map(Joint::of).collect();
         let mut springs: Vec<(usize, f64)> = effects.iter().flat_map(|e| e.springs()).collect();
@@ -123,11 +123,11 @@ impl Simulator {
     /// Puts the arm into a state of positions (rad or m) and velocities (rad/s or m/s), its
     /// clock to zero.
     pub fn start_moving(&mut self, q: &[f64], qd: &[f64]) {
-        self.start_twisted(q, qd, &vec![0.0; q.len()]);
+        self.start_with_deflection(q, qd, &vec![0.0; q.len()]);
     }
 
     /// The same with each link `twist` (rad or m) ahead of its motor, where they can part.
-    pub(crate) fn start_twisted(&mut self, q: &[f64], qd: &[f64], twist: &[f64]) {
+    pub(crate) fn start_with_deflection(&mut self, q: &[f64], qd: &[f64], twist: &[f64]) {
         self.arm.set_state(q, qd, twist);
         self.steps = 0;
         self.command = None;
@@ -146,7 +146,7 @@ impl Simulator {
 
     /// Sends the commands of the last periods before time zero through what holds them back; the
     /// arm stays where it starts.
-    pub(crate) fn recall(&mut self, past: &[Vec<f64>]) {
+    pub(crate) fn send_past_commands(&mut self, past: &[Vec<f64>]) {
         self.count_down(past.len());
         for command in past {
             let before = self.command.take().unwrap_or_else(|| command.clone());
@@ -270,7 +270,7 @@ impl Simulator {
             self.effort_at_read[i] = match source {
                 EffortSource::Commanded => command[i],
                 EffortSource::Motor => reported(self.motor_torque[i]),
-                EffortSource::Link => reported(self.arm.transmitted()[i]),
+                EffortSource::Link => reported(self.arm.transmitted_torque()[i]),
             };
         }
     }
@@ -348,7 +348,7 @@ impl Joint {
 }
 
 /// Where the arm is at the beginning of a step.
-fn moment(arm: &Arm, steps: i64) -> Moment<'_> {
+fn moment(arm: &EngineArm, steps: i64) -> Moment<'_> {
     Moment {
         time_s: steps as f64 * arm.step_s(),
         step_s: arm.step_s(),
@@ -356,7 +356,7 @@ fn moment(arm: &Arm, steps: i64) -> Moment<'_> {
         motor_qd: arm.motor_qd(),
         q: arm.q(),
         qd: arm.qd(),
-        load: arm.transmitted(),
+        load: arm.transmitted_torque(),
     }
 }
 

@@ -6,7 +6,7 @@ use robot::{Inertia, Link, Loaded, Robot, Shape, Visual};
 use crate::fate::Fate;
 use crate::mjcf::joint::{actuator, gives, joints, springs, tendons};
 use crate::numbers::{number, numbers};
-use crate::quantity::Quantity;
+use crate::quantity::DriveQuantity;
 use crate::unsupported::fate_of_unsupported;
 use crate::xml_text::XmlText;
 
@@ -161,8 +161,8 @@ fn geom(sheet: &mut XmlText, visual: &Visual) {
 }
 
 /// What becomes of a quantity of a joint.
-pub fn fate(quantity: Quantity, link: &Link) -> Fate {
-    use Quantity as Q;
+pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
+    use DriveQuantity as Q;
     let a = &link.actuator;
     match quantity {
         Q::Rotor => Fate::exact("armature"),

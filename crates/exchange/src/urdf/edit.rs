@@ -10,7 +10,7 @@ use robot::{Inertia, Link, Loaded, Robot};
 use crate::error::ExchangeError;
 use crate::fate::Fate;
 use crate::numbers::{moments, number, numbers};
-use crate::quantity::Quantity;
+use crate::quantity::DriveQuantity;
 use crate::unsupported::fate_of_unsupported;
 use crate::urdf::inertial::{from_urdf, with_change};
 use crate::urdf::joint_change::JointChange;
@@ -36,11 +36,11 @@ pub fn edit(loaded: &Loaded, robot: &Robot, source: &str) -> Result<String, Exch
 }
 
 /// What becomes of a quantity of a joint.
-pub fn fate(quantity: Quantity) -> Fate {
+pub fn fate(quantity: DriveQuantity) -> Fate {
     match quantity {
-        Quantity::Viscous => Fate::exact("<dynamics damping>"),
-        Quantity::Coulomb => Fate::exact("<dynamics friction>"),
-        Quantity::EncoderOffset => Fate::exact("<origin> of the joint, <limit>"),
+        DriveQuantity::Viscous => Fate::exact("<dynamics damping>"),
+        DriveQuantity::Coulomb => Fate::exact("<dynamics friction>"),
+        DriveQuantity::EncoderOffset => Fate::exact("<origin> of the joint, <limit>"),
         other => fate_of_unsupported(other),
     }
 }

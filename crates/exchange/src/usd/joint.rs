@@ -5,7 +5,7 @@ use robot::{JointKind, Link};
 
 use crate::fate::Fate;
 use crate::numbers::number;
-use crate::quantity::{Quantity, levels};
+use crate::quantity::{DriveQuantity, levels};
 use crate::unsupported::fate_of_unsupported;
 use crate::usd::text::{UsdText, rotation, vector};
 
@@ -90,28 +90,28 @@ fn along_x(axis: &Vector3<f64>) -> UnitQuaternion<f64> {
 }
 
 /// What becomes of a quantity of a joint.
-pub fn fate(quantity: Quantity, link: &Link) -> Fate {
+pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
     match quantity {
-        Quantity::Rotor => Fate::exact("armature of PhysxJointAxisAPI and NewtonJointAPI"),
-        Quantity::Viscous if link.actuator.viscous < 0.0 => {
+        DriveQuantity::Rotor => Fate::exact("armature of PhysxJointAxisAPI and NewtonJointAPI"),
+        DriveQuantity::Viscous if link.actuator.viscous < 0.0 => {
             Fate::dropped("PhysX and Newton take no viscous friction below 0")
         }
-        Quantity::Viscous => Fate::exact(
+        DriveQuantity::Viscous => Fate::exact(
             "viscousFrictionCoefficient of PhysxJointAxisAPI, damping of NewtonJointAPI",
         ),
-        Quantity::Coulomb if levels(&link.actuator).0 < 0.0 => {
+        DriveQuantity::Coulomb if levels(&link.actuator).0 < 0.0 => {
             Fate::dropped("PhysX and Newton take no friction below 0")
         }
-        Quantity::Coulomb => {
+        DriveQuantity::Coulomb => {
             Fate::exact("dynamicFrictionEffort of PhysxJointAxisAPI, friction of NewtonJointAPI")
         }
-        Quantity::Stribeck => Fate::near(
+        DriveQuantity::Stribeck => Fate::near(
             "staticFrictionEffort is higher by it, at rest and gone at once in motion; Newton has none",
         ),
-        Quantity::Spring if link.actuator.spring_stiffness > 0.0 => Fate::near(
+        DriveQuantity::Spring if link.actuator.spring_stiffness > 0.0 => Fate::near(
             "the drive holds it: a controller that sets the drive's gains takes its place",
         ),
-        Quantity::EncoderOffset => Fate::exact("localPos0, localRot0 of the joint"),
+        DriveQuantity::EncoderOffset => Fate::exact("localPos0, localRot0 of the joint"),
         other => fate_of_unsupported(other),
     }
 }

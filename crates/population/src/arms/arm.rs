@@ -5,12 +5,12 @@ use robot::Robot;
 use crate::arms::electronics::Electronics;
 use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
-use crate::dice::{between, direction, rounded, weighted};
+use crate::dice::{between, direction, round_to_digits, weighted_index};
 use crate::robot_files::RobotFiles;
 
 /// An arm: what it is, what its user has of it, and what its motions must keep to.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Arm {
+pub(crate) struct SampledArm {
     /// The arm as it is.
     pub truth: RobotFiles,
     /// What the user has.
@@ -27,11 +27,11 @@ pub(crate) struct Arm {
     pub accelerations: Vec<f64>,
 }
 
-impl Arm {
+impl SampledArm {
     /// Typical Coulomb friction of each drive (N m or N).
     pub(crate) fn friction(&self, class: ArmClass, random: &mut ChaCha8Rng) -> Vec<f64> {
         let make = Make::of(class);
-        let of = |limit: &f64| rounded(limit * between(random, make.friction), 3);
+        let of = |limit: &f64| round_to_digits(limit * between(random, make.friction), 3);
         self.limits.iter().map(of).collect()
     }
 }
@@ -46,7 +46,7 @@ pub(crate) enum Base {
 
 impl Base {
     pub(crate) fn draw(random: &mut ChaCha8Rng) -> Self {
-        match weighted(random, &[0.7, 0.15, 0.15]) {
+        match weighted_index(random, &[0.7, 0.15, 0.15]) {
             0 => Self::Upright,
             1 => Self::Tilted,
             _ => Self::Hanging,
@@ -63,7 +63,7 @@ impl Base {
                 let axis = nalgebra::Unit::new_normalize(level + 1e-9 * Vector3::x());
                 let tilt = Rotation3::from_axis_angle(&axis, between(random, [0.09, 1.57]));
                 let g = tilt * Vector3::new(0.0, 0.0, -9.81);
-                [g.x, g.y, g.z].map(|g| rounded(g, 6))
+                [g.x, g.y, g.z].map(|g| round_to_digits(g, 6))
             }
         }
     }
@@ -79,14 +79,14 @@ pub(crate) enum RotorsKnown {
 impl RotorsKnown {
     /// A joint torque sensor sits behind the rotor: the model of its reading has none.
     pub(crate) fn draw(electronics: &Electronics, random: &mut ChaCha8Rng) -> Self {
-        let known = weighted(random, &[0.6, 0.4]) == 0;
+        let known = weighted_index(random, &[0.6, 0.4]) == 0;
         if known && electronics.effort != EffortClass::JointTorque { Self::All } else { Self::None }
     }
 }
 
 /// How far a nominal model is off, over what models are off by: exact in one arm of five.
 pub(crate) fn error_level(random: &mut ChaCha8Rng) -> f64 {
-    match weighted(random, &[0.2, 0.8]) {
+    match weighted_index(random, &[0.2, 0.8]) {
         0 => 0.0,
         _ => between(random, [0.1, 1.0]),
     }
@@ -99,5 +99,5 @@ pub(crate) fn dummy_dynamics(class: ArmClass, random: &mut ChaCha8Rng) -> Option
         ArmClass::Cobot | ArmClass::Wam => [[0.0, 0.0], [0.1, 0.1], [1.0, 0.0]],
         ArmClass::Industrial => [[0.0, 0.0], [1.0, 1.0], [10.0, 0.0]],
     };
-    sizes.get(weighted(random, &[0.3, 0.08, 0.07, 0.55])).copied()
+    sizes.get(weighted_index(random, &[0.3, 0.08, 0.07, 0.55])).copied()
 }

@@ -32,7 +32,7 @@ impl Hull {
 
 /// A body with its outline.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Body {
+pub(crate) struct SampledBody {
     /// Name of its link.
     pub name: String,
     /// Its inertia in the link's frame.
@@ -43,7 +43,7 @@ pub(crate) struct Body {
     pub link_from_hull: Isometry3<f64>,
 }
 
-impl Body {
+impl SampledBody {
     /// A body of `mass` (kg) that reaches `length` (m) along `along` from its frame's origin: an even hull,
     /// its mass somewhat nearer to the middle, turned a little and off centre.
     pub(crate) fn draw(
@@ -80,10 +80,10 @@ impl Body {
     }
 
     /// The same body in a link frame that is turned: `new_from_old` takes old coordinates to new ones.
-    pub(crate) fn turned(self, new_from_old: &Rotation3<f64>) -> Self {
+    pub(crate) fn in_turned_frame(self, new_from_old: &Rotation3<f64>) -> Self {
         let pose = Isometry3::from_parts(Translation3::identity(), (*new_from_old).into());
         Self {
-            inertia: self.inertia.seen_from(&pose),
+            inertia: self.inertia.in_frame(&pose),
             link_from_hull: pose * self.link_from_hull,
             ..self
         }
@@ -123,7 +123,7 @@ impl BodyError {
     }
 
     /// The same error in a frame that `new_from_old` turns to.
-    pub(crate) fn turned(&self, new_from_old: &Rotation3<f64>) -> Self {
+    pub(crate) fn in_turned_frame(&self, new_from_old: &Rotation3<f64>) -> Self {
         Self { com: new_from_old * self.com, ..*self }
     }
 }

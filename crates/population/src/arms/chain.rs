@@ -7,10 +7,10 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::JointKind;
 
-use crate::arms::bodies::{Body, BodyError};
+use crate::arms::bodies::{BodyError, SampledBody};
 use crate::arms::make::Make;
 use crate::corner::ArmClass;
-use crate::dice::{between, happens, one_of, spread};
+use crate::dice::{between, happens, log_uniform_between, one_of};
 
 /// A joint and the link that it carries.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +28,7 @@ pub(crate) struct ChainJoint {
     /// Largest speed (rad/s or m/s).
     pub speed: f64,
     /// The link.
-    pub body: Body,
+    pub body: SampledBody,
 }
 
 /// A serial arm.
@@ -39,7 +39,7 @@ pub(crate) struct Chain {
     /// Joints from the base on.
     pub joints: Vec<ChainJoint>,
     /// A body fixed to the last link, with its pose there.
-    pub gripper: Option<(Body, Isometry3<f64>)>,
+    pub gripper: Option<(SampledBody, Isometry3<f64>)>,
 }
 
 /// How the frames of the links lie.
@@ -75,7 +75,8 @@ impl Chain {
             let length = drawn.length(random);
             let axis = drawn.axis(random);
             let mass = drawn.mass(random);
-            let body = Body::draw(format!("link{}", i + 1), &make, mass, length, along, random);
+            let body =
+                SampledBody::draw(format!("link{}", i + 1), &make, mass, length, along, random);
             let (range, speed) = (drawn.range(length, random), drawn.speed(random));
             let frame = match frames {
                 Frames::Aligned => Rotation3::identity(),
@@ -92,7 +93,7 @@ impl Chain {
                 axis: frame.inverse() * axis,
                 range,
                 speed,
-                body: body.turned(&frame.inverse()),
+                body: body.in_turned_frame(&frame.inverse()),
             });
             let aside = length * between(random, [-0.15, 0.15]);
             at = along * length;
@@ -113,7 +114,7 @@ impl Chain {
         }
         if let (Some((body, pose)), Some(error)) = (&mut chain.gripper, errors.last()) {
             let turn = pose.rotation.to_rotation_matrix().inverse();
-            body.inertia = error.turned(&turn).of(&body.inertia);
+            body.inertia = error.in_turned_frame(&turn).of(&body.inertia);
         }
         chain
     }
@@ -215,12 +216,12 @@ fn gripper(
     last: Option<&ChainJoint>,
     at: Vector3<f64>,
     random: &mut ChaCha8Rng,
-) -> Option<(Body, Isometry3<f64>)> {
+) -> Option<(SampledBody, Isometry3<f64>)> {
     let last = last.filter(|_| happens(random, 0.5))?;
-    let mass = last.body.inertia.mass * spread(random, [0.15, 0.6]);
+    let mass = last.body.inertia.mass * log_uniform_between(random, [0.15, 0.6]);
     let length = make.length_m[0] * between(random, [0.8, 2.0]);
     let out = at.try_normalize(1e-9).unwrap_or_else(Vector3::z);
-    let body = Body::draw("gripper".to_owned(), make, mass, length, Vector3::z(), random);
+    let body = SampledBody::draw("gripper".to_owned(), make, mass, length, Vector3::z(), random);
     let turn = Rotation3::rotation_between(&Vector3::z(), &out);
     let turn =
         turn.unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), 2.0 * FRAC_PI_2));

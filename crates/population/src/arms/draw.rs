@@ -1,11 +1,11 @@
 use rand_chacha::ChaCha8Rng;
 
-use crate::arms::arm::Arm;
+use crate::arms::arm::SampledArm;
 use crate::arms::{generated, wam};
 use crate::corner::ArmClass;
 use crate::error::PopulationError;
 
-impl Arm {
+impl SampledArm {
     /// An arm of a class; a generated one has so many joints.
     pub(crate) fn draw(
         class: ArmClass,

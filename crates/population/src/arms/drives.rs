@@ -6,7 +6,7 @@ use robot::{JointKind, Robot};
 
 use crate::arms::electronics::Electronics;
 use crate::arms::make::Make;
-use crate::dice::{between, rounded};
+use crate::dice::{between, round_to_digits};
 use crate::rigid::{mass_matrix, torque};
 
 /// Postures at which an arm is weighed.
@@ -24,7 +24,7 @@ const SOFTENED: usize = 60;
 
 /// The drive of a joint, everything seen at the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Drive {
+pub(crate) struct SampledDrive {
     /// Turns of the motor in a turn of the joint.
     pub gear: f64,
     /// Inertia of rotor and gear (kg m^2 or kg).
@@ -59,7 +59,7 @@ pub(crate) fn fit(
     make: &Make,
     electronics: &Electronics,
     random: &mut ChaCha8Rng,
-) -> Vec<Drive> {
+) -> Vec<SampledDrive> {
     let postures = postures(robot, random);
     let weighed = weigh(robot, &postures);
     let accelerations = accelerations(robot, make, random);
@@ -74,13 +74,13 @@ pub(crate) fn fit(
         let [low, high] = make.rotor_inertia;
         let [low, high] = if slides { [low, f64::INFINITY] } else { [low, high] };
         let agile = share * between(random, make.rotor_acceleration);
-        let rotor = rounded((rated / agile).clamp(low, high), 3);
+        let rotor = round_to_digits((rated / agile).clamp(low, high), 3);
         rated += rotor * accelerations[i] / BODIES_SHARE;
         let gear = between(random, make.gear).round();
-        drives.push(Drive {
+        drives.push(SampledDrive {
             gear,
             rotor,
-            limit: rounded(RESERVE * rated, 2),
+            limit: round_to_digits(RESERVE * rated, 2),
             spring: [0.0, 0.0],
             kp: 0.0,
             kd: 0.0,
@@ -92,7 +92,7 @@ pub(crate) fn fit(
 }
 
 /// Puts rotors, springs and limits into a robot.
-pub(crate) fn put(robot: &mut Robot, drives: &[Drive]) {
+pub(crate) fn put(robot: &mut Robot, drives: &[SampledDrive]) {
     for (i, drive) in drives.iter().enumerate() {
         let Some(link) = robot.link_mut(i) else { continue };
         link.actuator.rotor_inertia = drive.rotor;
@@ -125,14 +125,14 @@ pub(crate) fn counterbalance(
         return [0.0, 0.0];
     }
     let zero = (sx - sy / slope) / n;
-    [rounded(-share * slope, 3), (100.0 * zero.clamp(-0.5, 0.5)).round() / 100.0]
+    [round_to_digits(-share * slope, 3), (100.0 * zero.clamp(-0.5, 0.5)).round() / 100.0]
 }
 
 /// Gains from the inertia that each joint turns, weaker where the loop would not stand them.
 fn tune(
     robot: &Robot,
     postures: &[Vec<f64>],
-    drives: &mut [Drive],
+    drives: &mut [SampledDrive],
     gravity: &[f64],
     electronics: &Electronics,
     random: &mut ChaCha8Rng,
@@ -148,14 +148,14 @@ fn tune(
     }
     soften(drives, &inertia, LARGEST_LAG / electronics.lag_s());
     for drive in drives {
-        drive.kp = rounded(drive.kp, 3);
-        drive.kd = rounded(drive.kd, 3);
+        drive.kp = round_to_digits(drive.kp, 3);
+        drive.kd = round_to_digits(drive.kd, 3);
     }
 }
 
 /// Weakens loops until no eigenvalue of `M^-1 Kd` is above `highest` (1/s): first, some rounds long, that of
 /// the joint which the fastest mode moves most, then all of them.
-fn soften(drives: &mut [Drive], inertia: &[DMatrix<f64>], highest: f64) {
+fn soften(drives: &mut [SampledDrive], inertia: &[DMatrix<f64>], highest: f64) {
     let inverse = |m: &DMatrix<f64>| m.clone().try_inverse();
     let inverses: Vec<DMatrix<f64>> = inertia.iter().filter_map(inverse).collect();
     for _ in 0..SOFTENED {
@@ -173,13 +173,13 @@ fn soften(drives: &mut [Drive], inertia: &[DMatrix<f64>], highest: f64) {
 }
 
 /// Keeps the damping ratio.
-fn weaken(drive: &mut Drive, share: f64) {
+fn weaken(drive: &mut SampledDrive, share: f64) {
     drive.kd *= share;
     drive.kp *= share * share;
 }
 
 /// Largest eigenvalue of `Kd^1/2 M^-1 Kd^1/2` over all postures (1/s), and its mode.
-fn fastest(drives: &[Drive], inverses: &[DMatrix<f64>]) -> (f64, DVector<f64>) {
+fn fastest(drives: &[SampledDrive], inverses: &[DMatrix<f64>]) -> (f64, DVector<f64>) {
     let damping = DVector::from_iterator(drives.len(), drives.iter().map(|d| d.kd.sqrt()));
     let damping = DMatrix::from_diagonal(&damping);
     let mut found = (0.0, DVector::zeros(drives.len()));

@@ -4,7 +4,7 @@ use simulator::{EffortSource, PositionSide};
 
 use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
-use crate::dice::{between, happens, one_of, weighted};
+use crate::dice::{between, happens, one_of, weighted_index};
 
 /// The loop of an arm and where its signals come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,14 +26,14 @@ impl Electronics {
         let rates = Make::of(class).rates;
         let even = vec![1.0; rates.len()];
         let [control_rate_hz, log_rate_hz] =
-            rates.get(weighted(random, &even)).copied().unwrap_or([500.0; 2]);
+            rates.get(weighted_index(random, &even)).copied().unwrap_or([500.0; 2]);
         let [command, current] = match class {
             ArmClass::Hobby => [0.7, 0.3],
             ArmClass::Cobot => [0.1, 0.5],
             ArmClass::Industrial => [0.1, 0.9],
             ArmClass::Wam => [0.7, 0.3],
         };
-        let effort = match weighted(random, &[command, current, 1.0 - command - current]) {
+        let effort = match weighted_index(random, &[command, current, 1.0 - command - current]) {
             0 => EffortClass::Command,
             1 => EffortClass::Current,
             _ => EffortClass::JointTorque,

@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use robot::{Robot, SensingSide, TorqueSource};
 
-use crate::arms::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
+use crate::arms::arm::{Base, RotorsKnown, SampledArm, dummy_dynamics, error_level};
 use crate::arms::bodies::BodyError;
 use crate::arms::chain::Chain;
-use crate::arms::drives::{Drive, accelerations, counterbalance, fit, put};
+use crate::arms::drives::{SampledDrive, accelerations, counterbalance, fit, put};
 use crate::arms::electronics::Electronics;
 use crate::arms::make::Make;
 use crate::arms::urdf_text::urdf;
@@ -21,7 +21,7 @@ pub(crate) fn draw(
     class: ArmClass,
     count: usize,
     random: &mut ChaCha8Rng,
-) -> Result<Arm, PopulationError> {
+) -> Result<SampledArm, PopulationError> {
     let make = Make::of(class);
     let chain = Chain::draw(class, count, random);
     let electronics = Electronics::draw(class, random);
@@ -47,7 +47,7 @@ pub(crate) fn draw(
     };
     let dummy = dummy_dynamics(class, random);
     let written = Written { chain: &chain, drives: &drives, gravity, base, electronics };
-    Ok(Arm {
+    Ok(SampledArm {
         truth: RobotFiles { urdf: urdf(&chain, &limits, None), toml: written.toml(&rotors) },
         nominal: RobotFiles {
             urdf: urdf(&chain.with_errors(&errors), &limits, dummy),
@@ -62,7 +62,7 @@ pub(crate) fn draw(
 }
 
 /// Gives the first joint that has something to balance a spring that both sides know.
-fn balance(robot: &mut Robot, drives: &mut [Drive], random: &mut ChaCha8Rng) {
+fn balance(robot: &mut Robot, drives: &mut [SampledDrive], random: &mut ChaCha8Rng) {
     let share = between(random, [0.3, 0.8]);
     for i in 0..drives.len().min(2) {
         let spring = counterbalance(robot, i, share, random);
@@ -77,7 +77,7 @@ fn balance(robot: &mut Robot, drives: &mut [Drive], random: &mut ChaCha8Rng) {
 /// What `robot.toml` is written from.
 struct Written<'a> {
     chain: &'a Chain,
-    drives: &'a [Drive],
+    drives: &'a [SampledDrive],
     gravity: [f64; 3],
     base: Base,
     electronics: Electronics,

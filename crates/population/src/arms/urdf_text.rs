@@ -3,15 +3,15 @@
 use nalgebra::{Isometry3, Vector3};
 use robot::{Inertia, JointKind};
 
-use crate::arms::bodies::{Body, Hull};
+use crate::arms::bodies::{Hull, SampledBody};
 use crate::arms::chain::{Chain, ChainJoint};
-use crate::dice::rounded;
+use crate::dice::round_to_digits;
 
 /// `<dynamics>` of a joint: damping (N m s/rad) and friction (N m).
-pub(crate) type Dynamics = [f64; 2];
+pub(crate) type UrdfDynamics = [f64; 2];
 
 /// The URDF of a chain with the torque limits of its joints, and the `<dynamics>` that all of them state.
-pub(crate) fn urdf(chain: &Chain, limits: &[f64], dynamics: Option<Dynamics>) -> String {
+pub(crate) fn urdf(chain: &Chain, limits: &[f64], dynamics: Option<UrdfDynamics>) -> String {
     let mut text = format!("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n", chain.name);
     text += "  <link name=\"world\"/>\n  <joint name=\"mount\" type=\"fixed\"><parent link=\"world\"/>\
              <child link=\"base\"/></joint>\n  <link name=\"base\"/>\n";
@@ -22,15 +22,15 @@ pub(crate) fn urdf(chain: &Chain, limits: &[f64], dynamics: Option<Dynamics>) ->
         parent = &joint.body.name;
     }
     if let Some((body, pose)) = &chain.gripper {
-        text += &fixed("gripper_mount", parent, &body.name, pose);
+        text += &fixed_joint("gripper_mount", parent, &body.name, pose);
         text += &link(body);
         parent = &body.name;
     }
-    text += &fixed("tool_mount", parent, "tool0", &Isometry3::translation(0.0, 0.0, 0.01));
+    text += &fixed_joint("tool_mount", parent, "tool0", &Isometry3::translation(0.0, 0.0, 0.01));
     text + "  <link name=\"tool0\"/>\n</robot>\n"
 }
 
-fn moving(joint: &ChainJoint, parent: &str, limit: f64, dynamics: Option<Dynamics>) -> String {
+fn moving(joint: &ChainJoint, parent: &str, limit: f64, dynamics: Option<UrdfDynamics>) -> String {
     let kind = if joint.kind == JointKind::Prismatic { "prismatic" } else { "revolute" };
     let [low, high] = joint.range;
     let stated = dynamics.map_or_else(String::new, |[damping, friction]| {
@@ -48,20 +48,20 @@ fn moving(joint: &ChainJoint, parent: &str, limit: f64, dynamics: Option<Dynamic
     )
 }
 
-fn fixed(name: &str, parent: &str, child: &str, pose: &Isometry3<f64>) -> String {
+fn fixed_joint(name: &str, parent: &str, child: &str, pose: &Isometry3<f64>) -> String {
     format!(
         "  <joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{}</joint>\n",
         origin(pose)
     )
 }
 
-fn link(body: &Body) -> String {
+fn link(body: &SampledBody) -> String {
     let Inertia { mass, com_in_link, about_com } = &body.inertia;
     let mut text = format!(
         "  <link name=\"{}\">\n    <inertial><origin xyz=\"{}\" rpy=\"0 0 0\"/><mass value=\"{}\"/>\n      <inertia",
         body.name,
         triple(com_in_link),
-        rounded(*mass, 6),
+        round_to_digits(*mass, 6),
     );
     for (key, at) in [
         ("ixx", (0, 0)),
@@ -72,7 +72,7 @@ fn link(body: &Body) -> String {
         ("izz", (2, 2)),
     ] {
         // Writing to a string cannot fail.
-        let _ = write!(text, " {key}=\"{}\"", rounded(about_com[at], 7));
+        let _ = write!(text, " {key}=\"{}\"", round_to_digits(about_com[at], 7));
     }
     let shape = match body.hull {
         Hull::Box([x, y, z]) => format!("<box size=\"{x:.4} {y:.4} {z:.4}\"/>"),
@@ -94,7 +94,7 @@ fn origin(pose: &Isometry3<f64>) -> String {
 
 /// Three numbers; what is left of a zero by rounding is one.
 fn triple(vector: &Vector3<f64>) -> String {
-    let [x, y, z] =
-        [vector.x, vector.y, vector.z].map(|v| if v.abs() < 1e-12 { 0.0 } else { rounded(v, 12) });
+    let [x, y, z] = [vector.x, vector.y, vector.z]
+        .map(|v| if v.abs() < 1e-12 { 0.0 } else { round_to_digits(v, 12) });
     format!("{x} {y} {z}")
 }

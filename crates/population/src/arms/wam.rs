@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use crate::arms::arm::{Arm, Base, RotorsKnown, dummy_dynamics, error_level};
+use crate::arms::arm::{Base, RotorsKnown, SampledArm, dummy_dynamics, error_level};
 use crate::arms::bodies::BodyError;
 use crate::arms::drives::accelerations;
 use crate::arms::electronics::Electronics;
@@ -41,7 +41,7 @@ struct StatedJoint {
 }
 
 /// The arm with a base, signals and a nominal model of its own.
-pub(crate) fn draw(random: &mut ChaCha8Rng) -> Result<Arm, PopulationError> {
+pub(crate) fn draw(random: &mut ChaCha8Rng) -> Result<SampledArm, PopulationError> {
     let make = Make::of(ArmClass::Wam);
     let electronics = Electronics::draw(ArmClass::Wam, random);
     let base = Base::draw(random);
@@ -75,7 +75,7 @@ pub(crate) fn draw(random: &mut ChaCha8Rng) -> Result<Arm, PopulationError> {
             None => URDF.to_owned(),
         },
     };
-    Ok(Arm {
+    Ok(SampledArm {
         truth: RobotFiles { urdf: URDF.to_owned(), toml },
         nominal,
         accelerations: accelerations(&robot, &make, random),

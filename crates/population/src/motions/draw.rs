@@ -5,7 +5,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::corner::MotionClass;
-use crate::dice::{between, happens, one_of, rounded};
+use crate::dice::{between, happens, one_of, round_to_digits};
 use crate::error::PopulationError;
 use crate::motions::ground::Ground;
 use crate::motions::log_plan::LogPlan;
@@ -38,7 +38,7 @@ pub(crate) fn draw(
             MotionClass::SwingUp => by_joint::swing_up(&ground, place.length_s, random),
             MotionClass::Repeated => task(&ground, place.length_s, random),
         };
-        match ground.carried_s(&spec)? {
+        match ground.feasible_length_s(&spec)? {
             Some(length_s) if length_s <= wished.length_s + LONGER_S => return Ok(Some(spec)),
             Some(length_s) => moves_s += length_s - wished.length_s,
             None => scale *= 0.88,
@@ -57,16 +57,17 @@ fn task(ground: &Ground<'_>, length_s: f64, random: &mut ChaCha8Rng) -> MotionSp
 }
 
 fn sinusoids(ground: &Ground<'_>, length_s: f64, random: &mut ChaCha8Rng) -> MotionSpec {
-    let lowest_hz = rounded(between(random, [0.05, 0.2]), 2).max(rounded(1.0 / length_s, 2));
+    let lowest_hz =
+        round_to_digits(between(random, [0.05, 0.2]), 2).max(round_to_digits(1.0 / length_s, 2));
     // Amplitudes follow from speeds; the highest frequency sets the accelerations.
     let brisk = ground.acceleration.iter().zip(&ground.speed).map(|(a, v)| a / v);
     let highest_hz = brisk.fold(f64::INFINITY, f64::min) / std::f64::consts::TAU;
-    let highest_hz = rounded(between(random, [0.5, 1.0]) * highest_hz, 2);
+    let highest_hz = round_to_digits(between(random, [0.5, 1.0]) * highest_hz, 2);
     let amplitude = ground.half.iter().map(|half| half * between(random, [0.4, 1.0]));
     // Joints of different speed keep to the slower of way and speed.
     let of = |(a, v): (f64, &f64)| {
         let hz = 0.5 * (lowest_hz + highest_hz.max(1.2 * lowest_hz));
-        rounded(a.min(v / (std::f64::consts::TAU * hz)), 4)
+        round_to_digits(a.min(v / (std::f64::consts::TAU * hz)), 4)
     };
     let amplitude: Vec<f64> = amplitude.zip(&ground.speed).map(of).collect();
     MotionSpec::Sinusoids(Sinusoids {
@@ -104,7 +105,7 @@ fn sweep(ground: &Ground<'_>, length_s: f64, random: &mut ChaCha8Rng) -> MotionS
             let by_acceleration = SHAKEN * ground.acceleration[j] / (w * w);
             let room = 0.5 * ground.half[j];
             let most = room.min(by_speed).min(by_acceleration);
-            if *swings { rounded(most * between(random, [0.5, 1.0]), 4) } else { 0.0 }
+            if *swings { round_to_digits(most * between(random, [0.5, 1.0]), 4) } else { 0.0 }
         };
         let amplitude: Vec<f64> = swings.iter().enumerate().map(amplitude).collect();
         let duration_s = share * length_s;

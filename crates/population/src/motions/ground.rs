@@ -4,7 +4,7 @@ use motion::{MotionError, MotionSpec, State};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use crate::arms::arm::Arm;
+use crate::arms::arm::SampledArm;
 use crate::dice::between;
 use crate::rigid::torque;
 
@@ -24,7 +24,7 @@ const GLIDE: [f64; 2] = [1.875, 5.774];
 /// What motions of an arm keep to.
 #[derive(Debug, Clone)]
 pub(crate) struct Ground<'a> {
-    arm: &'a Arm,
+    arm: &'a SampledArm,
     /// Names of the joints.
     pub names: Vec<String>,
     /// Middle of each joint's range (rad or m).
@@ -41,7 +41,7 @@ pub(crate) struct Ground<'a> {
 
 impl<'a> Ground<'a> {
     /// For motions at `pace` of what the arm can.
-    pub(crate) fn new(arm: &'a Arm, pace: f64) -> Self {
+    pub(crate) fn new(arm: &'a SampledArm, pace: f64) -> Self {
         let joints = || arm.robot.links().iter().map(|link| &link.joint);
         let range = |j: &robot::Joint| j.limits.position.unwrap_or((-1.0, 1.0));
         let fastest = |j: &robot::Joint| j.limits.velocity.unwrap_or(1.0);
@@ -80,7 +80,7 @@ impl<'a> Ground<'a> {
     }
 
     /// The nearest posture in the ranges.
-    pub(crate) fn clamped(&self, posture: &[f64]) -> Vec<f64> {
+    pub(crate) fn clamp(&self, posture: &[f64]) -> Vec<f64> {
         let ranges = self.middle.iter().zip(&self.half);
         ranges.zip(posture).map(|((m, h), q)| q.clamp(m - h, m + h)).collect()
     }
@@ -99,7 +99,7 @@ impl<'a> Ground<'a> {
 
     /// Length of a motion that the arm can follow (s): it stays in position, speed and torque, and its loop stays
     /// near. `None` of any other.
-    pub(crate) fn carried_s(&self, spec: &MotionSpec) -> Result<Option<f64>, MotionError> {
+    pub(crate) fn feasible_length_s(&self, spec: &MotionSpec) -> Result<Option<f64>, MotionError> {
         let robot = self.robot();
         let motion = match spec.build(robot, Path::new("")) {
             Err(MotionError::LimitExceeded { .. }) => return Ok(None),

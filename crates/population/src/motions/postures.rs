@@ -111,7 +111,7 @@ pub(crate) fn pick_and_place(
             let down = above.iter().zip(&ground.half);
             let down: Vec<f64> =
                 down.map(|(q, half)| q + half * between(random, [-0.15, 0.15])).collect();
-            [above, ground.clamped(&down)]
+            [above, ground.clamp(&down)]
         })
         .collect();
     let (slow, grip_s) = (between(random, [1.5, 4.0]), between(random, [0.1, 0.8]));
@@ -180,7 +180,7 @@ fn wander(ground: &Ground<'_>, from: &[f64], time_s: f64, random: &mut ChaCha8Rn
             *q += way * between(random, [-1.0, 1.0]);
         }
     }
-    inner.clamped(&next)
+    inner.clamp(&next)
 }
 
 fn hold(ground: &Ground<'_>, at: &[f64], duration_s: f64) -> MotionSpec {

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 ///
 /// with `n` the samples of the log that were averaged, and `M_jj` what the joint turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct JointNoise {
+pub(crate) struct OracleNoise {
     /// Variance of the effort reading (N^2 m^2 or N^2), its steps included.
     pub effort: f64,
     /// Variance of the position reading (rad^2 or m^2), its steps included.
@@ -33,7 +33,7 @@ impl ReadingError {
     }
 }
 
-impl JointNoise {
+impl OracleNoise {
     /// From deviations and steps of the readings: a step spreads evenly over its width.
     pub(crate) fn new(effort: ReadingError, position: ReadingError, inertia: f64) -> Self {
         Self { effort: effort.variance(), position: position.variance(), inertia }

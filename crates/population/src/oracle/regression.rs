@@ -3,9 +3,9 @@ use faer::{Mat, Side};
 use logs::Fourier;
 use nalgebra::DMatrix;
 
-use crate::oracle::column::{Column, StandIn};
+use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
-use crate::oracle::noise::JointNoise;
+use crate::oracle::noise::OracleNoise;
 use crate::sheet::Strength;
 
 /// Highest frequency that counts (Hz): beyond it a rigid arm with a gear is none.
@@ -24,17 +24,17 @@ const HIGHEST_HZ: f64 = 25.0;
 /// 3e8 for a minute of seven joints, and `columns^3 / 3` a cause.
 pub(crate) fn strengths(
     runs: &[SeenRun],
-    columns: &[Column],
+    columns: &[TorqueColumn],
     causes: usize,
-    noise: &[JointNoise],
+    noise: &[OracleNoise],
     scales: &[f64],
 ) -> Vec<Strength> {
-    let likely = whitened(runs, columns, noise, scales);
-    let plain = scaled(runs, columns, scales);
+    let likely = whiten(runs, columns, noise, scales);
+    let plain = scale_columns(runs, columns, scales);
     let [likely, plain] = [likely, plain].map(|rows| rows.transpose() * &rows);
     let strength = |k: usize| Strength {
-        sigmas: left(k, columns, &likely, 1.0),
-        share: left(k, columns, &plain, Strength::FLOOR.powi(2)),
+        sigmas: unexplained_norm(k, columns, &likely, 1.0),
+        share: unexplained_norm(k, columns, &plain, Strength::FLOOR.powi(2)),
         torque: plain[(k, k)].sqrt(),
     };
     (0..causes).map(strength).collect()
@@ -55,10 +55,10 @@ fn rms<'a>(torque: impl Iterator<Item = &'a DMatrix<f64>>, joint: usize) -> f64 
 }
 
 /// The transforms of all columns, each frequency over the deviation of the noise there.
-fn whitened(
+fn whiten(
     runs: &[SeenRun],
-    columns: &[Column],
-    noise: &[JointNoise],
+    columns: &[TorqueColumn],
+    noise: &[OracleNoise],
     scales: &[f64],
 ) -> Mat<f64> {
     let bins = |run: &SeenRun| {
@@ -101,7 +101,7 @@ fn whitened(
 }
 
 /// The torques of all columns over the scale of their joint, so that a column's square is a mean over samples.
-fn scaled(runs: &[SeenRun], columns: &[Column], scales: &[f64]) -> Mat<f64> {
+fn scale_columns(runs: &[SeenRun], columns: &[TorqueColumn], scales: &[f64]) -> Mat<f64> {
     let samples: usize = runs.iter().map(SeenRun::rows).sum();
     let mut rows = Mat::zeros(samples * scales.len(), columns.len());
     let all = 1.0 / (samples.max(1) as f64).sqrt();
@@ -121,7 +121,7 @@ fn scaled(runs: &[SeenRun], columns: &[Column], scales: &[f64]) -> Mat<f64> {
 
 /// What column `k` leaves when all others that stand for something else are fitted to it, as a norm; `weight` is
 /// that of what is known of them beforehand.
-fn left(k: usize, columns: &[Column], gram: &Mat<f64>, weight: f64) -> f64 {
+fn unexplained_norm(k: usize, columns: &[TorqueColumn], gram: &Mat<f64>, weight: f64) -> f64 {
     let own = columns[k].stands_for;
     let same = |c: usize| own != StandIn::Itself && columns[c].stands_for == own;
     let free: Vec<usize> =
@@ -171,20 +171,20 @@ mod tests {
         }
     }
 
-    fn itself(torque: DMatrix<f64>) -> Column {
-        Column { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 }
+    fn itself(torque: DMatrix<f64>) -> TorqueColumn {
+        TorqueColumn { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 }
     }
 
-    fn seen(runs: &[SeenRun], columns: &[Column], noise: &[JointNoise]) -> Vec<Strength> {
+    fn seen(runs: &[SeenRun], columns: &[TorqueColumn], noise: &[OracleNoise]) -> Vec<Strength> {
         let scale = effort_rms(runs, 0);
         strengths(runs, columns, 1, noise, &[scale])
     }
 
     /// `a sin` of whole periods in white noise has `a sqrt(N / 2) / sigma` deviations, a cosine beside it or not;
     /// with half of it said by another column, the half that is left.
-    fn noise(effort: f64, position: f64, inertia: f64) -> JointNoise {
+    fn noise(effort: f64, position: f64, inertia: f64) -> OracleNoise {
         let error = |deviation| ReadingError { deviation, step: 0.0 };
-        JointNoise::new(error(effort), error(position), inertia)
+        OracleNoise::new(error(effort), error(position), inertia)
     }
 
     #[test]
@@ -231,7 +231,7 @@ mod tests {
     fn a_stand_in_that_is_known_explains_no_more_than_it_may() {
         let sine = || wave(|t| (TAU * t).sin());
         let noises = [noise(0.1, 0.0, 1.0)];
-        let known = |deviation: f64| Column { prior: deviation.powi(-2), ..itself(sine()) };
+        let known = |deviation: f64| TorqueColumn { prior: deviation.powi(-2), ..itself(sine()) };
         let sigmas = |deviation| {
             seen(&[run(sine())], &[itself(sine()), known(deviation)], &noises)[0].sigmas
         };

@@ -1,13 +1,13 @@
 use robot::Robot;
 
 use crate::oracle::motion::SeenRun;
-use crate::oracle::noise::JointNoise;
+use crate::oracle::noise::OracleNoise;
 use crate::oracle::regression::effort_rms;
 
 /// What torques of each joint count by: RMS of its effort, at least the deviation of its noise and a thousandth of
 /// the drive's limit (N m or N).
-pub(crate) fn torque_scales(runs: &[SeenRun], robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
-    let joint = |(j, (link, noise)): (usize, (&robot::Link, &JointNoise))| {
+pub(crate) fn torque_scales(runs: &[SeenRun], robot: &Robot, noise: &[OracleNoise]) -> Vec<f64> {
+    let joint = |(j, (link, noise)): (usize, (&robot::Link, &OracleNoise))| {
         let limit = link.joint.limits.effort.filter(|limit| limit.is_finite()).unwrap_or(0.0);
         effort_rms(runs, j).max(noise.effort.sqrt()).max(1e-3 * limit).max(1e-6)
     };

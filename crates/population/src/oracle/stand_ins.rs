@@ -2,7 +2,7 @@ use nalgebra::DMatrix;
 use robot::{Inertia, Robot};
 
 use crate::moving::Moving;
-use crate::oracle::column::{Column, StandIn};
+use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
 
 /// Speed at which dry friction has three quarters of its level (rad/s or m/s).
@@ -19,7 +19,7 @@ pub(crate) fn dry(qd: f64) -> f64 {
 
 /// All that may stand in for a cause: dry and viscous friction, an offset and a rotor at every joint, of any
 /// size, and the ten parameters of every body, known to a twentieth.
-pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<Column> {
+pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<TorqueColumn> {
     let joints = robot.joint_count();
     let mut columns = Vec::with_capacity(14 * joints);
     for j in 0..joints {
@@ -30,7 +30,7 @@ pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<Column> {
             };
             runs.iter().map(only).collect()
         };
-        let free = |stands_for, torque| Column { stands_for, torque, prior: 0.0 };
+        let free = |stands_for, torque| TorqueColumn { stands_for, torque, prior: 0.0 };
         columns.push(free(StandIn::Dry(j), alone(&|run, i| dry(run.qd[(i, j)]))));
         columns.push(free(StandIn::Viscous(j), alone(&|run, i| run.qd[(i, j)])));
         columns.push(free(StandIn::Offset(j), alone(&|_, _| 1.0)));
@@ -40,7 +40,7 @@ pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<Column> {
     let bodies = body_columns(robot, runs);
     for ((link, parameter), torque) in bodies {
         let prior = known[link][parameter].powi(-2);
-        columns.push(Column { stands_for: StandIn::Body(link), torque, prior });
+        columns.push(TorqueColumn { stands_for: StandIn::Body(link), torque, prior });
     }
     columns
 }

@@ -5,7 +5,7 @@ use robot::Robot;
 
 use crate::corner::{EffortClass, MotionClass};
 use crate::error::PopulationError;
-use crate::recorded::cut::{Part, part, thinned, until};
+use crate::recorded::cut::{Part, part, thin, until};
 use crate::robot_files::RobotFiles;
 
 /// Longest part of a log that is used (s).
@@ -226,7 +226,7 @@ impl RecordedArm {
                 *step = step.min(smallest_step(&joint.position));
             }
             let rows = until(&whole, LONGEST_S);
-            let run = thinned(&part(&whole, log.name, rows));
+            let run = thin(&part(&whole, log.name, rows));
             used.push(Used { motion: log.motion, path: log.path, run });
         }
         Ok((used, steps))

@@ -39,7 +39,7 @@ pub(super) fn until(run: &Run, longest_s: f64) -> Range<usize> {
 
 /// Every n-th row, such that the rate comes nearest to 250 Hz. No filter goes before it: what a log has
 /// above half the new rate folds back into it, as in a log that was written at that rate.
-pub(super) fn thinned(run: &Run) -> Run {
+pub(super) fn thin(run: &Run) -> Run {
     let every = ((rate_hz(run) / RATE_HZ).round() as usize).max(1);
     if every == 1 {
         return run.clone();

@@ -43,7 +43,7 @@ pub(super) fn draw(robot: &Robot, runs: &[Run], random: &mut ChaCha8Rng) -> Opti
     let unit = Transplant { law, joint };
     let of_unit = measured.share(&unit.added(robot, runs));
     let factor = if of_unit > 0.0 { share / of_unit } else { 1.0 };
-    Some(Transplant { law: bounded(law.times(factor)), joint })
+    Some(Transplant { law: within_bounds(law.times(factor)), joint })
 }
 
 /// A law of some size.
@@ -87,7 +87,7 @@ fn somewhere(random: &mut ChaCha8Rng) -> [f64; 3] {
 }
 
 /// A law no larger than is found on arms.
-fn bounded(law: Law) -> Law {
+fn within_bounds(law: Law) -> Law {
     match law {
         Law::PointMass(body) => Law::PointMass(PointMass { mass: body.mass.min(HEAVIEST), ..body }),
         Law::Late { skew } => Law::Late { skew: skew.clamp(-LATEST_S, LATEST_S) },

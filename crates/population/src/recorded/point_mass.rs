@@ -2,7 +2,7 @@ use logs::Run;
 use nalgebra::{Isometry3, Point3, Vector3};
 use robot::Robot;
 
-use crate::recorded::signals::{acceleration, averaged};
+use crate::recorded::signals::{acceleration, average};
 
 /// A point mass on the last link.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +25,7 @@ pub struct PointMass {
 /// robot enters. Joints that do not carry the last link get nothing.
 pub fn point_mass_torque(robot: &Robot, run: &Run, body: &PointMass) -> Vec<Vec<f64>> {
     let smooth: Vec<Vec<f64>> =
-        run.joints.iter().map(|joint| averaged(&run.time, &joint.position)).collect();
+        run.joints.iter().map(|joint| average(&run.time, &joint.position)).collect();
     let carrying = carrying(robot);
     let mut place = [const { Vec::new() }; 3];
     let mut slopes = vec![Vec::with_capacity(run.time.len()); robot.joint_count()];

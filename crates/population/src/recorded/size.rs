@@ -2,7 +2,7 @@ use logs::Run;
 use robot::{JointKind, Robot};
 
 use crate::recorded::law::dry;
-use crate::recorded::signals::{acceleration, averaged, half, rms, velocity};
+use crate::recorded::signals::{acceleration, average, half, rms, velocity};
 use crate::sheet::Strength;
 
 /// Least range of a joint that moves (rad, m).
@@ -101,7 +101,7 @@ impl<'a> Measured<'a> {
                 self.runs.iter().flat_map(|run| &run.joints[joint].effort).copied().collect();
             let with: Vec<f64> = effort.iter().zip(&here).map(|(e, a)| e + a).collect();
             let (whole, effort) = (rms(here.iter()), rms(with.iter()));
-            let left = rms(self.unexplained(joint, here, own).iter());
+            let left = rms(self.residual(joint, here, own).iter());
             let sigmas = ratio(left, self.noise(joint)) * self.independent().sqrt();
             strength.sigmas = strength.sigmas.hypot(sigmas);
             strength.share = strength.share.max(ratio(left, effort));
@@ -111,12 +111,12 @@ impl<'a> Measured<'a> {
     }
 
     /// What everyday columns of a joint leave of a signal.
-    fn unexplained(&self, joint: usize, mut signal: Vec<f64>, own: Own) -> Vec<f64> {
+    fn residual(&self, joint: usize, mut signal: Vec<f64>, own: Own) -> Vec<f64> {
         let mut columns = [const { Vec::new() }; 4];
         for run in self.runs {
             let position = &run.joints[joint].position;
             let qd = velocity(&run.time, position);
-            let qdd = acceleration(&run.time, &averaged(&run.time, position));
+            let qdd = acceleration(&run.time, &average(&run.time, position));
             columns[0].extend(vec![1.0; qd.len()]);
             columns[1].extend(&qd);
             columns[2].extend(qd.iter().map(|qd| dry(*qd)));

@@ -4,7 +4,7 @@ use robot::Robot;
 use simulator::Truth;
 
 use crate::recorded::law::Law;
-use crate::recorded::signals::averaged;
+use crate::recorded::signals::average;
 use crate::recorded::size::{Added, Measured, Own};
 use crate::sheet::{Cause, Role, Strength, Unnamed};
 
@@ -46,7 +46,7 @@ impl Transplant {
     /// their noise is no part of it.
     pub(super) fn added(&self, robot: &Robot, runs: &[Run]) -> Added {
         let added = |run: &Run| match self.law {
-            Law::Late { .. } => self.law.torque(robot, &smoothed(run), self.joint),
+            Law::Late { .. } => self.law.torque(robot, &smooth(run), self.joint),
             _ => self.law.torque(robot, run, self.joint),
         };
         runs.iter().map(added).collect()
@@ -105,10 +105,10 @@ impl Transplant {
 }
 
 /// A run with its efforts averaged over 20 ms either side.
-fn smoothed(run: &Run) -> Run {
+fn smooth(run: &Run) -> Run {
     let mut run = run.clone();
     for channels in &mut run.joints {
-        channels.effort = averaged(&run.time, &channels.effort);
+        channels.effort = average(&run.time, &channels.effort);
     }
     run
 }

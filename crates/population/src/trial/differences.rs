@@ -3,7 +3,7 @@ use nalgebra::DMatrix;
 use robot::{Inertia, Robot};
 use simulator::Truth;
 
-use crate::oracle::column::{Column, StandIn};
+use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::stand_ins::dry;
 use crate::sheet::Role;
@@ -13,7 +13,7 @@ use crate::trial::background::Friction;
 pub(crate) struct Difference {
     pub role: Role,
     pub truth: Truth,
-    pub column: Column,
+    pub column: TorqueColumn,
 }
 
 /// What the drives of an arm add to the effort of its log.
@@ -48,7 +48,7 @@ pub(crate) fn differences(
                 all.push(Difference {
                     role,
                     truth,
-                    column: Column { stands_for, torque, prior: 0.0 },
+                    column: TorqueColumn { stands_for, torque, prior: 0.0 },
                 });
             }
         };
@@ -97,7 +97,7 @@ fn alone(run: &SeenRun, joint: usize, of: &dyn Fn(usize) -> f64) -> DMatrix<f64>
 }
 
 /// Torque of what a body truly weighs beyond its nominal model.
-fn body(robot: &Robot, link: usize, nominal: &Inertia, runs: &[SeenRun]) -> Column {
+fn body(robot: &Robot, link: usize, nominal: &Inertia, runs: &[SeenRun]) -> TorqueColumn {
     let (real, known) = (robot.links()[link].inertia.parameters(), nominal.parameters());
     let mut beyond = real;
     beyond.iter_mut().zip(known).for_each(|(real, known)| *real -= known);
@@ -111,7 +111,7 @@ fn body(robot: &Robot, link: usize, nominal: &Inertia, runs: &[SeenRun]) -> Colu
         }
         torque
     };
-    Column {
+    TorqueColumn {
         stands_for: StandIn::Body(link),
         torque: runs.iter().map(torque).collect(),
         prior: 0.0,

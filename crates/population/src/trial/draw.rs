@@ -5,7 +5,7 @@ use simulator::effects::EffectSpec;
 use simulator::strangers::{StrangerKind, StrangerSpec};
 
 use crate::corner::ArmClass;
-use crate::trial::hidden::{HiddenKind, HiddenSpec, HiddenThings};
+use crate::trial::hidden::{HiddenKind, HiddenThings, SizedCause};
 use crate::trial::pilot::Pilot;
 
 /// Draws of one effect before it is left out.
@@ -67,12 +67,12 @@ impl HiddenThings {
         for _ in 0..TRIES {
             let hidden = kind(random);
             let wanted = least * (largest / least).powf(random.random::<f64>());
-            match pilot.sized(hidden, wanted, random) {
-                Some(HiddenSpec::Cause(effect)) if !self.holds(&effect) => {
+            match pilot.spec_of_strength(hidden, wanted, random) {
+                Some(SizedCause::Cause(effect)) if !self.holds(&effect) => {
                     self.causes.push(effect);
                     return;
                 }
-                Some(HiddenSpec::Stranger(stranger)) => {
+                Some(SizedCause::Stranger(stranger)) => {
                     self.strangers.push(stranger);
                     return;
                 }

@@ -22,7 +22,7 @@ pub(crate) struct HiddenThings {
 
 /// An effect or a stranger with a size.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum HiddenSpec {
+pub(crate) enum SizedCause {
     /// Of the catalogue.
     Cause(EffectSpec),
     /// Of no catalogue.

@@ -8,7 +8,7 @@ use crate::trial::background::Friction;
 
 /// What the nominal model says of everyday friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Known {
+pub(crate) enum NominalKnowledge {
     /// What the bench's files say: nothing, or a URDF's dummy value.
     AsDescribed,
     /// No friction and no rotor: the effort is measured behind the drive, where neither is.
@@ -20,18 +20,18 @@ pub(crate) enum Known {
 }
 
 /// The nominal model with what it knows of friction; `loaded` is that of `files`.
-pub(crate) fn described(
+pub(crate) fn describe(
     files: &RobotFiles,
     loaded: &Loaded,
     friction: &[Friction],
-    known: Known,
+    known: NominalKnowledge,
     random: &mut ChaCha8Rng,
 ) -> Result<RobotFiles, PopulationError> {
     let spread = match known {
-        Known::AsDescribed => return Ok(files.clone()),
-        Known::Roughly => Some(1.0 / 3.0),
-        Known::Exactly => Some(0.0),
-        Known::BodiesAlone => None,
+        NominalKnowledge::AsDescribed => return Ok(files.clone()),
+        NominalKnowledge::Roughly => Some(1.0 / 3.0),
+        NominalKnowledge::Exactly => Some(0.0),
+        NominalKnowledge::BodiesAlone => None,
     };
     let mut robot: Robot = loaded.robot.clone();
     for (i, friction) in friction.iter().enumerate() {

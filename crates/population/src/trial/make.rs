@@ -10,10 +10,10 @@ use simulator::effects::EffectSpec;
 use simulator::scenario::{EngineSpec, RunSpec, Scenario, ScenarioSpec};
 use simulator::{EffortSource, SimulatorError, simulate_only, simulate_silent};
 
-use crate::bench::{Bench as LabBench, BenchWishes, draw_bench};
+use crate::bench::{BenchWishes, LabBench, draw_bench};
 use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
-use crate::oracle::noise::{JointNoise, ReadingError};
+use crate::oracle::noise::{OracleNoise, ReadingError};
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, Sheet};
 use crate::spec::PopulationSpec;
@@ -21,9 +21,9 @@ use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
 use crate::trial::differences::{Drives, differences};
 use crate::trial::hidden::HiddenThings;
-use crate::trial::known::{Known, described};
+use crate::trial::known::{NominalKnowledge, describe};
 use crate::trial::pilot::Pilot;
-use crate::trial::seen::{Seen, inertias};
+use crate::trial::seen::{OracleRuns, inertias};
 use crate::trial::spoilt::Spoilt;
 use crate::trial::step::{step_ms, whole_step_ms};
 
@@ -56,7 +56,7 @@ pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<Sheet, Po
     for attempt in 0..TRIES {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(attempt);
-        match attempted(spec, seed, folder, &mut random) {
+        match make_once(spec, seed, folder, &mut random) {
             Err(error) if is_of_the_draw(&error) => failed = Some(error),
             made_or_broken => return made_or_broken,
         }
@@ -76,7 +76,7 @@ fn is_of_the_draw(error: &PopulationError) -> bool {
 }
 
 /// One draw of a trial.
-fn attempted(
+fn make_once(
     spec: &PopulationSpec,
     seed: u64,
     folder: &Path,
@@ -142,7 +142,7 @@ struct Draft {
     truth_file: PathBuf,
     nominal: Loaded,
     friction: Vec<Friction>,
-    noise: Vec<JointNoise>,
+    noise: Vec<OracleNoise>,
 }
 
 impl Draft {
@@ -162,17 +162,17 @@ impl Draft {
         let (truth, truth_file) = in_folder("truth", &bench.truth)?;
         let friction = everyday(&truth.robot, &bench.friction, random);
         let known = match model {
-            _ if bench.sensors.effort == EffortSource::Link => Known::BodiesAlone,
-            Model::Right => Known::Exactly,
-            Model::AsModelsAre if random.random_bool(ROUGHLY_KNOWN) => Known::Roughly,
-            Model::AsModelsAre => Known::AsDescribed,
+            _ if bench.sensors.effort == EffortSource::Link => NominalKnowledge::BodiesAlone,
+            Model::Right => NominalKnowledge::Exactly,
+            Model::AsModelsAre if random.random_bool(ROUGHLY_KNOWN) => NominalKnowledge::Roughly,
+            Model::AsModelsAre => NominalKnowledge::AsDescribed,
         };
         let files = match model {
             Model::Right => &bench.truth,
             Model::AsModelsAre => &bench.nominal,
         };
         let (loaded, _) = in_folder("nominal", files)?;
-        let files = described(files, &loaded, &friction, known, random)?;
+        let files = describe(files, &loaded, &friction, known, random)?;
         let (nominal, _) = in_folder("nominal", &files)?;
         let noise = noise(&bench, &truth.robot);
         Ok(Self { bench, seed, truth, truth_file, nominal, friction, noise })
@@ -244,12 +244,16 @@ impl Draft {
 
     /// What an oracle looks at, in steps as long as the springs of what is hidden allow, at least those of the
     /// logs.
-    fn seen(&self, shortest_ms: f64, hidden: &HiddenThings) -> Result<Seen, PopulationError> {
+    fn oracle_runs(
+        &self,
+        shortest_ms: f64,
+        hidden: &HiddenThings,
+    ) -> Result<OracleRuns, PopulationError> {
         let mut step = self.coarse_ms();
         loop {
             let seen = self
                 .scenario(step, hidden)
-                .and_then(|scenario| Seen::new(&scenario, &self.friction(), hidden));
+                .and_then(|scenario| OracleRuns::new(&scenario, &self.friction(), hidden));
             if seen.is_ok() || step <= shortest_ms {
                 return seen;
             }
@@ -268,7 +272,7 @@ impl Draft {
         let scenario = self.scenario(step, hidden)?;
         let mut noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
         in_range(&self.truth.robot, &noisy.runs)?;
-        let seen = self.seen(step, hidden)?;
+        let seen = self.oracle_runs(step, hidden)?;
         let effects = [self.friction(), hidden.causes.clone()].concat();
         let silent = |scenario, wanted: &dyn Fn(&str) -> bool| {
             simulate_silent(scenario, wanted, &effects, &hidden.strangers)
@@ -284,7 +288,7 @@ impl Draft {
         let scales = seen.scales(&self.truth.robot, &self.noise);
         if let Some(spoilt) = spoilt {
             let clean = silent(&scenario, &|name| name != HELD_OUT)?;
-            strangers.push(spoilt.told(&self.truth.robot, &clean, &scales));
+            strangers.push(spoilt.as_unnamed(&self.truth.robot, &clean, &scales));
             spoilt.spoil(&self.truth.robot, &mut noisy.runs);
         }
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
@@ -333,13 +337,13 @@ impl Draft {
 const HELD_OUT: &str = "held_out";
 
 /// What the sensors of each joint add.
-fn noise(bench: &LabBench, robot: &Robot) -> Vec<JointNoise> {
+fn noise(bench: &LabBench, robot: &Robot) -> Vec<OracleNoise> {
     let s = &bench.sensors;
     let inertias = inertias(robot);
     let joint = |(name, inertia): (&str, f64)| {
         let of =
             |map: &std::collections::BTreeMap<String, f64>| map.get(name).copied().unwrap_or(0.0);
-        JointNoise::new(
+        OracleNoise::new(
             ReadingError { deviation: of(&s.effort_noise_nm), step: of(&s.effort_resolution_nm) },
             ReadingError {
                 deviation: of(&s.position_noise_rad),

@@ -4,17 +4,17 @@ use robot::Robot;
 use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
 use simulator::strangers::StrangerSpec;
-use simulator::{Bench, simulate_silent};
+use simulator::{EffectSizer, simulate_silent};
 
 use crate::error::PopulationError;
-use crate::oracle::column::{Column, StandIn};
+use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
-use crate::oracle::noise::JointNoise;
+use crate::oracle::noise::OracleNoise;
 use crate::oracle::regression::strengths;
 use crate::oracle::scales::torque_scales;
 use crate::oracle::stand_ins::stand_ins;
 use crate::sheet::Strength;
-use crate::trial::hidden::{HiddenKind, HiddenSpec};
+use crate::trial::hidden::{HiddenKind, SizedCause};
 
 /// Torque share that is asked for first.
 const FIRST_SHARE: f64 = 0.1;
@@ -33,37 +33,37 @@ const SHARES: [f64; 2] = [2e-3, 3.0];
 pub(crate) struct Pilot<'a> {
     scenario: &'a Scenario,
     robot: &'a Robot,
-    noise: &'a [JointNoise],
+    noise: &'a [OracleNoise],
     base: Vec<EffectSpec>,
-    bench: Bench<'a>,
+    bench: EffectSizer<'a>,
     seen: SeenRun,
     scales: Vec<f64>,
-    stand_ins: Vec<Column>,
+    stand_ins: Vec<TorqueColumn>,
 }
 
 impl<'a> Pilot<'a> {
     /// The first run of a scenario with nothing but its everyday friction.
     pub fn new(
         scenario: &'a Scenario,
-        noise: &'a [JointNoise],
+        noise: &'a [OracleNoise],
         base: &[EffectSpec],
     ) -> Result<Self, PopulationError> {
         let robot = scenario.robot();
         let seen = first(scenario, base, &[])?;
         let stand_ins = stand_ins(robot, std::slice::from_ref(&seen));
-        let bench = Bench::new(scenario)?;
+        let bench = EffectSizer::new(scenario)?;
         let scales = torque_scales(std::slice::from_ref(&seen), robot, noise);
         Ok(Self { scenario, robot, noise, base: base.to_vec(), bench, seen, scales, stand_ins })
     }
 
     /// What is to be hidden, of about the strength wanted (1 for what an oracle just sees); none where the
     /// arm runs away with it or it does nothing.
-    pub fn sized(
+    pub fn spec_of_strength(
         &self,
         hidden: HiddenKind,
         wanted: f64,
         random: &mut ChaCha8Rng,
-    ) -> Option<HiddenSpec> {
+    ) -> Option<SizedCause> {
         let joint = random.random_range(0..self.robot.joint_count());
         let seed = random.random::<u64>();
         if matches!(hidden, HiddenKind::Stranger(kind) if !kind.fits(self.robot, joint)) {
@@ -79,30 +79,30 @@ impl<'a> Pilot<'a> {
         self.strength(&sized).map(|_| sized)
     }
 
-    fn of_share(&self, hidden: HiddenKind, joint: usize, share: f64, seed: u64) -> HiddenSpec {
+    fn of_share(&self, hidden: HiddenKind, joint: usize, share: f64, seed: u64) -> SizedCause {
         match hidden {
             HiddenKind::Cause(kind) => {
-                HiddenSpec::Cause(self.bench.effect(kind, joint, share, seed))
+                SizedCause::Cause(self.bench.effect(kind, joint, share, seed))
             }
             HiddenKind::Stranger(kind) => {
-                HiddenSpec::Stranger(self.bench.stranger(kind, joint, share, seed))
+                SizedCause::Stranger(self.bench.stranger(kind, joint, share, seed))
             }
         }
     }
 
     /// What an oracle sees of it in the first run; none where the arm cannot be simulated with it.
-    fn strength(&self, sized: &HiddenSpec) -> Option<Strength> {
+    fn strength(&self, sized: &SizedCause) -> Option<Strength> {
         let mut effects = self.base.clone();
         let mut strangers = Vec::new();
         match sized {
-            HiddenSpec::Cause(effect) => effects.push(effect.clone()),
-            HiddenSpec::Stranger(stranger) => strangers.push(stranger.clone()),
+            SizedCause::Cause(effect) => effects.push(effect.clone()),
+            SizedCause::Stranger(stranger) => strangers.push(stranger.clone()),
         }
         let with = first(self.scenario, &effects, &strangers).ok()?;
         let rows = with.rows().min(self.seen.rows());
         let torque = with.beyond.rows(0, rows) - self.seen.beyond.rows(0, rows);
-        let column = Column { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 };
-        let columns: Vec<Column> =
+        let column = TorqueColumn { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 };
+        let columns: Vec<TorqueColumn> =
             std::iter::once(column).chain(self.stand_ins.iter().cloned()).collect();
         strengths(std::slice::from_ref(&self.seen), &columns, 1, self.noise, &self.scales).pop()
     }

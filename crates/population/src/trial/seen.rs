@@ -6,9 +6,9 @@ use simulator::strangers::StrangerSpec;
 use simulator::{StrangerTruth, Truth, simulate_silent};
 
 use crate::error::PopulationError;
-use crate::oracle::column::{Column, StandIn};
+use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
-use crate::oracle::noise::JointNoise;
+use crate::oracle::noise::OracleNoise;
 use crate::oracle::regression::strengths;
 use crate::oracle::scales::torque_scales;
 use crate::oracle::stand_ins::stand_ins;
@@ -24,28 +24,29 @@ use crate::trial::hidden::HiddenThings;
 /// ```
 ///
 /// The motion is another where `k` is left out; what that asks of the bodies is taken off on both sides.
-pub(crate) struct Seen {
+pub(crate) struct OracleRuns {
     pub runs: Vec<SeenRun>,
     causes: Vec<(Truth, Vec<DMatrix<f64>>)>,
     strangers: Vec<(StrangerTruth, Vec<DMatrix<f64>>)>,
 }
 
-impl Seen {
+impl OracleRuns {
     /// Simulates the runs once with everything and once without each hidden thing.
     pub fn new(
         scenario: &Scenario,
         friction: &[EffectSpec],
         hidden: &HiddenThings,
     ) -> Result<Self, PopulationError> {
-        let runs = silent(scenario, friction, &hidden.causes, &hidden.strangers)?;
+        let runs = simulate_without_noise(scenario, friction, &hidden.causes, &hidden.strangers)?;
         let without_cause = |k: usize| {
             let others = without(&hidden.causes, k);
-            let runs_without = silent(scenario, friction, &others, &hidden.strangers)?;
+            let runs_without =
+                simulate_without_noise(scenario, friction, &others, &hidden.strangers)?;
             Ok((hidden.causes[k].truth(), beyond(&runs, &runs_without)))
         };
         let without_stranger = |k: usize| {
             let others = without(&hidden.strangers, k);
-            let runs_without = silent(scenario, friction, &hidden.causes, &others)?;
+            let runs_without = simulate_without_noise(scenario, friction, &hidden.causes, &others)?;
             Ok((hidden.strangers[k].truth(), beyond(&runs, &runs_without)))
         };
         let causes: Result<_, PopulationError> =
@@ -57,7 +58,7 @@ impl Seen {
     }
 
     /// What torques of each joint count by; see [`crate::sheet::Sheet::torque_rms`].
-    pub fn scales(&self, robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
+    pub fn scales(&self, robot: &Robot, noise: &[OracleNoise]) -> Vec<f64> {
         torque_scales(&self.runs, robot, noise)
     }
 
@@ -66,9 +67,9 @@ impl Seen {
         &self,
         robot: &Robot,
         differ: Vec<Difference>,
-        noise: &[JointNoise],
+        noise: &[OracleNoise],
     ) -> (Vec<Cause>, Vec<Unnamed>) {
-        let itself = |torque: &Vec<DMatrix<f64>>| Column {
+        let itself = |torque: &Vec<DMatrix<f64>>| TorqueColumn {
             stands_for: StandIn::Itself,
             torque: torque.clone(),
             prior: 0.0,
@@ -78,7 +79,7 @@ impl Seen {
             differ.into_iter().map(|d| ((d.role, d.truth), d.column)).unzip();
         let hidden = self.causes.iter().map(|(_, torque)| itself(torque));
         let strange = self.strangers.iter().map(|(_, torque)| itself(torque));
-        let columns: Vec<Column> = differ
+        let columns: Vec<TorqueColumn> = differ
             .into_iter()
             .chain(hidden)
             .chain(strange)
@@ -112,7 +113,7 @@ fn without<T: Clone>(all: &[T], k: usize) -> Vec<T> {
     kept.map(|(_, one)| one.clone()).collect()
 }
 
-fn silent(
+fn simulate_without_noise(
     scenario: &Scenario,
     friction: &[EffectSpec],
     causes: &[EffectSpec],

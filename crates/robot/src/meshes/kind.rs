@@ -87,7 +87,7 @@ fn is_obj(head: &str, bytes: u64) -> bool {
 mod tests {
     use super::*;
 
-    fn told(name: &str, content: &[u8]) -> bool {
+    fn is_recognised(name: &str, content: &[u8]) -> bool {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, content).unwrap();
@@ -106,11 +106,11 @@ mod tests {
             ("a.gltf", b"{\"asset\": {\"version\": \"2.0\"}}"),
             ("a.glb", &glb),
         ] {
-            assert!(told(name, content), "{name}");
+            assert!(is_recognised(name, content), "{name}");
             let secret = b"root:x:0:0:root:/root:/bin/sh\n".repeat(20);
-            assert!(!told(name, &secret) && !told(name, b""), "{name}");
-            assert!(!told("a.txt", content));
+            assert!(!is_recognised(name, &secret) && !is_recognised(name, b""), "{name}");
+            assert!(!is_recognised("a.txt", content));
         }
-        assert!(!told("a.stl", &triangle[..130]));
+        assert!(!is_recognised("a.stl", &triangle[..130]));
     }
 }

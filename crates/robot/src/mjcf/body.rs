@@ -7,7 +7,7 @@ use crate::mjcf::classes::{Classes, MAIN};
 use crate::mjcf::compiler::{Compiler, InertiaSource};
 use crate::mjcf::element::Element;
 use crate::mjcf::geom::{Geom, Meshes};
-use crate::mjcf::joint::{Motion, driven, motion};
+use crate::mjcf::joint::{Motion, motion, read_joint};
 use crate::mjcf::unread::Unread;
 use crate::mjcf::view::View;
 use crate::structure::inertia::Inertia;
@@ -123,7 +123,7 @@ impl<'a> Walk<'a> {
                     self.links[link].merged.push(name);
                 }
                 if let Some(inertia) = inertia {
-                    self.links[link].inertia.add(&inertia.seen_from(&place.link_from_frame));
+                    self.links[link].inertia.add(&inertia.in_frame(&place.link_from_frame));
                 }
             }
             None => {
@@ -152,7 +152,7 @@ impl<'a> Walk<'a> {
             self.warnings.push(RobotWarning::BaseHeld { joint: name, kind: "free" });
             return Ok(false);
         }
-        let driven = driven(&view, &name, kind, &place.link_from_frame)?;
+        let driven = read_joint(&view, &name, kind, &place.link_from_frame)?;
         self.links.push(Link {
             name: link.to_owned(),
             parent: place.link,
@@ -223,5 +223,5 @@ fn inertial(view: &View<'_>) -> Result<Inertia, RobotError> {
         (None, None) => Matrix3::zeros(),
     };
     let own = Inertia { mass, com_in_link: nalgebra::Vector3::zeros(), about_com };
-    Ok(own.seen_from(&view.pose()?))
+    Ok(own.in_frame(&view.pose()?))
 }

@@ -99,7 +99,7 @@ impl<'a> Files<'a> {
     /// [`RobotError::Malformed`], [`RobotError::BadElement`] for an include that is read twice, and
     /// what is wrong with an included file.
     pub fn root(&mut self, text: &str) -> Result<Element, RobotError> {
-        let mut root = self.parsed(text)?;
+        let mut root = self.parse(text)?;
         self.expand(&mut root, 0)?;
         Ok(root)
     }
@@ -121,7 +121,7 @@ impl<'a> Files<'a> {
                 return Err(child.bad(format!("{name} is included twice, once was expected")));
             }
             let text = (self.read)(&path)?;
-            let mut included = self.parsed(&text).map_err(|e| e.in_file(&path))?;
+            let mut included = self.parse(&text).map_err(|e| e.in_file(&path))?;
             self.expand(&mut included, depth + 1)?;
             children.append(&mut included.children);
         }
@@ -129,7 +129,7 @@ impl<'a> Files<'a> {
         Ok(())
     }
 
-    fn parsed(&mut self, text: &str) -> Result<Element, RobotError> {
+    fn parse(&mut self, text: &str) -> Result<Element, RobotError> {
         let mut reader = Reader::from_str(text);
         let (mut open, mut root) = (Vec::<Element>::new(), None);
         let (mut line, mut counted) = (1, 0);

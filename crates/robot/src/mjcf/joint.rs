@@ -48,7 +48,7 @@ pub struct Driven {
 /// ```text
 /// parent_from_link = parent_from_body T(pos) motion(q - ref)
 /// ```
-pub fn driven(
+pub fn read_joint(
     view: &View<'_>,
     name: &str,
     kind: Motion,

@@ -40,7 +40,7 @@ impl DescriptionFile {
 
     /// An error about the URDF that it describes, shown where it names that file.
     pub fn of_urdf(&self, error: &RobotError) -> RobotError {
-        Misfit::new(KeyPath::root().key("urdf"), error.to_string()).shown_in(&self.document)
+        Misfit::new(KeyPath::root().key("urdf"), error.to_string()).locate_in(&self.document)
     }
 
     /// The part of the robot that it lets move.
@@ -51,7 +51,7 @@ impl DescriptionFile {
     pub fn part(&self, model: &WholeRobot) -> Result<Part, RobotError> {
         let part = self.description.part();
         let checked = part.check(&model.robot, &model.mimics);
-        checked.map_err(|misfit| misfit.shown_in(&self.document))?;
+        checked.map_err(|misfit| misfit.locate_in(&self.document))?;
         Ok(part)
     }
 
@@ -61,6 +61,6 @@ impl DescriptionFile {
     ///
     /// [`RobotError::InToml`] for a name that nothing carries, a number out of its range and keys that disagree.
     pub fn apply(&self, loaded: &mut Loaded) -> Result<(), RobotError> {
-        self.description.apply(loaded).map_err(|misfit| misfit.shown_in(&self.document))
+        self.description.apply(loaded).map_err(|misfit| misfit.locate_in(&self.document))
     }
 }

@@ -168,7 +168,7 @@ impl JointEntry {
         self.actuate(&site, &mut link.actuator)?;
         if link.actuator.counterbalance.is_some() && !link.joint.kind.is_rotation() {
             let found = "counterbalance is at a joint that slides";
-            return lonely(&site, found, "one that turns");
+            return incomplete(&site, found, "one that turns");
         }
         link.actuator.coupling = coupling.or(link.actuator.coupling);
         if let Some(limit) = self.torque_limit_nm {
@@ -185,7 +185,7 @@ impl JointEntry {
         let split = self.coulomb_forward_nm.is_some() || self.coulomb_backward_nm.is_some();
         if self.coulomb_nm.is_some() && split {
             let found = "coulomb_nm beside coulomb_forward_nm or coulomb_backward_nm";
-            return lonely(
+            return incomplete(
                 site,
                 found,
                 "either one value for both directions or one per direction",
@@ -264,7 +264,7 @@ impl JointEntry {
         }
         if a.spring_hysteresis > 0.0 && a.spring_stiffness <= 0.0 {
             let found = "spring_hysteresis_nm is there without a spring that holds it";
-            return lonely(site, found, "spring_stiffness_nm_per_rad above 0 as well");
+            return incomplete(site, found, "spring_stiffness_nm_per_rad above 0 as well");
         }
         Ok(())
     }
@@ -289,7 +289,7 @@ impl JointEntry {
         let Some(damping) = self.presliding_damping_nm_s_per_rad else { return Ok(()) };
         if a.presliding.is_none() {
             let found = "presliding_damping_nm_s_per_rad is there alone";
-            return lonely(site, found, "presliding_rad as well");
+            return incomplete(site, found, "presliding_rad as well");
         }
         in_range(site, key, damping, Range::NotNegative)?;
         a.presliding_damping = Some(damping);
@@ -301,14 +301,14 @@ impl JointEntry {
             (None, None) => return Ok(None),
             (Some(excess), Some(velocity)) => (excess, velocity),
             (Some(_), None) => {
-                return lonely(
+                return incomplete(
                     site,
                     "stribeck_excess_nm is there alone",
                     "stribeck_velocity_rad_per_s as well",
                 );
             }
             (None, Some(_)) => {
-                return lonely(
+                return incomplete(
                     site,
                     "stribeck_velocity_rad_per_s is there alone",
                     "stribeck_excess_nm as well",
@@ -348,7 +348,11 @@ impl JointEntry {
         let level = a.coulomb_forward.min(a.coulomb_backward);
         if viscous_lost > a.viscous.max(0.0) || coulomb_lost > level.max(0.0) {
             let found = "friction_warming loses more friction than the cold drive has";
-            return lonely(site, found, "viscous_nm_s_per_rad and coulomb_nm at least as large");
+            return incomplete(
+                site,
+                found,
+                "viscous_nm_s_per_rad and coulomb_nm at least as large",
+            );
         }
         Ok(Some(Warming { viscous_lost, coulomb_lost, time_constant_s }))
     }
@@ -382,7 +386,7 @@ impl JointEntry {
         let Some(entry) = &self.coupling else { return Ok(None) };
         let other = loaded.joint_index(&site.key("coupling").key("with"), &entry.with)?;
         if other == index {
-            return lonely(site, "coupling.with names the joint itself", "another joint");
+            return incomplete(site, "coupling.with names the joint itself", "another joint");
         }
         in_range(site, "coupling.ratio", entry.ratio, Range::Positive)?;
         let CouplingEntry {
@@ -413,17 +417,17 @@ impl JointEntry {
             (None, None) => Ok(None),
             (Some(kp), Some(kd)) => gain(site, kp, kd).map(Some),
             (Some(_), None) => {
-                lonely(site, "kp_nm_per_rad is there alone", "kd_nm_s_per_rad as well")
+                incomplete(site, "kp_nm_per_rad is there alone", "kd_nm_s_per_rad as well")
             }
             (None, Some(_)) => {
-                lonely(site, "kd_nm_s_per_rad is there alone", "kp_nm_per_rad as well")
+                incomplete(site, "kd_nm_s_per_rad is there alone", "kp_nm_per_rad as well")
             }
         }
     }
 }
 
 /// Refuses keys that say the same twice, or one without another that it needs.
-fn lonely<T>(site: &KeyPath, found: &str, expected: &str) -> Result<T, Misfit> {
+fn incomplete<T>(site: &KeyPath, found: &str, expected: &str) -> Result<T, Misfit> {
     Err(Misfit::new(site.clone(), format!("{found}, {expected} was expected")))
 }
 

@@ -65,10 +65,10 @@ impl Part {
         let mut locks = vec![];
         for joint in whole.joint_names() {
             let lock = |position, mimics| LockedJoint { joint: joint.into(), position, mimics };
-            if let Some(position) = self.given(joint, mimics) {
+            if let Some(position) = self.locked_position(joint, mimics) {
                 locks.push(lock(position, None));
             } else if let Some(mimic) = mimics.get(joint) {
-                let position = self.followed(joint, mimics);
+                let position = self.position_as_mimic(joint, mimics);
                 finite(joint, "position as a mimic", position)?;
                 locks.push(lock(position, Some(mimic.master.clone())));
             }
@@ -83,8 +83,8 @@ impl Part {
         whole: &'a Robot,
         mimics: &Mimics,
     ) -> Option<&'a str> {
-        let (_, _, last) = self.followed_to(joint, mimics);
-        let moves = self.given(last, mimics).is_none();
+        let (_, _, last) = self.trace_master(joint, mimics);
+        let moves = self.locked_position(last, mimics).is_none();
         let index = whole.joint_index(last).filter(|_| moves)?;
         whole.joint_names().nth(index)
     }
@@ -124,24 +124,25 @@ impl Part {
     }
 
     /// The position at which the keys lock a joint (rad or m).
-    fn given(&self, joint: &str, mimics: &Mimics) -> Option<f64> {
+    fn locked_position(&self, joint: &str, mimics: &Mimics) -> Option<f64> {
         let left_out = self.joints.as_ref().is_some_and(|kept| !kept.iter().any(|k| k == joint));
         let at_zero = (left_out && !mimics.contains_key(joint)).then_some(0.0);
         self.locked.get(joint).copied().or(at_zero)
     }
 
     /// Where a joint that mimics another is held (rad or m).
-    fn followed(&self, joint: &str, mimics: &Mimics) -> f64 {
-        let (multiplier, offset, last) = self.followed_to(joint, mimics);
-        multiplier * self.given(last, mimics).unwrap_or(0.0) + offset
+    fn position_as_mimic(&self, joint: &str, mimics: &Mimics) -> f64 {
+        let (multiplier, offset, last) = self.trace_master(joint, mimics);
+        multiplier * self.locked_position(last, mimics).unwrap_or(0.0) + offset
     }
 
     /// The first joint up the chain of masters that has a place of its own, and how `joint`
     /// follows it. The chain ends: the URDF was checked for that.
-    fn followed_to<'a>(&self, joint: &'a str, mimics: &'a Mimics) -> (f64, f64, &'a str) {
+    fn trace_master<'a>(&self, joint: &'a str, mimics: &'a Mimics) -> (f64, f64, &'a str) {
         let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
         for _ in 0..mimics.len() {
-            let Some(mimic) = mimics.get(at).filter(|_| self.given(at, mimics).is_none()) else {
+            let Some(mimic) = mimics.get(at).filter(|_| self.locked_position(at, mimics).is_none())
+            else {
                 break;
             };
             offset += multiplier * mimic.offset;

@@ -45,7 +45,7 @@ pub(crate) fn parse(text: &str) -> Result<WholeRobot, RobotError> {
     let mimics = followers::mimics(&joints)?;
     let walk = Walk { links: &links, joints: &joints, inertias: &inertias, tree: &tree };
     let (moving, parts) = walk.moving_links()?;
-    warnings.extend(held(&joints));
+    warnings.extend(free_base_warnings(&joints));
     let robot = Robot::new(name(&outline)?, UPRIGHT_GRAVITY, moving)?;
     let mut visuals = Visuals::read(text);
     let looks = looks(&mut visuals, &parts, robot.joint_count());
@@ -67,7 +67,7 @@ pub(crate) fn parse(text: &str) -> Result<WholeRobot, RobotError> {
 }
 
 /// The joints of a base that moves freely; the walk found them where they can be held.
-fn held(joints: &[urdf_rs::Joint]) -> impl Iterator<Item = RobotWarning> {
+fn free_base_warnings(joints: &[urdf_rs::Joint]) -> impl Iterator<Item = RobotWarning> {
     joints.iter().filter_map(|joint| {
         let kind = convert::of_free_base(joint)?;
         Some(RobotWarning::BaseHeld { joint: joint.name.clone(), kind })
@@ -163,7 +163,7 @@ impl Walk<'_> {
                 }
             };
             if let (Some(b), Some(own)) = (body, &self.inertias[visit.link]) {
-                moving[b].inertia.add(&own.seen_from(&body_from_link));
+                moving[b].inertia.add(&own.in_frame(&body_from_link));
             }
             parts.push(Part { link: name, index: visit.link, body, body_from_link });
             stack.extend(self.tree.joints_of[visit.link].iter().rev().map(|&j| Visit {

@@ -1,6 +1,6 @@
 use nalgebra::Isometry3;
 
-use crate::mechanics::engine::{Body, Engine, Load, Push};
+use crate::mechanics::engine::{Engine, EngineBody, Load, Push};
 use crate::mechanics::inject::Efforts;
 use crate::mechanics::plant::Plant;
 use crate::mechanics::transmission::Transmission;
@@ -10,10 +10,10 @@ use crate::mechanics::transmission::Transmission;
 /// A joint with a rigid transmission has one degree of freedom, of motor and link alike. Any
 /// other has two: the motor's angle `theta`, carried by a massless body with the rotor's
 /// inertia, and on it the deflection `delta`, so that `q = theta + delta`.
-pub(crate) struct Arm {
+pub(crate) struct EngineArm {
     engine: Engine,
     joints: Vec<Drive>,
-    /// Body of each link.
+    /// EngineBody of each link.
     link_body: Vec<usize>,
     load: Load,
     constraint: Vec<f64>,
@@ -37,14 +37,14 @@ struct Drive {
     spring_rest: f64,
 }
 
-impl Arm {
+impl EngineArm {
     /// Builds the engine's bodies from the plant; `None` if the engine takes no such tree.
     pub fn new(plant: &Plant, step_s: f64) -> Option<Self> {
-        let mut bodies: Vec<Body> = Vec::new();
+        let mut bodies: Vec<EngineBody> = Vec::new();
         let mut link_body: Vec<usize> = Vec::new();
         let mut joints = Vec::new();
         for (link, &transmission) in plant.robot.links().iter().zip(&plant.transmissions) {
-            let mut body = Body {
+            let mut body = EngineBody {
                 parent: link.parent.and_then(|p| link_body.get(p).copied()),
                 turns: link.joint.kind.is_rotation(),
                 parent_from_body: link.joint.parent_from_joint,
@@ -103,7 +103,7 @@ impl Arm {
 
     /// Torque that each transmission carried to its link in the last step (N m or N), as of the
     /// last call of [`measure_load`](Self::measure_load).
-    pub fn transmitted(&self) -> &[f64] {
+    pub fn transmitted_torque(&self) -> &[f64] {
         &self.transmitted
     }
 

@@ -17,7 +17,7 @@ const SOLVER_SWEEPS: usize = 50;
 
 /// One moving body and the degree of freedom that carries it.
 #[derive(Debug, Clone)]
-pub(crate) struct Body {
+pub(crate) struct EngineBody {
     /// Index of the body that carries it, `None` for the base.
     pub parent: Option<usize>,
     /// Whether the degree of freedom turns, otherwise it slides.
@@ -111,7 +111,7 @@ pub(crate) struct Engine {
 
 impl Engine {
     /// Builds the tree at rest at position zero; parents come before their children.
-    pub fn new(bodies: &[Body], gravity_in_base: Vector3<f64>, step_s: f64) -> Option<Self> {
+    pub fn new(bodies: &[EngineBody], gravity_in_base: Vector3<f64>, step_s: f64) -> Option<Self> {
         let mut world = PhysicsWorld::new();
         world.gravity = vector(&gravity_in_base);
         let parameters = &mut world.integration_parameters;
@@ -156,7 +156,7 @@ impl Engine {
     }
 
     /// Gives the fixed root its place, takes rapier's default damping away and adds armatures.
-    fn settle(&mut self, bodies: &[Body]) -> Option<()> {
+    fn settle(&mut self, bodies: &[EngineBody]) -> Option<()> {
         let PhysicsWorld { bodies: rigid, multibody_joints, .. } = &mut self.world;
         for handle in &self.bodies {
             rigid.get_mut(*handle)?.recompute_mass_properties_from_colliders(&ColliderSet::new());
@@ -324,7 +324,7 @@ impl Engine {
     }
 }
 
-fn rigid_body(body: &Body) -> RigidBodyBuilder {
+fn rigid_body(body: &EngineBody) -> RigidBodyBuilder {
     let properties = match &body.inertia {
         Some(inertia) => mass_properties(inertia),
         None => MassProperties::new(Vector::ZERO, 0.0, Vector::ZERO),
@@ -357,7 +357,7 @@ fn mass_properties(inertia: &Inertia) -> MassProperties {
 }
 
 /// Rapier's free axis is the x axis of the joint's frames: turn it onto the body's axis.
-fn joint(body: &Body) -> GenericJoint {
+fn joint(body: &EngineBody) -> GenericJoint {
     let (free, axis) = if body.turns {
         (JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxesMask::ANG_X)
     } else {

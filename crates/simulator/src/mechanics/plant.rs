@@ -22,14 +22,14 @@ pub struct Plant {
 impl Plant {
     /// The robot as described.
     pub fn new(robot: Robot) -> Self {
-        let described = robot.links().iter().map(|l| Transmission::described(&l.actuator));
+        let described = robot.links().iter().map(|l| Transmission::of_actuator(&l.actuator));
         Self { transmissions: described.collect(), robot }
     }
 
     /// Fixes a body, given in the frame of the link, to a link.
     pub fn attach(&mut self, link: usize, body: &Inertia) {
         if let Some(link) = self.robot.link_mut(link) {
-            link.inertia = link.inertia.merged_with(body);
+            link.inertia = link.inertia.plus(body);
         }
     }
 

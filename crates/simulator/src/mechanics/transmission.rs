@@ -18,7 +18,7 @@ pub struct Transmission {
 impl Transmission {
     /// What the description says of a joint: its stiffness, its free play, and a damping of 2 %
     /// of critical.
-    pub fn described(actuator: &Actuator) -> Self {
+    pub fn of_actuator(actuator: &Actuator) -> Self {
         let inertia = actuator.rotor_inertia;
         let damping = |stiffness| damping(DAMPING_RATIO, stiffness, inertia);
         Self {
@@ -34,7 +34,7 @@ impl Transmission {
     /// ```text
     /// q - theta = -(load / stiffness + (gap / 2) sign(load))
     /// ```
-    pub(crate) fn twist_under(&self, load: f64) -> f64 {
+    pub(crate) fn deflection_under(&self, load: f64) -> f64 {
         if load.abs() <= 0.0 {
             return 0.0;
         }

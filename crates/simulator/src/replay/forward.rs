@@ -6,8 +6,8 @@ use robot::{Machine, MachineFault, Robot};
 
 use crate::error::SimulatorError;
 use crate::replay::record::{
-    STEP_S, State, check_rate, encoder_state, held_torque, simulator_of_record, start_at_sample,
-    too_short, with_efforts_in_time, with_friction_of_sample,
+    EncoderState, STEP_S, check_rate, encoder_state, held_torque, simulator_of_record,
+    start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
 /// How a record is rolled forward: in windows one after the other.
@@ -81,7 +81,9 @@ pub fn replay_torque(
     let windows = windows?;
     let (mut squares, mut kept) = (vec![0.0; robot.joint_count()], 0_usize);
     for (window, start) in windows.iter().zip(&starts) {
-        let (Some(State { q, .. }), None) = (window.states.last(), &window.fault) else { continue };
+        let (Some(EncoderState { q, .. }), None) = (window.states.last(), &window.fault) else {
+            continue;
+        };
         kept += 1;
         for (i, square) in squares.iter_mut().enumerate() {
             *square += (q[i] - record.joints[i].q[start + samples]).powi(2);
@@ -98,7 +100,7 @@ pub fn replay_torque(
 
 /// What one window came to: positions and velocities at every sample after its start.
 struct Window {
-    states: Vec<State>,
+    states: Vec<EncoderState>,
     fault: Option<MachineFault>,
 }
 
@@ -126,7 +128,7 @@ fn roll_window(
 
 fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[Window]) -> Run {
     let sample = |start: usize, i: usize| start + 1 + i;
-    let places: Vec<(usize, &State)> = windows
+    let places: Vec<(usize, &EncoderState)> = windows
         .iter()
         .zip(starts)
         .flat_map(|(w, &s)| w.states.iter().enumerate().map(move |(i, x)| (sample(s, i), x)))

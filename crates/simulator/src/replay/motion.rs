@@ -3,7 +3,7 @@ use robot::{Gain, Machine, Reading, Robot};
 
 use crate::error::SimulatorError;
 use crate::replay::record::{
-    STEP_S, State, check_rate, encoder_state, held_torque, interpolate, simulator_of_record,
+    EncoderState, STEP_S, check_rate, encoder_state, held_torque, interpolate, simulator_of_record,
     start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
@@ -57,7 +57,7 @@ pub fn replay_motion(
     for tick in 0..(record.time.len() - 1) * turns {
         let mut turn = || {
             simulator.read(&mut reading)?;
-            let State { q, qd } = encoder_state(&simulator, robot);
+            let EncoderState { q, qd } = encoder_state(&simulator, robot);
             (reading.q, reading.qd) = (q, qd);
             let (sample, part) = (tick / turns, (tick % turns) as f64 / turns as f64);
             let mut tau = held_torque(robot, record, sample);

@@ -9,7 +9,7 @@ use crate::sensors::Sensors;
 use crate::simulator::{Simulator, Stepping};
 
 /// Positions (rad or m) and velocities (rad/s or m/s), one a joint.
-pub(crate) struct State {
+pub(crate) struct EncoderState {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
 }
@@ -21,7 +21,10 @@ pub(crate) struct State {
 /// ```
 ///
 /// straight between samples; beyond the record the first or last effort goes on.
-pub(crate) fn in_time<'a>(robot: &Robot, record: &'a PreparedRun) -> Cow<'a, PreparedRun> {
+pub(crate) fn with_efforts_in_time<'a>(
+    robot: &Robot,
+    record: &'a PreparedRun,
+) -> Cow<'a, PreparedRun> {
     let skews = || robot.links().iter().map(|link| link.actuator.effort_skew_s);
     if skews().all(|skew_s| skew_s.abs() <= 0.0) {
         return Cow::Borrowed(record);
@@ -42,14 +45,18 @@ pub(crate) fn in_time<'a>(robot: &Robot, record: &'a PreparedRun) -> Cow<'a, Pre
 }
 
 /// The robot with the friction that its drives have in a sample of a record, so long after a cold start.
-pub(crate) fn warmed<'a>(robot: &'a Robot, record: &PreparedRun, sample: usize) -> Cow<'a, Robot> {
+pub(crate) fn with_friction_of_sample<'a>(
+    robot: &'a Robot,
+    record: &PreparedRun,
+    sample: usize,
+) -> Cow<'a, Robot> {
     if robot.links().iter().all(|link| link.actuator.warming.is_none()) {
         return Cow::Borrowed(robot);
     }
     let mut robot = robot.clone();
     for j in 0..robot.joint_count() {
         let Some(link) = robot.link_mut(j) else { continue };
-        link.actuator = link.actuator.warmed(record.time[sample] - record.session_start_s);
+        link.actuator = link.actuator.after_warming(record.time[sample] - record.session_start_s);
     }
     Cow::Owned(robot)
 }
@@ -69,13 +76,13 @@ pub(crate) fn start_at_sample(
     for (link, joint) in robot.links().iter().zip(&record.joints) {
         let drive = &link.actuator;
         let load = load(drive, joint, sample, record.rate_hz);
-        let behind = Transmission::described(drive).twist_under(load);
+        let behind = Transmission::of_actuator(drive).deflection_under(load);
         let at_link = drive.sensing == SensingSide::Link;
         motor_q.push(true_position(drive, joint.q[sample]) - if at_link { behind } else { 0.0 });
         motor_qd.push(drive.transmission_ratio * joint.qd[sample]);
         twist.push(behind);
     }
-    simulator.start_twisted(&motor_q, &motor_qd, &twist);
+    simulator.start_with_deflection(&motor_q, &motor_qd, &twist);
     let memory_s = |drive| {
         let [delay_s, lag_s] = late_s(drive);
         delay_s + LAGS * lag_s
@@ -84,7 +91,7 @@ pub(crate) fn start_at_sample(
     if longest_s > 0.0 {
         let first = sample.saturating_sub((longest_s * record.rate_hz).ceil() as usize + 1);
         let past: Vec<Vec<f64>> = (first..sample).map(|k| held_torque(robot, record, k)).collect();
-        simulator.recall(&past);
+        simulator.send_past_commands(&past);
     }
 }
 
@@ -134,7 +141,7 @@ fn true_position(drive: &Actuator, q: f64) -> f64 {
 }
 
 /// What the robot's encoders would show.
-pub(crate) fn encoder_state(simulator: &Simulator, robot: &Robot) -> State {
+pub(crate) fn encoder_state(simulator: &Simulator, robot: &Robot) -> EncoderState {
     let pick = |link: &[f64], motor: &[f64]| -> Vec<f64> {
         let sides = robot.links().iter().map(|l| l.actuator.sensing);
         let of = |(side, (link, motor)): (SensingSide, (&f64, &f64))| match side {
@@ -150,7 +157,7 @@ pub(crate) fn encoder_state(simulator: &Simulator, robot: &Robot) -> State {
         *q = *q / a.transmission_ratio + a.encoder_offset;
         *qd /= a.transmission_ratio;
     }
-    State { q, qd }
+    EncoderState { q, qd }
 }
 
 /// Torques from one sample to the next.

@@ -6,7 +6,7 @@ use rand_chacha::rand_core::SeedableRng;
 use crate::effects::spec::EffectSpec;
 use crate::effects::surroundings::{JointLevel, Surroundings};
 use crate::error::SimulatorError;
-use crate::run::follow::{Causes, Following, Row, follow, simulator};
+use crate::run::follow::{Causes, ControlRow, Following, follow, simulator};
 use crate::scenario::check::{Scenario, ScenarioRun};
 use crate::scenario::spec::HiddenSpec;
 use crate::sensors::{JointSensor, Sensors};
@@ -28,17 +28,17 @@ const TOLERANCE: f64 = 0.1;
 
 /// The first run of a scenario, at most 10 s of it, in which sizes are measured: without noise, and
 /// without the effects that are to be drawn.
-pub struct Bench<'a> {
+pub struct EffectSizer<'a> {
     scenario: &'a Scenario,
     run: ScenarioRun,
-    nominal: Vec<Row>,
+    nominal: Vec<ControlRow>,
     /// Of each joint; the noise of its sensor is part of its torque.
     levels: Vec<JointLevel>,
     /// What each joint turns where the run begins.
     inertia: Vec<f64>,
 }
 
-impl<'a> Bench<'a> {
+impl<'a> EffectSizer<'a> {
     /// Simulates the run with the effects and strangers that the scenario states.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ impl<'a> Bench<'a> {
     }
 
     /// The run with the scenario's effects and more.
-    fn rows(&self, more: &[EffectSpec]) -> Result<Vec<Row>, SimulatorError> {
+    fn rows(&self, more: &[EffectSpec]) -> Result<Vec<ControlRow>, SimulatorError> {
         let scenario = self.scenario;
         let mut simulator = self.simulator(more)?;
         let (gains, robot) = (scenario.gains(), scenario.robot());
@@ -149,7 +149,9 @@ impl<'a> Bench<'a> {
             let joint = random.random_range(0..self.levels.len());
             let goal = least * (largest / least).powf(random.random::<f64>());
             let seed = random.random::<u64>();
-            let Some((effect, share)) = self.sized(kind, joint, goal, seed) else { continue };
+            let Some((effect, share)) = self.effect_of_share(kind, joint, goal, seed) else {
+                continue;
+            };
             last = format!("the last was {} {kind} at {share:.3} of the torque", kind.code());
             let truth = effect.truth();
             let taken = drawn.iter().any(|d| {
@@ -165,7 +167,7 @@ impl<'a> Bench<'a> {
     }
 
     /// An effect whose torque has a share near the goal, with the share that it has.
-    fn sized(
+    fn effect_of_share(
         &self,
         kind: EffectKind,
         joint: usize,
@@ -200,7 +202,7 @@ impl<'a> Bench<'a> {
 
     fn surroundings(&self, joint: usize) -> Surroundings<'_> {
         let rows = &self.nominal;
-        let of = |value: &dyn Fn(&Row) -> f64| rms(rows.iter().map(value));
+        let of = |value: &dyn Fn(&ControlRow) -> f64| rms(rows.iter().map(value));
         let positions = rows.iter().map(|r| r.reference.q[joint]);
         let period_s =
             self.scenario.stepping().step_s * self.scenario.stepping().steps_per_period as f64;

@@ -19,7 +19,7 @@ pub(crate) struct Causes<'a> {
 
 /// One row of a log, with the reference that was followed.
 #[derive(Debug, Clone)]
-pub(crate) struct Row {
+pub(crate) struct ControlRow {
     pub reading: Reading,
     /// What the encoders at the links say, where there are any.
     pub links: Vec<Option<f64>>,
@@ -73,7 +73,7 @@ pub(crate) fn follow(
     simulator: &mut Simulator,
     following: &Following<'_>,
     on_second: &dyn Fn(),
-) -> Result<Vec<Row>, MachineFault> {
+) -> Result<Vec<ControlRow>, MachineFault> {
     let Following { gains, robot, run, longest_s } = *following;
     let period_s = simulator.period_s();
     let mut reference = run.motion.at(0.0);
@@ -99,7 +99,7 @@ pub(crate) fn follow(
         if tick >= lead_in {
             row.time_s = time_s;
             let (command, reference) = (command.clone(), reference.clone());
-            rows.push(Row { reading: row, links, command, reference });
+            rows.push(ControlRow { reading: row, links, command, reference });
             if (time_s + period_s).floor() > time_s.floor() {
                 on_second();
             }

@@ -5,7 +5,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;
-use crate::run::bench::Bench;
+use crate::run::bench::EffectSizer;
 use crate::scenario::check::Scenario;
 use crate::seed::mix_seed;
 
@@ -37,7 +37,7 @@ pub(crate) fn draw_hidden(scenario: &Scenario) -> Result<Vec<EffectSpec>, Simula
     }
     let all = EffectKind::ALL.to_vec();
     let kinds = if hidden.from.is_empty() { &all } else { &hidden.from };
-    let bench = Bench::new(scenario)?;
+    let bench = EffectSizer::new(scenario)?;
     let mut drawn: Vec<EffectSpec> = Vec::with_capacity(count);
     for _ in 0..count {
         drawn.push(bench.draw(hidden, kinds, &drawn, &mut random)?);

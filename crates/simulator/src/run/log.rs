@@ -5,7 +5,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp, Normal};
 
-use crate::run::follow::Row;
+use crate::run::follow::ControlRow;
 use crate::scenario::check::{Scenario, ScenarioRun};
 use crate::scenario::spec::DropoutSpec;
 use crate::sensors::EffortSource;
@@ -39,8 +39,8 @@ pub(crate) fn draw_dropouts(
 
 impl LogClock {
     /// Keeps every `every`-th row, loses some of them and shakes their stamps.
-    pub fn thin(&mut self, rows: Vec<Row>, every: usize) -> Vec<Row> {
-        let mut kept: Vec<Row> = Vec::with_capacity(rows.len() / every + 1);
+    pub fn thin(&mut self, rows: Vec<ControlRow>, every: usize) -> Vec<ControlRow> {
+        let mut kept: Vec<ControlRow> = Vec::with_capacity(rows.len() / every + 1);
         let jitter = Normal::new(0.0, self.jitter_s).ok().filter(|_| self.jitter_s > 0.0);
         for mut row in rows.into_iter().step_by(every) {
             if self.dropped_share > 0.0 && self.random.random::<f64>() < self.dropped_share {
@@ -61,9 +61,9 @@ impl LogClock {
 }
 
 /// The log: what sensors and controller say, nothing else.
-pub(crate) fn log_of_rows(scenario: &Scenario, run: &ScenarioRun, rows: &[Row]) -> Run {
+pub(crate) fn log_of_rows(scenario: &Scenario, run: &ScenarioRun, rows: &[ControlRow]) -> Run {
     let asked_is_effort = scenario.spec().sensors.effort == EffortSource::Commanded;
-    let column = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+    let column = |of: &dyn Fn(&ControlRow) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
     let joint = |(i, name): (usize, &str)| Channels {
         name: name.to_owned(),
         position: column(&|r| r.reading.q[i]),

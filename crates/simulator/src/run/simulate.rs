@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::effects::spec::EffectSpec;
 use crate::effects::truth::Truth;
 use crate::error::SimulatorError;
-use crate::run::follow::{Causes, Following, Row, follow, simulator};
+use crate::run::follow::{Causes, ControlRow, Following, follow, simulator};
 use crate::run::hidden::draw_hidden;
 use crate::run::log::{LogClock, draw_dropouts, log_of_rows};
 use crate::scenario::check::{Scenario, ScenarioRun};
@@ -121,9 +121,9 @@ fn follow_without_noise(
     run: &ScenarioRun,
     longest_s: f64,
 ) -> Result<Run, SimulatorError> {
-    let sensors = scenario.silent_sensors();
+    let sensors = scenario.noise_free_sensors();
     let rows = follow_run(scenario, causes, sensors, run, longest_s, &|| {})?;
-    let rows: Vec<Row> = rows.into_iter().step_by(scenario.rows_per_log()).collect();
+    let rows: Vec<ControlRow> = rows.into_iter().step_by(scenario.rows_per_log()).collect();
     Ok(log_of_rows(scenario, run, &rows))
 }
 
@@ -198,7 +198,7 @@ fn follow_run(
     run: &ScenarioRun,
     longest_s: f64,
     on_second: &dyn Fn(),
-) -> Result<Vec<Row>, SimulatorError> {
+) -> Result<Vec<ControlRow>, SimulatorError> {
     let robot = scenario.robot();
     let mut simulator = simulator(robot, causes, sensors, scenario.stepping())?;
     let following = Following { gains: scenario.gains(), robot, run, longest_s };

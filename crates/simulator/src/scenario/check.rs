@@ -163,7 +163,7 @@ impl Scenario {
     }
 
     /// The same sensors without any error: no noise, no steps, no lag, and velocity as it is.
-    pub(crate) fn silent_sensors(&self) -> Sensors {
+    pub(crate) fn noise_free_sensors(&self) -> Sensors {
         let s = &self.spec.sensors;
         let joint = JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
         let ideal = LinkEncoder { resolution: 0.0, noise: 0.0 };
