@@ -5,11 +5,11 @@ use crate::loaded::Loaded;
 use crate::structure::link::Link;
 
 impl Loaded {
-    /// What the files say of the robot's motion, as one text: the same wherever they lie, whatever they are
-    /// called, and with other comments and meshes.
+    /// Everything in the files that affects the robot's motion, as one text. It does not depend on the
+    /// names and places of the files, on comments or on meshes.
     ///
-    /// Numbers of a `robot.toml` stand in full, those of the URDF with ten digits: angles become rotations,
-    /// which computers round in their own ways.
+    /// Numbers of a `robot.toml` are written in full. Numbers of the URDF have ten digits, since the
+    /// conversion of angles to rotations is rounded differently on different computers.
     ///
     /// # Errors
     ///

@@ -19,14 +19,14 @@ use crate::{mjcf, urdf};
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
 
-/// Joints that are computed with: the cost grows with the cube of their number, and no arm or humanoid has more.
+/// Most joints of a robot: the cost grows with the cube of their number, and humanoids have fewer.
 const MOST_JOINTS: usize = 100;
 
-/// What a robot is loaded with beside its files.
+/// Options for loading a robot from its files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadOptions {
-    /// Names of the joints that move, the others are locked at zero; `None` for all that the
-    /// files let move.
+    /// Names of the joints that move; the others are locked at zero. `None` for every joint that
+    /// moves in the files.
     pub joints: Option<Vec<String>>,
     /// Where meshes are looked for.
     pub packages: Packages,
@@ -37,10 +37,10 @@ pub struct LoadOptions {
 impl Robot {
     /// The robot described by `path`, a `robot.urdf`, an MJCF or a `robot.toml`.
     ///
-    /// What an MJCF says of a rotor, of friction and of the gains of servos is kept, the rest of it
-    /// that may matter is told in warnings. The extension decides which of the two it is; with another extension, a
-    /// first character `<` makes it a URDF, or an MJCF if its root is `<mujoco>`. A `robot.toml` beside a URDF is read
-    /// only when it is named.
+    /// An MJCF also gives rotor inertias, friction and servo gains; whatever else in it may matter is
+    /// named in warnings. The extension decides whether the file is XML or a `robot.toml`. With any
+    /// other extension, a first character `<` means XML. XML with the root `<mujoco>` is an MJCF. A
+    /// `robot.toml` beside a URDF is read only when it is named.
     ///
     /// # Errors
     ///
@@ -52,8 +52,8 @@ impl Robot {
 
     /// The robot described by `path`, as [`Robot::load`] reads it, or a part of it.
     ///
-    /// With `joints` of its own, a `robot.toml` describes the part that they leave: its bodies and
-    /// its joints. The joints of `options` then leave a part of what the file describes.
+    /// A `robot.toml` with `joints` describes the reduced robot: its bodies and its joints. The joints
+    /// of `options` then reduce that robot further.
     ///
     /// # Errors
     ///
@@ -93,7 +93,7 @@ impl Robot {
         Ok(loaded)
     }
 
-    /// The robot that the text of a URDF describes, for robots that are not in a file.
+    /// The robot that the text of a URDF describes.
     ///
     /// # Errors
     ///
@@ -129,10 +129,9 @@ impl Loaded {
         })
     }
 
-    /// The part of this robot whose joints are `joints`, the others locked at zero.
+    /// The robot with only `joints` moving and its other joints locked at zero.
     ///
-    /// What the files say of a body goes on holding where that body still is one, and is lumped
-    /// into another where it is not.
+    /// A body that still moves by itself keeps its description; any other is merged into its carrier.
     fn keep_joints(self, model: &WholeRobot, joints: &[String]) -> Result<Self, RobotError> {
         if let Some(name) = joints.iter().find(|name| self.robot.joint_index(name).is_none()) {
             return Err(self.no_joint_to_keep(name));
@@ -161,8 +160,7 @@ impl Loaded {
         Ok(smaller)
     }
 
-    /// Refuses a body that is said to have no mass and moves, and more joints than are computed with, and adds what to know of the joints
-    /// that are held.
+    /// Refuses a moving body without mass and too many joints, and adds warnings about locked joints.
     fn check(&mut self, model: &WholeRobot) -> Result<(), RobotError> {
         let found = self.robot.joint_count();
         if found > MOST_JOINTS {
@@ -197,7 +195,7 @@ impl Loaded {
         Ok(())
     }
 
-    /// What is told of a name to keep that no joint has that moves.
+    /// Error for `--joints` that names no movable joint.
     fn no_joint_to_keep(&self, name: &str) -> RobotError {
         const PLACE: &str = "joints to keep";
         let Some(lock) = self.lock(name) else {
@@ -213,7 +211,7 @@ impl Loaded {
     }
 }
 
-/// What the text of a URDF or an MJCF says.
+/// Reads the text of a URDF or an MJCF.
 fn read_model(text: &str, path: &Path) -> Result<WholeRobot, RobotError> {
     if mjcf::element::is_mjcf(text) {
         mjcf::parse::parse(text, path.parent().unwrap_or(Path::new("")), &read)
@@ -234,7 +232,7 @@ fn whole_limits(whole: &Robot, joint: &str) -> Option<(f64, f64)> {
     whole.joint_index(joint).and_then(|i| whole.links()[i].joint.limits.position)
 }
 
-/// The text of a file that another one names: a pipe would be waited for.
+/// Reads a file that another file names. Reading a pipe would block, so it is refused.
 fn read_regular(path: &Path) -> Result<String, RobotError> {
     let reason = "it is no regular file, a URDF was expected".to_owned();
     match std::fs::metadata(path) {

@@ -12,8 +12,8 @@ use crate::warning::RobotWarning;
 /// A robot as its files describe it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loaded {
-    /// The robot, with everything that `robot.toml` says. Joints that are locked are no joints of
-    /// it: the links they carry are merged into what they hang on.
+    /// The robot, with everything that `robot.toml` says. It has no locked joints: the links that they
+    /// carry are merged into their parents.
     pub robot: Robot,
     /// The robot as the URDF alone describes it, with the same joints locked.
     pub robot_in_urdf: Robot,
@@ -21,19 +21,19 @@ pub struct Loaded {
     pub looks: Looks,
     /// The URDF or MJCF that was read.
     pub urdf_path: PathBuf,
-    /// Its text with all that it includes, where it includes other files.
+    /// Its text with included files inserted; `None` where it includes no file.
     pub expanded: Option<String>,
     /// Name of the link that does not move; its frame is the base frame.
     pub base_link: String,
-    /// Names of the links fixed to the base; they have no part in the dynamics.
+    /// Names of the links fixed to the base, which play no part in the dynamics.
     pub fixed_to_base: Vec<String>,
-    /// Which joints were asked for and which locked, in the words of `robot.toml`.
+    /// Which joints were selected and which locked, as `robot.toml` states it.
     pub part: Part,
     /// The joints of the URDF that are locked, in its order.
     pub locked: Vec<LockedJoint>,
-    /// How the real robot is controlled; nothing is known without a `robot.toml`.
+    /// How the real robot is controlled; empty without a `robot.toml`.
     pub control: ControlSettings,
-    /// What the owner of the files should know.
+    /// Problems in the files that do not keep the robot from being used.
     pub warnings: Vec<RobotWarning>,
 }
 

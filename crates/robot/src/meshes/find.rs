@@ -8,15 +8,15 @@ use crate::warning::RobotWarning;
 
 /// Folders, from that of the URDF upwards, beside which a package is looked for.
 const FOLDERS: usize = 5;
-/// How the name of a file in a package begins.
+/// Prefix of the name of a file in a package.
 const PACKAGE: &str = "package://";
-/// Largest mesh that is taken (bytes).
+/// Largest mesh that is used (bytes).
 const LARGEST_MESH: u64 = 64 << 20;
 
 impl Looks {
-    /// Finds the files of the meshes; a mesh without one is left out.
+    /// Finds the files of the meshes and removes meshes without one.
     ///
-    /// A mesh that is no file of a package lies below the folder of the URDF, unless `folders` says otherwise.
+    /// Outside packages a mesh must lie below the folder of the URDF, unless `folders` says otherwise.
     pub(crate) fn find_meshes(
         &mut self,
         urdf: &Path,
@@ -53,11 +53,10 @@ impl Looks {
     }
 }
 
-/// Where a file that a URDF names may lie: where the name says, read from the URDF's folder.
+/// Candidate paths of a file that a URDF names. Relative names start at the URDF's folder.
 ///
-/// A package is a folder of that name, which holds the URDF or lies beside it or beside a
-/// folder above it, or else one of `packages`. Nothing outside of a package is reached through
-/// its name.
+/// A package is a folder of its name that holds the URDF, lies beside it or beside a folder above
+/// it, or is one of `packages`. A name in a package never leads outside the package.
 fn candidates(name: &Path, urdf: &Path, packages: &Packages) -> Vec<PathBuf> {
     let name = name.to_string_lossy();
     let folder = urdf.parent().unwrap_or(Path::new(""));
@@ -78,7 +77,7 @@ fn candidates(name: &Path, urdf: &Path, packages: &Packages) -> Vec<PathBuf> {
     first.iter().cloned().chain(near).chain(then.iter().cloned()).collect()
 }
 
-/// The folder of a file; an empty path has no parent: it is the working folder.
+/// The folder of a file; the working folder for an empty path.
 fn folder_of(file: &Path) -> &Path {
     file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

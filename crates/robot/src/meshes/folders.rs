@@ -1,9 +1,9 @@
-/// Which folders the meshes of a URDF may lie in, packages apart.
+/// Folders in which meshes outside packages may lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MeshFolders {
-    /// That of the URDF, and those in it.
+    /// The folder of the URDF and its subfolders.
     #[default]
     Below,
-    /// All.
+    /// Any folder.
     Anywhere,
 }

@@ -2,7 +2,7 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
-/// Bytes of a text that say what it is.
+/// Bytes at the start of a text that are examined.
 const HEAD: u64 = 1 << 16;
 
 /// Bytes of a binary STL before its triangles, and of each of them.
@@ -19,7 +19,7 @@ const STL_TRIANGLE: u64 = 50;
 /// .glb   `glTF` and its own length
 /// ```
 ///
-/// A file that only has such a name is none: its content would go into a recording.
+/// The extension alone is not trusted, since the content of the file would be copied into a recording.
 pub(crate) fn is_mesh(path: &Path, bytes: u64) -> bool {
     let kind = path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
     let Ok(mut file) = File::open(path) else { return false };
@@ -47,7 +47,7 @@ fn head(file: &mut File) -> Vec<u8> {
     bytes
 }
 
-/// The number of four bytes at a place, little end first.
+/// The little-endian number of four bytes at an offset.
 fn number(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?))
 }

@@ -2,15 +2,15 @@ use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// Where the packages are that the meshes of a URDF lie in (`package://NAME/...`).
+/// Where packages of meshes (`package://NAME/...`) are looked for.
 ///
-/// ROS finds a package by its name in folders that variables of the environment list; the
-/// meshes are only for looks, so that a package that is not found is a warning.
+/// ROS finds a package by name in the folders that environment variables list. Meshes are for
+/// display alone, so a missing package is only a warning.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Packages {
-    /// Folders by the name of the package, which count before all others.
+    /// Folders by the name of the package; they take precedence.
     pub named: BTreeMap<String, PathBuf>,
-    /// Folders that hold packages or are one, as in `ROS_PACKAGE_PATH`.
+    /// Folders that are packages or contain packages, as in `ROS_PACKAGE_PATH`.
     pub ros_paths: Vec<PathBuf>,
     /// Folders that hold packages under `share`, as in `AMENT_PREFIX_PATH`.
     pub ament_prefixes: Vec<PathBuf>,
@@ -30,7 +30,7 @@ impl Packages {
         }
     }
 
-    /// Folders in which the package `name` may be, the first that holds a file counts.
+    /// Candidate folders of the package `name`; the first that holds the file is used.
     pub(crate) fn folders(&self, name: &str) -> Vec<PathBuf> {
         let named = self.named.get(name).cloned();
         let is_it = |folder: &&PathBuf| folder.file_name() == Some(OsStr::new(name));
@@ -40,7 +40,7 @@ impl Packages {
         named.into_iter().chain(itself).chain(inside).chain(ament).collect()
     }
 
-    /// The files that `package://NAME/inside` may mean.
+    /// Candidate files for `package://NAME/inside`.
     pub(crate) fn candidates(&self, name: &str, inside: &Path) -> Vec<PathBuf> {
         self.folders(name).iter().map(|folder| folder.join(inside)).collect()
     }

@@ -22,7 +22,7 @@ use crate::warning::RobotWarning;
 pub(crate) struct Description {
     /// Path of the URDF, relative to this file.
     pub urdf: String,
-    /// The joints that move; the others are locked, and the file describes what that leaves.
+    /// The joints that move. The others are locked, and the file describes the reduced robot.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joints: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -35,7 +35,7 @@ pub(crate) struct Description {
     /// What the efforts of a log are, unless a joint says otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_source: Option<TorqueSource>,
-    /// Where efforts come from that logs do not hold.
+    /// How efforts that are missing in the logs are computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effort_source: Option<EffortSourceEntry>,
     /// Pairs of joints that two motors drive together.
@@ -97,8 +97,8 @@ impl Description {
         Part { joints: self.joints.clone(), locked: self.locked.clone() }
     }
 
-    /// Puts everything the file says into the robot, whose locked joints are locked already. What
-    /// it says of a locked joint has no effect.
+    /// Applies every key to the robot, whose locked joints are already merged. Keys of a locked joint
+    /// have no effect.
     pub(crate) fn apply(&self, loaded: &mut Loaded) -> Result<(), Misfit> {
         let root = KeyPath::root();
         if let Some(gravity) = self.gravity_m_per_s2 {
@@ -141,8 +141,8 @@ impl Description {
         })
     }
 
-    /// The pairs of joints by index; no joint stands in them twice. A pair with a locked joint is
-    /// none: both motors drive the other.
+    /// The pairs of joints by index, each joint at most once. A pair with a locked joint is skipped:
+    /// both motors then drive the other joint.
     fn pairs(&self, loaded: &Loaded) -> Result<Vec<[usize; 2]>, Misfit> {
         let mut pairs: Vec<[usize; 2]> = Vec::new();
         let is_locked = |pair: &[String; 2]| pair.iter().any(|name| loaded.lock(name).is_some());

@@ -9,7 +9,7 @@ use crate::robot_toml::description::Description;
 use crate::structure::part::Part;
 use crate::whole_robot::WholeRobot;
 
-/// A `robot.toml` that was read, with the places of what it says.
+/// A parsed `robot.toml`, with the place of every value for error messages.
 pub(crate) struct DescriptionFile {
     document: Document,
     description: Description,
@@ -38,16 +38,16 @@ impl DescriptionFile {
         self.path.parent().unwrap_or(Path::new("")).join(&self.description.urdf)
     }
 
-    /// An error about the URDF that it describes, shown where it names that file.
+    /// An error about the URDF, shown at the key that names the URDF.
     pub fn of_urdf(&self, error: &RobotError) -> RobotError {
         Misfit::new(KeyPath::root().key("urdf"), error.to_string()).locate_in(&self.document)
     }
 
-    /// The part of the robot that it lets move.
+    /// The joints that it lets move.
     ///
     /// # Errors
     ///
-    /// [`RobotError::InToml`] for what the keys say of joints that do not move, say twice or cannot mean.
+    /// [`RobotError::InToml`] for a joint that does not move, a joint named twice, or an impossible position.
     pub fn part(&self, model: &WholeRobot) -> Result<Part, RobotError> {
         let part = self.description.part();
         let checked = part.check(&model.robot, &model.mimics);
@@ -55,11 +55,11 @@ impl DescriptionFile {
         Ok(part)
     }
 
-    /// Puts everything it says into the robot, whose locked joints are locked already.
+    /// Applies every key to the robot, whose locked joints are already merged.
     ///
     /// # Errors
     ///
-    /// [`RobotError::InToml`] for a name that nothing carries, a number out of its range and keys that disagree.
+    /// [`RobotError::InToml`] for an unknown name, a number out of its range, or keys that contradict.
     pub fn apply(&self, loaded: &mut Loaded) -> Result<(), RobotError> {
         self.description.apply(loaded).map_err(|misfit| misfit.locate_in(&self.document))
     }

@@ -56,10 +56,10 @@ pub(crate) struct JointEntry {
     /// Dry friction per unit of torque carried.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_friction: Option<f64>,
-    /// Way over which dry friction builds up; a joint without it has it at once.
+    /// Displacement over which dry friction builds up; without it friction acts at once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub presliding_rad: Option<f64>,
-    /// Friction per unit of the speed at which that way is gone.
+    /// Damping of the presliding displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub presliding_damping_nm_s_per_rad: Option<f64>,
     /// Time constant of the torque behind its command.
@@ -103,7 +103,7 @@ pub(crate) struct JointEntry {
 pub(crate) struct CouplingEntry {
     /// The other joint.
     pub with: String,
-    /// Turn of a motor by the other joint over that by this one.
+    /// Motor rotation per unit of the other joint over motor rotation per unit of this joint.
     pub ratio: f64,
     #[serde(default)]
     pub coulomb_sum_nm: f64,
@@ -125,7 +125,7 @@ pub(crate) struct WaveEntry {
     pub phase_rad: f64,
 }
 
-/// `friction_warming`: what friction loses while the drive warms up.
+/// `friction_warming`: friction lost while the drive warms up.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WarmingEntry {
@@ -136,7 +136,7 @@ pub(crate) struct WarmingEntry {
     pub time_constant_s: f64,
 }
 
-/// `counterbalance`: a spring or weight that carries part of the weight.
+/// `counterbalance`: a spring or counterweight that balances part of the weight.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CounterbalanceEntry {
@@ -145,7 +145,7 @@ pub(crate) struct CounterbalanceEntry {
     pub phase_rad: f64,
 }
 
-/// `torque_ripple`: torque that the position of the motor decides.
+/// `torque_ripple`: torque that depends on the position of the motor.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RippleEntry {
@@ -156,7 +156,7 @@ pub(crate) struct RippleEntry {
 }
 
 impl JointEntry {
-    /// Puts what the entry of joint `name` says into the robot.
+    /// Applies the entry of joint `name` to the robot.
     pub(crate) fn apply(&self, name: &str, loaded: &mut Loaded) -> Result<(), Misfit> {
         let site = KeyPath::root().key("joint").key(name);
         let index = loaded.joint_index(&site, name)?;
@@ -426,7 +426,7 @@ impl JointEntry {
     }
 }
 
-/// Refuses keys that say the same twice, or one without another that it needs.
+/// The error for keys that state the same thing twice, or for a key that needs another one.
 fn incomplete<T>(site: &KeyPath, found: &str, expected: &str) -> Result<T, Misfit> {
     Err(Misfit::new(site.clone(), format!("{found}, {expected} was expected")))
 }

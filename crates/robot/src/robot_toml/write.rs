@@ -18,13 +18,12 @@ use crate::structure::link::Link;
 use crate::structure::robot::Robot;
 
 impl Loaded {
-    /// A `robot.toml` that describes `robot`, this one or a changed copy of it.
+    /// The text of a `robot.toml` for `robot`, this robot or a changed copy of it.
     ///
-    /// Holds what differs from the URDF, and the control settings. Loading it gives
-    /// `robot` again, every number to the last bit; only a time that no number of
-    /// milliseconds is comes back rounded. Of a part of a robot it says which joints move and
-    /// where the others are locked: the URDF has them all. `urdf` is its path as seen from the
-    /// folder the text is written to.
+    /// The text holds the differences from the URDF, the control settings, and which joints are
+    /// locked where. Loading it gives `robot` again to the last bit, except times, which are rounded
+    /// where no number of milliseconds equals them. `urdf` is the path of the URDF relative to the
+    /// folder of the text.
     ///
     /// # Errors
     ///
@@ -78,7 +77,7 @@ fn gain_entry(gains: &[Gain]) -> GainEntry {
     }
 }
 
-/// The position loop, which all joints have or none.
+/// The position loop. Either all joints have one or none.
 fn effort_source(robot: &Robot) -> Option<EffortSourceEntry> {
     let gains = robot.links().iter().map(|link| link.actuator.position_loop);
     gains
@@ -86,7 +85,7 @@ fn effort_source(robot: &Robot) -> Option<EffortSourceEntry> {
         .map(|gains| EffortSourceEntry::PositionLoop(gain_entry(&gains)))
 }
 
-/// Refuses a change that no key can say.
+/// Refuses a change for which `robot.toml` has no key.
 fn same_tree(new: &Robot, old: &Robot) -> Result<(), RobotError> {
     let differs = |thing: String, quantity| Err(RobotError::NotDescribable { thing, quantity });
     if new.name() != old.name() || new.joint_count() != old.joint_count() {
@@ -199,8 +198,8 @@ fn link_entry(inertia: &Inertia) -> LinkEntry {
     }
 }
 
-/// The milliseconds that are read as `seconds`. Some seconds have none, to the last bit; what
-/// was read from a file has.
+/// The number of milliseconds that is read back as `seconds`. Every time that was read from a file
+/// has one; other times may be rounded in the last bit.
 fn milliseconds(seconds: f64) -> f64 {
     let near = 1e3 * seconds;
     let exact = |ms: &f64| (1e-3 * ms).total_cmp(&seconds).is_eq();

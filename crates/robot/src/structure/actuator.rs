@@ -60,7 +60,7 @@ pub struct Wave {
     pub phase: f64,
 }
 
-/// Cogging and ripple: torque that the position of the motor alone decides.
+/// Cogging and torque ripple: torque that depends on the position of the motor alone.
 ///
 /// ```text
 /// amplitude sin(periods q + phase)
@@ -76,7 +76,7 @@ pub struct Ripple {
     pub phase: f64,
 }
 
-/// A spring or counterweight at the link that carries part of its weight.
+/// A spring or counterweight that balances part of the weight of a link.
 ///
 /// ```text
 /// amplitude sin(q + phase)
@@ -87,7 +87,7 @@ pub struct Ripple {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Counterbalance {
-    /// Largest torque that the drive gives against it (N·m).
+    /// Largest torque that the drive needs against it (N·m).
     pub amplitude: f64,
     /// Phase at position zero (rad).
     pub phase: f64,
@@ -104,9 +104,9 @@ pub struct Counterbalance {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Warming {
-    /// Viscous friction that a warm drive has lost (N·m·s/rad or N·s/m).
+    /// Viscous friction of the cold drive minus that of the warm one (N·m·s/rad or N·s/m).
     pub viscous_lost: f64,
-    /// Coulomb friction that a warm drive has lost in both directions (N·m or N).
+    /// Coulomb friction of the cold drive minus that of the warm one, in both directions (N·m or N).
     pub coulomb_lost: f64,
     /// Time constant of warming up (s).
     pub time_constant_s: f64,
@@ -125,18 +125,17 @@ pub struct Warming {
 pub struct Coupling {
     /// Index of the other joint.
     pub other: usize,
-    /// Turn of a motor by the other joint over that by this one.
+    /// Motor rotation per unit of the other joint over motor rotation per unit of this joint.
     pub ratio: f64,
-    /// Dry friction of the motors that turn with the sum and with the difference, seen at this
-    /// joint (N·m or N).
+    /// Dry friction of the sum motor and of the difference motor, referred to this joint (N·m or N).
     pub level: [f64; 2],
     /// Their viscous friction (N·m·s/rad or N·s/m).
     pub viscous: [f64; 2],
 }
 
-/// What the drive of one joint adds to the rigid-body torque, and how it is measured.
+/// The drive of one joint: what it adds to the rigid-body torque, and how its sensors report it.
 ///
-/// The effort that the model expects in a log is, with `tau_rb` the rigid-body torque,
+/// With `tau_rb` the rigid-body torque, the model expects this effort in a log:
 ///
 /// ```text
 /// load   = tau_rb + spring_stiffness x + spring_cubic x³ + h + counterbalance(q),   x = q - spring_rest
@@ -150,28 +149,29 @@ pub struct Coupling {
 /// s       = sign(qd), 0 at rest; with presliding ds = (dq - |dq| s) / presliding
 /// ```
 ///
-/// `friction_wave(q) = share cos(periods q + phase)`: [`Wave`], [`Stribeck`], [`Warming`], [`Ripple`] and
-/// [`Counterbalance`] hold the rest; `viscous` and `coulomb` are those of the cold drive. All but `tau_rb`, the spring and the counterbalance acts at the motor.
+/// [`Wave`], [`Stribeck`], [`Warming`], [`Ripple`] and [`Counterbalance`] define the other terms.
+/// `viscous` and `coulomb` are those of the cold drive. `tau_rb`, the spring and the counterbalance
+/// act at the link, all other terms at the motor.
 ///
-/// Between motor and link may lie a transmission that gives way, and between command and
-/// torque some time. With `theta` the motor's position seen at the joint,
+/// The transmission between motor and link may be compliant, and the torque may lag its command.
+/// With `theta` the motor position referred to the joint,
 ///
 /// ```text
 /// |theta - q| <= backlash / 2 + |load| / elasticity
 /// lag d(tau)/dt + tau = command(t - delay)
 /// ```
 ///
-/// A sensor may be mounted or told wrongly. With `q` the true position,
+/// A sensor may be mounted or configured wrongly. With `q` the true position,
 ///
 /// ```text
 /// q_reported = q / transmission_ratio + encoder_offset,   qd_reported = qd / transmission_ratio
 /// ```
 ///
-/// and the log may hold efforts of another time, `effort_logged(t) = effort(t - effort_skew)`.
+/// The log may record efforts late: `effort_logged(t) = effort(t - effort_skew)`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Actuator {
-    /// Inertia of rotor and gear seen at the joint (kg m² or kg).
+    /// Inertia of rotor and gear referred to the joint (kg m² or kg).
     pub rotor_inertia: f64,
     /// Viscous friction (N·m·s/rad or N·s/m).
     pub viscous: f64,
@@ -179,23 +179,23 @@ pub struct Actuator {
     pub coulomb_forward: f64,
     /// Coulomb friction against negative motion (N·m or N).
     pub coulomb_backward: f64,
-    /// Dry friction near rest beyond the Coulomb level; `None` without.
+    /// Dry friction near rest beyond the Coulomb level; `None` without it.
     pub stribeck: Option<Stribeck>,
     /// Dry friction per unit of load that the joint carries, not below 0.
     pub load_friction: f64,
-    /// Way over which dry friction builds up after a reversal (rad or m); `None` where it is
-    /// there at once.
+    /// Displacement over which dry friction builds up after a reversal (rad or m); `None` where it
+    /// acts at once.
     pub presliding: Option<f64>,
-    /// Friction per unit of the speed at which that way is gone (N·m·s/rad or N·s/m), not below 0;
-    /// `None` where it is not known.
+    /// Damping of the presliding displacement (N·m·s/rad or N·s/m), not below 0; `None` where it is
+    /// unknown.
     pub presliding_damping: Option<f64>,
-    /// Variation of the Coulomb level with position; `None` without.
+    /// Variation of the Coulomb level with position; `None` without it.
     pub friction_wave: Option<Wave>,
-    /// How friction falls while the drive warms up; `None` where it does not.
+    /// Friction lost while the drive warms up; `None` for friction that stays.
     pub warming: Option<Warming>,
-    /// Torque ripple of the motor; `None` without.
+    /// Torque ripple of the motor; `None` without it.
     pub ripple: Option<Ripple>,
-    /// Friction of motors that it shares with another joint; `None` without.
+    /// Friction of the motors shared with another joint; `None` for a motor of its own.
     pub coupling: Option<Coupling>,
     /// Stiffness of a hose or cable along the joint (N·m/rad or N/m).
     pub spring_stiffness: f64,
@@ -203,9 +203,9 @@ pub struct Actuator {
     pub spring_rest: f64,
     /// Torque of that spring per cube of displacement (N·m/rad³ or N/m³).
     pub spring_cubic: f64,
-    /// Half the width of the loop of its torque over position (N·m or N), not below 0.
+    /// Half the width of that spring's hysteresis loop (N·m or N), not below 0.
     pub spring_hysteresis: f64,
-    /// Spring or weight that carries part of the weight; `None` without.
+    /// Spring or counterweight that balances part of the weight; `None` without it.
     pub counterbalance: Option<Counterbalance>,
     /// Reported effort per unit of true torque.
     pub torque_gain: f64,
@@ -220,25 +220,25 @@ pub struct Actuator {
     pub elasticity: Option<f64>,
     /// Time from command to torque (s).
     pub delay_s: f64,
-    /// Time in which the torque covers 63 % of a step of its command (s).
+    /// Time constant of the torque behind its command (s): 63 % of a step is then reached.
     pub lag_s: f64,
     /// Position reported at true position zero (rad or m).
     pub encoder_offset: f64,
-    /// True over reported position, and reported effort over true torque on top of the gain.
+    /// True over reported position. The reported effort carries the same factor on top of the gain.
     pub transmission_ratio: f64,
-    /// Time by which the log has effort later than position (s).
+    /// Time by which the log records effort later than position (s).
     pub effort_skew_s: f64,
     /// Where the position is measured.
     pub sensing: SensingSide,
     /// What the log's effort is.
     pub torque_source: TorqueSource,
-    /// Gains of the position loop that efforts are computed from, `kp (goal - q) - kd qd`, of a drive whose logs
-    /// hold none; `None` where efforts are logged.
+    /// Gains from which missing efforts are computed, `effort = kp (goal - q) - kd qd`; `None` where
+    /// efforts are logged.
     pub position_loop: Option<Gain>,
 }
 
 impl Actuator {
-    /// What it loses by warming up, no more than the friction that it has cold.
+    /// Limits the friction lost by warming to the friction of the cold drive.
     pub fn lost_at_most(&self, warming: Warming) -> Warming {
         let level = self.coulomb_forward.min(self.coulomb_backward);
         Warming {
@@ -248,7 +248,7 @@ impl Actuator {
         }
     }
 
-    /// The drive as it is `since_cold_s` after a cold start (s), with what it will lose from then on:
+    /// The drive `since_cold_s` seconds after a cold start, with the friction that it still loses:
     ///
     /// ```text
     /// left = exp(-since_cold / time_constant)

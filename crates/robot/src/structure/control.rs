@@ -24,8 +24,8 @@ pub struct ControlSettings {
     /// Pairs of joints, by index, that two motors drive together.
     ///
     /// One motor turns with the sum of both joints, the other with their difference. The torque
-    /// limit of such a joint is what both motors give it when the other joint gets nothing, so
-    /// that what a pair may ask for is a diamond:
+    /// limit of such a joint holds while the other joint is unloaded. The feasible torques of a pair
+    /// form a diamond:
     ///
     /// ```text
     /// |tau_a| / limit_a + |tau_b| / limit_b <= 1

@@ -46,7 +46,7 @@ impl fmt::Display for InertiaDefect {
 }
 
 impl Inertia {
-    /// No mass at all.
+    /// Zero mass and zero inertia.
     pub fn zero() -> Self {
         Self { mass: 0.0, com_in_link: Vector3::zeros(), about_com: Matrix3::zeros() }
     }
@@ -75,7 +75,7 @@ impl Inertia {
         Self { mass, com_in_link: c, about_com }
     }
 
-    /// The same body seen from another frame.
+    /// The same body, expressed in another frame.
     ///
     /// ```text
     /// c' = R c + p,  I' = R I R'     with (R, p) = new_from_old
@@ -90,7 +90,7 @@ impl Inertia {
         }
     }
 
-    /// Both bodies as one rigid body, in the frame they share (parallel-axis theorem).
+    /// Both bodies as one rigid body, in their common frame (parallel-axis theorem).
     ///
     /// ```text
     /// m = m1 + m2,  c = (m1 c1 + m2 c2) / m,  d = c2 - c1
@@ -111,7 +111,7 @@ impl Inertia {
         }
     }
 
-    /// Adds a part that is fixed to this body; the first is taken as it is, without rounding.
+    /// Adds a body that is fixed to this one. Adding to [`zero`](Self::zero) copies it without rounding.
     pub(crate) fn add(&mut self, part: &Self) {
         *self = if *self == Self::zero() { part.clone() } else { self.plus(part) };
     }

@@ -18,7 +18,7 @@ impl JointKind {
     }
 }
 
-/// What a joint may reach, where it is known.
+/// Limits of a joint, where they are known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
     /// Lowest and highest position (rad or m).
@@ -32,7 +32,7 @@ pub struct Limits {
 /// A joint with one degree of freedom, between a link and its parent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
-    /// Name, the key by which logs and files find it.
+    /// Name, by which logs and files refer to it.
     pub name: String,
     /// How it moves.
     pub kind: JointKind,
@@ -40,7 +40,7 @@ pub struct Joint {
     pub parent_from_joint: Isometry3<f64>,
     /// Axis of motion in the joint frame.
     pub axis_in_joint: Unit<Vector3<f64>>,
-    /// What it may reach.
+    /// Its limits.
     pub limits: Limits,
 }
 

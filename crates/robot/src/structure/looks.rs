@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use nalgebra::{Isometry3, Vector3};
 
-/// What the robot looks like, for pictures; nothing is computed from it.
+/// Shapes for display. No computation uses them.
 ///
 /// ```text
 /// world_from_shape = world_from_link link_from_shape
@@ -54,11 +54,11 @@ pub enum Shape {
         /// Length between the centres of the half spheres (m).
         length_m: f64,
     },
-    /// A file with a surface in it; it was there, and of a bearable size, when the URDF was read.
+    /// A mesh file. It existed and was small enough when the URDF was read.
     Mesh {
         /// The file.
         file: PathBuf,
-        /// Factors along x, y and z that make its numbers metres; negative ones mirror it.
+        /// Factors along x, y and z that convert its numbers to metres; negative ones mirror it.
         scale: Vector3<f64>,
     },
 }

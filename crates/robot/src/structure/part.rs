@@ -7,23 +7,23 @@ use crate::misfit::Misfit;
 use crate::range::Range;
 use crate::structure::robot::Robot;
 
-/// The joints of a robot that move; the others are locked, and what they carry is fixed.
+/// Which joints of a robot move. All others are locked, which fixes the links that they carry.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Part {
     /// Names of the joints that move; `None` for all that are not locked.
     pub joints: Option<Vec<String>>,
-    /// Where joints are locked (rad or m); one that neither names is locked at zero.
+    /// Positions of locked joints (rad or m); a joint that neither field names is locked at zero.
     pub locked: BTreeMap<String, f64>,
 }
 
-/// A joint that is held where it is.
+/// A joint that is held at a position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LockedJoint {
     /// Name of the joint.
     pub joint: String,
-    /// Where it is held (rad or m).
+    /// The position (rad or m).
     pub position: f64,
-    /// The joint it mimics, where the URDF says so and no other position is given.
+    /// The joint that it mimics, where that decides its position.
     pub mimics: Option<String>,
 }
 
@@ -40,19 +40,18 @@ pub(crate) struct Mimic {
     pub offset: f64,
 }
 
-/// What each joint with `<mimic>` follows.
+/// The master of each joint with `<mimic>`.
 pub(crate) type Mimics = BTreeMap<String, Mimic>;
 
 impl Part {
-    /// Whether nothing is said: every joint moves that can.
+    /// Whether every joint moves that can.
     pub fn is_whole(&self) -> bool {
         *self == Self::default()
     }
 
     /// The joints of `whole` that are locked, in its order.
     ///
-    /// A joint that mimics another is held where that one has it: at the place of its locked
-    /// master, or at that of the master's zero.
+    /// A joint that mimics another follows its locked master, or its master at zero.
     ///
     /// # Errors
     ///
@@ -89,7 +88,7 @@ impl Part {
         whole.joint_names().nth(index)
     }
 
-    /// Refuses what the keys say of joints that do not move, say twice or cannot mean.
+    /// Refuses keys that name joints which do not move, name a joint twice, or give an impossible position.
     pub(crate) fn check(&self, whole: &Robot, mimics: &Mimics) -> Result<(), Misfit> {
         let root = KeyPath::root();
         let known = |key: &KeyPath, name: &str| match whole.joint_index(name) {
@@ -136,8 +135,8 @@ impl Part {
         multiplier * self.locked_position(last, mimics).unwrap_or(0.0) + offset
     }
 
-    /// The first joint up the chain of masters that has a place of its own, and how `joint`
-    /// follows it. The chain ends: the URDF was checked for that.
+    /// Multiplier and offset with which `joint` follows the first master that has a position of its
+    /// own, and that master. The chain ends, since loops were refused when the URDF was read.
     fn trace_master<'a>(&self, joint: &'a str, mimics: &'a Mimics) -> (f64, f64, &'a str) {
         let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
         for _ in 0..mimics.len() {

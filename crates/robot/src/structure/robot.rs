@@ -69,7 +69,7 @@ impl Robot {
         &self.links
     }
 
-    /// The moving links, to be changed: inertias and actuators, not the tree.
+    /// A moving link whose inertia and actuator may be changed. The tree must stay as it is.
     pub fn link_mut(&mut self, index: usize) -> Option<&mut Link> {
         self.links.get_mut(index)
     }
@@ -89,7 +89,7 @@ impl Robot {
         self.gravity_in_base
     }
 
-    /// The same robot in another direction of gravity (m/s², base frame).
+    /// The same robot under another gravity (m/s², base frame).
     pub fn with_gravity(mut self, gravity_in_base: Vector3<f64>) -> Self {
         self.gravity_in_base = gravity_in_base;
         self
