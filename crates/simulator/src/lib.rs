@@ -27,7 +27,7 @@ pub use mechanics::plant::Plant;
 pub use mechanics::transmission::Transmission;
 pub use replay::forward::{ForwardReplay, Windows, replay_torque};
 pub use replay::motion::{MotionReplay, replay_motion};
-pub use run::bench::EffectSizer;
+pub use run::effect_sizer::EffectSizer;
 pub use run::simulate::{
     Simulation, arm, drawn, simulate, simulate_only, simulate_silent, simulate_silent_start,
 };

@@ -1,4 +1,4 @@
-/// A seed of its own for every part of a whole (Steele, Lea & Flood 2014).
+/// Derives an independent seed for a part (Steele, Lea & Flood 2014).
 pub(crate) fn mix_seed(seed: u64, part: u64) -> u64 {
     let mut z = seed.wrapping_add(part.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -5,15 +5,15 @@ use crate::mechanics::inject::Efforts;
 use crate::mechanics::plant::Plant;
 use crate::mechanics::transmission::Transmission;
 
-/// The moving arm: joints on one side, the engine's degrees of freedom on the other.
+/// The moving arm: maps joints to the engine's degrees of freedom.
 ///
-/// A joint with a rigid transmission has one degree of freedom, of motor and link alike. Any
-/// other has two: the motor's angle `theta`, carried by a massless body with the rotor's
-/// inertia, and on it the deflection `delta`, so that `q = theta + delta`.
+/// A joint with a rigid transmission has one degree of freedom for motor and link. A compliant one
+/// has two: the motor's angle `theta` of a massless body with the rotor's inertia, and the
+/// deflection `delta`, so that `q = theta + delta`.
 pub(crate) struct EngineArm {
     engine: Engine,
     joints: Vec<Drive>,
-    /// EngineBody of each link.
+    /// Body of each link.
     link_body: Vec<usize>,
     load: Load,
     constraint: Vec<f64>,
@@ -38,7 +38,7 @@ struct Drive {
 }
 
 impl EngineArm {
-    /// Builds the engine's bodies from the plant; `None` if the engine takes no such tree.
+    /// Builds the engine's bodies from the plant; `None` if the engine cannot build such a tree.
     pub fn new(plant: &Plant, step_s: f64) -> Option<Self> {
         let mut bodies: Vec<EngineBody> = Vec::new();
         let mut link_body: Vec<usize> = Vec::new();
@@ -101,8 +101,8 @@ impl EngineArm {
         &self.qd
     }
 
-    /// Torque that each transmission carried to its link in the last step (N m or N), as of the
-    /// last call of [`measure_load`](Self::measure_load).
+    /// Torque that each transmission carried to its link (N m or N), at the last call of
+    /// [`measure_load`](Self::measure_load).
     pub fn transmitted_torque(&self) -> &[f64] {
         &self.transmitted
     }
@@ -112,7 +112,7 @@ impl EngineArm {
         self.engine.step_s()
     }
 
-    /// Puts the motors into a state, each link `twist` ahead of its own where they can part.
+    /// Sets motor positions and velocities, and the deflections `twist` of compliant transmissions.
     pub fn set_state(&mut self, q: &[f64], qd: &[f64], twist: &[f64]) {
         let mut at = Load::none(self.constraint.len());
         let mut velocity = at.effort.clone();
@@ -128,7 +128,7 @@ impl EngineArm {
         self.observe();
     }
 
-    /// One step of the engine under what acts on the joints.
+    /// One step of the engine under the efforts on the joints.
     pub fn step(&mut self, efforts: &Efforts) {
         self.load.clear();
         for (i, joint) in self.joints.iter().enumerate() {
@@ -140,7 +140,7 @@ impl EngineArm {
         self.observe();
     }
 
-    /// Works out what the transmissions carried in the last step:
+    /// Computes the torque that each transmission carried in the last step:
     ///
     /// ```text
     /// rigid:    load = tau_motor + friction - viscous qd - J qdd
@@ -167,8 +167,8 @@ impl EngineArm {
         }
     }
 
-    /// Torque that links, without gravity's help, resist each transmission with per unit of
-    /// acceleration, inverted: `(1/(kg m²))` between motor and link, for the check of springs.
+    /// Inverse apparent inertia at each transmission, between motor and link where it is compliant
+    /// (1/(kg m²) or 1/kg). Used to check that springs are soft enough for the step.
     pub fn inverse_inertia(&mut self) -> Vec<f64> {
         let of = self.engine.inverse_inertia();
         self.joints.iter().map(|j| of[j.deflection.unwrap_or(j.motor)]).collect()
@@ -202,14 +202,14 @@ impl Drive {
         }
     }
 
-    /// Torque of the spring that pulls the link to its rest position (N m or N).
+    /// Torque of the spring at the link (N m or N).
     fn spring(&self, q: f64) -> f64 {
         -self.spring_stiffness * (q - self.spring_rest)
     }
 
-    /// Adds to the engine's load what acts on joint `i`.
+    /// Adds the efforts on joint `i` to the engine's load.
     ///
-    /// A torque on the link works on `q = theta + delta`, so on both degrees of freedom.
+    /// A torque on the link does work on `q = theta + delta`, so it acts on both degrees of freedom.
     fn add(&self, engine: &Engine, efforts: &Efforts, i: usize, load: &mut Load) {
         let deflection = self.deflection.map_or(0.0, |d| engine.q()[d]);
         let link = efforts.link[i] + self.spring(engine.q()[self.motor] + deflection);
@@ -230,10 +230,11 @@ impl Drive {
     }
 }
 
-/// What turns motor `i`, apart from the engine's own friction (N m or N).
+/// Torque on motor `i` without the engine's dry friction (N m or N).
 ///
-/// That friction has the mean of both levels; half of what the forward one is higher, as a torque
-/// against the positive direction, makes the two of it, at rest as well as in motion.
+/// The engine's friction has one level, the mean of both directions. Half the difference of the two
+/// levels, applied as a torque against the positive direction, gives each direction its level, at
+/// rest as well as in motion.
 fn motor_effort(efforts: &Efforts, i: usize) -> f64 {
     let shift = 0.5 * (efforts.dry_forward[i] - efforts.dry_backward[i]);
     efforts.motor[i] + efforts.bristles[i] - shift

@@ -34,7 +34,7 @@ pub(crate) struct EngineBody {
     pub stops: Option<(f64, f64)>,
 }
 
-/// A force on a body, in its own coordinates of the moment.
+/// A force on a body at a point of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Push {
     /// Index of the body.
@@ -45,7 +45,7 @@ pub(crate) struct Push {
     pub point_in_body: Vector3<f64>,
 }
 
-/// What acts on every degree of freedom during one step.
+/// Efforts on every degree of freedom during one step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Load {
     /// Generalised force (N m or N).
@@ -59,7 +59,7 @@ pub(crate) struct Load {
 }
 
 impl Load {
-    /// Nothing acts on `count` degrees of freedom.
+    /// No effort on `count` degrees of freedom.
     pub fn none(count: usize) -> Self {
         Self {
             effort: vec![0.0; count],
@@ -69,7 +69,7 @@ impl Load {
         }
     }
 
-    /// Back to nothing, without giving memory away.
+    /// Resets all efforts and keeps the memory.
     pub fn clear(&mut self) {
         for row in [&mut self.effort, &mut self.dry, &mut self.damping] {
             row.fill(0.0);
@@ -191,7 +191,7 @@ impl Engine {
         self.step_s
     }
 
-    /// Puts the tree into a state; what moved it before is forgotten.
+    /// Sets positions and velocities and clears earlier efforts.
     pub fn set_state(&mut self, q: &[f64], qd: &[f64]) {
         self.place_state(q, qd);
         self.q.copy_from_slice(q);
@@ -231,7 +231,7 @@ impl Engine {
         }
     }
 
-    /// Takes the velocity back by `dt/2 a`, with `a` from a step on trial.
+    /// Moves the velocity back by `dt/2 a`, with `a` from a trial step.
     fn rewind_half_a_step(&mut self, load: &Load) {
         let (q, qd) = (self.q.clone(), self.qd.clone());
         self.advance(load);
@@ -241,7 +241,7 @@ impl Engine {
         self.fresh = false;
     }
 
-    /// Steps the engine and keeps the acceleration that came of it.
+    /// Steps the engine and stores the resulting acceleration.
     fn advance(&mut self, load: &Load) {
         self.push(load);
         let Some((multibody, _)) = self.world.multibody_joints.get_mut(self.multibody) else {
@@ -313,7 +313,7 @@ impl Engine {
         }
     }
 
-    /// `1 / inertia` that a force on each degree of freedom alone meets (1/(kg m²) or 1/kg).
+    /// Inverse inertia of each degree of freedom with all others free (1/(kg m²) or 1/kg).
     pub fn inverse_inertia(&mut self) -> Vec<f64> {
         let PhysicsWorld { bodies, multibody_joints, .. } = &mut self.world;
         let Some((multibody, _)) = multibody_joints.get_mut(self.multibody) else {
@@ -338,9 +338,9 @@ fn rigid_body(body: &EngineBody) -> RigidBodyBuilder {
 
 /// Mass, centre of mass, principal moments and their frame.
 ///
-/// The principal axes are worked out here: those of rapier come from a closed form that loses
-/// the difference of two nearly equal moments, and with it 1 % of the WAM palm's gyroscopic
-/// torque; of tensors below 1e-4 kg m² it also loses the products of inertia.
+/// Rapier's own principal axes come from a closed form that cannot resolve two nearly equal moments,
+/// which costs 1 % of the WAM palm's gyroscopic torque. Below 1e-4 kg m² it also drops the products
+/// of inertia. Therefore the axes are computed here.
 fn mass_properties(inertia: &Inertia) -> MassProperties {
     let mut eigen = SymmetricEigen::new(inertia.about_com);
     if eigen.eigenvectors.determinant() < 0.0 {

@@ -3,16 +3,16 @@ use robot::Reading;
 use crate::mechanics::engine::Push;
 use crate::mechanics::plant::Plant;
 
-/// Where the arm is when an effect is asked for its torque.
+/// State of the arm at which an effect computes its torque.
 #[derive(Debug, Clone, Copy)]
 pub struct Moment<'a> {
     /// Time since the start of the log (s), below zero while the arm is held before it.
     pub time_s: f64,
     /// Length of the engine's step (s).
     pub step_s: f64,
-    /// Position of the motors, seen at the joint (rad or m).
+    /// Position of the motors, referred to the joint (rad or m).
     pub motor_q: &'a [f64],
-    /// Velocity of the motors, seen at the joint (rad/s or m/s).
+    /// Velocity of the motors, referred to the joint (rad/s or m/s).
     pub motor_qd: &'a [f64],
     /// Position of the links (rad or m); the motor's where the transmission is rigid.
     pub q: &'a [f64],
@@ -23,10 +23,10 @@ pub struct Moment<'a> {
     pub load: &'a [f64],
 }
 
-/// What effects add during one step of the engine.
+/// Torques, friction levels and forces during one step of the engine.
 ///
-/// Every vector has one entry a joint. What stands here when an effect is asked comes from the
-/// arm itself and from the effects before it, so an effect adds and scales, it does not set.
+/// Every vector has one entry per joint. An effect finds the values of the arm and of the effects
+/// before it here, and must add to them or scale them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Efforts {
     /// Torque on the motor, positive in the positive direction (N m or N).
@@ -40,15 +40,15 @@ pub struct Efforts {
     pub dry_backward: Vec<f64>,
     /// Viscous friction at the motor (N m s/rad or N s/m).
     pub viscous: Vec<f64>,
-    /// Friction torque on the motor that an effect works out itself, as from the deflection of
-    /// bristles, positive in the positive direction (N m or N).
+    /// Friction torque on the motor that an effect computes itself, for example from the deflection of
+    /// bristles; positive in the positive direction (N m or N).
     pub bristles: Vec<f64>,
     /// Forces on links.
     pub(crate) pushes: Vec<Push>,
 }
 
 impl Efforts {
-    /// Nothing, for `joint_count` joints.
+    /// No effort on `joint_count` joints.
     pub fn none(joint_count: usize) -> Self {
         let zeros = vec![0.0; joint_count];
         Self {
@@ -68,7 +68,7 @@ impl Efforts {
         self.dry_backward[joint] += level;
     }
 
-    /// Scales all friction of a joint that stands here.
+    /// Scales all friction of a joint so far.
     pub fn scale_friction(&mut self, joint: usize, factor: f64) {
         let Self { dry_forward, dry_backward, viscous, bristles, .. } = self;
         for friction in [dry_forward, dry_backward, viscous, bristles] {
@@ -87,38 +87,36 @@ impl Efforts {
     }
 }
 
-/// An effect put into the simulated arm. Every hook does nothing unless an effect says otherwise.
+/// An effect put into the simulated arm. Every hook does nothing by default.
 ///
-/// State that an effect carries from step to step (bristles, temperature, a queue of commands)
-/// lives in it.
+/// The implementing type holds any state between steps: bristles, temperature, a queue of commands.
 pub trait Inject: Send {
-    /// Changes what the arm is made of, before the engine is built.
+    /// Changes the model before the engine is built from it.
     fn on_build(&mut self, _plant: &mut Plant) {}
 
-    /// Takes note of the state that a run starts from, at rest.
+    /// Initialises the effect for a run that starts at rest at these positions.
     fn on_start(&mut self, _q: &[f64]) {}
 
     /// Changes torques (N m or N) on their way from controller to motor, once a step.
     ///
-    /// `tau` is the mean over the step of what was asked for, so that the jump of a held command
-    /// counts half in the step whose middle it falls on.
+    /// `tau` is the commanded torque, averaged over the step: a change of the held command in the
+    /// middle of a step counts half.
     fn on_command(&mut self, _moment: &Moment<'_>, _tau: &mut [f64]) {}
 
     /// Adds forces during one step of the engine.
     fn on_substep(&mut self, _moment: &Moment<'_>, _efforts: &mut Efforts) {}
 
-    /// Changes what encoders and torque sensors see, before noise and counts; the controller
-    /// sees it too.
+    /// Changes sensor readings before noise and rounding. The controller sees the change.
     fn on_reading(&mut self, _reading: &mut Reading) {}
 
-    /// Changes a row on its way into the log, behind the controller's back. The noise of the
-    /// effort comes after.
+    /// Changes a row of the log. The controller does not see the change, and the noise of the effort is
+    /// added after it.
     fn on_record(&mut self, _row: &mut Reading) {}
 
-    /// Changes what the encoders at the links say, on its way into the same row.
+    /// Changes the readings of the encoders at the links in the same row.
     fn on_record_links(&mut self, _time_s: f64, _links: &mut [Option<f64>]) {}
 
-    /// Whether [`Moment::load`] is to be filled, which costs a product with the mass matrix.
+    /// Whether the effect needs [`Moment::load`], which costs a product with the mass matrix.
     fn needs_load(&self) -> bool {
         false
     }

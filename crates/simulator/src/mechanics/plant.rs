@@ -3,19 +3,19 @@ use robot::{Inertia, Robot};
 
 use crate::mechanics::transmission::Transmission;
 
-/// What the simulated arm is made of, before the engine is built from it.
+/// The model from which the engine is built.
 ///
-/// The robot's actuators count: `viscous`, `coulomb_forward`, `coulomb_backward` and
-/// `rotor_inertia` act at the motor, the spring at the link, gain and offset in the drive:
-/// `effort = torque_gain tau + torque_offset`. What else the actuators say acts as the effect of
-/// the same name would: friction beyond the Coulomb level, presliding and ripple at the motor,
-/// delay and lag on the way of the command, ratio and offset of the encoder in what is reported.
-/// Bristles of presliding whose damping is not said are damped with half of critical damping.
+/// Of the robot's actuators, `viscous`, `coulomb_forward`, `coulomb_backward` and `rotor_inertia`
+/// act at the motor, the spring at the link, and gain and offset in the drive:
+/// `effort = torque_gain tau + torque_offset`. Every other property of an actuator acts like the
+/// effect of the same name: friction beyond the Coulomb level, presliding and ripple at the motor,
+/// delay and lag on the command, ratio and encoder offset on the reported position. Presliding
+/// without a stated damping has half of critical damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plant {
     /// Links, joints, actuators, gravity.
     pub robot: Robot,
-    /// One a joint.
+    /// One per joint.
     pub transmissions: Vec<Transmission>,
 }
 

@@ -4,7 +4,7 @@ use robot::Actuator;
 /// description has no key for it. Cable drives and harmonic gears have 0.5 to 5 %.
 const DAMPING_RATIO: f64 = 0.02;
 
-/// What lies between motor and link of a joint.
+/// The transmission between motor and link of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Transmission {
     /// Torque per unit of deflection (N m/rad or N/m); `None` for a rigid one.
@@ -16,8 +16,8 @@ pub struct Transmission {
 }
 
 impl Transmission {
-    /// What the description says of a joint: its stiffness, its free play, and a damping of 2 %
-    /// of critical.
+    /// The transmission of a described actuator: its stiffness, its free play, and 2 % of critical
+    /// damping.
     pub fn of_actuator(actuator: &Actuator) -> Self {
         let inertia = actuator.rotor_inertia;
         let damping = |stiffness| damping(DAMPING_RATIO, stiffness, inertia);
@@ -28,8 +28,8 @@ impl Transmission {
         }
     }
 
-    /// How far the link stays behind its motor under a load that rests on it (rad or m), as a
-    /// negative number for a positive load:
+    /// Static deflection of the link against its motor under a load (rad or m), negative for a positive
+    /// load:
     ///
     /// ```text
     /// q - theta = -(load / stiffness + (gap / 2) sign(load))
@@ -56,7 +56,7 @@ impl Transmission {
         if pressed > 0.0 { torque.min(0.0) } else { torque.max(0.0) }
     }
 
-    /// Whether motor and link move as one.
+    /// Whether motor and link are rigidly coupled.
     pub fn is_rigid(&self) -> bool {
         self.stiffness.is_none() && self.gap <= 0.0
     }

@@ -10,7 +10,7 @@ use crate::simulator::{Simulator, Stepping};
 use crate::strangers::spec::StrangerSpec;
 use crate::{effects, strangers};
 
-/// What is put into an arm.
+/// The effects and strangers in an arm.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Causes<'a> {
     pub effects: &'a [EffectSpec],
@@ -21,7 +21,7 @@ pub(crate) struct Causes<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct ControlRow {
     pub reading: Reading,
-    /// What the encoders at the links say, where there are any.
+    /// Readings of the encoders at the links; `None` for a joint without one.
     pub links: Vec<Option<f64>>,
     pub command: Vec<f64>,
     pub reference: State,
@@ -33,12 +33,11 @@ pub(crate) struct Following<'a> {
     pub gains: &'a [Gain],
     pub robot: &'a Robot,
     pub run: &'a ScenarioRun,
-    /// Only this much of the motion is followed (s).
+    /// Longest part of the motion that is followed (s).
     pub longest_s: f64,
 }
 
-/// A simulator with effects and strangers that were checked for the robot: what the drive makes of
-/// commands, then the effects, then all other strangers.
+/// Builds a simulator. Strangers of the drive act first, then the effects, then all other strangers.
 pub(crate) fn simulator(
     robot: &Robot,
     causes: Causes<'_>,
@@ -67,8 +66,8 @@ pub(crate) fn simulator(
 
 /// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, within the torque limits.
 ///
-/// A motion that starts at rest is held at its start for the lead-in, before time zero; any other
-/// starts in motion at once.
+/// A motion that starts at rest is held at its start for the lead-in before time zero. Any other
+/// motion starts without a lead-in.
 pub(crate) fn follow(
     simulator: &mut Simulator,
     following: &Following<'_>,

@@ -5,11 +5,11 @@ use rand_chacha::rand_core::SeedableRng;
 
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;
-use crate::run::bench::EffectSizer;
+use crate::run::effect_sizer::EffectSizer;
 use crate::scenario::check::Scenario;
 use crate::seed::mix_seed;
 
-/// The effects that a scenario hides: kind, joint and size drawn from its seed.
+/// Draws the hidden effects of a scenario: kind, joint and size follow from its seed.
 ///
 /// A size is drawn log-uniformly as a share of torque,
 ///
@@ -17,16 +17,15 @@ use crate::seed::mix_seed;
 /// share = rms(tau - tau_without) / sqrt(rms(tau_without)^2 + noise^2)
 /// ```
 ///
-/// of the torque that the sensors report, their noise included: where a wrist lifts next to
-/// nothing, a share of its torque alone is one of millinewton metres that no log could show. It
-/// is taken at the effect's joint, or over all joints together for an effect of a link or of the whole
-/// arm. The effect's parameter is then corrected until the simulated share is within a tenth of
-/// it. An effect that cannot have the size at the joint drawn is drawn again.
+/// of the reported torque. Its noise counts, since a share of a wrist's tiny torque alone would be
+/// invisible in any log. The share is taken at the effect's joint, or over all joints for an effect of
+/// a link or of the whole arm. The effect's parameter is corrected until the simulated share is
+/// within a tenth of the drawn one. An effect that cannot reach it at its joint is drawn again.
 ///
 /// # Errors
 ///
-/// [`SimulatorError::NothingDrawn`] after many draws, or what keeps the arm without hidden
-/// effects from being simulated.
+/// [`SimulatorError::NothingDrawn`] after many draws, or the error of simulating the arm without
+/// hidden effects.
 pub(crate) fn draw_hidden(scenario: &Scenario) -> Result<Vec<EffectSpec>, SimulatorError> {
     let Some(hidden) = scenario.hidden() else { return Ok(Vec::new()) };
     let seed = hidden.seed.unwrap_or_else(|| mix_seed(scenario.seed(), u64::MAX));

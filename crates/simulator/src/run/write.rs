@@ -10,17 +10,17 @@ use crate::run::simulate::Simulation;
 use crate::scenario::check::Scenario;
 use crate::strangers::truth::StrangerTruth;
 
-/// How logs are written.
+/// File format of logs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LogFormat {
-    /// Parquet, one `f64` column a signal.
+    /// Parquet with one `f64` column per signal.
     Parquet,
-    /// Text, one row a line.
+    /// Text with one row per line.
     Csv,
 }
 
 impl LogFormat {
-    /// How the names of such files end.
+    /// Extension of such files.
     pub const fn extension(self) -> &'static str {
         match self {
             Self::Parquet => "parquet",
@@ -31,8 +31,8 @@ impl LogFormat {
 
 /// Writes the logs, the resolved scenario and `truth.json` into a folder.
 ///
-/// Every file appears whole or not at all. `truth.json` is the last to appear, and one of before
-/// is the first to go: where there is one, it is that of the logs beside it.
+/// Every file is written atomically. An old `truth.json` is removed first and the new one is written
+/// last, so that a `truth.json` always belongs to the logs beside it.
 ///
 /// # Errors
 ///
