@@ -1,12 +1,11 @@
-//! The truth side: an articulated arm on rapier into which effects are put, seen through its
-//! sensors.
+//! The truth side: an articulated arm on rapier with injected effects and simulated sensors.
 //!
 //! ```text
 //! M(q) qdd + C(q, qd) qd + g(q) + effects = tau
 //! ```
 //!
-//! The equations of motion are rapier's: nothing here uses the project's own dynamics, so that
-//! what explains a log and what made it check each other.
+//! Rapier solves the equations of motion. The project's own dynamics is not used here, so that the
+//! code that makes a log and the code that explains it check each other.
 
 mod delay_line;
 pub mod effects;

@@ -5,11 +5,11 @@ use crate::effects::mistake::Mistake;
 use crate::effects::spec::EffectSpec;
 use crate::mechanics::inject::Inject;
 
-/// Effects ready to act, in the order of the chain from command to reading.
+/// Prepares effects, in the order of the chain from command to reading.
 ///
 /// # Errors
 ///
-/// The index of the first effect that cannot act on the robot, with its mistake.
+/// The index of the first effect that the robot cannot have, with its mistake.
 pub(crate) fn inject_all(
     effects: &[EffectSpec],
     robot: &Robot,

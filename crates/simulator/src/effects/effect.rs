@@ -15,22 +15,22 @@ pub trait Effect: Sized {
     /// Where it acts, and its parameters under the catalogue's names.
     fn truth(&self) -> Truth;
 
-    /// The effect ready to act on a robot. Refuses what no arm has; the joints and links named
-    /// must be the robot's.
+    /// Prepares the effect for a robot. Refuses impossible values and joints or links that the robot
+    /// does not have.
     ///
     /// # Errors
     ///
     /// [`Mistake`], the first found.
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake>;
 
-    /// An effect whose torque has about `share` of the joint's torque root mean square, and more
-    /// the larger `share` is; what does not set the size is drawn.
+    /// Draws an effect whose torque is about `share` of the joint's torque, both as root mean squares,
+    /// and grows with `share`. Parameters that do not set the size are random.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self;
 }
 
 /// Place of an effect in the chain from command to motion: its hooks run in this order.
 ///
-/// Commands are limited, held back and lagged before they become torque; what scales friction
+/// Commands are limited, delayed and lagged before they become torque. An effect that scales friction
 /// comes after every friction.
 pub(crate) fn chain_rank(kind: EffectKind) -> usize {
     use EffectKind as K;

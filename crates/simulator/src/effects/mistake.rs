@@ -1,6 +1,6 @@
 use robot::Robot;
 
-/// A value of a scenario that cannot be meant.
+/// An impossible value in a scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mistake {
     /// Key of the value, inside the effect.
@@ -36,7 +36,7 @@ pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, Mistake> {
     Err(Mistake { key: "link", found })
 }
 
-/// The name that was meant, else all there are.
+/// Suggests the nearest name, or lists all names.
 fn hint(things: &str, name: &str, names: &[&str]) -> String {
     document::suggest(name, names.iter().copied()).map_or_else(
         || format!("its {things} are {}", names.join(", ")),

@@ -3,7 +3,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, UnitSphere};
 use robot::Robot;
 
-/// Where an effect is drawn, and how large motion and torque are there without it.
+/// The joint at which an effect is drawn, with its motion and torque without the effect.
 #[derive(Debug, Clone, Copy)]
 pub struct Surroundings<'a> {
     /// The robot without effects.
@@ -20,13 +20,13 @@ pub struct Surroundings<'a> {
     pub range: (f64, f64),
     /// Root mean square of the derivative of its torque (N m/s or N/s).
     pub torque_rate_rms: f64,
-    /// What it turns, all other joints free (kg m² or kg).
+    /// Its apparent inertia with all other joints free (kg m² or kg).
     pub inertia: f64,
-    /// How large torque and motion of every joint of the arm are, in its order.
+    /// Torque and speed of every joint, in the order of the arm.
     pub joints: &'a [JointLevel],
 }
 
-/// How large torque and motion of a joint are.
+/// Torque and speed of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointLevel {
     /// Root mean square of its torque (N m or N).
@@ -57,18 +57,18 @@ impl Surroundings<'_> {
         Self { joint: tip, ..*self }.link_name()
     }
 
-    /// Acceleration of free fall (m/s²), at least 1, so that a weightless arm has a payload too.
+    /// Magnitude of gravity (m/s²), at least 1, so that a payload can be sized for a weightless arm.
     pub(crate) fn fall(&self) -> f64 {
         self.robot.gravity_in_base().norm().max(1.0)
     }
 
-    /// How steeply the torque follows the position (N m/rad or N/m): `d torque / dq`.
+    /// Slope of the torque over the position (N m/rad or N/m): `d torque / dq`.
     pub(crate) fn torque_per_position(&self) -> f64 {
         self.torque_rate_rms / self.speed_rms.max(1e-9)
     }
 }
 
-/// A direction without preference.
+/// A uniformly distributed direction.
 pub(crate) fn direction(random: &mut ChaCha8Rng) -> Vector3<f64> {
     Vector3::from(UnitSphere.sample(random))
 }

@@ -3,9 +3,9 @@ use std::collections::BTreeMap;
 use catalogue::EffectKind;
 use serde::{Deserialize, Serialize};
 
-/// One effect that was put into a simulation: what scoring compares a diagnosis with.
+/// One effect in a simulation, with which scoring compares a diagnosis.
 ///
-/// `truth.json` holds the code of the effect beside these fields, for people: the name tells.
+/// `truth.json` also holds the code of the effect, for readers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// The effect.

@@ -10,12 +10,12 @@ use crate::replay::record::{
     start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
-/// How a record is rolled forward: in windows one after the other.
+/// Consecutive windows in which a record is simulated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Windows {
-    /// Time of a window (s), which becomes a whole number of samples.
+    /// Length of a window (s), rounded to whole samples.
     pub window_s: f64,
-    /// Longest step of the engine (s): a sample of the record takes a whole number of steps.
+    /// Longest step of the engine (s). Each sample of the record takes a whole number of steps.
     pub longest_step_s: f64,
 }
 
@@ -26,14 +26,14 @@ impl Windows {
     }
 }
 
-/// How far a simulation drifts from a record when it is rolled forward for a while.
+/// Drift of a simulation from a record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForwardReplay {
-    /// Time that was rolled forward from each start (s).
+    /// Length of a window (s).
     pub window_s: f64,
-    /// Number of windows, one after the other without overlap.
+    /// Number of windows, without overlap.
     pub windows: usize,
-    /// Windows in which a joint ran away; they are left out of the drift.
+    /// Faults of windows in which a joint ran away; these windows do not count in the drift.
     pub runaways: Vec<MachineFault>,
     /// Root mean square over the windows of `q_simulated - q_measured` at their ends, for each
     /// joint (rad or m); `None` when a joint ran away in every window.
@@ -43,18 +43,18 @@ pub struct ForwardReplay {
     pub motion: Run,
 }
 
-/// Rolls a robot's simulation forward under the torques of a record, from its states.
+/// Simulates a robot under the torques of a record, starting each window from a recorded state.
 ///
 /// ```text
 /// (q, qd)(t_start) = measured,   tau(t) = measured,   drift = q_simulated - q_measured
 /// ```
 ///
-/// A torque that was commanded is held from its sample to the next, one that was measured is the
-/// mean of both; where the robot says that efforts are logged late they are put back to their
-/// time. Windows are simulated side by side. Transmissions start under the load that the drive's
-/// description and the torque of the first sample say; what is compared is what the robot's
-/// encoders would show. A spring that rings at the start of a window rings on from the
-/// state of rest under that load, which one encoder cannot tell.
+/// A commanded torque is held from its sample to the next. A measured torque is the mean of both
+/// samples. Efforts that are logged late are shifted back by the robot's skew. Windows run in
+/// parallel. Positions are compared as the robot's encoders would report them.
+///
+/// Each transmission starts in static equilibrium under the load that follows from the drive's
+/// description and the first torque. One encoder cannot show whether it was really oscillating.
 ///
 /// # Errors
 ///
@@ -98,7 +98,7 @@ pub fn replay_torque(
     })
 }
 
-/// What one window came to: positions and velocities at every sample after its start.
+/// Result of one window: positions and velocities at every sample after its start.
 struct Window {
     states: Vec<EncoderState>,
     fault: Option<MachineFault>,

@@ -10,28 +10,26 @@ use crate::replay::record::{
 /// Slowest rate of the controller that follows a recorded motion (Hz).
 const CONTROL_HZ: f64 = 500.0;
 
-/// The torque that a simulation asks for along a recorded motion.
+/// The torque that a simulation needs along a recorded motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionReplay {
     /// Root mean square of `tau_simulated - tau_measured` for each joint (N m or N).
     pub torque_error_rms: Vec<f64>,
-    /// Root mean square of `q_simulated - q_measured` for each joint (rad or m): what the
-    /// controller could not follow.
+    /// Root mean square of `q_simulated - q_measured` for each joint (rad or m).
     pub tracking_error_rms: Vec<f64>,
     /// The simulated log, with the measured torque as `<joint>.measured_effort`.
     pub log: Run,
 }
 
-/// Lets a robot's simulation follow a recorded motion, from its first state, with
+/// Simulates a robot along a recorded motion from its first state, with
 ///
 /// ```text
 /// tau_simulated = tau_measured + kp (q_measured - q) + kd (qd_measured - qd)
 /// ```
 ///
-/// with the measured torque at the time at which it acted. What is fed back is what the measured
-/// torque lacks to move the simulation along the measured motion: the torque error. Feedback alone
-/// would add to it what the controller cannot follow. An error that changes faster than the
-/// controller answers does not show.
+/// with each measured torque at the time at which it acted. The feedback is the torque error: the
+/// torque that the simulation needs beyond the measured one. Without the measured torque as
+/// feedforward, tracking errors would add to it. Errors faster than the controller stay invisible.
 ///
 /// # Errors
 ///
@@ -78,7 +76,7 @@ pub fn replay_motion(
     Ok(compare(robot, record, &rows))
 }
 
-/// What rows of simulated motion, with what was fed back as their effort, say about a record.
+/// Compares simulated rows, whose effort is the feedback, with a record.
 fn compare(robot: &Robot, record: &PreparedRun, rows: &[Reading]) -> MotionReplay {
     let whole = |column: &[f64]| column[..rows.len()].to_vec();
     let rms = |of: &dyn Fn(usize) -> f64| {

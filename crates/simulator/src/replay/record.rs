@@ -8,19 +8,19 @@ use crate::mechanics::transmission::Transmission;
 use crate::sensors::Sensors;
 use crate::simulator::{Simulator, Stepping};
 
-/// Positions (rad or m) and velocities (rad/s or m/s), one a joint.
+/// Positions (rad or m) and velocities (rad/s or m/s) as encoders report them, one per joint.
 pub(crate) struct EncoderState {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
 }
 
-/// A record in which every effort stands at the time at which it acted, where a log has it later:
+/// The record with its efforts shifted to the time at which they acted, for logs with a skew:
 ///
 /// ```text
 /// effort(t) = logged effort(t + skew)
 /// ```
 ///
-/// straight between samples; beyond the record the first or last effort goes on.
+/// linear between samples; the first or last effort beyond the record.
 pub(crate) fn with_efforts_in_time<'a>(
     robot: &Robot,
     record: &'a PreparedRun,
@@ -44,7 +44,7 @@ pub(crate) fn with_efforts_in_time<'a>(
     Cow::Owned(record)
 }
 
-/// The robot with the friction that its drives have in a sample of a record, so long after a cold start.
+/// The robot with the friction of its drives at the time of a sample, after that much warming.
 pub(crate) fn with_friction_of_sample<'a>(
     robot: &'a Robot,
     record: &PreparedRun,
@@ -61,11 +61,12 @@ pub(crate) fn with_friction_of_sample<'a>(
     Cow::Owned(robot)
 }
 
-/// Time constants of a lag after which what was asked for before no longer counts: 0.1 % is left.
+/// Time constants of a lag after which older commands are negligible: 0.1 % is left.
 const LAGS: f64 = 7.0;
 
-/// Puts a simulation into the state of a sample: positions and velocities as measured and
-/// corrected for what the encoders are known to be off, every transmission twisted by the load of that instant, and what was asked for before on its way.
+/// Starts a simulation in the state of a sample: measured positions and velocities with known encoder
+/// errors removed, transmissions deflected by the load of that instant, and earlier commands in delays
+/// and lags.
 pub(crate) fn start_at_sample(
     simulator: &mut Simulator,
     robot: &Robot,
@@ -126,8 +127,7 @@ fn load(drive: &Actuator, joint: &PreparedJoint, sample: usize, rate_hz: f64) ->
     tau / (1.0 + direction * drive.load_friction.min(0.9).copysign(tau))
 }
 
-/// How late the torque is after the effort of the log, delay and lag (s): what was measured has
-/// both behind it.
+/// Delay and lag of the torque after the logged effort (s); zero for a measured effort.
 pub(crate) fn late_s(drive: &Actuator) -> [f64; 2] {
     match drive.torque_source {
         TorqueSource::Commanded => [drive.delay_s, drive.lag_s],
@@ -135,12 +135,12 @@ pub(crate) fn late_s(drive: &Actuator) -> [f64; 2] {
     }
 }
 
-/// Where a joint is when its encoder reports `q` (rad or m).
+/// True position of a joint whose encoder reports `q` (rad or m).
 fn true_position(drive: &Actuator, q: f64) -> f64 {
     drive.transmission_ratio * (q - drive.encoder_offset)
 }
 
-/// What the robot's encoders would show.
+/// The state that the robot's encoders would report.
 pub(crate) fn encoder_state(simulator: &Simulator, robot: &Robot) -> EncoderState {
     let pick = |link: &[f64], motor: &[f64]| -> Vec<f64> {
         let sides = robot.links().iter().map(|l| l.actuator.sensing);
@@ -160,7 +160,7 @@ pub(crate) fn encoder_state(simulator: &Simulator, robot: &Robot) -> EncoderStat
     EncoderState { q, qd }
 }
 
-/// Torques from one sample to the next.
+/// Torques that act from one sample to the next.
 pub(crate) fn held_torque(robot: &Robot, record: &PreparedRun, sample: usize) -> Vec<f64> {
     let of = |(joint, link): (&PreparedJoint, &robot::Link)| match link.actuator.torque_source {
         TorqueSource::Commanded => joint.effort[sample],
@@ -169,8 +169,8 @@ pub(crate) fn held_torque(robot: &Robot, record: &PreparedRun, sample: usize) ->
     record.joints.iter().zip(robot.links()).map(of).collect()
 }
 
-/// Position and velocity a part of the way from one sample to the next: the cubic that has the
-/// positions and velocities of both.
+/// Position and velocity between two samples, from the cubic through the positions and velocities of
+/// both.
 pub(crate) fn interpolate(
     joint: &PreparedJoint,
     sample: usize,
@@ -188,7 +188,7 @@ pub(crate) fn interpolate(
 /// Longest step of the engine where no other is given (s).
 pub(crate) const STEP_S: f64 = 1e-4;
 
-/// Slowest record that is simulated (Hz): between two of its rows an arm moves as it likes.
+/// Slowest record that is simulated (Hz). Slower ones do not determine the motion between their rows.
 pub(crate) const SLOWEST_HZ: f64 = 1.0;
 
 pub(crate) fn check_rate(record: &PreparedRun) -> Result<(), SimulatorError> {

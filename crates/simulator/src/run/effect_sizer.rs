@@ -14,27 +14,27 @@ use crate::simulator::Simulator;
 use crate::strangers::kind::StrangerKind;
 use crate::strangers::spec::StrangerSpec;
 
-/// Longest part of the first run that sizes are measured on (s).
+/// Longest part of the first run on which sizes are measured (s).
 const MEASURED_S: f64 = 10.0;
 
 /// Draws of one effect before giving up.
 const TRIES: usize = 40;
 
-/// Sizes tried for one effect: the torque of most is in proportion, that of a few all but a step.
+/// Sizes tried for one effect. Most torques are proportional to the size, a few are almost a step.
 const CORRECTIONS: usize = 8;
 
-/// How close to the size asked for is close enough.
+/// Tolerance of the logarithm of the size.
 const TOLERANCE: f64 = 0.1;
 
-/// The first run of a scenario, at most 10 s of it, in which sizes are measured: without noise, and
-/// without the effects that are to be drawn.
+/// Sizes effects and strangers on the first 10 s of a scenario's first run, simulated without noise and
+/// without hidden effects.
 pub struct EffectSizer<'a> {
     scenario: &'a Scenario,
     run: ScenarioRun,
     nominal: Vec<ControlRow>,
-    /// Of each joint; the noise of its sensor is part of its torque.
+    /// Torque and speed of each joint; the torque includes the noise of its sensor.
     levels: Vec<JointLevel>,
-    /// What each joint turns where the run begins.
+    /// Apparent inertia of each joint at the start of the run (kg m² or kg).
     inertia: Vec<f64>,
 }
 
@@ -43,7 +43,7 @@ impl<'a> EffectSizer<'a> {
     ///
     /// # Errors
     ///
-    /// What keeps the arm from being simulated.
+    /// [`SimulatorError`] when the arm cannot be simulated.
     pub fn new(scenario: &'a Scenario) -> Result<Self, SimulatorError> {
         let run = scenario.runs()[0].clone();
         let (nominal, levels, inertia) = (Vec::new(), Vec::new(), Vec::new());
@@ -63,23 +63,22 @@ impl<'a> EffectSizer<'a> {
         Ok(bench)
     }
 
-    /// An effect of a kind at a joint, by its number, whose torque has about a share of the
-    /// joint's: what [`Effect::draw`](crate::effects::Effect::draw) takes for that share, which
-    /// no simulation has checked.
+    /// An effect at a joint whose torque is about `share` of the joint's. The size is the estimate of
+    /// [`Effect::draw`](crate::effects::Effect::draw), not checked by simulation.
     ///
     /// # Panics
     ///
-    /// When the arm has no joint of that number.
+    /// When the arm has no joint of this index.
     pub fn effect(&self, kind: EffectKind, joint: usize, share: f64, seed: u64) -> EffectSpec {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         EffectSpec::draw(kind, &self.surroundings(joint), share, &mut random)
     }
 
-    /// A stranger of a kind at a joint, as [`effect`](Self::effect) an effect.
+    /// A stranger at a joint, sized as in [`effect`](Self::effect).
     ///
     /// # Panics
     ///
-    /// When the arm has no joint of that number.
+    /// When the arm has no joint of this index.
     pub fn stranger(
         &self,
         kind: StrangerKind,
@@ -91,12 +90,12 @@ impl<'a> EffectSizer<'a> {
         StrangerSpec::draw(kind, &self.surroundings(joint), share, &mut random)
     }
 
-    /// How large torque and motion of every joint are.
+    /// Torque and speed of every joint.
     pub fn levels(&self) -> &[JointLevel] {
         &self.levels
     }
 
-    /// The arm with the scenario's effects and more, seen without noise.
+    /// The arm with the scenario's effects and `more`, with noise-free sensors.
     fn simulator(&self, more: &[EffectSpec]) -> Result<Simulator, SimulatorError> {
         let scenario = self.scenario;
         let effects = [scenario.effects(), more].concat();
@@ -109,7 +108,7 @@ impl<'a> EffectSizer<'a> {
         simulator(scenario.robot(), causes, sensors, scenario.stepping())
     }
 
-    /// The run with the scenario's effects and more.
+    /// The run with the scenario's effects and `more`.
     fn rows(&self, more: &[EffectSpec]) -> Result<Vec<ControlRow>, SimulatorError> {
         let scenario = self.scenario;
         let mut simulator = self.simulator(more)?;
@@ -119,7 +118,7 @@ impl<'a> EffectSizer<'a> {
             .map_err(|fault| SimulatorError::Fault { run: self.run.name.clone(), fault })
     }
 
-    /// Share of torque that an effect adds; `None` if the arm runs away with it.
+    /// Share of torque that an effect adds; `None` if the arm runs away.
     fn share(&self, effect: &EffectSpec) -> Option<f64> {
         let rows = self.rows(std::slice::from_ref(effect)).ok()?;
         let added = |j: usize| {
@@ -166,7 +165,7 @@ impl<'a> EffectSizer<'a> {
         Err(SimulatorError::NothingDrawn { tried: TRIES, least, largest, last })
     }
 
-    /// An effect whose torque has a share near the goal, with the share that it has.
+    /// An effect whose torque share is near the goal, with its simulated share.
     fn effect_of_share(
         &self,
         kind: EffectKind,
@@ -226,7 +225,7 @@ impl<'a> EffectSizer<'a> {
     }
 }
 
-/// Sizes between which the one looked for lies, if the torque grows with it.
+/// Bounds of the size sought, for a torque that grows with the size.
 struct Bracket {
     too_small: f64,
     too_large: f64,
@@ -239,7 +238,7 @@ impl Default for Bracket {
 }
 
 impl Bracket {
-    /// The size to try after `asked`, whose torque was to be `factor` times as large.
+    /// The next size to try after `asked`, whose torque should have been `factor` times as large.
     fn next(&mut self, asked: f64, factor: f64) -> f64 {
         if factor > 1.0 {
             self.too_small = asked;
@@ -254,7 +253,7 @@ impl Bracket {
     }
 }
 
-/// Root mean square, zero of nothing.
+/// Root mean square; zero for no values.
 fn rms(values: impl Iterator<Item = f64>) -> f64 {
     let (count, sum) = values.fold((0_usize, 0.0), |(n, s), v| (n + 1, s + v * v));
     (sum / count.max(1) as f64).sqrt()

@@ -10,18 +10,18 @@ use crate::scenario::check::{Scenario, ScenarioRun};
 use crate::scenario::spec::DropoutSpec;
 use crate::sensors::EffortSource;
 
-/// What the clock of the log does to its rows.
+/// Errors of the log's clock: jitter, dropped rows, dropouts.
 pub(crate) struct LogClock {
     pub random: ChaCha8Rng,
     pub jitter_s: f64,
     pub dropped_share: f64,
     /// Least time between two stamps (s).
     pub shortest_s: f64,
-    /// Stretches whose rows are lost, as start and end (s).
+    /// Dropouts, as start and end (s).
     pub lost: Vec<(f64, f64)>,
 }
 
-/// Starts and ends (s) of the dropouts of a log, its starts a Poisson process.
+/// Draws the dropouts of a log as starts and ends (s). Their starts are a Poisson process.
 pub(crate) fn draw_dropouts(
     dropouts: &DropoutSpec,
     last_s: f64,
@@ -38,7 +38,7 @@ pub(crate) fn draw_dropouts(
 }
 
 impl LogClock {
-    /// Keeps every `every`-th row, loses some of them and shakes their stamps.
+    /// Keeps every `every`-th row, drops some of them and adds jitter to their time stamps.
     pub fn thin(&mut self, rows: Vec<ControlRow>, every: usize) -> Vec<ControlRow> {
         let mut kept: Vec<ControlRow> = Vec::with_capacity(rows.len() / every + 1);
         let jitter = Normal::new(0.0, self.jitter_s).ok().filter(|_| self.jitter_s > 0.0);
@@ -60,7 +60,7 @@ impl LogClock {
     }
 }
 
-/// The log: what sensors and controller say, nothing else.
+/// The log of a run: sensor readings, references and commands.
 pub(crate) fn log_of_rows(scenario: &Scenario, run: &ScenarioRun, rows: &[ControlRow]) -> Run {
     let asked_is_effort = scenario.spec().sensors.effort == EffortSource::Commanded;
     let column = |of: &dyn Fn(&ControlRow) -> f64| rows.iter().map(of).collect::<Vec<f64>>();

@@ -17,14 +17,13 @@ use crate::simulator::Simulator;
 use crate::strangers::spec::StrangerSpec;
 use crate::strangers::truth::StrangerTruth;
 
-/// The part of a run's seed that its dropouts are drawn from.
+/// Number of the seed that dropouts are drawn from.
 const DROPOUTS: u64 = 3;
 
-/// What a scenario gives: logs that hold no trace of what was put in, and apart from them what
-/// was.
+/// The logs of a scenario and, apart from them, the truth about its effects.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
-    /// One log a run.
+    /// One log per run.
     pub runs: Vec<Run>,
     /// Effects that were put in.
     pub truth: Vec<Truth>,
@@ -32,10 +31,9 @@ pub struct Simulation {
     pub strangers: Vec<StrangerTruth>,
 }
 
-/// Simulates every run of a scenario, side by side on all cores.
+/// Simulates every run of a scenario in parallel.
 ///
-/// What comes out depends on the scenario alone, not on the number of threads: every run draws
-/// from a seed of its own.
+/// Every run draws from its own seed, so the result is the same for any number of threads.
 ///
 /// `on_second` is called after every second of motion, from any thread.
 ///
@@ -74,12 +72,11 @@ pub fn simulate_only(
     })
 }
 
-/// Simulates the runs of a scenario whose names are `wanted` with exactly these effects and
-/// strangers in place of its own, seen without error: arms with and without one cause can be
-/// compared.
+/// Simulates the `wanted` runs of a scenario without sensor errors, with these effects and strangers
+/// in place of the scenario's. Arms with and without one cause can so be compared.
 ///
 /// Effort source, side of the position, second encoders and rate of the log are the scenario's.
-/// Noise, steps, lag, jitter and lost rows are left out, and velocity is logged as it is.
+/// Noise, resolution, lag, jitter and lost rows are left out, and the logged velocity is the true one.
 ///
 /// # Errors
 ///
@@ -97,7 +94,7 @@ pub fn simulate_silent(
     runs.collect()
 }
 
-/// The beginning of the first run of a scenario, so long (s) at most, as [`simulate_silent`] makes it.
+/// The first `longest_s` seconds of a scenario's first run, simulated as in [`simulate_silent`].
 ///
 /// # Errors
 ///
@@ -127,8 +124,8 @@ fn follow_without_noise(
     Ok(log_of_rows(scenario, run, &rows))
 }
 
-/// The arm of a scenario with all its effects, for a controller of one's own; `part` sets the
-/// seed of its sensors apart from those of the scenario's runs and of other parts.
+/// The arm of a scenario with all its effects, for use with another controller. The sensors draw from
+/// a seed that depends on `part` and differs from those of the scenario's runs.
 ///
 /// # Errors
 ///
@@ -140,8 +137,8 @@ pub fn arm(scenario: &Scenario, part: u64) -> Result<Simulator, SimulatorError> 
     simulator(scenario.robot(), causes, sensors, scenario.stepping())
 }
 
-/// A scenario whose hidden effects are drawn once for all that it is used for: it gives the same
-/// logs and the same arm.
+/// Draws the hidden effects of a scenario and states them in it. The result gives the same logs and
+/// the same arm without drawing again.
 ///
 /// # Errors
 ///
@@ -150,7 +147,7 @@ pub fn drawn(scenario: &Scenario) -> Result<Scenario, SimulatorError> {
     Ok(scenario.with_effects(all_effects(scenario)?))
 }
 
-/// The effects that a scenario states, and those that it draws.
+/// The stated and the drawn effects of a scenario.
 fn all_effects(scenario: &Scenario) -> Result<Vec<EffectSpec>, SimulatorError> {
     let mut effects = scenario.effects().to_vec();
     effects.extend(draw_hidden(scenario)?);
@@ -190,7 +187,7 @@ fn simulate_run(
     Ok(log)
 }
 
-/// The rows of a run at the controller's rate, their times exact.
+/// The rows of a run at the controller's rate, with exact times.
 fn follow_run(
     scenario: &Scenario,
     causes: Causes<'_>,

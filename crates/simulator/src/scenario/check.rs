@@ -15,7 +15,7 @@ use crate::simulator::Stepping;
 use crate::strangers::spec::StrangerSpec;
 use crate::{effects, strangers};
 
-/// A scenario whose every value can be meant: ready to run.
+/// A checked scenario, ready to run.
 #[derive(Debug, Clone)]
 pub struct Scenario {
     spec: ScenarioSpec,
@@ -35,7 +35,7 @@ pub struct ScenarioRun {
     pub name: String,
     /// The motion that is followed.
     pub motion: Motion,
-    /// Time that the arm is held before the log begins (s).
+    /// Time for which the arm is held before the log begins (s).
     pub lead_in_s: f64,
 }
 
@@ -44,8 +44,7 @@ impl Scenario {
     ///
     /// # Errors
     ///
-    /// [`SimulatorError::Scenario`], at the value at fault; [`SimulatorError`] for a robot or a
-    /// log that it names and that cannot be used.
+    /// [`SimulatorError::Scenario`] at the value at fault, also for a robot or a log that cannot be used.
     pub fn from_document(document: &Document) -> Result<Self, SimulatorError> {
         let spec: ScenarioSpec = document.parse()?;
         let robot_key = KeyPath::root().key("robot");
@@ -80,12 +79,12 @@ impl Scenario {
         &self.robot
     }
 
-    /// Where the robot was read.
+    /// Path of the robot.
     pub fn robot_file(&self) -> &Path {
         &self.robot_file
     }
 
-    /// The scenario as one text that extends nothing.
+    /// The scenario as one self-contained text.
     pub fn resolved(&self) -> &str {
         &self.resolved
     }
@@ -100,17 +99,17 @@ impl Scenario {
         self.spec.seed
     }
 
-    /// Effects that it states.
+    /// The effects that it states.
     pub fn effects(&self) -> &[EffectSpec] {
         &self.spec.effect
     }
 
-    /// Strangers that it states.
+    /// The strangers that it states.
     pub fn strangers(&self) -> &[StrangerSpec] {
         &self.spec.stranger
     }
 
-    /// Effects that are to be drawn.
+    /// The hidden effects to draw.
     pub fn hidden(&self) -> Option<&HiddenSpec> {
         self.spec.hidden.as_ref()
     }
@@ -121,7 +120,7 @@ impl Scenario {
         Self { spec, ..self.clone() }
     }
 
-    /// What it says.
+    /// Its values.
     pub fn spec(&self) -> &ScenarioSpec {
         &self.spec
     }
@@ -134,7 +133,7 @@ impl Scenario {
         self.stepping
     }
 
-    /// Periods of the controller for one row of the log.
+    /// Periods of the controller per row of the log.
     pub(crate) fn rows_per_log(&self) -> usize {
         self.rows_per_log
     }
@@ -256,7 +255,7 @@ impl Checker<'_> {
         Ok(gains.into_iter().flatten().collect())
     }
 
-    /// The mistake that a joint has no gains, shown where some are given or else at the robot.
+    /// The error for a joint without gains, shown at the given gains or else at the robot.
     fn no_gains(&self, joint: &str) -> DocumentError {
         let given = &self.spec.control;
         let is_silent = given.gains.is_none()

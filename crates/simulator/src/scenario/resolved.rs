@@ -4,7 +4,7 @@ use document::{Document, KeyPath};
 
 use crate::scenario::spec::ScenarioSpec;
 
-/// The scenario as TOML that says everything, extends nothing and can be read from any folder.
+/// The scenario as self-contained TOML that can be read from any folder.
 pub(crate) fn resolve(document: &Document, spec: &ScenarioSpec) -> String {
     let mut spec = spec.clone();
     let folder = |path: &KeyPath| document.directory_of(path).to_owned();

@@ -5,21 +5,21 @@ use crate::mechanics::inject::Inject;
 use crate::strangers::kind::StrangerKind;
 use crate::strangers::spec::StrangerSpec;
 
-/// Strangers ready to act: those ahead of the effects of a scenario, and those behind them.
+/// Prepared strangers: those that act before the effects of a scenario, and those that act after them.
 pub(crate) struct Injected {
     pub ahead: Vec<Box<dyn Inject>>,
     pub behind: Vec<Box<dyn Inject>>,
 }
 
-/// Strangers ready to act, in the order of the chain from command to reading.
+/// Prepares strangers, in the order of the chain from command to reading.
 ///
-/// What the drive makes of a command (windup, dead zone, limited rate, in this order) comes before
-/// saturation, delay and lag of the scenario; every other stranger comes after all its effects, so
-/// that a payload weighs on a soft mount and a dropout takes away what the motor would have given.
+/// Strangers of the drive (windup, dead zone, rate limit, in this order) act before saturation, delay
+/// and lag of the scenario. All others act after the effects, so that a payload loads a soft mount
+/// and a dropout removes the final torque of the motor.
 ///
 /// # Errors
 ///
-/// The index of the first stranger that cannot act on the robot, with its mistake.
+/// The index of the first stranger that the robot cannot have, with its mistake.
 pub(crate) fn inject_all(
     strangers: &[StrangerSpec],
     robot: &Robot,
@@ -36,7 +36,7 @@ pub(crate) fn inject_all(
     Ok(Injected { ahead: plain(ranked), behind: plain(behind) })
 }
 
-/// Rank from which on a stranger comes after the effects.
+/// Least rank of strangers that act after the effects.
 const BEHIND: usize = 3;
 
 /// Place of a stranger in the chain from command to motion.

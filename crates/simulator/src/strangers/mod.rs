@@ -1,4 +1,5 @@
-//! Effects of no catalogue, one file each: what a workshop has and a diagnosis has no name for.
+//! Effects outside the catalogue, one file each: they occur in workshops, but a diagnosis has no name
+//! for them.
 
 pub(crate) mod bump;
 pub(crate) mod chain;

@@ -7,8 +7,8 @@ use crate::mechanics::inject::Inject;
 use crate::strangers::kind::StrangerKind;
 use crate::strangers::truth::StrangerTruth;
 
-/// Largest angular frequency at which a drawn spring rings on what its joint turns (rad/s), so
-/// that steps of up to 2 ms do.
+/// Largest natural frequency of a drawn spring on its joint's inertia (rad/s), which steps of up to
+/// 2 ms resolve.
 const LARGEST_RING: f64 = 100.0;
 
 /// An effect of no catalogue as a scenario states it.
@@ -19,16 +19,16 @@ pub trait Stranger: Sized {
     /// Where it acts, and its parameters (SI).
     fn truth(&self) -> StrangerTruth;
 
-    /// The stranger ready to act on a robot. Refuses what no arm has; the joints named must be
-    /// the robot's.
+    /// Prepares the stranger for a robot. Refuses impossible values and joints that the robot does not
+    /// have.
     ///
     /// # Errors
     ///
     /// [`Mistake`], the first found.
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake>;
 
-    /// A stranger whose torque has about `share` of the joint's torque root mean square, and
-    /// more the larger `share` is; what does not set the size is drawn.
+    /// Draws a stranger whose torque is about `share` of the joint's torque, both as root mean squares,
+    /// and grows with `share`. Parameters that do not set the size are random.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self;
 }
 

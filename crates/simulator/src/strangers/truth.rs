@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::strangers::kind::StrangerKind;
 
-/// One stranger that was put into a simulation.
+/// One stranger in a simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StrangerTruth {
     /// The stranger.
