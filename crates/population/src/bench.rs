@@ -13,24 +13,24 @@ use crate::motions::log_plan::LogPlan;
 use crate::robot_files::RobotFiles;
 use crate::{motions, sensors};
 
-/// Arms that are drawn before a bench is given up.
+/// Arms drawn before the draw of a bench fails.
 const TRIES: usize = 40;
-/// Time that an arm is held before a log begins (s).
+/// Time for which an arm is held before a log begins (s).
 const LEAD_IN_S: f64 = 1.0;
 
-/// An arm on its bench: what a truth is made of before anything is hidden in it.
+/// An arm with its controller, sensors and motions, before any effect is hidden in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabBench {
     /// Kind of arm.
     pub class: ArmClass,
-    /// The arm as it is: bodies, rotors, gravity, gains, limits, sensing; no friction.
+    /// The true arm: bodies, rotors, gravity, gains, limits, sensing; no friction.
     pub truth: RobotFiles,
-    /// What its user has: bodies off by up to 5 % and some mm, rotors or none, a URDF without friction or with
-    /// that of nobody's arm.
+    /// The user's model: bodies off by up to 5 % and some mm, with or without rotors, and a URDF without friction
+    /// or with dummy values.
     pub nominal: RobotFiles,
     /// The controller.
     pub control: ControlSpec,
-    /// What the logs see.
+    /// The sensors of the logs.
     pub sensors: SensorSpec,
     /// The logs given to the diagnosis.
     pub runs: Vec<RunSpec>,
@@ -38,7 +38,7 @@ pub struct LabBench {
     pub held_out: RunSpec,
     /// Kind of motion; the first of a mixture.
     pub motion: MotionClass,
-    /// What the effort is.
+    /// Source of the effort.
     pub effort: EffortClass,
     /// Whether all logs are of one motion.
     pub repeats: bool,
@@ -46,12 +46,12 @@ pub struct LabBench {
     pub friction: Vec<f64>,
 }
 
-/// What benches are drawn from.
+/// Ranges from which benches are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BenchWishes {
-    /// Kinds of arm, each as likely.
+    /// Kinds of arm, equally likely.
     pub classes: Vec<ArmClass>,
-    /// Kinds of motion, each as likely.
+    /// Kinds of motion, equally likely.
     pub motions: Vec<MotionClass>,
     /// Least and largest number of logs.
     pub logs: [usize; 2],
@@ -63,8 +63,8 @@ pub struct BenchWishes {
 ///
 /// # Errors
 ///
-/// [`PopulationError::NothingToDraw`], or [`PopulationError::NoBench`] where no arm carries a motion of the
-/// kind that was drawn.
+/// [`PopulationError::NothingToDraw`], or [`PopulationError::NoBench`] where no arm can follow a motion of the
+/// drawn kind.
 pub fn draw_bench(
     wishes: &BenchWishes,
     random: &mut ChaCha8Rng,
@@ -103,7 +103,7 @@ struct BenchRuns {
     repeats: bool,
 }
 
-/// Runs of an arm; `None` where it carries no such motion.
+/// Draws the runs of an arm; `None` where it can follow no such motion.
 fn draw_runs(
     arm: &SampledArm,
     motion: MotionClass,

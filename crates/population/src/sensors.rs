@@ -1,4 +1,4 @@
-//! The sensors of a log, as they come with an arm of a class.
+//! Sensors of a log, drawn by the class of the arm.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::arms::arm::SampledArm;
 use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, happens, log_uniform_between, one_of, round_to_digits};
 
-/// Sensors of an arm.
+/// Draws the sensors of an arm.
 pub(crate) fn draw(class: ArmClass, arm: &SampledArm, random: &mut ChaCha8Rng) -> SensorSpec {
     let electronics = &arm.electronics;
     let mut spec = SensorSpec {
@@ -40,7 +40,7 @@ pub(crate) fn draw(class: ArmClass, arm: &SampledArm, random: &mut ChaCha8Rng) -
     spec
 }
 
-/// Encoders, and second ones at the links of some arms.
+/// Encoders, with second ones at the links of some arms.
 fn encoders(class: ArmClass, arm: &SampledArm, spec: &mut SensorSpec, random: &mut ChaCha8Rng) {
     let bits = match class {
         ArmClass::Hobby => one_of(random, [12, 12, 12, 10, 14]),
@@ -74,7 +74,7 @@ fn encoders(class: ArmClass, arm: &SampledArm, spec: &mut SensorSpec, random: &m
     }
 }
 
-/// Noise and steps of the efforts, over what the drives are rated for.
+/// Noise and steps of the efforts, as shares of the drives' ratings.
 fn efforts(class: ArmClass, arm: &SampledArm, spec: &mut SensorSpec, random: &mut ChaCha8Rng) {
     let noise = match (arm.electronics.effort, class) {
         (EffortClass::Command, _) => 0.0,

@@ -54,7 +54,7 @@ fn rms<'a>(torque: impl Iterator<Item = &'a DMatrix<f64>>, joint: usize) -> f64 
     (sum / count.max(1) as f64).sqrt()
 }
 
-/// The transforms of all columns, each frequency over the deviation of the noise there.
+/// Fourier transforms of all columns, each frequency divided by the deviation of its noise.
 fn whiten(
     runs: &[SeenRun],
     columns: &[TorqueColumn],
@@ -100,7 +100,7 @@ fn whiten(
     rows
 }
 
-/// The torques of all columns over the scale of their joint, so that a column's square is a mean over samples.
+/// Torques of all columns divided by the scale of their joint, so that a squared norm is a mean over samples.
 fn scale_columns(runs: &[SeenRun], columns: &[TorqueColumn], scales: &[f64]) -> Mat<f64> {
     let samples: usize = runs.iter().map(SeenRun::rows).sum();
     let mut rows = Mat::zeros(samples * scales.len(), columns.len());
@@ -119,8 +119,7 @@ fn scale_columns(runs: &[SeenRun], columns: &[TorqueColumn], scales: &[f64]) -> 
     rows
 }
 
-/// What column `k` leaves when all others that stand for something else are fitted to it, as a norm; `weight` is
-/// that of what is known of them beforehand.
+/// Norm of column `k` after a fit by all columns that stand for something else. `weight` scales their priors.
 fn unexplained_norm(k: usize, columns: &[TorqueColumn], gram: &Mat<f64>, weight: f64) -> f64 {
     let own = columns[k].stands_for;
     let same = |c: usize| own != StandIn::Itself && columns[c].stands_for == own;

@@ -4,8 +4,8 @@ use crate::oracle::motion::SeenRun;
 use crate::oracle::noise::OracleNoise;
 use crate::oracle::regression::effort_rms;
 
-/// What torques of each joint count by: RMS of its effort, at least the deviation of its noise and a thousandth of
-/// the drive's limit (N m or N).
+/// Scale of torques at each joint (N m or N): RMS of its effort, at least the deviation of its noise and a
+/// thousandth of the drive's limit.
 pub(crate) fn torque_scales(runs: &[SeenRun], robot: &Robot, noise: &[OracleNoise]) -> Vec<f64> {
     let joint = |(j, (link, noise)): (usize, (&robot::Link, &OracleNoise))| {
         let limit = link.joint.limits.effort.filter(|limit| limit.is_finite()).unwrap_or(0.0);

@@ -8,8 +8,8 @@ use crate::oracle::motion::SeenRun;
 /// Speed at which dry friction has three quarters of its level (rad/s or m/s).
 const CREEP: f64 = 2e-3;
 
-/// How well bodies are known beforehand: share of mass, distance of the centre of mass as a share of the
-/// body's radius of gyration, and share of inertia.
+/// Prior deviation of bodies: share of mass, offset of the centre of mass as a share of the radius of
+/// gyration, and share of inertia.
 const KNOWN: f64 = 0.05;
 
 /// Sign of a velocity, smooth about zero.
@@ -17,8 +17,8 @@ pub(crate) fn dry(qd: f64) -> f64 {
     (qd / CREEP).tanh()
 }
 
-/// All that may stand in for a cause: dry and viscous friction, an offset and a rotor at every joint, of any
-/// size, and the ten parameters of every body, known to a twentieth.
+/// Columns that may explain a cause instead: dry and viscous friction, an offset and a rotor of any size at
+/// every joint, and the ten parameters of every body, known to a twentieth.
 pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<TorqueColumn> {
     let joints = robot.joint_count();
     let mut columns = Vec::with_capacity(14 * joints);
@@ -45,7 +45,7 @@ pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<TorqueColumn> {
     columns
 }
 
-/// Deviations of a body's ten parameters as they are known beforehand.
+/// Prior deviations of a body's ten parameters.
 fn deviations(body: &Inertia) -> [f64; 10] {
     let mass = body.mass.max(1e-6);
     let radius = (body.about_com.trace() / (2.0 * mass)).sqrt().max(1e-4);
@@ -79,7 +79,7 @@ fn body_columns(robot: &Robot, runs: &[SeenRun]) -> Vec<BodyColumn> {
 }
 
 impl SeenRun {
-    /// How the links move at a sample.
+    /// Motion of the links at a sample.
     pub fn moving(&self, robot: &Robot, i: usize) -> Moving {
         let of = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<f64>>();
         Moving::new(robot, &of(&self.q), &of(&self.qd), &of(&self.qdd))

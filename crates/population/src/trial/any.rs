@@ -9,8 +9,8 @@ use crate::recorded::trial::draw_recorded;
 use crate::spec::{PopulationSpec, RecordedSpec};
 use crate::trial::make::{make, write_runs};
 
-/// Makes the files of a trial of any origin in a folder, which is made when it is not there: those of
-/// [`make`], without `truth` where the logs are recorded.
+/// Makes the files of a trial of any origin in a folder, creating it where it is absent. They are those of
+/// [`make`], without `truth` for recorded logs.
 ///
 /// # Errors
 ///

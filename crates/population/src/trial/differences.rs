@@ -9,24 +9,24 @@ use crate::oracle::stand_ins::dry;
 use crate::sheet::Role;
 use crate::trial::background::Friction;
 
-/// A way in which an arm differs from its nominal model, and the torque that comes of it.
+/// A difference of an arm from its nominal model, with the torque that it causes.
 pub(crate) struct Difference {
     pub role: Role,
     pub truth: Truth,
     pub column: TorqueColumn,
 }
 
-/// What the drives of an arm add to the effort of its log.
+/// Whether the effort of a log contains the friction and rotors of the drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Drives {
-    /// Friction and rotor: the effort is a motor's or a command.
+    /// It does: the effort is a motor's or a command.
     Seen,
-    /// Nothing: the effort is measured behind them.
+    /// It does not: the effort is measured behind the drives.
     Unseen,
 }
 
-/// Where an arm with its friction differs from its nominal model: friction and rotor of each joint, where the
-/// effort holds them, body of each link.
+/// All differences of an arm from its nominal model: friction and rotor of each joint, where the effort contains
+/// them, and the body of each link.
 ///
 /// ```text
 /// tau = (F - F_nominal) sign(qd),  (b - b_nominal) qd,  (J - J_nominal) qdd,  Y (pi - pi_nominal)
@@ -96,7 +96,7 @@ fn alone(run: &SeenRun, joint: usize, of: &dyn Fn(usize) -> f64) -> DMatrix<f64>
     DMatrix::from_fn(run.rows(), run.q.ncols(), value)
 }
 
-/// Torque of what a body truly weighs beyond its nominal model.
+/// Torque of a body beyond its nominal model.
 fn body(robot: &Robot, link: usize, nominal: &Inertia, runs: &[SeenRun]) -> TorqueColumn {
     let (real, known) = (robot.links()[link].inertia.parameters(), nominal.parameters());
     let mut beyond = real;

@@ -8,15 +8,15 @@ use crate::corner::ArmClass;
 use crate::trial::hidden::{HiddenKind, HiddenThings, SizedCause};
 use crate::trial::pilot::Pilot;
 
-/// Draws of one effect before it is left out.
+/// Draws of one effect before it is skipped.
 const TRIES: usize = 6;
 
-/// Least and largest strength over what an oracle just sees: a fifth of them is below.
+/// Least and largest strength relative to the threshold of visibility; a fifth of draws is below it.
 const STRENGTHS: [f64; 2] = [0.4, 25.0];
 
-/// Kinds that are hidden in an arm: all of the catalogue but everyday friction, which is everywhere, rotors,
-/// which a nominal model may not know anyway, drives that reach their limit, with which a controller loses
-/// the arm, and the friction of a differential and a counterbalance in an arm that has none.
+/// Kinds that can be hidden in an arm: all of the catalogue with these exceptions. Everyday friction is in
+/// every arm, rotors may be missing in the nominal model anyway, and a saturated drive makes the controller
+/// lose the arm. The friction of a differential and a counterbalance need an arm that has one.
 fn kinds(class: ArmClass) -> Vec<EffectKind> {
     use EffectKind as K;
     let left_out = |kind: &EffectKind| {
@@ -33,7 +33,7 @@ fn kinds(class: ArmClass) -> Vec<EffectKind> {
 }
 
 impl HiddenThings {
-    /// So many causes and strangers, each of a strength drawn log-uniformly about what an oracle just sees.
+    /// Draws causes and strangers, with strengths log-uniform around the threshold of visibility.
     pub fn draw(
         pilot: &Pilot<'_>,
         class: ArmClass,

@@ -2,21 +2,21 @@ use catalogue::EffectKind;
 use simulator::effects::EffectSpec;
 use simulator::strangers::{StrangerKind, StrangerSpec};
 
-/// A kind of what is hidden.
+/// Kind of a hidden cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HiddenKind {
     /// An effect of the catalogue.
     Cause(EffectKind),
-    /// An effect of no catalogue.
+    /// An effect outside the catalogue.
     Stranger(StrangerKind),
 }
 
-/// What is hidden in an arm beyond everyday friction.
+/// Everything hidden in an arm beyond everyday friction.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct HiddenThings {
     /// Effects of the catalogue.
     pub causes: Vec<EffectSpec>,
-    /// Effects of no catalogue.
+    /// Effects outside the catalogue.
     pub strangers: Vec<StrangerSpec>,
 }
 
@@ -25,6 +25,6 @@ pub(crate) struct HiddenThings {
 pub(crate) enum SizedCause {
     /// Of the catalogue.
     Cause(EffectSpec),
-    /// Of no catalogue.
+    /// Outside the catalogue.
     Stranger(StrangerSpec),
 }

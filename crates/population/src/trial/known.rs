@@ -6,12 +6,12 @@ use crate::error::PopulationError;
 use crate::robot_files::RobotFiles;
 use crate::trial::background::Friction;
 
-/// What the nominal model says of everyday friction.
+/// What the nominal model states about everyday friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum NominalKnowledge {
-    /// What the bench's files say: nothing, or a URDF's dummy value.
+    /// The content of the bench's files: nothing, or a URDF's dummy value.
     AsDescribed,
-    /// No friction and no rotor: the effort is measured behind the drive, where neither is.
+    /// No friction and no rotor, since the effort is measured behind the drive.
     BodiesAlone,
     /// Values within a third of the truth.
     Roughly,

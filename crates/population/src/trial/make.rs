@@ -27,13 +27,13 @@ use crate::trial::seen::{OracleRuns, inertias};
 use crate::trial::spoilt::Spoilt;
 use crate::trial::step::{step_ms, whole_step_ms};
 
-/// Longest step of the simulation in which sizes are settled (ms).
+/// Longest simulation step for sizing causes (ms).
 const PILOT_MS: f64 = 2.0;
 
-/// Draws of a trial before it is given up.
+/// Draws of a trial before it fails.
 const TRIES: u64 = 8;
 
-/// Share of a joint's range by which it may leave it.
+/// Tolerated excess over a joint's range, as a share of the range.
 const OUT_OF_RANGE: f64 = 0.1;
 
 /// Share of trials whose nominal model knows friction roughly.
@@ -42,15 +42,15 @@ const ROUGHLY_KNOWN: f64 = 0.25;
 /// Draws a simulated trial from its seed and makes its files in a folder:
 ///
 /// ```text
-/// nominal/robot.{urdf,toml}  logs/*.parquet             what a diagnosis is given
-/// held_out/held_out.parquet                             noise-free: what predictions are measured on
-/// truth/{robot.urdf,robot.toml,scenario.toml}           the arm as it is, to be simulated again
-/// sheet.json                                            what is true; the last to appear
+/// nominal/robot.{urdf,toml}  logs/*.parquet             the input of a diagnosis
+/// held_out/held_out.parquet                             noise-free, for measuring predictions
+/// truth/{robot.urdf,robot.toml,scenario.toml}           the true arm, to be simulated again
+/// sheet.json                                            the truth; written last
 /// ```
 ///
 /// # Errors
 ///
-/// [`PopulationError`] when no arm of the draws can be simulated, or a file cannot be written.
+/// [`PopulationError`] when no drawn arm can be simulated, or a file cannot be written.
 pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<Sheet, PopulationError> {
     let mut failed = None;
     for attempt in 0..TRIES {
@@ -64,7 +64,7 @@ pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<Sheet, Po
     Err(failed.unwrap_or(PopulationError::NoRun))
 }
 
-/// Whether another draw may do where this one failed: an arm that ran away, or left its range.
+/// Whether another draw may succeed after this error: an arm ran away or left its range.
 fn is_of_the_draw(error: &PopulationError) -> bool {
     match error {
         PopulationError::LeftItsRange { .. } => true,
@@ -96,7 +96,7 @@ fn make_once(
     draft.log(step, &hidden, spoilt, folder)
 }
 
-/// Refuses runs in which an arm has left its range: it has run away, or fallen, and nobody keeps such a log.
+/// Refuses runs in which an arm left its range: it ran away or fell, and such logs are not kept.
 fn in_range(robot: &Robot, runs: &[Run]) -> Result<(), PopulationError> {
     for (j, link) in robot.links().iter().enumerate() {
         let Some((low, high)) = link.joint.limits.position else { continue };
@@ -111,7 +111,7 @@ fn in_range(robot: &Robot, runs: &[Run]) -> Result<(), PopulationError> {
     Ok(())
 }
 
-/// What is asked of a bench: as many logs, and of such a length, that all together are not too long.
+/// Draws the wishes for a bench, with a total length of logs within the limit.
 fn wishes(spec: &PopulationSpec, random: &mut ChaCha8Rng) -> BenchWishes {
     let ([fewest, most], [shortest, longest]) = (spec.logs, spec.log_s);
     let room = (spec.longest_s / shortest) as usize;
@@ -186,7 +186,7 @@ impl Draft {
         1e3 / self.bench.control.rate_hz.or(self.truth.control.rate_hz).unwrap_or(500.0)
     }
 
-    /// Step of the encoder of each joint, or what stands for it: its noise.
+    /// Step of the encoder of each joint, or its noise where that is larger.
     fn encoder_steps(&self) -> Vec<f64> {
         let sensors = &self.bench.sensors;
         let of = |name: &str| {
@@ -214,20 +214,20 @@ impl Draft {
         Ok(Scenario::from_document(&Document::from_text("scenario.toml", &text)?)?)
     }
 
-    /// Step of the simulation of the logs (ms), as long as the encoders and the springs allow.
+    /// Longest simulation step for the logs that encoders and springs allow (ms).
     fn step_ms(&self, hidden: &HiddenThings) -> Result<f64, PopulationError> {
         let with_step = |step| self.scenario(step, hidden);
         let effects = [self.friction(), hidden.causes.clone()].concat();
         step_ms(&with_step, &effects, self.period_ms(), &self.encoder_steps())
     }
 
-    /// Step in which sizes are settled and torques compared (ms): what two motions in the same steps have in
-    /// common falls out.
+    /// Simulation step for sizing causes and comparing torques (ms). Errors that two motions with the same step
+    /// share cancel.
     fn coarse_ms(&self) -> f64 {
         whole_step_ms(self.period_ms(), PILOT_MS)
     }
 
-    /// What is hidden, of sizes that an oracle just sees or more.
+    /// Draws the hidden causes, with sizes around the threshold of visibility.
     fn hide(
         &self,
         causes: usize,
@@ -242,8 +242,8 @@ impl Draft {
         Ok(HiddenThings::draw(&pilot, self.bench.class, causes, strangers, random))
     }
 
-    /// What an oracle looks at, in steps as long as the springs of what is hidden allow, at least those of the
-    /// logs.
+    /// Simulates the runs for the oracle, with the longest step that the hidden springs allow, at least that of
+    /// the logs.
     fn oracle_runs(
         &self,
         shortest_ms: f64,
@@ -308,7 +308,7 @@ impl Draft {
         Ok(sheet)
     }
 
-    /// The scenario beside its robot, wherever the folder lies.
+    /// The scenario with a path to the robot beside it, so that the folder can be moved.
     fn portable(&self, scenario: &Scenario) -> String {
         let file = self.truth_file.canonicalize().unwrap_or(self.truth_file.clone());
         scenario.resolved().replace(&file.display().to_string(), "robot.toml")
@@ -336,7 +336,7 @@ impl Draft {
 /// Name of the run that takes no part in the diagnosis.
 const HELD_OUT: &str = "held_out";
 
-/// What the sensors of each joint add.
+/// Noise of the sensors of each joint.
 fn noise(bench: &LabBench, robot: &Robot) -> Vec<OracleNoise> {
     let s = &bench.sensors;
     let inertias = inertias(robot);

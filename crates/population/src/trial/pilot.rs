@@ -16,16 +16,16 @@ use crate::oracle::stand_ins::stand_ins;
 use crate::sheet::Strength;
 use crate::trial::hidden::{HiddenKind, SizedCause};
 
-/// Torque share that is asked for first.
+/// First torque share that is tried.
 const FIRST_SHARE: f64 = 0.1;
 
-/// Least and largest torque share that is asked for.
+/// Least and largest torque share.
 const SHARES: [f64; 2] = [2e-3, 3.0];
 
-/// The first run of a trial, in which the size of what is hidden is settled.
+/// The first run of a trial, on which hidden causes are sized.
 ///
-/// The torque of most effects grows with the share asked for, so one run with a tenth of the torque tells
-/// which share an oracle would see as large as wanted:
+/// The torque of most effects is proportional to the requested share, so one run with a tenth of the torque
+/// gives the share for the strength wanted:
 ///
 /// ```text
 /// share = 0.1 wanted / strength(0.1),   strength = min(sigmas / 5, share / floor)
@@ -56,8 +56,8 @@ impl<'a> Pilot<'a> {
         Ok(Self { scenario, robot, noise, base: base.to_vec(), bench, seen, scales, stand_ins })
     }
 
-    /// What is to be hidden, of about the strength wanted (1 for what an oracle just sees); none where the
-    /// arm runs away with it or it does nothing.
+    /// A cause of about the strength wanted, with 1 at the threshold of visibility; `None` where the arm runs away
+    /// or the cause has no torque.
     pub fn spec_of_strength(
         &self,
         hidden: HiddenKind,
@@ -90,7 +90,7 @@ impl<'a> Pilot<'a> {
         }
     }
 
-    /// What an oracle sees of it in the first run; none where the arm cannot be simulated with it.
+    /// Its visibility in the first run; `None` where the arm cannot be simulated with it.
     fn strength(&self, sized: &SizedCause) -> Option<Strength> {
         let mut effects = self.base.clone();
         let mut strangers = Vec::new();
@@ -108,7 +108,7 @@ impl<'a> Pilot<'a> {
     }
 }
 
-/// How many times what an oracle just sees.
+/// Strength relative to the threshold of visibility.
 fn over_threshold(strength: &Strength) -> f64 {
     (strength.sigmas / Strength::SIGMAS).min(strength.share / Strength::FLOOR)
 }

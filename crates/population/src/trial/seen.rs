@@ -17,13 +17,13 @@ use crate::sheet::{Cause, Role, Unnamed};
 use crate::trial::differences::Difference;
 use crate::trial::hidden::HiddenThings;
 
-/// The runs of a trial without noise, and the torque of each hidden thing in them:
+/// The noise-free runs of a trial, and the torque of each hidden cause in them:
 ///
 /// ```text
 /// torque of k = (effort - bodies along the motion) of the arm  -  the same of the arm without k
 /// ```
 ///
-/// The motion is another where `k` is left out; what that asks of the bodies is taken off on both sides.
+/// The motion changes where `k` is left out, so the torque of the bodies is subtracted on both sides.
 pub(crate) struct OracleRuns {
     pub runs: Vec<SeenRun>,
     causes: Vec<(Truth, Vec<DMatrix<f64>>)>,
@@ -31,7 +31,7 @@ pub(crate) struct OracleRuns {
 }
 
 impl OracleRuns {
-    /// Simulates the runs once with everything and once without each hidden thing.
+    /// Simulates the runs once with everything and once without each hidden cause.
     pub fn new(
         scenario: &Scenario,
         friction: &[EffectSpec],
@@ -57,12 +57,12 @@ impl OracleRuns {
         Ok(Self { runs, causes, strangers })
     }
 
-    /// What torques of each joint count by; see [`crate::sheet::Sheet::torque_rms`].
+    /// Scale of torques at each joint; see [`crate::sheet::Sheet::torque_rms`].
     pub fn scales(&self, robot: &Robot, noise: &[OracleNoise]) -> Vec<f64> {
         torque_scales(&self.runs, robot, noise)
     }
 
-    /// What an oracle sees of every difference from the nominal model and every hidden thing.
+    /// Visibility of every difference from the nominal model and of every hidden cause.
     pub fn strengths(
         &self,
         robot: &Robot,
@@ -125,14 +125,13 @@ fn simulate_without_noise(
     Ok(runs.iter().map(|run| SeenRun::new(scenario.robot(), run)).collect())
 }
 
-/// What one arm's efforts leave beyond its bodies, less the same of another.
+/// Efforts beyond the bodies of one arm minus those of another.
 fn beyond(with: &[SeenRun], without: &[SeenRun]) -> Vec<DMatrix<f64>> {
     let run = |(with, without): (&SeenRun, &SeenRun)| &with.beyond - &without.beyond;
     with.iter().zip(without).map(run).collect()
 }
 
-/// What each joint turns or moves with all others held, drives included, in the middle of its range (kg m2 or
-/// kg).
+/// Inertia of each joint with all others held, drives included, in the middle of its range (kg m2 or kg).
 pub(crate) fn inertias(robot: &Robot) -> Vec<f64> {
     let middle = |link: &robot::Link| {
         link.joint.limits.position.map_or(0.0, |(low, high)| 0.5 * (low + high))

@@ -16,7 +16,7 @@ const HELD_S: f64 = 1.5;
 /// Height of a spike in position (rad or m).
 const SPIKE: f64 = 0.05;
 
-/// A way in which loggers and the people who set them up spoil logs of an arm that has nothing else.
+/// A fault of a logger or its configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LogFault {
     /// The effort of a joint has the other sign.
@@ -86,7 +86,7 @@ pub(crate) struct Spoilt {
 }
 
 impl Spoilt {
-    /// A fault that an arm of so many joints can have.
+    /// Draws a fault that the arm can have.
     pub fn draw(robot: &Robot, random: &mut ChaCha8Rng) -> Self {
         let count = robot.joint_count();
         let joint = random.random_range(0..count);
@@ -99,7 +99,7 @@ impl Spoilt {
         Self { fault, joints: [joint, other], from }
     }
 
-    /// Spoils the logs: those of a moment in the first one only, all others in all.
+    /// Applies the fault: momentary ones to the first log, all others to every log.
     pub fn spoil(&self, robot: &Robot, runs: &mut [Run]) {
         let [own, other] = self.joints;
         for run in runs.iter_mut() {
@@ -159,14 +159,14 @@ impl Spoilt {
         }
     }
 
-    /// What is told of it; `clean` are the logs without noise and without the fault.
+    /// Its entry in the sheet; `clean` are the logs without noise and without the fault.
     ///
     /// ```text
     /// share = torque = root of the mean of the sum over j of (r_spoilt - r_clean)^2 / scale^2
     /// ```
     ///
-    /// with `r` what efforts leave beyond the bodies along the motion that is logged; its deviations are those of
-    /// that many samples at a noise of a hundredth of the torque.
+    /// with `r` the efforts beyond the bodies along the logged motion. `sigmas` assumes a noise of a hundredth of the
+    /// torque in every sample.
     pub fn as_unnamed(&self, robot: &Robot, clean: &[Run], scales: &[f64]) -> Unnamed {
         let mut spoilt = clean.to_vec();
         self.spoil(robot, &mut spoilt);
@@ -209,7 +209,7 @@ fn efforts(joint: &mut Channels) -> impl Iterator<Item = &mut f64> {
     joint.effort.iter_mut().chain(joint.commanded_effort.iter_mut().flatten())
 }
 
-/// Position and velocity of a joint, and what it was asked for.
+/// Position and velocity of a joint, and their references.
 fn positions_and_derivatives(joint: &mut Channels) -> impl Iterator<Item = &mut f64> {
     let Channels { position, velocity, desired_position, desired_velocity, .. } = joint;
     let asked = [desired_position, desired_velocity, &mut joint.desired_acceleration];
@@ -231,7 +231,7 @@ fn exchange(run: &mut Run, one: usize, other: usize) {
     (run.joints[other].effort, run.joints[other].commanded_effort) = a;
 }
 
-/// Takes the torque of gravity from the efforts of a row.
+/// Subtracts the torque of gravity from the efforts of a row.
 fn lift(robot: &Robot, run: &mut Run, row: usize) {
     let q: Vec<f64> = run.joints.iter().map(|joint| joint.position[row]).collect();
     let rest = vec![0.0; q.len()];
