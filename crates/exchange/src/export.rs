@@ -13,17 +13,16 @@ use crate::{mjcf, sdf, urdf, usd};
 pub struct Export {
     /// The file.
     pub text: String,
-    /// Every quantity that is more than a rigid body's, with what became of it.
+    /// The fate of every quantity beyond rigid bodies.
     pub fates: Vec<Fated>,
-    /// The robot that the file describes, positions as encoders report them: what is exact, and what is
-    /// approximated as it is written.
+    /// The robot that the file describes, in reported positions, with approximated quantities as written.
     pub robot: Robot,
 }
 
-/// The robot of `loaded` in a format, positions as its encoders report them.
+/// Writes the robot of `loaded` in a format, in the positions that its encoders report.
 ///
-/// `source` is the text of its URDF; a URDF is that text with what differs written into it, and a new
-/// one where the robot was described otherwise.
+/// `source` is the text of its URDF. A URDF export is that text with the differences edited in; a robot without a
+/// URDF gets a new one.
 ///
 /// # Errors
 ///

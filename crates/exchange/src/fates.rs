@@ -43,7 +43,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
     fates
 }
 
-/// What becomes of a quantity of a joint.
+/// How a format represents a quantity of a joint.
 pub(crate) fn fate_of(quantity: DriveQuantity, link: &Link, format: Format) -> Fate {
     match format {
         Format::Urdf => urdf::edit::fate(quantity),

@@ -25,7 +25,7 @@ impl Format {
         }
     }
 
-    /// How a file of this format is called at its end.
+    /// Extension of a file of this format.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Urdf => "urdf",

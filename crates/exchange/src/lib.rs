@@ -6,8 +6,8 @@
 //!                                           \-> the robot that the file describes
 //! ```
 //!
-//! [`export`] writes what a format can hold, says of every quantity what became of it, and gives the robot that is
-//! left of it, whose torque tells the loss.
+//! [`export`] writes what a format can hold, states the fate of every quantity, and returns the robot that the file
+//! describes. The torques of both robots show the loss.
 
 mod error;
 mod export;

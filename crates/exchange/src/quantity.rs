@@ -2,7 +2,7 @@ use robot::{Actuator, Link, Robot};
 
 use crate::numbers::size;
 
-/// A quantity of a joint that is not that of an ideal drive.
+/// A property of a drive that an ideal drive lacks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriveQuantity {
     /// Inertia of the rotor.
@@ -11,16 +11,17 @@ pub enum DriveQuantity {
     Viscous,
     /// Dry friction, the mean of both directions.
     Coulomb,
-    /// Half of what it is more in one direction.
+    /// Half the difference of its two directions.
     Asymmetry,
     /// Dry friction near rest.
     Stribeck,
     /// Friction per load.
     LoadFriction,
-    /// Way over which dry friction builds up.
+    /// Displacement over which dry friction builds up.
     Presliding,
     /// Friction over position.
     FrictionWave,
+    /// Friction lost while the drive warms up.
     Warming,
     /// Torque over position.
     Ripple,
@@ -32,7 +33,7 @@ pub enum DriveQuantity {
     SpringCubic,
     /// Its loop.
     SpringHysteresis,
-    /// Spring or weight that carries part of the weight.
+    /// Spring or counterweight that balances part of the weight.
     Counterbalance,
     /// Reported effort per torque.
     EffortGain,
@@ -63,7 +64,7 @@ pub fn levels(a: &Actuator) -> (f64, f64) {
     (0.5 * (a.coulomb_forward + a.coulomb_backward), 0.5 * (a.coulomb_forward - a.coulomb_backward))
 }
 
-/// All that the drive of a link adds to the ideal one, each with its size in words.
+/// Every property in which the drive of a link differs from an ideal one, with its size in words.
 pub fn quantities(robot: &Robot, link: &Link) -> Vec<(DriveQuantity, String)> {
     use DriveQuantity as Q;
     let a = &link.actuator;

@@ -6,12 +6,11 @@ use crate::format::Format;
 use crate::quantity::{DriveQuantity, levels, quantities};
 use crate::{mjcf, usd};
 
-/// The robot that a file of `format` describes, of `reported`, whose positions are those that its encoders report.
+/// The robot that a file of `format` describes, made from `reported`, whose positions are the reported ones.
 ///
-/// What the file drops is that of an ideal drive; what it approximates is as it is written: in an MJCF a
-/// constant torque as a soft spring and raised moments, in a USD layer no friction beyond the Coulomb level
-/// in motion. A URDF leaves gravity as its readers have it, and an SDF stands in a world whose gravity is as
-/// strong as the robot's.
+/// Dropped quantities become those of an ideal drive. Approximated ones are as written: an MJCF has a constant torque
+/// as a soft spring and raised moments, a USD layer has no friction beyond the Coulomb level in motion. A URDF has
+/// the default gravity of its readers, and an SDF a world with gravity of the robot's magnitude.
 pub(crate) fn robot_in_file(loaded: &Loaded, reported: &Robot, format: Format) -> Robot {
     let mut held = reported.clone();
     if format == Format::Urdf {
@@ -32,7 +31,7 @@ pub(crate) fn robot_in_file(loaded: &Loaded, reported: &Robot, format: Format) -
     held
 }
 
-/// A body as it is written.
+/// A body as written.
 fn inertia(inertia: &Inertia, format: Format) -> Inertia {
     match format {
         Format::Mjcf if !inertia.defects().is_empty() => {
@@ -45,7 +44,7 @@ fn inertia(inertia: &Inertia, format: Format) -> Inertia {
     }
 }
 
-/// Writes a quantity that stands in the file as another one.
+/// Applies the approximation with which a format writes a quantity.
 fn write(quantity: DriveQuantity, link: &Link, format: Format, drive: &mut Actuator) {
     match (quantity, format) {
         // The constant torque is in the rest of the spring.
@@ -63,7 +62,7 @@ fn write(quantity: DriveQuantity, link: &Link, format: Format, drive: &mut Actua
     }
 }
 
-/// Makes a quantity that of an ideal drive.
+/// Resets a quantity to that of an ideal drive.
 fn leave_out(quantity: DriveQuantity, drive: &mut Actuator) {
     use DriveQuantity as Q;
     let (mean, difference) = levels(drive);

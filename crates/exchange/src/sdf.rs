@@ -104,7 +104,7 @@ fn joint(sheet: &mut XmlText, link: &Link, parent: &str) {
     sheet.close();
 }
 
-/// What becomes of a quantity of a joint.
+/// How an SDF represents a quantity of a joint.
 pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
     match quantity {
         DriveQuantity::Viscous => Fate::exact("<damping>"),

@@ -1,6 +1,6 @@
 use quick_xml::escape::escape;
 
-/// XML that is being written, an element a line.
+/// Writes XML, one element per line.
 #[derive(Debug, Default)]
 pub struct XmlText {
     text: String,
@@ -11,12 +11,12 @@ pub struct XmlText {
 pub type Attributes<'a> = &'a [(&'static str, String)];
 
 impl XmlText {
-    /// An empty sheet.
+    /// An empty document.
     pub fn new() -> Self {
         Self { text: "<?xml version=\"1.0\"?>\n".to_owned(), open: vec![] }
     }
 
-    /// A comment; two hyphens in a row are none inside of one.
+    /// A comment; two hyphens in a row are separated, since XML forbids them in comments.
     pub fn comment(&mut self, words: &str) {
         let words = words.replace("--", "- -");
         self.line(&format!("<!-- {words} -->"));

@@ -106,8 +106,8 @@ fn inertial(sheet: &mut XmlText, link: &Link) {
     );
 }
 
-/// An impossible body as MuJoCo takes it: no mass and no moment below the least, and three equal moments, their mean, where one is
-/// larger than the two others together (`balanceinertia`).
+/// The body with mass and moments that MuJoCo accepts: none below the least. Where one moment exceeds the sum of the
+/// others, all three become their mean (`balanceinertia`).
 pub fn with_possible_moments(inertia: &Inertia) -> Inertia {
     let mut about_com = positive(&inertia.about_com);
     let moments = about_com.symmetric_eigenvalues();
@@ -160,7 +160,7 @@ fn geom(sheet: &mut XmlText, visual: &Visual) {
     sheet.leaf("geom", &attributes);
 }
 
-/// What becomes of a quantity of a joint.
+/// How an MJCF represents a quantity of a joint.
 pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
     use DriveQuantity as Q;
     let a = &link.actuator;

@@ -1,4 +1,4 @@
-//! A URDF with what differs from it written into it.
+//! Edits the differences of a robot into the text of its URDF.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::urdf::inertial::{from_urdf, with_change};
 use crate::urdf::joint_change::JointChange;
 use crate::urdf::tag::{pose, text, value};
 
-/// The text with every change of `robot` written into it.
+/// The text with every difference of `robot` edited in.
 pub fn edit(loaded: &Loaded, robot: &Robot, source: &str) -> Result<String, ExchangeError> {
     let mut edit = Edit::new(loaded, robot);
     let mut reader = Reader::from_str(source);
@@ -35,7 +35,7 @@ pub fn edit(loaded: &Loaded, robot: &Robot, source: &str) -> Result<String, Exch
     Ok(String::from_utf8_lossy(&edit.writer.into_inner()).into_owned())
 }
 
-/// What becomes of a quantity of a joint.
+/// How a URDF represents a quantity of a joint.
 pub fn fate(quantity: DriveQuantity) -> Fate {
     match quantity {
         DriveQuantity::Viscous => Fate::exact("<dynamics damping>"),
@@ -171,7 +171,7 @@ impl<'a> Edit<'a> {
         }
     }
 
-    /// Takes what a tag inside of an inertia says.
+    /// Reads a tag inside an inertia.
     fn read(&mut self, tag: &BytesStart<'_>) {
         if let (Current::Inertial(_, own), 3) = (&mut self.current, self.depth) {
             own.read(tag);

@@ -1,7 +1,7 @@
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use robot::Inertia;
 
-/// What is written of a link so that its body, with all that is fixed to it, has the new inertia.
+/// The inertia to write for a link so that its body, with everything fixed to it, has the new inertia.
 ///
 /// ```text
 /// pi_written = pi_of_the_link + (pi_new - pi_old)     ten parameters about the link's origin

@@ -7,11 +7,11 @@ use crate::quantity::levels;
 use crate::reported::motion;
 use crate::urdf::tag::{pose, text};
 
-/// What differs at a joint of a URDF.
+/// The changes at a joint of a URDF.
 pub struct JointChange {
     /// Viscous friction and the level of dry friction.
     dynamics: Option<[f64; 2]>,
-    /// What its origin is turned or shifted by, from the right.
+    /// Motion by which its origin is multiplied from the right.
     moved: Option<Isometry3<f64>>,
     /// Lowest and highest position where these move with it.
     position: Option<(f64, f64)>,
@@ -24,7 +24,7 @@ pub struct JointChange {
 }
 
 impl JointChange {
-    /// What differs between the link as reported and the nominal one; `offset` is its encoder's.
+    /// The changes from the nominal link to the reported one; `offset` is that of its encoder.
     pub fn new(new: &Link, old: &Link, offset: f64) -> Self {
         let drive = |link: &Link| [link.actuator.viscous, levels(&link.actuator).0];
         let differs = |a: f64, b: f64| (a - b).abs() > 0.0;
@@ -44,7 +44,7 @@ impl JointChange {
         }
     }
 
-    /// The tag that is written in the place of one inside of the joint, if it differs.
+    /// The replacement of a tag inside the joint, if it changes.
     pub fn replacement(&mut self, name: &str, tag: &BytesStart<'_>) -> Option<BytesStart<'static>> {
         match name {
             "dynamics" if !self.has_dynamics => {

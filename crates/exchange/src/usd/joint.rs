@@ -89,7 +89,7 @@ fn along_x(axis: &Vector3<f64>) -> UnitQuaternion<f64> {
     })
 }
 
-/// What becomes of a quantity of a joint.
+/// How a USD layer represents a quantity of a joint.
 pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
     match quantity {
         DriveQuantity::Rotor => Fate::exact("armature of PhysxJointAxisAPI and NewtonJointAPI"),

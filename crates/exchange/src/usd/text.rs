@@ -4,7 +4,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::numbers::number;
 
-/// A text layer of Universal Scene Description that is being written.
+/// Writes a text layer of Universal Scene Description.
 #[derive(Debug, Default)]
 pub struct UsdText {
     text: String,
@@ -44,7 +44,7 @@ impl UsdText {
         self.line(&format!("{property} = {value}"));
     }
 
-    /// The name that a prim had elsewhere.
+    /// The original name of a prim.
     pub fn original_name(&mut self, name: &str) {
         let plain: String = name.chars().filter(|c| !c.is_control()).collect();
         let quoted = plain.replace('\\', "\\\\").replace('"', "\\\"");
@@ -74,14 +74,14 @@ pub fn rotation(q: &UnitQuaternion<f64>) -> String {
     format!("({}, {}, {}, {})", number(q.w), number(q.i), number(q.j), number(q.k))
 }
 
-/// Names of prims, each one once: letters, digits and `_`, the first of them no digit.
+/// Unique names of prims: letters, digits and `_`, not beginning with a digit.
 #[derive(Debug, Default)]
 pub struct PrimNames {
     used: BTreeSet<String>,
 }
 
 impl PrimNames {
-    /// One for a name that may hold anything.
+    /// A unique prim name for any name.
     pub fn of(&mut self, name: &str) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
         let mut prim: String = name.chars().map(plain).collect();

@@ -96,7 +96,7 @@ impl Inertia {
     /// m = m1 + m2,  c = (m1 c1 + m2 c2) / m,  d = c2 - c1
     /// I = I1 + I2 + (m1 m2 / m) (d'd 1 - d d')
     /// ```
-    pub fn plus(&self, other: &Self) -> Self {
+    pub fn merged_with(&self, other: &Self) -> Self {
         let mass = self.mass + other.mass;
         if mass.abs() <= 0.0 {
             return Self { about_com: self.about_com + other.about_com, ..self.clone() };
@@ -113,7 +113,7 @@ impl Inertia {
 
     /// Adds a body that is fixed to this one. Adding to [`zero`](Self::zero) copies it without rounding.
     pub(crate) fn add(&mut self, part: &Self) {
-        *self = if *self == Self::zero() { part.clone() } else { self.plus(part) };
+        *self = if *self == Self::zero() { part.clone() } else { self.merged_with(part) };
     }
 
     /// The pseudo-inertia about the link origin, positive definite exactly when the
