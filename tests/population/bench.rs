@@ -5,7 +5,7 @@ use std::path::Path;
 
 use document::Document;
 use motion::State;
-use population::{ArmClass, LabBench, BenchWishes, EffortClass, MotionClass, draw_bench};
+use population::{ArmClass, BenchWishes, EffortClass, LabBench, MotionClass, draw_bench};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use robot::{Loaded, Robot};

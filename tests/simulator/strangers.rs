@@ -9,7 +9,8 @@ use robot::Robot;
 use simulator::scenario::Scenario;
 use simulator::strangers::{StrangerKind, StrangerSpec, StrangerTruth};
 use simulator::{
-    EffectSizer, LogFormat, Simulator, SimulatorError, Stepping, drawn, simulate, simulate_silent, write,
+    EffectSizer, LogFormat, Simulator, SimulatorError, Stepping, drawn, simulate, simulate_silent,
+    write,
 };
 
 use crate::scenario::document;
