@@ -1,5 +1,7 @@
 //! Generated serial arms.
 
+use std::fmt::Write;
+
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use robot::{Robot, SensingSide, TorqueSource};

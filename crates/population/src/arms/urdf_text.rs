@@ -1,5 +1,7 @@
 //! A chain as a URDF.
 
+use std::fmt::Write;
+
 use nalgebra::{Isometry3, Vector3};
 use robot::{Inertia, JointKind};
 

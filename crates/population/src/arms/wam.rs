@@ -1,5 +1,7 @@
 //! Barrett's arm, as `robots/wam7` has it.
 
+use std::fmt::Write;
+
 use document::Document;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use simulator::effects::EffectSpec;
-use simulator::strangers::{StrangerKind, StrangerSpec};
+use simulator::strangers::StrangerKind;
 
 use crate::corner::ArmClass;
 use crate::trial::hidden::{HiddenKind, HiddenThings, SizedCause};

@@ -89,7 +89,7 @@ impl OracleRuns {
         let mut strengths = strengths(&self.runs, &columns, count, noise, &scales).into_iter();
         let roles = places
             .into_iter()
-            .chain(self.causes.iter().map(|(truth, _)| (Role::HiddenKind, truth.clone())));
+            .chain(self.causes.iter().map(|(truth, _)| (Role::Hidden, truth.clone())));
         let mut causes: Vec<Cause> = roles
             .zip(strengths.by_ref())
             .map(|((role, truth), strength)| Cause { role, truth, strength })
