@@ -1,4 +1,4 @@
-//! Drive: from the effort that is asked for to the torque that acts.
+//! Drive: from the commanded effort to the torque that acts.
 
 use crate::entry::{Entry, TORQUE, always, parameter, phase};
 use crate::family::Family;

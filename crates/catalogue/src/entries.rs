@@ -4,7 +4,7 @@ use crate::kind::EffectKind;
 use crate::{drive, environment, friction, inertia, sensing, transmission};
 
 impl EffectKind {
-    /// What is known about this effect.
+    /// The description of this effect.
     pub const fn entry(self) -> &'static Entry {
         match self {
             Self::ViscousFriction => &friction::VISCOUS,
@@ -47,8 +47,8 @@ impl EffectKind {
         self.entry().words
     }
 
-    /// The motion that tells it from `rivals`: its own, or a payload's where one is among them, which only a second
-    /// log settles. None where it has no rivals.
+    /// The motion that distinguishes it from `rivals`; `None` without rivals. With a payload among them it is the
+    /// payload's, since only a second log can decide then.
     pub fn told_apart_from(self, rivals: impl IntoIterator<Item = Self>) -> Option<&'static str> {
         let mut rivals = rivals.into_iter().peekable();
         rivals.peek()?;

@@ -18,7 +18,7 @@ pub struct Parameter {
     pub typical: (f64, f64),
 }
 
-/// What is known about an effect, in words.
+/// The description of an effect, in words.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Entry {
     /// The effect.
@@ -33,13 +33,13 @@ pub struct Entry {
     pub equation: &'static str,
     /// Its parameters.
     pub parameters: &'static [Parameter],
-    /// How it shows in a log.
+    /// Its signature in a log.
     pub signature: &'static str,
-    /// What a log needs to show it.
+    /// What a log must contain to reveal it.
     pub needs: &'static str,
-    /// Effects that can produce the same torque.
+    /// Effects with which it is confused because they can produce the same torque.
     pub confused_with: &'static [EffectKind],
-    /// The motion that tells it from those.
+    /// The motion that distinguishes it from those.
     pub told_apart_by: &'static str,
     /// Where the model comes from.
     pub source: &'static str,
@@ -64,7 +64,7 @@ pub(crate) const fn parameter(
     Parameter { name, unit, unit_prismatic, meaning, typical }
 }
 
-/// Where in its period something is at position or time zero.
+/// The phase of something periodic at position or time zero.
 pub(crate) const fn phase(meaning: &'static str) -> Parameter {
     parameter("phase", always("rad"), meaning, (-std::f64::consts::PI, std::f64::consts::PI))
 }

@@ -1,4 +1,4 @@
-//! Environment: how the arm is mounted, and what pulls and pushes it from outside.
+//! Environment: the mounting of the arm, and forces from outside.
 
 use crate::entry::{Entry, POSITION, TORQUE, always, parameter, phase};
 use crate::family::Family;

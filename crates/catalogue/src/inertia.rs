@@ -1,4 +1,4 @@
-//! Inertia: what has to be moved and carried.
+//! Inertia: the bodies that a drive moves and carries.
 
 use crate::entry::{Entry, Parameter, always, parameter};
 use crate::family::Family;

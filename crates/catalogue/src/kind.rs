@@ -41,12 +41,12 @@ macro_rules! kinds {
 crate::for_each_effect!(kinds);
 
 impl EffectKind {
-    /// Whether it is felt the more the smaller its first parameter is, such as the stiffness of a spring.
+    /// Whether its torque grows as its first parameter falls, as with the stiffness of a spring.
     pub const fn grows_as_its_size_falls(self) -> bool {
         matches!(self, Self::JointElasticity)
     }
 
-    /// What two encoders of a joint leave open of it, in words.
+    /// In words, what two encoders of a joint cannot decide about it.
     pub const fn left_open_by_two_encoders(self) -> Option<&'static str> {
         match self {
             Self::EncoderOffset => Some(

@@ -1,4 +1,4 @@
-//! Sensors: what is reported for what is there.
+//! Sensing: from true values to reported ones.
 
 use crate::entry::{Entry, POSITION, always, parameter};
 use crate::family::Family;

@@ -1,4 +1,4 @@
-//! Transmission: what lies between motor and link.
+//! Transmission: between motor and link.
 
 use crate::entry::{Entry, POSITION, TORQUE, always, parameter};
 use crate::family::Family;

@@ -1,13 +1,12 @@
-//! Trials as workshops vary: an arm, a nominal model of it, its sensors, its motions and what is wrong with
-//! it, all drawn from one seed, and what an oracle that knows the truth could see of each cause.
+//! Trials with the variety of workshops: an arm, its nominal model, its sensors, its motions and its faults, all
+//! drawn from one seed, with the visibility of each cause to an oracle that knows the truth.
 //!
 //! ```text
 //! seed --draw--> arm, nominal model, sensors, runs, causes, strangers --simulator--> logs
-//!                                  \--> sheet.json: what is true, opened by scoring alone
+//!                                  \--> sheet.json: the truth, read by scoring alone
 //! ```
 //!
-//! All of it is on the truth side: nothing here uses the project's dynamics, its effects' columns or its
-//! diagnosis.
+//! The crate belongs to the truth side and never uses the project's dynamics, effect columns or diagnosis.
 
 mod arms;
 mod bench;

@@ -1,14 +1,12 @@
-//! What a robot is: links, joints, inertias and actuators, in the form every
-//! other crate reads.
+//! The description of a robot: links, joints, inertias and actuators, for all other crates.
 //!
 //! ```text
 //! tau = M(q) qdd + C(q, qd) qd + g(q) + (what the actuators add)
 //! ```
 //!
-//! The terms of a rigid body come from [`Link`] and [`Joint`], what an actuator
-//! adds from [`Actuator`]. [`Robot::load`] reads them from `robot.urdf` and
-//! `robot.toml`, or from an MJCF. Data only: no dynamics is computed here. [`Machine`] is what a controller
-//! sees of an arm, simulated or real.
+//! [`Link`] and [`Joint`] hold the rigid bodies, [`Actuator`] holds the terms of the drives.
+//! [`Robot::load`] reads them from `robot.urdf` and `robot.toml`, or from an MJCF. The crate holds data and
+//! computes no dynamics. [`Machine`] is the interface of a controller to an arm, simulated or real.
 
 mod content;
 mod error;

@@ -8,18 +8,18 @@ use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, direction, round_to_digits, weighted_index};
 use crate::robot_files::RobotFiles;
 
-/// An arm: what it is, what its user has of it, and what its motions must keep to.
+/// An arm with its nominal model, its electronics and the limits of its motions.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SampledArm {
-    /// The arm as it is.
+    /// The true arm.
     pub truth: RobotFiles,
-    /// What the user has.
+    /// The user's model.
     pub nominal: RobotFiles,
-    /// The arm as it is: bodies, rotors, springs, gravity, limits.
+    /// The true arm: bodies, rotors, springs, gravity, limits.
     pub robot: Robot,
-    /// Its loop and signals.
+    /// Its controller and signals.
     pub electronics: Electronics,
-    /// Stiffness of each joint's loop (N m/rad or N/m).
+    /// Position gain of each joint (N m/rad or N/m).
     pub kp: Vec<f64>,
     /// Largest torque of each joint (N m or N).
     pub limits: Vec<f64>,
@@ -36,7 +36,7 @@ impl SampledArm {
     }
 }
 
-/// How a base stands.
+/// How a base is mounted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Base {
     Upright,
@@ -69,7 +69,7 @@ impl Base {
     }
 }
 
-/// What a user knows of the rotors.
+/// Whether a user's model has the rotors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RotorsKnown {
     All,
@@ -77,14 +77,14 @@ pub(crate) enum RotorsKnown {
 }
 
 impl RotorsKnown {
-    /// A joint torque sensor sits behind the rotor: the model of its reading has none.
+    /// A joint torque sensor sits behind the rotor, so a model of its reading has no rotor.
     pub(crate) fn draw(electronics: &Electronics, random: &mut ChaCha8Rng) -> Self {
         let known = weighted_index(random, &[0.6, 0.4]) == 0;
         if known && electronics.effort != EffortClass::JointTorque { Self::All } else { Self::None }
     }
 }
 
-/// How far a nominal model is off, over what models are off by: exact in one arm of five.
+/// Error of a nominal model relative to the usual errors; zero in one arm of five.
 pub(crate) fn error_level(random: &mut ChaCha8Rng) -> f64 {
     match weighted_index(random, &[0.2, 0.8]) {
         0 => 0.0,
@@ -92,7 +92,7 @@ pub(crate) fn error_level(random: &mut ChaCha8Rng) -> f64 {
     }
 }
 
-/// What a URDF states for `<dynamics>`: mostly nothing, or a dummy that nobody has measured.
+/// Values of `<dynamics>` in a URDF: usually none, otherwise an unmeasured dummy.
 pub(crate) fn dummy_dynamics(class: ArmClass, random: &mut ChaCha8Rng) -> Option<[f64; 2]> {
     let sizes = match class {
         ArmClass::Hobby => [[0.0, 0.0], [0.01, 0.01], [0.1, 0.0]],

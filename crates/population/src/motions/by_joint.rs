@@ -11,7 +11,8 @@ use crate::motions::ground::{Ground, glide_s};
 use crate::motions::log_plan::LogPlan;
 use crate::motions::postures::Path;
 
-/// One joint after the other, the others at rest: one a log where there are as many logs, else all in each.
+/// Moves one joint after the other with the others at rest: one joint per log where there are enough logs, otherwise
+/// all joints in each log.
 pub(crate) fn one_by_one(
     ground: &Ground<'_>,
     place: LogPlan,
@@ -35,7 +36,7 @@ pub(crate) fn one_by_one(
 /// Speeds of a joint's strokes, over the fastest.
 const STROKES: [f64; 3] = [1.0, 0.45, 0.15];
 
-/// A joint back and forth at constant speeds, in a time (s); `None` where there is too little of it.
+/// Moves a joint back and forth at constant speeds within a time (s); `None` where the time is too short.
 fn strokes_of_joint(
     ground: &Ground<'_>,
     posture: &[f64],
@@ -80,7 +81,7 @@ fn strokes_of_joint(
     None
 }
 
-/// The speed at which strokes take a time (s): they take less at the highest.
+/// The speed at which strokes take a given time (s), by bisection.
 fn speed_for_time(needed: impl Fn(f64) -> f64, highest: f64, time_s: f64) -> f64 {
     let [mut low, mut high] = [1e-3 * highest, highest];
     for _ in 0..50 {
@@ -90,7 +91,7 @@ fn speed_for_time(needed: impl Fn(f64) -> f64, highest: f64, time_s: f64) -> f64
     high
 }
 
-/// A joint to and fro between random positions, in a time (s).
+/// Moves a joint between random positions within a time (s).
 fn glides_of_joint(
     ground: &Ground<'_>,
     posture: &[f64],

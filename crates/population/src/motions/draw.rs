@@ -11,12 +11,12 @@ use crate::motions::ground::Ground;
 use crate::motions::log_plan::LogPlan;
 use crate::motions::{by_joint, postures};
 
-/// Draws of a motion before an arm is given up; smaller where the one before was too much for it.
+/// Draws of a motion before an arm is rejected. Each infeasible motion makes the next one smaller.
 const TRIES: usize = 20;
-/// By how much a motion may be longer than was wished (s).
+/// Tolerated excess over the wished length of a motion (s).
 const LONGER_S: f64 = 0.05;
 
-/// A motion of a kind that the arm carries; `None` where none of some draws was one.
+/// Draws a motion of a kind that the arm can follow; `None` where no draw was feasible.
 pub(crate) fn draw(
     class: MotionClass,
     ground: &Ground<'_>,
@@ -85,7 +85,7 @@ fn sinusoids(ground: &Ground<'_>, length_s: f64, random: &mut ChaCha8Rng) -> Mot
     })
 }
 
-/// Bands of a sweep (Hz): what is lost in amplitude from one to the next is won in acceleration.
+/// Bands of a sweep (Hz). From one to the next the amplitude falls and the acceleration rises.
 const BANDS: [[f64; 2]; 3] = [[0.2, 0.8], [0.8, 3.0], [3.0, 10.0]];
 /// Acceleration of small fast swings over that of everyday motions.
 const SHAKEN: f64 = 2.5;

@@ -12,16 +12,16 @@ use crate::rigid::torque;
 const POSITION_SHARE: f64 = 0.85;
 /// Share of a speed limit that motions use.
 const SPEED_SHARE: f64 = 0.85;
-/// Share of a torque limit that bodies and rotors may ask for; the rest is for friction and the loop.
+/// Share of a torque limit for bodies and rotors; the rest is for friction and feedback.
 const TORQUE_SHARE: f64 = 0.55;
-/// Largest torque over the stiffness of a loop: how far a joint falls behind (rad, m).
+/// Largest torque over position gain: the static position error of a joint (rad, m).
 const LARGEST_SAG: [f64; 2] = [0.08, 0.03];
-/// Time between looks at a motion (s).
+/// Time between checks of a motion (s).
 const LOOK_S: f64 = 0.02;
 /// Motion at one joint: peak speed and acceleration of a glide of length and duration 1.
 const GLIDE: [f64; 2] = [1.875, 5.774];
 
-/// What motions of an arm keep to.
+/// Limits of the motions of an arm.
 #[derive(Debug, Clone)]
 pub(crate) struct Ground<'a> {
     arm: &'a SampledArm,

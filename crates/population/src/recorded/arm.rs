@@ -39,7 +39,7 @@ pub(super) enum HeldOut {
     Quarter,
 }
 
-/// What is known of an arm's logs.
+/// A recorded arm and its logs.
 struct Entry {
     name: &'static str,
     folder: &'static str,
@@ -147,10 +147,10 @@ static ARMS: [Entry; 7] = [
     ),
 ];
 
-/// A real arm whose recorded logs are there.
+/// A real arm with recorded logs.
 ///
-/// Its logs are used up to 60 s, thinned to the rate nearest to 250 Hz; their dropouts, lags and outliers
-/// stay as they are.
+/// The first 60 s of each log are used, thinned to the rate nearest to 250 Hz. Dropouts, lags and outliers are
+/// kept.
 #[derive(Clone)]
 pub struct RecordedArm {
     entry: &'static Entry,
@@ -165,7 +165,7 @@ pub(super) struct Used {
     pub(super) run: Run,
 }
 
-/// The arms whose logs and robot are there below the folder `data`.
+/// The arms whose logs and robot exist below the folder `data`.
 pub fn available(data: &Path) -> Vec<RecordedArm> {
     ARMS.iter().filter_map(|entry| RecordedArm::find(data, entry)).collect()
 }
@@ -197,7 +197,7 @@ impl RecordedArm {
         self.entry.logs.iter().map(path).collect()
     }
 
-    /// What its logs report as effort.
+    /// Source of the effort in its logs.
     pub fn effort(&self) -> EffortClass {
         self.entry.effort
     }
@@ -206,7 +206,7 @@ impl RecordedArm {
         self.entry.held_out
     }
 
-    /// Number of choices of what is held out.
+    /// Number of ways to hold out a part of its logs.
     pub(super) fn splits(&self) -> usize {
         match self.entry.held_out {
             HeldOut::Log => self.entry.logs.len(),
@@ -215,8 +215,7 @@ impl RecordedArm {
         }
     }
 
-    /// Its logs, thinned and cut to the longest that is used, and the smallest step of each joint's
-    /// position in all rows of them.
+    /// Its logs, cut and thinned, and the smallest step of each joint's position in the full logs.
     pub(super) fn read(&self, robot: &Robot) -> Result<(Vec<Used>, Vec<f64>), PopulationError> {
         let mut steps = vec![f64::INFINITY; robot.joint_count()];
         let mut used = Vec::new();
@@ -236,7 +235,7 @@ impl RecordedArm {
 /// Differences of positions below this are rounding (rad or m).
 const ROUNDING: f64 = 1e-9;
 
-/// Smallest difference of neighbouring positions that is none of rounding; infinite where nothing moves.
+/// Smallest difference of neighbouring positions above rounding; infinite where nothing moves.
 fn smallest_step(position: &[f64]) -> f64 {
     let steps = position.windows(2).map(|q| (q[1] - q[0]).abs());
     steps.filter(|step| *step > ROUNDING).fold(f64::INFINITY, f64::min)

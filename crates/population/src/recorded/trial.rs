@@ -23,23 +23,21 @@ pub struct RecordedTrial {
     pub robot: RobotFiles,
     /// Logs given to the diagnosis.
     pub runs: Vec<Run>,
-    /// Logs that are held out.
+    /// Held-out logs.
     pub held_out: Vec<Run>,
-    /// What is known to be true.
+    /// The known truth.
     pub sheet: Sheet,
 }
 
-/// Draws a trial of recorded logs from those below the folder `data`: [`Origin::Recorded`] as they are,
-/// of which nothing is known to be true, or [`Origin::Transplant`] with one cause added to given and
-/// held-out logs alike.
+/// Draws a trial from the recorded logs below the folder `data`. [`Origin::Recorded`] keeps the logs as they are,
+/// without a known truth. [`Origin::Transplant`] adds one cause to given and held-out logs.
 ///
-/// Arm, what is held out and cause follow from `random` and from which arms are there; `seed` is the one
-/// that the sheet names.
+/// Arm, held-out part and cause follow from `random` and from the arms that exist. `seed` is stated in the sheet.
 ///
 /// # Errors
 ///
-/// [`PopulationError::OriginSimulated`], [`PopulationError::NoRecordedLogs`], what keeps a robot or a log
-/// from being read, and [`PopulationError::NothingMoves`].
+/// [`PopulationError::OriginSimulated`], [`PopulationError::NoRecordedLogs`], [`PopulationError::NothingMoves`], and
+/// errors of reading a robot or a log.
 pub fn draw_recorded(
     data: &Path,
     origin: Origin,
@@ -67,12 +65,12 @@ pub fn draw_recorded(
 
 /// Given and held-out logs.
 struct Split<'a> {
-    /// Which log each given one is of, and it.
+    /// The given logs, each with the recorded log that it comes from.
     given: Vec<(&'a Used, Run)>,
     held_out: Vec<Run>,
 }
 
-/// Takes the log or the quarter of number `choice` away from the logs.
+/// Splits off the log or the quarter of number `choice`.
 fn split(held_out: HeldOut, used: &[Used], choice: usize) -> Split<'_> {
     let mut split = Split { given: Vec::new(), held_out: Vec::new() };
     let of = |log: &Used, name: &str, quarters: std::ops::Range<usize>| {
@@ -102,7 +100,7 @@ fn split(held_out: HeldOut, used: &[Used], choice: usize) -> Split<'_> {
     split
 }
 
-/// A trial of logs as they are.
+/// A trial of unchanged logs.
 fn plain_trial(arm: &RecordedArm, robot: &Robot, steps: &[f64], split: Split) -> RecordedTrial {
     let motion =
         split.given.first().map_or(crate::corner::MotionClass::Sinusoids, |(log, _)| log.motion);
