@@ -254,7 +254,7 @@ impl Actuator {
     /// left = exp(-since_cold / time_constant)
     /// friction' = friction - lost (1 - left),   lost' = lost left
     /// ```
-    pub fn after_warming(&self, since_cold_s: f64) -> Self {
+    pub fn warmed(&self, since_cold_s: f64) -> Self {
         let Some(cold) = self.warming else { return self.clone() };
         let left = (-since_cold_s.max(0.0) / cold.time_constant_s).exp();
         let Warming { viscous_lost, coulomb_lost, time_constant_s } = cold;
@@ -326,7 +326,7 @@ mod tests {
             warming: Some(warming),
             ..Actuator::default()
         };
-        let later = cold.after_warming(200.0).after_warming(400.0);
+        let later = cold.warmed(200.0).warmed(400.0);
         let share = 1.0 - (-1.0_f64).exp();
         for (found, expected) in [
             (later.viscous, 0.4 - 0.1 * share),
@@ -335,7 +335,7 @@ mod tests {
         ] {
             assert!((found - expected).abs() < 1e-15, "{found}, not {expected}");
         }
-        let warm = later.after_warming(f64::INFINITY);
+        let warm = later.warmed(f64::INFINITY);
         assert!((warm.viscous - 0.3).abs() < 1e-15 && (warm.coulomb_backward - 0.1).abs() < 1e-15);
         assert_eq!(warm.warming.map(|w| (w.viscous_lost, w.coulomb_lost)), Some((0.0, 0.0)));
     }

@@ -80,7 +80,7 @@ impl Inertia {
     /// ```text
     /// c' = R c + p,  I' = R I R'     with (R, p) = new_from_old
     /// ```
-    pub fn in_frame(&self, new_from_old: &Isometry3<f64>) -> Self {
+    pub fn seen_from(&self, new_from_old: &Isometry3<f64>) -> Self {
         let r = new_from_old.rotation.to_rotation_matrix().into_inner();
         let turned = r * self.about_com * r.transpose();
         Self {

@@ -61,7 +61,7 @@ impl Lumping {
             if place.moves {
                 links.push(self.moving(link));
             } else if let Some(body) = place.body.and_then(|b| links.get_mut(b)) {
-                body.inertia.add(&link.inertia.in_frame(&place.body_from_link));
+                body.inertia.add(&link.inertia.seen_from(&place.body_from_link));
                 body.merged.push(link.name.clone());
                 body.merged.extend_from_slice(&link.merged);
             }

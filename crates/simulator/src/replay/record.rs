@@ -56,7 +56,7 @@ pub(crate) fn with_friction_of_sample<'a>(
     let mut robot = robot.clone();
     for j in 0..robot.joint_count() {
         let Some(link) = robot.link_mut(j) else { continue };
-        link.actuator = link.actuator.after_warming(record.time[sample] - record.session_start_s);
+        link.actuator = link.actuator.warmed(record.time[sample] - record.session_start_s);
     }
     Cow::Owned(robot)
 }
