@@ -1,21 +1,15 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::{
-    Column, Explain, Frame, Linearity, MODELLED, Motion, Nature, Quantity, Relation, Scale, Seat,
-    model,
-};
-
-/// Where an effect acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Place {
-    /// At a joint, by index.
-    Joint(usize),
-    /// In a moving link, by index.
-    Link(usize),
-    /// At the base.
-    Base,
-}
+use crate::column::Column;
+use crate::effect::Explain;
+use crate::model::{MODELLED, model};
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::Place;
+use crate::quantity::Quantity;
+use crate::traits::{Linearity, Nature, Relation, Seat};
 
 /// An effect at a place: one thing that could be wrong.
 ///

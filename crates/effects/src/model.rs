@@ -1,6 +1,6 @@
 use catalogue::EffectKind;
 
-use crate::Explain;
+use crate::effect::Explain;
 
 /// The effects that have a model, in the order in which hypotheses are laid out.
 pub const MODELLED: [EffectKind; 24] = [
@@ -39,37 +39,41 @@ pub const MODELLED: [EffectKind; 24] = [
 /// What a model of columns `f(q, qd, qdd)` and constant weights cannot hold.
 pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
     Ok(match kind {
-        EffectKind::ViscousFriction => &crate::viscous_friction::ViscousFriction,
-        EffectKind::CoulombFriction => &crate::coulomb_friction::CoulombFriction,
-        EffectKind::AsymmetricFriction => &crate::asymmetric_friction::AsymmetricFriction,
-        EffectKind::StribeckFriction => &crate::stribeck_friction::StribeckFriction,
-        EffectKind::PreslidingFriction => &crate::presliding_friction::PreslidingFriction,
+        EffectKind::ViscousFriction => &crate::causes::viscous_friction::ViscousFriction,
+        EffectKind::CoulombFriction => &crate::causes::coulomb_friction::CoulombFriction,
+        EffectKind::AsymmetricFriction => &crate::causes::asymmetric_friction::AsymmetricFriction,
+        EffectKind::StribeckFriction => &crate::causes::stribeck_friction::StribeckFriction,
+        EffectKind::PreslidingFriction => &crate::causes::presliding_friction::PreslidingFriction,
         EffectKind::PositionDependentFriction => {
-            &crate::position_dependent_friction::PositionDependentFriction
+            &crate::causes::position_dependent_friction::PositionDependentFriction
         }
         EffectKind::FrictionTemperatureDrift => {
-            &crate::friction_temperature_drift::FrictionTemperatureDrift
+            &crate::causes::friction_temperature_drift::FrictionTemperatureDrift
         }
-        EffectKind::TorqueOffset => &crate::torque_offset::TorqueOffset,
-        EffectKind::RotorInertia => &crate::rotor_inertia::RotorInertia,
-        EffectKind::InertialParameters => &crate::inertial_parameters::InertialParameters,
-        EffectKind::Payload => &crate::payload::Payload,
-        EffectKind::CableSpring => &crate::cable_spring::CableSpring,
-        EffectKind::Counterbalance => &crate::counterbalance::Counterbalance,
-        EffectKind::GravityDirection => &crate::gravity_direction::GravityDirection,
-        EffectKind::TorqueConstant => &crate::torque_constant::TorqueConstant,
-        EffectKind::LoadDependentFriction => &crate::load_dependent_friction::LoadDependentFriction,
-        EffectKind::EncoderOffset => &crate::encoder_offset::EncoderOffset,
-        EffectKind::TransmissionRatio => &crate::transmission_ratio::TransmissionRatio,
-        EffectKind::Backlash => &crate::backlash::Backlash,
-        EffectKind::JointElasticity => &crate::joint_elasticity::JointElasticity,
-        EffectKind::TimeSkew => &crate::time_skew::TimeSkew,
-        EffectKind::ActuatorDelay => &crate::late_torque::LateTorque::Delay,
-        EffectKind::ActuatorLag => &crate::late_torque::LateTorque::Lag,
+        EffectKind::TorqueOffset => &crate::causes::torque_offset::TorqueOffset,
+        EffectKind::RotorInertia => &crate::causes::rotor_inertia::RotorInertia,
+        EffectKind::InertialParameters => &crate::causes::inertial_parameters::InertialParameters,
+        EffectKind::Payload => &crate::causes::payload::Payload,
+        EffectKind::CableSpring => &crate::causes::cable_spring::CableSpring,
+        EffectKind::Counterbalance => &crate::causes::counterbalance::Counterbalance,
+        EffectKind::GravityDirection => &crate::causes::gravity_direction::GravityDirection,
+        EffectKind::TorqueConstant => &crate::causes::torque_constant::TorqueConstant,
+        EffectKind::LoadDependentFriction => {
+            &crate::causes::load_dependent_friction::LoadDependentFriction
+        }
+        EffectKind::EncoderOffset => &crate::causes::encoder_offset::EncoderOffset,
+        EffectKind::TransmissionRatio => &crate::causes::transmission_ratio::TransmissionRatio,
+        EffectKind::Backlash => &crate::causes::backlash::Backlash,
+        EffectKind::JointElasticity => &crate::causes::joint_elasticity::JointElasticity,
+        EffectKind::TimeSkew => &crate::causes::time_skew::TimeSkew,
+        EffectKind::ActuatorDelay => &crate::causes::late_torque::LateTorque::Delay,
+        EffectKind::ActuatorLag => &crate::causes::late_torque::LateTorque::Lag,
         EffectKind::TorqueRipple => {
             return Err("its period is finer than any trial value: it is a line of a spectrum");
         }
-        EffectKind::DifferentialCoupling => &crate::differential_coupling::DifferentialCoupling,
+        EffectKind::DifferentialCoupling => {
+            &crate::causes::differential_coupling::DifferentialCoupling
+        }
         EffectKind::TorqueSaturation => {
             return Err("it is in what the log says of the effort, not in what the motion needs");
         }

@@ -1,0 +1,88 @@
+use catalogue::EffectKind;
+use nalgebra::{Rotation3, Vector3};
+use robot::Robot;
+
+use crate::column::Column;
+use crate::effect::Explain;
+use crate::motion::frame::Frame;
+use crate::motion::rigid_bodies::tilt_axes;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::Place;
+use crate::quantity::Quantity;
+use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+
+/// `G(q) (g - g_nominal)`: two weights, the tilt of gravity about two horizontal axes (rad).
+///
+/// The columns are those of a small tilt, `g - g_nominal = tilt x g_nominal`.
+pub(crate) struct GravityDirection;
+
+/// Standard deviation of a tilt before any data (rad): a base is rarely off by more than
+/// a few degrees.
+const TILT_SD: f64 = 0.1;
+
+/// Largest tilt that the linear columns describe (rad).
+const TILT_LIMIT: f64 = 0.5;
+
+impl Explain for GravityDirection {
+    fn kind(&self) -> EffectKind {
+        EffectKind::GravityDirection
+    }
+
+    fn nature(&self) -> Nature {
+        Nature::new(Linearity::Tangent, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
+    }
+
+    fn places(&self, _: &Robot) -> Vec<Place> {
+        vec![Place::Base]
+    }
+
+    fn columns(&self, _: Place, motion: &Motion) -> Vec<Column> {
+        let column = |axis: usize| {
+            let part = |(joint, tilt): (usize, &[Vec<f64>; 2])| {
+                motion.carried(joint, tilt[axis].iter().copied())
+            };
+            motion.tilt().iter().enumerate().map(part).collect()
+        };
+        vec![column(0), column(1)]
+    }
+
+    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+        vec![TILT_SD; 2]
+    }
+
+    fn bounds(&self, _: Place, _: &Robot) -> Vec<(f64, f64)> {
+        vec![(-TILT_LIMIT, TILT_LIMIT); 2]
+    }
+
+    /// A tilt at the limit of what the columns describe is no explanation.
+    fn admissible(&self, _: Place, _: &Robot, weights: &[f64]) -> bool {
+        weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * TILT_LIMIT)
+    }
+
+    fn extend(&self, _: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [first, second] = weights else { return };
+        let gravity = robot.gravity_in_base();
+        let axes = tilt_axes(gravity);
+        let tilt = axes[0] * *first + axes[1] * *second;
+        *robot = robot.clone().with_gravity(Rotation3::new(tilt) * gravity);
+    }
+
+    fn quantities(&self, _: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let axes = tilt_axes(nominal.gravity_in_base());
+        let tilt = tilt_between(nominal.gravity_in_base(), extended.gravity_in_base());
+        let parameters = self.kind().entry().parameters;
+        let quantity = |(axis, p): (&Vector3<f64>, &catalogue::Parameter)| Quantity {
+            name: p.name,
+            value: axis.dot(&tilt),
+            nominal: 0.0,
+            unit: p.unit,
+        };
+        axes.iter().zip(parameters).map(quantity).collect()
+    }
+}
+
+/// The smallest rotation vector that turns `from` into the direction of `to` (rad).
+fn tilt_between(from: Vector3<f64>, to: Vector3<f64>) -> Vector3<f64> {
+    Rotation3::rotation_between(&from, &to).map_or_else(Vector3::zeros, |r| r.scaled_axis())
+}

@@ -1,0 +1,130 @@
+use catalogue::EffectKind;
+use dynamics::PARAMETERS_PER_LINK;
+use robot::{Inertia, Robot};
+
+use crate::bounds::{down_to_zero, unbounded};
+use crate::column::Column;
+use crate::effect::Explain;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::Place;
+use crate::quantity::Quantity;
+use crate::traits::{Law, Linearity, Nature, Relation, Seat, Weights};
+
+/// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
+/// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
+pub(crate) struct InertialParameters;
+
+/// Share by which masses and inertias of CAD are wrong: cables, screws and castings are not in it.
+const SHARE: f64 = 0.1;
+
+/// Distance by which its centres of mass are wrong (m).
+const CENTRE_M: f64 = 0.01;
+
+/// The smallest mass that a share is taken of (kg).
+const LEAST_MASS: f64 = 0.01;
+
+impl Explain for InertialParameters {
+    fn kind(&self) -> EffectKind {
+        EffectKind::InertialParameters
+    }
+
+    fn nature(&self) -> Nature {
+        const RELATIONS: &[Relation] = &[
+            Relation::OtherNameOf(EffectKind::Payload),
+            Relation::PlainerAtTheJoint(EffectKind::RotorInertia),
+        ];
+        Nature::new(Linearity::Exact, Law::Firm, Seat::Elsewhere, Weights::Direct, RELATIONS)
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        (0..robot.joint_count()).map(Place::Link).collect()
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Link(link) = place else { return Vec::new() };
+        let regressor = motion.link_regressor(link);
+        let column = |parameter: usize| {
+            let carriers = regressor.iter().enumerate().filter(|(_, signals)| !signals.is_empty());
+            let part = |(joint, signals): (usize, &Vec<Vec<f64>>)| {
+                motion.carried(joint, signals[parameter].iter().copied())
+            };
+            carriers.map(part).collect()
+        };
+        (0..PARAMETERS_PER_LINK).map(column).collect()
+    }
+
+    /// Round numbers: the mass is known to itself plus a third of a mean link, the centre of
+    /// mass to the length of a link.
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Link(link) = place else { return Vec::new() };
+        let mass = robot.links()[link].inertia.mass.max(0.0);
+        let (m, l) = (mass + 0.3 * scale.link_mass, scale.link_length);
+        let mut sd = vec![m];
+        sd.extend([m * l; 3]);
+        sd.extend([m * l * l; 6]);
+        sd
+    }
+
+    /// What CAD is wrong by: a tenth of the mass and of the inertia, a centimetre of the centre of mass.
+    ///
+    /// ```text
+    /// sd(m)   = SHARE m
+    /// sd(m c) = SHARE m |c| + CENTRE_M m
+    /// sd(I)   = SHARE (Ixx + Iyy + Izz) + 2 CENTRE_M m (|c| + CENTRE_M)
+    /// ```
+    fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>> {
+        let Place::Link(link) = place else { return None };
+        let inertia = &robot.links()[link].inertia;
+        let mass = inertia.mass.max(LEAST_MASS);
+        let reach = inertia.com_in_link.norm();
+        let [.., xx, _, yy, _, _, zz] = inertia.parameters();
+        let mut sd = vec![SHARE * mass];
+        sd.extend([mass * (SHARE * reach + CENTRE_M); 3]);
+        let second = SHARE * (xx + yy + zz).max(0.0) + 2.0 * CENTRE_M * mass * (reach + CENTRE_M);
+        sd.extend([second; 6]);
+        Some(sd)
+    }
+
+    /// The mass stays positive; that the whole inertia is physical is seen to where it is
+    /// written into a robot.
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Link(link) = place else { return Vec::new() };
+        let mut bounds = down_to_zero(robot.links()[link].inertia.mass);
+        bounds.extend(unbounded(PARAMETERS_PER_LINK - 1));
+        bounds
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let Place::Link(index) = place else { return };
+        if let Some(link) = robot.link_mut(index) {
+            let mut pi = link.inertia.parameters();
+            pi.iter_mut().zip(weights).for_each(|(p, w)| *p += w);
+            link.inertia = Inertia::from_parameters(&pi);
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Link(link) = place else { return Vec::new() };
+        let read = |r: &Robot| mass_and_com(&r.links()[link].inertia);
+        quantities(self.kind(), read(nominal), read(extended))
+    }
+}
+
+/// Mass (kg) and centre of mass in the link frame (m).
+pub(crate) fn mass_and_com(inertia: &Inertia) -> [f64; 4] {
+    let c = inertia.com_in_link;
+    [inertia.mass, c.x, c.y, c.z]
+}
+
+/// The parameters of `kind` with values before and after.
+pub(crate) fn quantities(kind: EffectKind, nominal: [f64; 4], extended: [f64; 4]) -> Vec<Quantity> {
+    let quantity = |(i, p): (usize, &catalogue::Parameter)| Quantity {
+        name: p.name,
+        value: extended[i],
+        nominal: nominal[i],
+        unit: p.unit,
+    };
+    kind.entry().parameters.iter().enumerate().map(quantity).collect()
+}

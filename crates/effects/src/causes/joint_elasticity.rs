@@ -1,0 +1,108 @@
+use catalogue::{EffectKind, Parameter};
+use robot::{Actuator, Robot};
+
+use crate::bounds::down_to_zero;
+use crate::column::{Column, at_joint};
+use crate::effect::Explain;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::motion::transmission::{Carried, Gap, play};
+use crate::place::{Place, every_joint};
+use crate::quantity::{Quantity, actuator_quantity};
+use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+
+/// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
+/// `1 / stiffness`.
+pub(crate) struct JointElasticity;
+
+/// Twist under the RMS effort that is believed beforehand (rad or m).
+const TWIST_SD: f64 = 0.01;
+
+fn compliance(drive: &Actuator) -> f64 {
+    drive.elasticity.map_or(0.0, f64::recip)
+}
+
+/// Compliance by which the play of a spring is compared with that of a softer one (rad/(N m) or
+/// m/N): until a link has crossed, its play is linear in it.
+const STEP: f64 = 1e-7;
+
+/// What a unit of compliance adds to `theta - q` at joint `j`: the load, and that a link leaves an end
+/// of its play, under `play_load` that is `carried` there or beyond, as fast as the spring lets go (N·m
+/// or N).
+fn per_compliance(
+    motion: &Motion,
+    j: usize,
+    play_load: &[f64],
+    carried: for<'a> fn(&'a [f64], &'a [Vec<f64>; 3]) -> Carried<'a>,
+) -> Vec<f64> {
+    let drive = &motion.drives[j];
+    let mut twist = motion.load[j].clone();
+    if drive.backlash > 0.0 {
+        let gap = Gap::of(drive, drive.backlash);
+        let carried = carried(play_load, &motion.slopes(j)[j]);
+        let softer = Gap { compliance: gap.compliance + STEP, ..gap };
+        let [now, then] = [gap, softer].map(|gap| play(carried, gap, motion.period_s));
+        let changes = now.iter().zip(then).map(|(now, then)| (then - now) / STEP);
+        twist.iter_mut().zip(changes).for_each(|(twist, change)| *twist += change);
+    }
+    twist
+}
+
+impl Explain for JointElasticity {
+    fn kind(&self) -> EffectKind {
+        EffectKind::JointElasticity
+    }
+
+    fn nature(&self) -> Nature {
+        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Reciprocal, &[])
+    }
+
+    /// The stiffness: damping acts only at frequencies that the motion does not reach.
+    fn parameters(&self) -> &'static [Parameter] {
+        let all = self.kind().entry().parameters;
+        all.get(..1).unwrap_or(all)
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let twist = per_compliance(motion, j, motion.tight_load(j), Carried::beyond);
+        vec![motion.twisted(j, &twist)]
+    }
+
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let ratio = motion.drives[j].transmission_ratio;
+        let twist = per_compliance(motion, j, &motion.load[j], Carried::here);
+        vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]
+    }
+
+    fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let effort = scale.effort.get(j).copied().unwrap_or(0.0);
+        vec![if effort > 0.0 { TWIST_SD / effort } else { 0.0 }]
+    }
+
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        down_to_zero(compliance(&robot.links()[j].actuator))
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let (Place::Joint(j), [change]) = (place, weights) else { return };
+        let Some(link) = robot.link_mut(j) else { return };
+        let compliance = compliance(&link.actuator) + change;
+        link.actuator.elasticity = (compliance > 0.0).then(|| compliance.recip());
+    }
+
+    /// A rigid transmission has an infinite stiffness.
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let stiffness = |a: &Actuator| a.elasticity.unwrap_or(f64::INFINITY);
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], stiffness)]
+    }
+}

@@ -1,0 +1,157 @@
+use catalogue::EffectKind;
+use robot::{Actuator, Robot, Stribeck};
+
+use crate::bounds::down_to_zero;
+use crate::column::{Column, at_joint};
+use crate::effect::Explain;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::{Place, joints_where};
+use crate::quantity::{Quantity, actuator_quantity};
+use crate::traits::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+
+/// Dry friction near rest beyond the Coulomb level: one weight a joint, the change of the excess;
+/// where there is some, a second one for the change of the velocity.
+///
+/// ```text
+/// exp(-(qd / velocity)^2) sign(qd)
+/// excess 2 qd^2 / velocity^3 exp(-(qd / velocity)^2) sign(qd)
+/// ```
+pub(crate) struct StribeckFriction;
+
+/// Trial velocities as shares of the largest speed: a factor of 2 apart, from about the speed at
+/// which a joint counts as at rest.
+const SHARES: [f64; 6] = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
+
+/// Least excess, as a share of the Coulomb level.
+const LEAST: f64 = 0.1;
+
+/// Least velocity, in speeds at which the joint counts as at rest: of what is gone before the
+/// direction of motion is known, the logs show neither height nor width.
+const LEAST_OF_REST: f64 = 2.0;
+
+/// Least and largest change of a velocity in one step, over the velocity.
+const VELOCITY_STEP: (f64, f64) = (-0.5, 1.0);
+
+fn of(drive: &Actuator) -> Option<Stribeck> {
+    drive.stribeck
+}
+
+impl Explain for StribeckFriction {
+    fn kind(&self) -> EffectKind {
+        EffectKind::StribeckFriction
+    }
+
+    fn nature(&self) -> Nature {
+        const RELATIONS: &[Relation] =
+            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::NearRest)];
+        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::SeenBy(1), RELATIONS)
+    }
+
+    /// Joints with an excess, or with the germ of one.
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        joints_where(robot, |drive| of(drive).is_some())
+    }
+
+    fn shapes(&self, joint: usize, robot: &Robot, scale: &Scale) -> Vec<f64> {
+        let known = of(&robot.links()[joint].actuator).is_some();
+        let speed = scale.speed[joint];
+        if known || speed <= 0.0 { Vec::new() } else { SHARES.map(|s| s * speed).to_vec() }
+    }
+
+    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+        drive.stribeck = Some(Stribeck { excess: 0.0, velocity: shape });
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let Some(Stribeck { excess, velocity }) = of(&motion.drives[j]) else { return Vec::new() };
+        let near_rest = |t: usize| {
+            let speed = motion.qd[j][t] / velocity;
+            (speed, motion.gain[j] * motion.direction[j][t] * (-speed * speed).exp())
+        };
+        let all = 0..motion.samples();
+        let mut columns = vec![at_joint(j, all.clone().map(|t| near_rest(t).1))];
+        if excess > 0.0 {
+            let by_velocity = |t: usize| {
+                let (speed, share) = near_rest(t);
+                2.0 * excess / velocity * speed * speed * share
+            };
+            columns.push(at_joint(j, all.map(by_velocity)));
+        }
+        columns
+    }
+
+    /// An excess as large as the effort itself, a velocity known to its half.
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
+        let velocity = (known.excess > 0.0).then_some(0.5 * known.velocity);
+        [scale.effort[j]].into_iter().chain(velocity).collect()
+    }
+
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
+        let (least, most) = VELOCITY_STEP;
+        let velocity =
+            (known.excess > 0.0).then_some((least * known.velocity, most * known.velocity));
+        down_to_zero(known.excess).into_iter().chain(velocity).collect()
+    }
+
+    /// Whether a joint at rest needs notably more to come loose than it has while it moves.
+    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
+        let Place::Joint(j) = place else { return false };
+        let drive = &extended.links()[j].actuator;
+        let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
+        of(drive).is_some_and(|s| s.excess > LEAST * level)
+    }
+
+    /// At the least velocity: the samples near rest, and with them what the logs say of the excess,
+    /// go with the velocity, and the smallest excess with the inverse of its root.
+    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame) -> f64 {
+        let Place::Joint(j) = place else { return 1.0 };
+        let least = LEAST_OF_REST * frame.rest_speed[j];
+        let velocity = of(&robot.links()[j].actuator).map_or(least, |s| s.velocity);
+        (velocity / least).sqrt().max(1.0)
+    }
+
+    /// The change of the excess, and of the velocity beyond the least one, which has no larger size
+    /// unseen.
+    fn more_than_plain(
+        &self,
+        place: Place,
+        [nominal, extended]: [&Robot; 2],
+        frame: &Frame,
+    ) -> Vec<(usize, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let excess = |robot: &Robot| of(&robot.links()[j].actuator).map_or(0.0, |s| s.excess);
+        let velocity = of(&extended.links()[j].actuator).map_or(0.0, |s| s.velocity);
+        let unseen = self.largest_unseen(place, extended, frame);
+        vec![(0, excess(extended) - excess(nominal)), (1, velocity * (1.0 - unseen.powi(-2)))]
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+        let (Place::Joint(j), [excess, velocity @ ..]) = (place, weights) else { return };
+        let Some(link) = robot.link_mut(j) else { return };
+        if let Some(known) = &mut link.actuator.stribeck {
+            known.excess += excess;
+            let velocity = known.velocity + velocity.first().unwrap_or(&0.0);
+            known.velocity = velocity.max(LEAST_OF_REST * frame.rest_speed[j]);
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let robots = [nominal, extended];
+        let level = |a: &Actuator| 0.5 * (a.coulomb_forward + a.coulomb_backward);
+        let excess = |a: &Actuator| of(a).map_or(0.0, |s| s.excess);
+        let velocity = |a: &Actuator| of(a).map_or(f64::INFINITY, |s| s.velocity);
+        vec![
+            actuator_quantity(self.kind(), 0, j, robots, level),
+            actuator_quantity(self.kind(), 1, j, robots, |a| level(a) + excess(a)),
+            actuator_quantity(self.kind(), 2, j, robots, velocity),
+        ]
+    }
+}

@@ -1,0 +1,71 @@
+use catalogue::EffectKind;
+use robot::Robot;
+
+use crate::column::{Column, at_joint};
+use crate::effect::Explain;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::{Place, every_joint};
+use crate::quantity::{Quantity, actuator_quantity};
+use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+
+/// `torque_gain tau`: one weight a joint, the change of the gain.
+///
+/// The column is the torque of the nominal robot, so the model is linear in the change
+/// of the gain only about that robot: `d effort / d gain = torque`.
+pub(crate) struct TorqueConstant;
+
+/// Standard deviation of a gain before any data: published constants of one drive differ
+/// by 5 to 30 per cent (Barrett puck IPNM values, 2472 to 2755 and 17474 to 21400).
+const GAIN_SD: f64 = 0.2;
+
+/// Largest believable relative error of a gain.
+const GAIN_LIMIT: f64 = 0.4;
+
+impl Explain for TorqueConstant {
+    fn kind(&self) -> EffectKind {
+        EffectKind::TorqueConstant
+    }
+
+    fn nature(&self) -> Nature {
+        Nature::new(Linearity::Tangent, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![at_joint(j, motion.torque[j].iter().map(|t| motion.drives[j].transmission_ratio * t))]
+    }
+
+    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+        vec![GAIN_SD]
+    }
+
+    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        let largest = GAIN_LIMIT * robot.links()[j].actuator.torque_gain;
+        vec![(-largest, largest)]
+    }
+
+    /// A gain at the limit of what is believable is no explanation.
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
+        let (Place::Joint(j), [change]) = (place, weights) else { return false };
+        change.abs() < (1.0 - 1e-9) * GAIN_LIMIT * robot.links()[j].actuator.torque_gain
+    }
+
+    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let (Place::Joint(j), [change]) = (place, weights) else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.torque_gain += change;
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let Place::Joint(j) = place else { return Vec::new() };
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.torque_gain)]
+    }
+}
