@@ -1,23 +1,49 @@
 use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
+use crate::abilities::{
+    BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare, IsRestricted,
+};
 use crate::column::Column;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::Place;
+use crate::place::TypedPlace;
 use crate::quantity::Quantity;
 use crate::traits::Nature;
 
+/// What is asked of a motor against dry friction, whatever its law.
+pub(crate) const EASED_LEVEL: &str =
+    "its level in the direction of the motor, eased through rest: tanh(qd / rest speed)";
+
+/// What is asked of the motors against changes of the bodies.
+pub(crate) const INVERSE_DYNAMICS: &str = "inverse dynamics of the robot that has it";
+
 /// The model side of one effect.
 ///
-/// Weights are changes from the nominal robot: all zero means the robot as described.
-pub trait Explain: Sync {
+/// Weights are changes from the nominal robot: all zero means the robot as described. Every method without a body
+/// is a question that each effect answers in its own file. The last eight are abilities that few effects have: an
+/// effect with one returns itself there.
+pub trait Effect: Sync {
+    /// Where it acts: at a joint, in a link or at the base.
+    type At: TypedPlace;
+
     /// The effect.
     fn kind(&self) -> EffectKind;
 
     /// What is known of it before any log.
     fn nature(&self) -> Nature;
+
+    /// What [`Compensation`](crate::Compensation) does against it; where it does nothing, why.
+    ///
+    /// # Errors
+    ///
+    /// The reason why the effect cannot be compensated.
+    fn remedy(&self) -> Result<&'static str, &'static str>;
+
+    /// Key of `robot.toml` that describes it in `drive`, where a torque of one state alone leaves it out: where it
+    /// needs the past, the motion of the other side of a transmission, or other times.
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str>;
 
     /// Those of its parameters that it finds.
     fn parameters(&self) -> &'static [Parameter] {
@@ -25,84 +51,60 @@ pub trait Explain: Sync {
     }
 
     /// Where it could act in this robot.
-    fn places(&self, robot: &Robot) -> Vec<Place>;
-
-    /// Trial values of the parameter that its columns are not linear in, where the drive of
-    /// `joint` has none yet.
-    fn shapes(&self, joint: usize, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let _ = (joint, robot, scale);
-        Vec::new()
-    }
-
-    /// Gives the drive of `joint` the effect with one of its `shapes` and no size.
-    fn sow(&self, joint: usize, drive: &mut Actuator, shape: f64) {
-        let _ = (joint, drive, shape);
-    }
+    fn places(&self, robot: &Robot) -> Vec<Self::At>;
 
     /// One column a weight, for the motion of one run.
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column>;
-
-    /// What one unit of each weight adds to the position that the first encoder of a joint
-    /// reports beyond that of the link (rad or m), where a second one shows the link: nothing
-    /// where the effect is not between the two.
-    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let _ = (place, motion);
-        Vec::new()
-    }
+    fn columns(&self, at: Self::At, motion: &Motion) -> Vec<Column>;
 
     /// Standard deviation of each weight before any data is seen.
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64>;
+    fn prior(&self, at: Self::At, robot: &Robot, scale: &Scale) -> Vec<f64>;
 
-    /// Standard deviation of each weight of errors that are in every description and have no name; those of the
-    /// prior where nothing is known of them.
-    fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>> {
-        let _ = (place, robot);
+    /// Lowest and highest physically possible value of each weight.
+    fn bounds(&self, at: Self::At, robot: &Robot) -> Vec<(f64, f64)>;
+
+    /// Changes the robot by `weights`, whose columns were made in `frame`.
+    fn extend(&self, at: Self::At, robot: &mut Robot, weights: &[f64], frame: &Frame);
+
+    /// The parameters that a user reads, from the robot before and after.
+    fn quantities(&self, at: Self::At, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
+
+    /// See [`HasShape`].
+    fn shape(&self) -> Option<&dyn HasShape> {
         None
     }
 
-    /// Log odds (nats) against an arm that has the effect there, beyond those against any effect.
-    fn rarity(&self, place: Place, robot: &Robot) -> f64 {
-        let _ = (place, robot);
-        0.0
+    /// See [`BetweenEncoders`].
+    fn between_encoders(&self) -> Option<&dyn BetweenEncoders> {
+        None
     }
 
-    /// Lowest and highest physically possible value of each weight.
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)>;
-
-    /// Whether the robot changed by `weights`, each within its bounds, is possible.
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
-        let _ = (place, robot, weights);
-        true
+    /// See [`HasCadError`].
+    fn cad_error(&self) -> Option<&dyn HasCadError<Self::At>> {
+        None
     }
 
-    /// Whether the effect is possible in the robot that has it, all others included.
-    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
-        let _ = (place, extended);
-        true
+    /// See [`IsRare`].
+    fn rare(&self) -> Option<&dyn IsRare<Self::At>> {
+        None
     }
 
-    /// The weights without a change of which it is a plainer effect of the same place, by index, and
-    /// how far the second of the `robots`, nominal and extended, is from that; none where the effect is nothing more than its size.
-    fn more_than_plain(
-        &self,
-        place: Place,
-        robots: [&Robot; 2],
-        frame: &Frame,
-    ) -> Vec<(usize, f64)> {
-        let _ = (place, robots, frame);
-        Vec::new()
+    /// See [`IsRestricted`].
+    fn restricted(&self) -> Option<&dyn IsRestricted<Self::At>> {
+        None
     }
 
-    /// How many times larger than as `robot` has it the effect has to be for logs of `frame` to
-    /// show it, in the shape in which they show it least.
-    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame) -> f64 {
-        let _ = (place, robot, frame);
-        1.0
+    /// See [`CanBeUnsound`].
+    fn can_be_unsound(&self) -> Option<&dyn CanBeUnsound<Self::At>> {
+        None
     }
 
-    /// The robot changed by `weights`, whose columns were made in `frame`.
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame);
+    /// See [`HasPlainer`].
+    fn plainer(&self) -> Option<&dyn HasPlainer<Self::At>> {
+        None
+    }
 
-    /// The parameters that a user reads, from the robot before and after.
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
+    /// See [`CanHide`].
+    fn can_hide(&self) -> Option<&dyn CanHide<Self::At>> {
+        None
+    }
 }

@@ -10,6 +10,8 @@
 //! motors for what undoes the effects that a robot's description holds, and [`remedy`] says
 //! which those are.
 
+mod abilities;
+mod any_effect;
 mod bounds;
 mod causes;
 mod column;
@@ -23,19 +25,22 @@ mod quantity;
 mod traits;
 mod trial_shape;
 
+pub use abilities::{
+    BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare, IsRestricted,
+};
+pub use any_effect::AnyEffect;
 pub use column::{Column, Part};
 pub use compensation::feedforward::{Compensated, Compensation, CompensationWorkspace};
 pub use compensation::left_out::left_out;
-pub use compensation::remedy::remedy;
-pub use effect::Explain;
+pub use effect::Effect;
 pub use hypothesis::{Hypothesis, hypotheses};
-pub use model::{MODELLED, model};
+pub use model::{MODELLED, model, remedy};
 pub use motion::drive::drive_torque;
 pub use motion::encoders::Encoders;
 pub use motion::frame::Frame;
 pub use motion::run_motion::Motion;
 pub use motion::scale::Scale;
-pub use place::Place;
+pub use place::{AtBase, AtJoint, InLink, Place, TypedPlace};
 pub use quantity::Quantity;
 pub use traits::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 pub use trial_shape::{Germ, germs, weeded};

@@ -7,9 +7,14 @@ pub enum Linearity {
     Exact,
     /// They are those of a small change: about a robot that has it, or other effects, they are others.
     Tangent,
-    /// They are besides made of the model's own torque, which is wrong wherever something else is, or
-    /// have a shape that was chosen among many.
-    Doubtful,
+}
+
+/// Whether something else may pass for an effect: its columns are made of the model's own torque, which is wrong
+/// wherever something else is, or have a shape that was chosen among many.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Imitable {
+    Yes,
+    No,
 }
 
 /// How far the law of an effect holds.
@@ -78,6 +83,8 @@ pub enum Relation {
 pub struct Nature {
     /// How its columns depend on the robot.
     pub linearity: Linearity,
+    /// Whether an error elsewhere, or one of many trial shapes, may pass for it.
+    pub imitable: bool,
     /// How far its law holds.
     pub law: Law,
     /// Where it lies.
@@ -92,12 +99,14 @@ impl Nature {
     /// All that is known of an effect.
     pub(crate) const fn new(
         linearity: Linearity,
+        imitable: Imitable,
         law: Law,
         seat: Seat,
         weights: Weights,
         relations: &'static [Relation],
     ) -> Self {
-        Self { linearity, law, seat, weights, relations }
+        let imitable = matches!(imitable, Imitable::Yes);
+        Self { linearity, imitable, law, seat, weights, relations }
     }
 
     /// Whether what it explains is what it adds to its plainer rivals at every joint.

@@ -1,11 +1,13 @@
+use catalogue::EffectKind;
 use robot::Robot;
 
+use crate::abilities::HasShape;
 use crate::column::Column;
 use crate::hypothesis::Hypothesis;
 use crate::model::{MODELLED, model};
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::Place;
+use crate::place::{AtJoint, Place, TypedPlace};
 
 /// An effect of no size at a joint, with a trial value of the parameter that its columns are not
 /// linear in: a Stribeck velocity, periods in a turn, a play.
@@ -19,17 +21,20 @@ pub struct Germ {
 
 /// Every germ that could be sown in this robot.
 pub fn germs(robot: &Robot, scale: &Scale) -> Vec<Germ> {
-    let models = MODELLED.into_iter().filter_map(|kind| Some((kind, model(kind).ok()?)));
-    let joints = 0..robot.joint_count();
-    let at = |(kind, joint)| Hypothesis { kind, place: Place::Joint(joint) };
-    models
-        .flat_map(|(kind, model)| {
-            joints.clone().flat_map(move |joint| {
-                let shapes = model.shapes(joint, robot, scale).into_iter();
-                shapes.map(move |shape| Germ { hypothesis: at((kind, joint)), shape })
-            })
-        })
-        .collect()
+    let mut all = Vec::new();
+    for (kind, effect) in shaped() {
+        for joint in 0..robot.joint_count() {
+            let hypothesis = Hypothesis { kind, place: Place::Joint(joint) };
+            let shapes = effect.shapes(AtJoint(joint), robot, scale).into_iter();
+            all.extend(shapes.map(|shape| Germ { hypothesis, shape }));
+        }
+    }
+    all
+}
+
+/// The effects that have a shape.
+fn shaped() -> impl Iterator<Item = (EffectKind, &'static dyn HasShape)> {
+    MODELLED.into_iter().filter_map(|kind| Some((kind, model(kind).ok()?.shape()?)))
 }
 
 /// `robot` without the germs that stayed without size: there it is as `nominal` is. Where less friction was
@@ -37,20 +42,8 @@ pub fn germs(robot: &Robot, scale: &Scale) -> Vec<Germ> {
 pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
     for (j, link) in nominal.links().iter().enumerate() {
         let Some(changed) = robot.link_mut(j) else { continue };
-        let (drive, before) = (&mut changed.actuator, &link.actuator);
-        drive.backlash_trial = before.backlash_trial;
-        if drive.stribeck.is_some_and(|s| s.excess <= 0.0) {
-            drive.stribeck = before.stribeck;
-        }
-        if drive.coupling.is_some_and(|c| c.level.iter().chain(&c.viscous).all(|v| *v <= 0.0)) {
-            drive.coupling = before.coupling;
-        }
-        if drive.warming.is_some_and(|w| w.viscous_lost <= 0.0 && w.coulomb_lost <= 0.0) {
-            drive.warming = before.warming;
-        }
-        drive.warming = drive.warming.map(|warming| drive.lost_at_most(warming));
-        if drive.friction_wave.is_some_and(|w| w.share <= 0.0) {
-            drive.friction_wave = before.friction_wave;
+        for (_, effect) in shaped() {
+            effect.drop_unused_shape(&mut changed.actuator, &link.actuator);
         }
     }
     robot
@@ -59,25 +52,24 @@ pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
 impl Germ {
     /// The robot with the germ: it moves as it did.
     pub fn sow(self, robot: &mut Robot) {
-        let (Place::Joint(j), Ok(model)) = (self.hypothesis.place, model(self.hypothesis.kind))
-        else {
-            return;
-        };
+        let Some((AtJoint(j), effect)) = self.effect() else { return };
         if let Some(link) = robot.link_mut(j) {
-            model.sow(j, &mut link.actuator, self.shape);
+            effect.sow(j, &mut link.actuator, self.shape);
         }
     }
 
     /// The columns of the effect in a robot with the germ, along a motion of the robot without.
     pub fn columns(self, motion: &mut Motion) -> Vec<Column> {
-        let (Place::Joint(j), Ok(model)) = (self.hypothesis.place, model(self.hypothesis.kind))
-        else {
-            return Vec::new();
-        };
+        let Some((AtJoint(j), effect)) = self.effect() else { return Vec::new() };
         let before = motion.drives[j].clone();
-        model.sow(j, &mut motion.drives[j], self.shape);
+        effect.sow(j, &mut motion.drives[j], self.shape);
         let columns = self.hypothesis.columns(motion);
         motion.drives[j] = before;
         columns
+    }
+
+    fn effect(self) -> Option<(AtJoint, &'static dyn HasShape)> {
+        let at = AtJoint::of(self.hypothesis.place)?;
+        Some((at, model(self.hypothesis.kind).ok()?.shape()?))
     }
 }

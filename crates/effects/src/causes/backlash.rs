@@ -1,16 +1,17 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
+use crate::abilities::{BetweenEncoders, HasShape};
 use crate::bounds::down_to_zero;
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::motion::transmission::{Carried, Gap, play};
-use crate::place::{Place, every_joint};
+use crate::place::{AtJoint, every_joint};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
 /// of the gap (rad or m).
@@ -34,20 +35,71 @@ const STEP: f64 = 0.1;
 /// worn joints some ten.
 const GAP_SD: f64 = 0.01;
 
-impl Explain for Backlash {
+impl Effect for Backlash {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::Backlash
     }
 
     fn nature(&self) -> Nature {
-        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Direct, &[])
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Firm,
+            Seat::BeforeTheLink,
+            Weights::Direct,
+            &[],
+        )
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("half the gap on the side of the load, eased where the load changes sign")
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        (drive.backlash > 0.0).then_some("backlash_rad")
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         every_joint(robot)
     }
 
-    fn shapes(&self, joint: usize, robot: &Robot, _: &Scale) -> Vec<f64> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+        let carried = Carried::beyond(motion.tight_load(j), &motion.slopes(j)[j]);
+        vec![motion.twisted(j, &play_per_gap(motion, j, carried))]
+    }
+
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
+        vec![GAP_SD]
+    }
+
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+        down_to_zero(robot.links()[j].actuator.backlash)
+    }
+
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [change] = weights else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.backlash += change;
+        }
+    }
+
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.backlash)]
+    }
+
+    fn shape(&self) -> Option<&dyn HasShape> {
+        Some(self)
+    }
+
+    fn between_encoders(&self) -> Option<&dyn BetweenEncoders> {
+        Some(self)
+    }
+}
+
+impl HasShape for Backlash {
+    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, _: &Scale) -> Vec<f64> {
         let known = robot.links()[joint].actuator.backlash > 0.0;
         if known { Vec::new() } else { TRIALS.to_vec() }
     }
@@ -56,38 +108,16 @@ impl Explain for Backlash {
         drive.backlash_trial = shape;
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
-        let carried = Carried::beyond(motion.tight_load(j), &motion.slopes(j)[j]);
-        vec![motion.twisted(j, &play_per_gap(motion, j, carried))]
+    fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {
+        drive.backlash_trial = before.backlash_trial;
     }
+}
 
-    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+impl BetweenEncoders for Backlash {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let ratio = motion.drives[j].transmission_ratio;
         let play = play_per_gap(motion, j, Carried::here(&motion.load[j], &motion.slopes(j)[j]));
         vec![at_joint(j, play.into_iter().map(|x| x / ratio))]
-    }
-
-    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![GAP_SD]
-    }
-
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
-        down_to_zero(robot.links()[j].actuator.backlash)
-    }
-
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [change]) = (place, weights) else { return };
-        if let Some(link) = robot.link_mut(j) {
-            link.actuator.backlash += change;
-        }
-    }
-
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
-        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.backlash)]
     }
 }
 

@@ -1,16 +1,17 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
+use crate::abilities::CanBeUnsound;
 use crate::bounds::{down_to_zero, unbounded};
 use crate::column::Column;
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::cable_loop::Loop;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, every_joint};
+use crate::place::{AtJoint, every_joint};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `stiffness x + cubic x³ + h`, `x = q - rest`, with the loop `h`.
 ///
@@ -35,21 +36,37 @@ const REST_SD: f64 = 0.25;
 /// Least and largest change of a loop in one step, over the loop.
 const LOOP_STEP: (f64, f64) = (-0.5, 1.0);
 
-impl Explain for CableSpring {
+impl Effect for CableSpring {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::CableSpring
     }
 
     fn nature(&self) -> Nature {
-        Nature::new(Linearity::Tangent, Law::Rough, Seat::Elsewhere, Weights::Direct, &[])
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::No,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::Direct,
+            &[],
+        )
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("the torque of its spring at the position of the link, and the level of its loop")
+    }
+
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         every_joint(robot)
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let (q, drive) = (&motion.link[0][j], &motion.drives[j]);
         if !is_there(drive) {
             return vec![vec![motion.carried(j, q.iter().map(|q| q - motion.centre[j]))]];
@@ -84,8 +101,7 @@ impl Explain for CableSpring {
     }
 
     /// A torque as large as the effort itself over the range of the joint.
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let (stiffness, range) = (scale.effort_per(j, &scale.range), scale.range[j]);
         let drive = &robot.links()[j].actuator;
         if !is_there(drive) {
@@ -94,8 +110,7 @@ impl Explain for CableSpring {
         vec![stiffness, stiffness / (range * range), scale.effort[j], REST_SD * range]
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         let drive = &robot.links()[j].actuator;
         if !is_there(drive) {
             return down_to_zero(drive.spring_stiffness);
@@ -113,15 +128,7 @@ impl Explain for CableSpring {
         .concat()
     }
 
-    /// Whether what slides is held by a spring.
-    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
-        let Place::Joint(j) = place else { return false };
-        let drive = &extended.links()[j].actuator;
-        drive.spring_hysteresis == 0.0 || is_there(drive)
-    }
-
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
-        let Place::Joint(j) = place else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], frame: &Frame) {
         let Some(link) = robot.link_mut(j) else { return };
         let a = &mut link.actuator;
         match weights {
@@ -144,8 +151,7 @@ impl Explain for CableSpring {
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let robots = [nominal, extended];
         let read: [fn(&Actuator) -> f64; 4] = [
             |a| a.spring_stiffness,
@@ -155,6 +161,18 @@ impl Explain for CableSpring {
         ];
         let quantity = |(i, read)| actuator_quantity(self.kind(), i, j, robots, read);
         read.into_iter().enumerate().map(quantity).collect()
+    }
+
+    fn can_be_unsound(&self) -> Option<&dyn CanBeUnsound<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl CanBeUnsound<AtJoint> for CableSpring {
+    /// Whether what slides is held by a spring.
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+        let drive = &extended.links()[j].actuator;
+        drive.spring_hysteresis == 0.0 || is_there(drive)
     }
 }
 

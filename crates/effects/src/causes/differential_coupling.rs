@@ -1,15 +1,16 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Coupling, Robot};
 
+use crate::abilities::{HasShape, IsRare};
 use crate::bounds::down_to_zero;
 use crate::column::{Column, Part};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, joints_where};
+use crate::place::{AtJoint, joints_where};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// Friction of two motors that a joint and the next one share: a dry level and a viscous factor of
 /// the motor that turns with the sum, the same of the one that turns with the difference; where
@@ -64,7 +65,9 @@ fn is_known(c: &Coupling) -> bool {
     c.level.iter().chain(&c.viscous).any(|v| *v > 0.0)
 }
 
-impl Explain for DifferentialCoupling {
+impl Effect for DifferentialCoupling {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::DifferentialCoupling
     }
@@ -74,31 +77,30 @@ impl Explain for DifferentialCoupling {
             EffectKind::CoulombFriction,
             EffectKind::ViscousFriction,
         ])];
-        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::Direct, RELATIONS)
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::Direct,
+            RELATIONS,
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("the friction of the shared motors at their speeds, eased through rest")
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        drive.coupling.map(|_| "coupling")
     }
 
     /// Joints with a coupling, or with the germ of one.
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| drive.coupling.is_some())
     }
 
-    fn shapes(&self, joint: usize, robot: &Robot, _: &Scale) -> Vec<f64> {
-        let next = robot.links().get(joint + 1).filter(|link| link.parent == Some(joint));
-        let known = robot.links()[joint].actuator.coupling.is_some();
-        let alike = next.is_some_and(|link| {
-            link.joint.kind.is_rotation() == robot.links()[joint].joint.kind.is_rotation()
-        });
-        if alike && !known { RATIOS.to_vec() } else { Vec::new() }
-    }
-
-    fn sow(&self, joint: usize, drive: &mut Actuator, shape: f64) {
-        let nothing = [0.0; 2];
-        drive.coupling =
-            Some(Coupling { other: joint + 1, ratio: shape, level: nothing, viscous: nothing });
-    }
-
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let Some(known) = motion.drives[j].coupling else { return Vec::new() };
         let unit = |of: [f64; 3]| Self::unit(motion, j, &known, of);
         let mut columns: Vec<Column> =
@@ -117,36 +119,22 @@ impl Explain for DifferentialCoupling {
     }
 
     /// Levels and viscous torques as large as the effort itself.
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let Some(known) = robot.links()[j].actuator.coupling else { return Vec::new() };
         let one = [scale.effort[j], scale.effort_per(j, &scale.speed)];
         let ratio = is_known(&known).then_some(RATIO_SD);
         one.into_iter().chain(one).chain(ratio).collect()
     }
 
-    /// Few arms share motors, and of most of these it is known: friction of the sum and difference of two
-    /// speeds passes for what else goes with both joints.
-    fn rarity(&self, place: Place, robot: &Robot) -> f64 {
-        let drive = match place {
-            Place::Joint(j) => robot.links().get(j).map(|link| &link.actuator),
-            _ => None,
-        };
-        let coupling = drive.and_then(|drive| drive.coupling);
-        if coupling.is_some_and(|c| is_known(&c)) { 0.0 } else { RARE }
-    }
-
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         let Some(c) = robot.links()[j].actuator.coupling else { return Vec::new() };
         let frictions = [c.level[0], c.viscous[0], c.level[1], c.viscous[1]];
         let ratio = is_known(&c).then_some((-0.5 * c.ratio, c.ratio));
         frictions.into_iter().flat_map(down_to_zero).chain(ratio).collect()
     }
 
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [sum, slope, difference, slant, ratio @ ..]) = (place, weights)
-        else {
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [sum, slope, difference, slant, ratio @ ..] = weights else {
             return;
         };
         let Some(link) = robot.link_mut(j) else { return };
@@ -157,8 +145,7 @@ impl Explain for DifferentialCoupling {
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let robots = [nominal, extended];
         let read = |index: usize, none: f64, pick: fn(Coupling) -> f64| {
             actuator_quantity(self.kind(), index, j, robots, |a| a.coupling.map_or(none, pick))
@@ -170,5 +157,46 @@ impl Explain for DifferentialCoupling {
             read(3, 0.0, |c| c.viscous[0]),
             read(4, 0.0, |c| c.viscous[1]),
         ]
+    }
+
+    fn shape(&self) -> Option<&dyn HasShape> {
+        Some(self)
+    }
+
+    fn rare(&self) -> Option<&dyn IsRare<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl HasShape for DifferentialCoupling {
+    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, _: &Scale) -> Vec<f64> {
+        let next = robot.links().get(joint + 1).filter(|link| link.parent == Some(joint));
+        let known = robot.links()[joint].actuator.coupling.is_some();
+        let alike = next.is_some_and(|link| {
+            link.joint.kind.is_rotation() == robot.links()[joint].joint.kind.is_rotation()
+        });
+        if alike && !known { RATIOS.to_vec() } else { Vec::new() }
+    }
+
+    fn sow(&self, joint: usize, drive: &mut Actuator, shape: f64) {
+        let nothing = [0.0; 2];
+        drive.coupling =
+            Some(Coupling { other: joint + 1, ratio: shape, level: nothing, viscous: nothing });
+    }
+
+    fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {
+        if drive.coupling.is_some_and(|c| c.level.iter().chain(&c.viscous).all(|v| *v <= 0.0)) {
+            drive.coupling = before.coupling;
+        }
+    }
+}
+
+impl IsRare<AtJoint> for DifferentialCoupling {
+    /// Few arms share motors, and of most of these it is known: friction of the sum and difference of two
+    /// speeds passes for what else goes with both joints.
+    fn rarity(&self, AtJoint(j): AtJoint, robot: &Robot) -> f64 {
+        let drive = robot.links().get(j).map(|link| &link.actuator);
+        let coupling = drive.and_then(|drive| drive.coupling);
+        if coupling.is_some_and(|c| is_known(&c)) { 0.0 } else { RARE }
     }
 }

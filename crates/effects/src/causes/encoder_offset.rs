@@ -1,15 +1,16 @@
 use catalogue::EffectKind;
-use robot::Robot;
+use robot::{Actuator, Robot};
 
+use crate::abilities::BetweenEncoders;
 use crate::bounds::unbounded;
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, every_joint};
+use crate::place::{AtJoint, every_joint};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `tau(q - offset) - tau(q)`: one weight a joint, the change of the offset (rad or m).
 ///
@@ -20,48 +21,68 @@ pub(crate) struct EncoderOffset;
 /// hundredths.
 const OFFSET_SD: f64 = 0.05;
 
-impl Explain for EncoderOffset {
+impl Effect for EncoderOffset {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::EncoderOffset
     }
 
     fn nature(&self) -> Nature {
-        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Direct, &[])
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Firm,
+            Seat::BeforeTheLink,
+            Weights::Direct,
+            &[],
+        )
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("a reference that is off as the encoder is")
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        (drive.encoder_offset.abs() > 0.0).then_some("encoder_offset_rad")
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         every_joint(robot)
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let moved = vec![-motion.drives[j].transmission_ratio; motion.samples()];
         let still = vec![0.0; motion.samples()];
         vec![motion.displaced(j, [&moved, &still, &still])]
     }
 
-    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
-        vec![at_joint(j, motion.q[j].iter().map(|_| 1.0))]
-    }
-
-    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
         vec![OFFSET_SD]
     }
 
-    fn bounds(&self, _: Place, _: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, _: AtJoint, _: &Robot) -> Vec<(f64, f64)> {
         unbounded(1)
     }
 
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [change]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.encoder_offset += change;
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.encoder_offset)]
+    }
+
+    fn between_encoders(&self) -> Option<&dyn BetweenEncoders> {
+        Some(self)
+    }
+}
+
+impl BetweenEncoders for EncoderOffset {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+        vec![at_joint(j, motion.q[j].iter().map(|_| 1.0))]
     }
 }

@@ -1,16 +1,17 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot, Warming};
 
+use crate::abilities::{CanBeUnsound, HasShape};
 use crate::bounds::down_to_zero;
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::drive::warmth;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, joints_where};
+use crate::place::{AtJoint, joints_where};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// Friction that falls while the drive warms up: two weights a joint, the changes of the viscous and of
 /// the Coulomb friction that a warm drive has lost; where it has lost some, a third for the time constant.
@@ -52,34 +53,38 @@ fn share(drive: &Actuator) -> f64 {
     if cold > 0.0 { lost / cold } else { 0.0 }
 }
 
-impl Explain for FrictionTemperatureDrift {
+impl Effect for FrictionTemperatureDrift {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::FrictionTemperatureDrift
     }
 
     fn nature(&self) -> Nature {
-        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::Direct, &[])
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::Direct,
+            &[],
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Err("the temperature of a drive is not known")
+    }
+
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
     }
 
     /// Joints whose friction falls, or that have the germ of it.
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| of(drive).is_some())
     }
 
-    fn shapes(&self, joint: usize, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        if of(&robot.links()[joint].actuator).is_some() {
-            return Vec::new();
-        }
-        TRIALS_S.into_iter().filter(|trial| *trial <= LONGEST * scale.session_s).collect()
-    }
-
-    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
-        let (viscous_lost, coulomb_lost) = (0.0, 0.0);
-        drive.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: shape });
-    }
-
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let Some(known) = of(&motion.drives[j]) else { return Vec::new() };
         let Warming { viscous_lost, coulomb_lost, time_constant_s } = known;
         let (gain, qd, direction) = (motion.gain[j], &motion.qd[j], &motion.direction[j]);
@@ -99,15 +104,13 @@ impl Explain for FrictionTemperatureDrift {
     }
 
     /// Losses as large as the effort itself, a time constant known to its half.
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
         let time = has_size(known).then_some(0.5 * known.time_constant_s);
         [scale.effort_per(j, &scale.speed), scale.effort[j]].into_iter().chain(time).collect()
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
         let (least, most) = TIME_STEP;
         let time = has_size(known)
@@ -116,16 +119,9 @@ impl Explain for FrictionTemperatureDrift {
         lost.concat().into_iter().chain(time).collect()
     }
 
-    /// Whether a warm drive has lost friction, and not all of it.
-    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
-        let Place::Joint(j) = place else { return false };
-        let share = share(&extended.links()[j].actuator);
-        share > 0.0 && share < 1.0
-    }
-
     /// No more is lost than the cold drive has.
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [viscous, coulomb, time @ ..]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [viscous, coulomb, time @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
         let Some(known) = of(drive) else { return };
@@ -137,8 +133,7 @@ impl Explain for FrictionTemperatureDrift {
         }));
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let robots = [nominal, extended];
         let quantity = |index, pick: fn(Warming) -> f64, none: f64| {
             actuator_quantity(self.kind(), index, j, robots, |a| of(a).map_or(none, pick))
@@ -149,5 +144,42 @@ impl Explain for FrictionTemperatureDrift {
             quantity(2, |w| w.time_constant_s, f64::INFINITY),
             actuator_quantity(self.kind(), 3, j, robots, share),
         ]
+    }
+
+    fn shape(&self) -> Option<&dyn HasShape> {
+        Some(self)
+    }
+
+    fn can_be_unsound(&self) -> Option<&dyn CanBeUnsound<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl HasShape for FrictionTemperatureDrift {
+    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+        if of(&robot.links()[joint].actuator).is_some() {
+            return Vec::new();
+        }
+        TRIALS_S.into_iter().filter(|trial| *trial <= LONGEST * scale.session_s).collect()
+    }
+
+    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+        let (viscous_lost, coulomb_lost) = (0.0, 0.0);
+        drive.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: shape });
+    }
+
+    fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {
+        if drive.warming.is_some_and(|w| w.viscous_lost <= 0.0 && w.coulomb_lost <= 0.0) {
+            drive.warming = before.warming;
+        }
+        drive.warming = drive.warming.map(|warming| drive.lost_at_most(warming));
+    }
+}
+
+impl CanBeUnsound<AtJoint> for FrictionTemperatureDrift {
+    /// Whether a warm drive has lost friction, and not all of it.
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+        let share = share(&extended.links()[j].actuator);
+        share > 0.0 && share < 1.0
     }
 }

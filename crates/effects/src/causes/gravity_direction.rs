@@ -1,16 +1,17 @@
 use catalogue::EffectKind;
 use nalgebra::{Rotation3, Vector3};
-use robot::Robot;
+use robot::{Actuator, Robot};
 
+use crate::abilities::IsRestricted;
 use crate::column::Column;
-use crate::effect::Explain;
+use crate::effect::{Effect, INVERSE_DYNAMICS};
 use crate::motion::frame::Frame;
 use crate::motion::rigid_bodies::tilt_axes;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::Place;
+use crate::place::AtBase;
 use crate::quantity::Quantity;
-use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `G(q) (g - g_nominal)`: two weights, the tilt of gravity about two horizontal axes (rad).
 ///
@@ -24,20 +25,37 @@ const TILT_SD: f64 = 0.1;
 /// Largest tilt that the linear columns describe (rad).
 const TILT_LIMIT: f64 = 0.5;
 
-impl Explain for GravityDirection {
+impl Effect for GravityDirection {
+    type At = AtBase;
+
     fn kind(&self) -> EffectKind {
         EffectKind::GravityDirection
     }
 
     fn nature(&self) -> Nature {
-        Nature::new(Linearity::Tangent, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::No,
+            Law::Firm,
+            Seat::Elsewhere,
+            Weights::Direct,
+            &[],
+        )
     }
 
-    fn places(&self, _: &Robot) -> Vec<Place> {
-        vec![Place::Base]
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok(INVERSE_DYNAMICS)
     }
 
-    fn columns(&self, _: Place, motion: &Motion) -> Vec<Column> {
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
+    }
+
+    fn places(&self, _: &Robot) -> Vec<AtBase> {
+        vec![AtBase]
+    }
+
+    fn columns(&self, _: AtBase, motion: &Motion) -> Vec<Column> {
         let column = |axis: usize| {
             let part = |(joint, tilt): (usize, &[Vec<f64>; 2])| {
                 motion.carried(joint, tilt[axis].iter().copied())
@@ -47,20 +65,15 @@ impl Explain for GravityDirection {
         vec![column(0), column(1)]
     }
 
-    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+    fn prior(&self, _: AtBase, _: &Robot, _: &Scale) -> Vec<f64> {
         vec![TILT_SD; 2]
     }
 
-    fn bounds(&self, _: Place, _: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, _: AtBase, _: &Robot) -> Vec<(f64, f64)> {
         vec![(-TILT_LIMIT, TILT_LIMIT); 2]
     }
 
-    /// A tilt at the limit of what the columns describe is no explanation.
-    fn admissible(&self, _: Place, _: &Robot, weights: &[f64]) -> bool {
-        weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * TILT_LIMIT)
-    }
-
-    fn extend(&self, _: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(&self, _: AtBase, robot: &mut Robot, weights: &[f64], _: &Frame) {
         let [first, second] = weights else { return };
         let gravity = robot.gravity_in_base();
         let axes = tilt_axes(gravity);
@@ -68,7 +81,7 @@ impl Explain for GravityDirection {
         *robot = robot.clone().with_gravity(Rotation3::new(tilt) * gravity);
     }
 
-    fn quantities(&self, _: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(&self, _: AtBase, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let axes = tilt_axes(nominal.gravity_in_base());
         let tilt = tilt_between(nominal.gravity_in_base(), extended.gravity_in_base());
         let parameters = self.kind().entry().parameters;
@@ -79,6 +92,17 @@ impl Explain for GravityDirection {
             unit: p.unit,
         };
         axes.iter().zip(parameters).map(quantity).collect()
+    }
+
+    fn restricted(&self) -> Option<&dyn IsRestricted<AtBase>> {
+        Some(self)
+    }
+}
+
+impl IsRestricted<AtBase> for GravityDirection {
+    /// A tilt at the limit of what the columns describe is no explanation.
+    fn admissible(&self, _: AtBase, _: &Robot, weights: &[f64]) -> bool {
+        weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * TILT_LIMIT)
     }
 }
 

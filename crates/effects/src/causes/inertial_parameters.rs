@@ -1,16 +1,17 @@
 use catalogue::EffectKind;
 use dynamics::PARAMETERS_PER_LINK;
-use robot::{Inertia, Robot};
+use robot::{Actuator, Inertia, Robot};
 
+use crate::abilities::HasCadError;
 use crate::bounds::{down_to_zero, unbounded};
 use crate::column::Column;
-use crate::effect::Explain;
+use crate::effect::{Effect, INVERSE_DYNAMICS};
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::Place;
+use crate::place::InLink;
 use crate::quantity::Quantity;
-use crate::traits::{Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
 /// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
@@ -25,7 +26,9 @@ const CENTRE_M: f64 = 0.01;
 /// The smallest mass that a share is taken of (kg).
 const LEAST_MASS: f64 = 0.01;
 
-impl Explain for InertialParameters {
+impl Effect for InertialParameters {
+    type At = InLink;
+
     fn kind(&self) -> EffectKind {
         EffectKind::InertialParameters
     }
@@ -35,15 +38,29 @@ impl Explain for InertialParameters {
             Relation::OtherNameOf(EffectKind::Payload),
             Relation::PlainerAtTheJoint(EffectKind::RotorInertia),
         ];
-        Nature::new(Linearity::Exact, Law::Firm, Seat::Elsewhere, Weights::Direct, RELATIONS)
+        Nature::new(
+            Linearity::Exact,
+            Imitable::No,
+            Law::Firm,
+            Seat::Elsewhere,
+            Weights::Direct,
+            RELATIONS,
+        )
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
-        (0..robot.joint_count()).map(Place::Link).collect()
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok(INVERSE_DYNAMICS)
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Link(link) = place else { return Vec::new() };
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<InLink> {
+        (0..robot.joint_count()).map(InLink).collect()
+    }
+
+    fn columns(&self, InLink(link): InLink, motion: &Motion) -> Vec<Column> {
         let regressor = motion.link_regressor(link);
         let column = |parameter: usize| {
             let carriers = regressor.iter().enumerate().filter(|(_, signals)| !signals.is_empty());
@@ -57,8 +74,7 @@ impl Explain for InertialParameters {
 
     /// Round numbers: the mass is known to itself plus a third of a mean link, the centre of
     /// mass to the length of a link.
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Link(link) = place else { return Vec::new() };
+    fn prior(&self, InLink(link): InLink, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let mass = robot.links()[link].inertia.mass.max(0.0);
         let (m, l) = (mass + 0.3 * scale.link_mass, scale.link_length);
         let mut sd = vec![m];
@@ -67,6 +83,33 @@ impl Explain for InertialParameters {
         sd
     }
 
+    /// The mass stays positive; that the whole inertia is physical is seen to where it is
+    /// written into a robot.
+    fn bounds(&self, InLink(link): InLink, robot: &Robot) -> Vec<(f64, f64)> {
+        let mut bounds = down_to_zero(robot.links()[link].inertia.mass);
+        bounds.extend(unbounded(PARAMETERS_PER_LINK - 1));
+        bounds
+    }
+
+    fn extend(&self, InLink(index): InLink, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        if let Some(link) = robot.link_mut(index) {
+            let mut pi = link.inertia.parameters();
+            pi.iter_mut().zip(weights).for_each(|(p, w)| *p += w);
+            link.inertia = Inertia::from_parameters(&pi);
+        }
+    }
+
+    fn quantities(&self, InLink(link): InLink, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let read = |r: &Robot| mass_and_com(&r.links()[link].inertia);
+        quantities(self.kind(), read(nominal), read(extended))
+    }
+
+    fn cad_error(&self) -> Option<&dyn HasCadError<InLink>> {
+        Some(self)
+    }
+}
+
+impl HasCadError<InLink> for InertialParameters {
     /// What CAD is wrong by: a tenth of the mass and of the inertia, a centimetre of the centre of mass.
     ///
     /// ```text
@@ -74,8 +117,7 @@ impl Explain for InertialParameters {
     /// sd(m c) = SHARE m |c| + CENTRE_M m
     /// sd(I)   = SHARE (Ixx + Iyy + Izz) + 2 CENTRE_M m (|c| + CENTRE_M)
     /// ```
-    fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>> {
-        let Place::Link(link) = place else { return None };
+    fn everyday(&self, InLink(link): InLink, robot: &Robot) -> Vec<f64> {
         let inertia = &robot.links()[link].inertia;
         let mass = inertia.mass.max(LEAST_MASS);
         let reach = inertia.com_in_link.norm();
@@ -84,31 +126,7 @@ impl Explain for InertialParameters {
         sd.extend([mass * (SHARE * reach + CENTRE_M); 3]);
         let second = SHARE * (xx + yy + zz).max(0.0) + 2.0 * CENTRE_M * mass * (reach + CENTRE_M);
         sd.extend([second; 6]);
-        Some(sd)
-    }
-
-    /// The mass stays positive; that the whole inertia is physical is seen to where it is
-    /// written into a robot.
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Link(link) = place else { return Vec::new() };
-        let mut bounds = down_to_zero(robot.links()[link].inertia.mass);
-        bounds.extend(unbounded(PARAMETERS_PER_LINK - 1));
-        bounds
-    }
-
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let Place::Link(index) = place else { return };
-        if let Some(link) = robot.link_mut(index) {
-            let mut pi = link.inertia.parameters();
-            pi.iter_mut().zip(weights).for_each(|(p, w)| *p += w);
-            link.inertia = Inertia::from_parameters(&pi);
-        }
-    }
-
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Link(link) = place else { return Vec::new() };
-        let read = |r: &Robot| mass_and_com(&r.links()[link].inertia);
-        quantities(self.kind(), read(nominal), read(extended))
+        sd
     }
 }
 

@@ -1,16 +1,17 @@
 use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
+use crate::abilities::BetweenEncoders;
 use crate::bounds::down_to_zero;
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::motion::transmission::{Carried, Gap, play};
-use crate::place::{Place, every_joint};
+use crate::place::{AtJoint, every_joint};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
 /// `1 / stiffness`.
@@ -49,13 +50,30 @@ fn per_compliance(
     twist
 }
 
-impl Explain for JointElasticity {
+impl Effect for JointElasticity {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::JointElasticity
     }
 
     fn nature(&self) -> Nature {
-        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Reciprocal, &[])
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Firm,
+            Seat::BeforeTheLink,
+            Weights::Reciprocal,
+            &[],
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("the twist under the load, and what it asks of the rotor")
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        drive.elasticity.map(|_| "elasticity_nm_per_rad")
     }
 
     /// The stiffness: damping acts only at frequencies that the motion does not reach.
@@ -64,45 +82,46 @@ impl Explain for JointElasticity {
         all.get(..1).unwrap_or(all)
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         every_joint(robot)
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let twist = per_compliance(motion, j, motion.tight_load(j), Carried::beyond);
         vec![motion.twisted(j, &twist)]
     }
 
-    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
-        let ratio = motion.drives[j].transmission_ratio;
-        let twist = per_compliance(motion, j, &motion.load[j], Carried::here);
-        vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]
-    }
-
-    fn prior(&self, place: Place, _: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale) -> Vec<f64> {
         let effort = scale.effort.get(j).copied().unwrap_or(0.0);
         vec![if effort > 0.0 { TWIST_SD / effort } else { 0.0 }]
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         down_to_zero(compliance(&robot.links()[j].actuator))
     }
 
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [change]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [change] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let compliance = compliance(&link.actuator) + change;
         link.actuator.elasticity = (compliance > 0.0).then(|| compliance.recip());
     }
 
     /// A rigid transmission has an infinite stiffness.
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let stiffness = |a: &Actuator| a.elasticity.unwrap_or(f64::INFINITY);
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], stiffness)]
+    }
+
+    fn between_encoders(&self) -> Option<&dyn BetweenEncoders> {
+        Some(self)
+    }
+}
+
+impl BetweenEncoders for JointElasticity {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+        let ratio = motion.drives[j].transmission_ratio;
+        let twist = per_compliance(motion, j, &motion.load[j], Carried::here);
+        vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]
     }
 }

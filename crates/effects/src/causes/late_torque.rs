@@ -3,14 +3,14 @@ use robot::{Actuator, Robot};
 
 use crate::bounds::down_to_zero;
 use crate::column::Column;
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::motion::timing::is_measured;
-use crate::place::{Place, joints_where};
+use crate::place::{AtJoint, joints_where};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// Torque that comes later than its command: one weight a joint, the change of a time (s).
 ///
@@ -35,7 +35,9 @@ impl LateTorque {
     }
 }
 
-impl Explain for LateTorque {
+impl Effect for LateTorque {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         match self {
             Self::Delay => EffectKind::ActuatorDelay,
@@ -48,30 +50,50 @@ impl Explain for LateTorque {
             Self::Delay => &[Relation::TwinOf(EffectKind::ActuatorLag)],
             Self::Lag => &[Relation::TwinOf(EffectKind::ActuatorDelay)],
         };
-        Nature::new(Linearity::Doubtful, Law::Firm, Seat::Elsewhere, Weights::Direct, twin)
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Firm,
+            Seat::Elsewhere,
+            Weights::Direct,
+            twin,
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok(match self {
+            Self::Delay => "asking for the torque of the motion that much ahead",
+            Self::Lag => "asking for the rate of the torque as well, times the time constant",
+        })
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        let key = match self {
+            Self::Delay => "actuator_delay_ms",
+            Self::Lag => "actuator_lag_ms",
+        };
+        (self.time(drive) > 0.0 && !is_measured(drive)).then_some(key)
     }
 
     /// Joints whose log has a command, or may have: a measured torque has it behind it.
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| !is_measured(drive))
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         vec![motion.torque_rate(j)]
     }
 
-    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
         vec![0.005]
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         down_to_zero(self.time(&robot.links()[j].actuator))
     }
 
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [change]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [change] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         match self {
             Self::Delay => link.actuator.delay_s += change,
@@ -79,8 +101,7 @@ impl Explain for LateTorque {
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| self.time(a))]
     }
 }

@@ -22,4 +22,5 @@ pub(crate) mod time_skew;
 pub(crate) mod torque_constant;
 pub(crate) mod torque_offset;
 pub(crate) mod transmission_ratio;
+pub(crate) mod unmodelled;
 pub(crate) mod viscous_friction;

@@ -4,15 +4,16 @@ use catalogue::EffectKind;
 use nalgebra::Complex;
 use robot::{Actuator, Robot, Wave};
 
+use crate::abilities::{CanBeUnsound, CanHide, HasShape};
 use crate::bounds::unbounded;
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, joints_where};
+use crate::place::{AtJoint, joints_where};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
 /// Coulomb friction that varies with the position of the motor: two weights a joint, the change of
 /// the wave in phase and in quadrature (N·m or N); where there is one, a third for its periods.
@@ -41,7 +42,9 @@ fn amplitude(drive: &Actuator) -> Option<(Complex<f64>, Wave)> {
     drive.friction_wave.map(|w| (Complex::from_polar(level(drive) * w.share, w.phase), w))
 }
 
-impl Explain for PositionDependentFriction {
+impl Effect for PositionDependentFriction {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::PositionDependentFriction
     }
@@ -49,30 +52,30 @@ impl Explain for PositionDependentFriction {
     fn nature(&self) -> Nature {
         const RELATIONS: &[Relation] =
             &[Relation::FormOf(EffectKind::CoulombFriction, Shows::AtOtherPositions)];
-        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::Phases, RELATIONS)
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::Phases,
+            RELATIONS,
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok(EASED_LEVEL)
+    }
+
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
     }
 
     /// Joints with a wave, or with the germ of one.
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| drive.friction_wave.is_some())
     }
 
-    fn shapes(&self, joint: usize, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let range = scale.range[joint];
-        if robot.links()[joint].actuator.friction_wave.is_some() || range <= 0.0 {
-            return Vec::new();
-        }
-        let step = APART / range;
-        let count = ((MOST - FEWEST) / step) as usize + 1;
-        (0..count).map(|k| FEWEST + k as f64 * step).collect()
-    }
-
-    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
-        drive.friction_wave = Some(Wave { share: 0.0, periods: shape, phase: 0.0 });
-    }
-
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let Some((wave, Wave { periods, phase, .. })) = amplitude(&motion.drives[j]) else {
             return Vec::new();
         };
@@ -94,39 +97,22 @@ impl Explain for PositionDependentFriction {
         columns
     }
 
-    /// Of the longest wave, whose crest stands in the middle of what the joint has covered:
-    /// `1 - cos(reach)` of it is to be seen there.
-    fn largest_unseen(&self, place: Place, _: &Robot, frame: &Frame) -> f64 {
-        let Place::Joint(j) = place else { return 1.0 };
-        let phase = FEWEST * frame.reach[j];
-        if phase < FRAC_PI_2 { (1.0 - phase.cos()).recip() } else { 1.0 }
-    }
-
     /// A wave as large as the effort itself, periods known to a phase of one over the range.
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
         let Some((wave, _)) = amplitude(&robot.links()[j].actuator) else { return Vec::new() };
         let periods = (wave.norm() > 0.0).then_some(2.0 / scale.range[j]);
         [scale.effort[j]; 2].into_iter().chain(periods).collect()
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         let Some((wave, known)) = amplitude(&robot.links()[j].actuator) else { return Vec::new() };
         let periods = (wave.norm() > 0.0).then_some((-0.5 * known.periods, f64::INFINITY));
         unbounded(2).into_iter().chain(periods).collect()
     }
 
-    /// Whether friction is against the motion everywhere.
-    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
-        let Place::Joint(j) = place else { return false };
-        let wave = extended.links()[j].actuator.friction_wave;
-        wave.is_some_and(|w| w.share > 0.0 && w.share < 0.9)
-    }
-
     /// The wave of a joint whose level is not known stays without size.
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
-        let (Place::Joint(j), [cosine, sine, periods @ ..]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+        let [cosine, sine, periods @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
         let level = level(drive);
@@ -140,8 +126,7 @@ impl Explain for PositionDependentFriction {
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let robots = [nominal, extended];
         let wave = |pick: fn(Wave) -> f64, none: f64| {
             move |a: &Actuator| a.friction_wave.map_or(none, pick)
@@ -152,5 +137,56 @@ impl Explain for PositionDependentFriction {
             actuator_quantity(self.kind(), 2, j, robots, wave(|w| w.periods, f64::INFINITY)),
             actuator_quantity(self.kind(), 3, j, robots, wave(|w| w.phase, f64::INFINITY)),
         ]
+    }
+
+    fn shape(&self) -> Option<&dyn HasShape> {
+        Some(self)
+    }
+
+    fn can_be_unsound(&self) -> Option<&dyn CanBeUnsound<AtJoint>> {
+        Some(self)
+    }
+
+    fn can_hide(&self) -> Option<&dyn CanHide<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl HasShape for PositionDependentFriction {
+    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+        let range = scale.range[joint];
+        if robot.links()[joint].actuator.friction_wave.is_some() || range <= 0.0 {
+            return Vec::new();
+        }
+        let step = APART / range;
+        let count = ((MOST - FEWEST) / step) as usize + 1;
+        (0..count).map(|k| FEWEST + k as f64 * step).collect()
+    }
+
+    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+        drive.friction_wave = Some(Wave { share: 0.0, periods: shape, phase: 0.0 });
+    }
+
+    fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {
+        if drive.friction_wave.is_some_and(|w| w.share <= 0.0) {
+            drive.friction_wave = before.friction_wave;
+        }
+    }
+}
+
+impl CanBeUnsound<AtJoint> for PositionDependentFriction {
+    /// Whether friction is against the motion everywhere.
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+        let wave = extended.links()[j].actuator.friction_wave;
+        wave.is_some_and(|w| w.share > 0.0 && w.share < 0.9)
+    }
+}
+
+impl CanHide<AtJoint> for PositionDependentFriction {
+    /// Of the longest wave, whose crest stands in the middle of what the joint has covered:
+    /// `1 - cos(reach)` of it is to be seen there.
+    fn largest_unseen(&self, AtJoint(j): AtJoint, _: &Robot, frame: &Frame) -> f64 {
+        let phase = FEWEST * frame.reach[j];
+        if phase < FRAC_PI_2 { (1.0 - phase.cos()).recip() } else { 1.0 }
     }
 }

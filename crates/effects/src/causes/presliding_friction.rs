@@ -1,16 +1,17 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
+use crate::abilities::CanBeUnsound;
 use crate::bounds::down_to_zero;
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::drive::{bending, bristles};
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, every_joint};
+use crate::place::{AtJoint, every_joint};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
 /// Dry friction that builds up over a way. In a robot without, one weight a joint: the friction (N·m or
 /// N) that builds up over a small way instead of at once. In a robot with a way two: the changes of the
@@ -45,7 +46,9 @@ fn level(drive: &Actuator) -> f64 {
     0.5 * (drive.coulomb_forward + drive.coulomb_backward)
 }
 
-impl Explain for PreslidingFriction {
+impl Effect for PreslidingFriction {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::PreslidingFriction
     }
@@ -53,15 +56,29 @@ impl Explain for PreslidingFriction {
     fn nature(&self) -> Nature {
         const RELATIONS: &[Relation] =
             &[Relation::FormOf(EffectKind::CoulombFriction, Shows::NearRest)];
-        Nature::new(Linearity::Doubtful, Law::Rough, Seat::Elsewhere, Weights::SeenBy(1), RELATIONS)
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::SeenBy(1),
+            RELATIONS,
+        )
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("its level as that of Coulomb friction, not the way over which it builds up")
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        drive.presliding.map(|_| "presliding_rad")
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         every_joint(robot)
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let (gain, drive) = (motion.gain[j], &motion.drives[j]);
         let held = |way: f64| bristles(&motion.q[j], way);
         let Some(way) = drive.presliding else {
@@ -80,16 +97,14 @@ impl Explain for PreslidingFriction {
         vec![at_joint(j, longer), at_joint(j, damped)]
     }
 
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
         match robot.links()[j].actuator.presliding {
             Some(_) => vec![WAY_SD, scale.effort_per(j, &scale.speed)],
             None => vec![scale.effort[j]],
         }
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         let drive = &robot.links()[j].actuator;
         let Some(way) = drive.presliding else { return vec![(0.0, f64::INFINITY)] };
         let (least, most) = WAY_STEP;
@@ -97,17 +112,9 @@ impl Explain for PreslidingFriction {
         [vec![(least * way, most * way)], damping].concat()
     }
 
-    /// Whether there is dry friction that builds up, and slowly enough to be told from one that is
-    /// there at once.
-    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
-        let Place::Joint(j) = place else { return false };
-        let drive = &extended.links()[j].actuator;
-        drive.presliding.is_some_and(|way| way >= SHORTEST) && level(drive) > 0.0
-    }
-
     /// To first order in the way, half the friction over a way is all of it over half the way.
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
-        let (Place::Joint(j), [change, damping @ ..]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+        let [change, damping @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
         let level = level(drive);
@@ -126,8 +133,7 @@ impl Explain for PreslidingFriction {
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let robots = [nominal, extended];
         let stiffness = |a: &Actuator| a.presliding.map_or(f64::INFINITY, |way| level(a) / way);
         vec![
@@ -135,5 +141,18 @@ impl Explain for PreslidingFriction {
             actuator_quantity(self.kind(), 1, j, robots, level),
             actuator_quantity(self.kind(), 2, j, robots, |a| a.presliding_damping.unwrap_or(0.0)),
         ]
+    }
+
+    fn can_be_unsound(&self) -> Option<&dyn CanBeUnsound<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl CanBeUnsound<AtJoint> for PreslidingFriction {
+    /// Whether there is dry friction that builds up, and slowly enough to be told from one that is
+    /// there at once.
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+        let drive = &extended.links()[j].actuator;
+        drive.presliding.is_some_and(|way| way >= SHORTEST) && level(drive) > 0.0
     }
 }

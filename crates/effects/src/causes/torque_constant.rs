@@ -1,14 +1,15 @@
 use catalogue::EffectKind;
-use robot::Robot;
+use robot::{Actuator, Robot};
 
+use crate::abilities::IsRestricted;
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, every_joint};
+use crate::place::{AtJoint, every_joint};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `torque_gain tau`: one weight a joint, the change of the gain.
 ///
@@ -23,49 +24,69 @@ const GAIN_SD: f64 = 0.2;
 /// Largest believable relative error of a gain.
 const GAIN_LIMIT: f64 = 0.4;
 
-impl Explain for TorqueConstant {
+impl Effect for TorqueConstant {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::TorqueConstant
     }
 
     fn nature(&self) -> Nature {
-        Nature::new(Linearity::Tangent, Law::Firm, Seat::Elsewhere, Weights::Direct, &[])
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::No,
+            Law::Firm,
+            Seat::Elsewhere,
+            Weights::Direct,
+            &[],
+        )
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("asking for as much more or less")
+    }
+
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         every_joint(robot)
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         vec![at_joint(j, motion.torque[j].iter().map(|t| motion.drives[j].transmission_ratio * t))]
     }
 
-    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
         vec![GAIN_SD]
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         let largest = GAIN_LIMIT * robot.links()[j].actuator.torque_gain;
         vec![(-largest, largest)]
     }
 
-    /// A gain at the limit of what is believable is no explanation.
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
-        let (Place::Joint(j), [change]) = (place, weights) else { return false };
-        change.abs() < (1.0 - 1e-9) * GAIN_LIMIT * robot.links()[j].actuator.torque_gain
-    }
-
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [change]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.torque_gain += change;
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.torque_gain)]
+    }
+
+    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl IsRestricted<AtJoint> for TorqueConstant {
+    /// A gain at the limit of what is believable is no explanation.
+    fn admissible(&self, AtJoint(j): AtJoint, robot: &Robot, weights: &[f64]) -> bool {
+        let [change] = weights else { return false };
+        change.abs() < (1.0 - 1e-9) * GAIN_LIMIT * robot.links()[j].actuator.torque_gain
     }
 }

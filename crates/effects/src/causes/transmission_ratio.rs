@@ -1,14 +1,15 @@
 use catalogue::EffectKind;
-use robot::Robot;
+use robot::{Actuator, Robot};
 
+use crate::abilities::{BetweenEncoders, IsRestricted};
 use crate::column::{Column, at_joint};
-use crate::effect::Explain;
+use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::place::{Place, every_joint};
+use crate::place::{AtJoint, every_joint};
 use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// `ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)`: one weight a joint, the change of
 /// the ratio.
@@ -22,22 +23,38 @@ const RATIO_SD: f64 = 0.03;
 /// another one.
 const RATIO_LIMIT: f64 = 0.25;
 
-impl Explain for TransmissionRatio {
+impl Effect for TransmissionRatio {
+    type At = AtJoint;
+
     fn kind(&self) -> EffectKind {
         EffectKind::TransmissionRatio
     }
 
     fn nature(&self) -> Nature {
         const RELATIONS: &[Relation] = &[Relation::PlainerHere(EffectKind::TorqueConstant)];
-        Nature::new(Linearity::Doubtful, Law::Firm, Seat::BeforeTheLink, Weights::Direct, RELATIONS)
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Firm,
+            Seat::BeforeTheLink,
+            Weights::Direct,
+            RELATIONS,
+        )
     }
 
-    fn places(&self, robot: &Robot) -> Vec<Place> {
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("reference and torque in the units that the drive believes in")
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        drive.transmission_ratio.total_cmp(&1.0).is_ne().then_some("transmission_ratio")
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         every_joint(robot)
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let drive = &motion.drives[j];
         let over =
             |x: &Vec<f64>| -> Vec<f64> { x.iter().map(|x| x / drive.transmission_ratio).collect() };
@@ -54,40 +71,49 @@ impl Explain for TransmissionRatio {
         vec![column]
     }
 
-    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
-        let Place::Joint(j) = place else { return Vec::new() };
-        let drive = &motion.drives[j];
-        let reported = motion.twist(j).into_iter().zip(&motion.link[0][j]);
-        let turned = reported.map(|(twist, q)| twist + q - drive.encoder_offset);
-        vec![at_joint(j, turned.map(|turned| -turned / drive.transmission_ratio))]
-    }
-
-    fn prior(&self, _: Place, _: &Robot, _: &Scale) -> Vec<f64> {
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
         vec![RATIO_SD]
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
         let largest = RATIO_LIMIT * robot.links()[j].actuator.transmission_ratio;
         vec![(-largest, largest)]
     }
 
-    /// A ratio at the limit of what is believable is no explanation.
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
-        let (Place::Joint(j), [change]) = (place, weights) else { return false };
-        let ratio = robot.links()[j].actuator.transmission_ratio;
-        change.abs() < (1.0 - 1e-9) * RATIO_LIMIT * ratio
-    }
-
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], _: &Frame) {
-        let (Place::Joint(j), [change]) = (place, weights) else { return };
+    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+        let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.transmission_ratio += change;
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
-        let Place::Joint(j) = place else { return Vec::new() };
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.transmission_ratio)]
+    }
+
+    fn between_encoders(&self) -> Option<&dyn BetweenEncoders> {
+        Some(self)
+    }
+
+    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl BetweenEncoders for TransmissionRatio {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+        let drive = &motion.drives[j];
+        let reported = motion.twist(j).into_iter().zip(&motion.link[0][j]);
+        let turned = reported.map(|(twist, q)| twist + q - drive.encoder_offset);
+        vec![at_joint(j, turned.map(|turned| -turned / drive.transmission_ratio))]
+    }
+}
+
+impl IsRestricted<AtJoint> for TransmissionRatio {
+    /// A ratio at the limit of what is believable is no explanation.
+    fn admissible(&self, AtJoint(j): AtJoint, robot: &Robot, weights: &[f64]) -> bool {
+        let [change] = weights else { return false };
+        let ratio = robot.links()[j].actuator.transmission_ratio;
+        change.abs() < (1.0 - 1e-9) * RATIO_LIMIT * ratio
     }
 }

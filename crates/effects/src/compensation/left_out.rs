@@ -1,4 +1,20 @@
-use robot::{Actuator, Robot, TorqueSource};
+use catalogue::EffectKind;
+use robot::{Actuator, Robot};
+
+use crate::model::{MODELLED, model};
+
+/// The order in which a sentence names effects; any other comes after these.
+const FIRST: [EffectKind; 9] = [
+    EffectKind::Backlash,
+    EffectKind::JointElasticity,
+    EffectKind::ActuatorDelay,
+    EffectKind::PreslidingFriction,
+    EffectKind::DifferentialCoupling,
+    EffectKind::ActuatorLag,
+    EffectKind::EncoderOffset,
+    EffectKind::TransmissionRatio,
+    EffectKind::TimeSkew,
+];
 
 /// What the robot says of its drives and a torque of one state alone leaves out, one sentence a
 /// joint: what needs the past, the motion of the other side of a transmission, or other times.
@@ -7,21 +23,7 @@ use robot::{Actuator, Robot, TorqueSource};
 /// was measured has delay and lag behind it.
 pub fn left_out(robot: &Robot) -> Vec<String> {
     let sentence = |(name, drive): (&str, &Actuator)| {
-        let measured =
-            matches!(drive.torque_source, TorqueSource::Measured | TorqueSource::Current);
-        let said = [
-            ("backlash_rad", drive.backlash > 0.0),
-            ("elasticity_nm_per_rad", drive.elasticity.is_some()),
-            ("actuator_delay_ms", drive.delay_s > 0.0 && !measured),
-            ("presliding_rad", drive.presliding.is_some()),
-            ("coupling", drive.coupling.is_some()),
-            ("actuator_lag_ms", drive.lag_s > 0.0 && !measured),
-            ("encoder_offset_rad", drive.encoder_offset.abs() > 0.0),
-            ("transmission_ratio", drive.transmission_ratio.total_cmp(&1.0).is_ne()),
-            ("effort_skew_ms", drive.effort_skew_s.abs() > 0.0),
-        ];
-        let keys: Vec<&str> = said.iter().filter(|(_, is)| *is).map(|(key, _)| *key).collect();
-        let keys = keys.join(" and ");
+        let keys = keys(drive).join(" and ");
         (!keys.is_empty()).then(|| {
             format!(
                 "{name}: the expected effort leaves out {keys} of the robot; what this does to \
@@ -33,9 +35,16 @@ pub fn left_out(robot: &Robot) -> Vec<String> {
     drives.filter_map(sentence).collect()
 }
 
+/// The keys of `robot.toml` that describe what is left out of `drive`.
+fn keys(drive: &Actuator) -> Vec<&'static str> {
+    let others = MODELLED.into_iter().filter(|kind| !FIRST.contains(kind));
+    let kinds = FIRST.into_iter().chain(others);
+    kinds.filter_map(|kind| model(kind).ok()?.left_out(drive)).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use robot::Coupling;
+    use robot::{Coupling, TorqueSource};
 
     use super::*;
 

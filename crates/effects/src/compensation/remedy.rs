@@ -1,61 +1,13 @@
-use catalogue::EffectKind;
-
-/// What [`Compensation`](crate::Compensation) does against an effect that the robot's
-/// description holds; where it does nothing, why.
-///
-/// # Errors
-///
-/// The reason why an effect cannot be compensated.
-pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
-    use EffectKind as K;
-    match kind {
-        K::ViscousFriction => Ok("its torque at the velocity of the motor"),
-        K::CoulombFriction
-        | K::AsymmetricFriction
-        | K::StribeckFriction
-        | K::LoadDependentFriction
-        | K::PositionDependentFriction => {
-            Ok("its level in the direction of the motor, eased through rest: tanh(qd / rest speed)")
-        }
-        K::PreslidingFriction => {
-            Ok("its level as that of Coulomb friction, not the way over which it builds up")
-        }
-        K::TorqueRipple => Ok("its torque at the position of the motor"),
-        K::Backlash => {
-            Ok("half the gap on the side of the load, eased where the load changes sign")
-        }
-        K::JointElasticity => Ok("the twist under the load, and what it asks of the rotor"),
-        K::RotorInertia => Ok("its torque at the acceleration of the motor"),
-        K::Payload | K::InertialParameters | K::GravityDirection => {
-            Ok("inverse dynamics of the robot that has it")
-        }
-        K::CableSpring => {
-            Ok("the torque of its spring at the position of the link, and the level of its loop")
-        }
-        K::Counterbalance => Ok("its torque at the position of the link"),
-        K::TorqueConstant => Ok("asking for as much more or less"),
-        K::TorqueOffset => Ok("asking for the offset as well"),
-        K::ActuatorDelay => Ok("asking for the torque of the motion that much ahead"),
-        K::ActuatorLag => Ok("asking for the rate of the torque as well, times the time constant"),
-        K::EncoderOffset => Ok("a reference that is off as the encoder is"),
-        K::TransmissionRatio => Ok("reference and torque in the units that the drive believes in"),
-        K::FrictionTemperatureDrift => Err("the temperature of a drive is not known"),
-        K::DifferentialCoupling => {
-            Ok("the friction of the shared motors at their speeds, eased through rest")
-        }
-        K::TorqueSaturation => Err("a motor cannot be asked for more than it has"),
-        K::TimeSkew => Err("it is in the log, not in the arm"),
-        K::ExternalDisturbance => Err("it does not follow the motion: it is left to feedback"),
-    }
-}
+//! What undoes which effect, held to what [`Compensation`](crate::Compensation) asks for.
 
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
     use robot::{Actuator, Counterbalance, Coupling, Ripple, Robot, Stribeck, Wave};
 
-    use super::*;
     use crate::compensation::feedforward::{Compensated, Compensation};
+    use crate::model::remedy;
+    use catalogue::EffectKind;
 
     fn pendulum() -> Robot {
         Robot::from_urdf(
