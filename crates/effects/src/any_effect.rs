@@ -8,6 +8,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, Place, TypedPlace};
+use crate::priors::Priors;
 use crate::quantity::Quantity;
 use crate::traits::Nature;
 
@@ -48,22 +49,22 @@ pub trait AnyEffect: Sync {
     fn twist(&self, place: Place, motion: &Motion) -> Vec<Column>;
 
     /// See [`Effect::prior`].
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64>;
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
     /// See [`HasCadError`](crate::HasCadError).
-    fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>>;
+    fn everyday(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>>;
 
     /// See [`IsRare`](crate::IsRare); 0 of an effect that is not.
-    fn rarity(&self, place: Place, robot: &Robot) -> f64;
+    fn rarity(&self, place: Place, robot: &Robot, priors: &Priors) -> f64;
 
     /// See [`Effect::bounds`].
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)>;
+    fn bounds(&self, place: Place, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)>;
 
     /// See [`IsRestricted`](crate::IsRestricted).
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool;
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64], priors: &Priors) -> bool;
 
     /// See [`CanBeUnsound`](crate::CanBeUnsound).
-    fn is_sound(&self, place: Place, extended: &Robot) -> bool;
+    fn is_sound(&self, place: Place, extended: &Robot, priors: &Priors) -> bool;
 
     /// See [`HasPlainer`](crate::HasPlainer); empty where the effect is nothing more than its size.
     fn more_than_plain(
@@ -71,13 +72,21 @@ pub trait AnyEffect: Sync {
         place: Place,
         robots: [&Robot; 2],
         frame: &Frame,
+        priors: &Priors,
     ) -> Vec<(usize, f64)>;
 
     /// See [`CanHide`](crate::CanHide); 1 of an effect that cannot.
-    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame) -> f64;
+    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame, priors: &Priors) -> f64;
 
     /// See [`Effect::extend`].
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame);
+    fn extend(
+        &self,
+        place: Place,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    );
 
     /// See [`Effect::quantities`].
     fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
@@ -121,31 +130,32 @@ impl<E: Effect> AnyEffect for E {
         between.map(|(effect, at)| effect.twist(at, motion)).unwrap_or_default()
     }
 
-    fn prior(&self, place: Place, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        E::At::of(place).map(|at| Effect::prior(self, at, robot, scale)).unwrap_or_default()
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
+        E::At::of(place).map(|at| Effect::prior(self, at, robot, scale, priors)).unwrap_or_default()
     }
 
-    fn everyday(&self, place: Place, robot: &Robot) -> Option<Vec<f64>> {
-        Some(self.cad_error()?.everyday(E::At::of(place)?, robot))
+    fn everyday(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
+        Some(self.cad_error()?.everyday(E::At::of(place)?, robot, priors))
     }
 
-    fn rarity(&self, place: Place, robot: &Robot) -> f64 {
-        self.rare().zip(E::At::of(place)).map_or(0.0, |(rare, at)| rare.rarity(at, robot))
+    fn rarity(&self, place: Place, robot: &Robot, priors: &Priors) -> f64 {
+        self.rare().zip(E::At::of(place)).map_or(0.0, |(rare, at)| rare.rarity(at, robot, priors))
     }
 
-    fn bounds(&self, place: Place, robot: &Robot) -> Vec<(f64, f64)> {
-        E::At::of(place).map(|at| Effect::bounds(self, at, robot)).unwrap_or_default()
+    fn bounds(&self, place: Place, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        E::At::of(place).map(|at| Effect::bounds(self, at, robot, priors)).unwrap_or_default()
     }
 
-    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64]) -> bool {
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
         self.restricted().is_none_or(|restricted| {
-            E::At::of(place).is_some_and(|at| restricted.admissible(at, robot, weights))
+            E::At::of(place).is_some_and(|at| restricted.admissible(at, robot, weights, priors))
         })
     }
 
-    fn is_sound(&self, place: Place, extended: &Robot) -> bool {
-        self.can_be_unsound()
-            .is_none_or(|effect| E::At::of(place).is_some_and(|at| effect.is_sound(at, extended)))
+    fn is_sound(&self, place: Place, extended: &Robot, priors: &Priors) -> bool {
+        self.can_be_unsound().is_none_or(|effect| {
+            E::At::of(place).is_some_and(|at| effect.is_sound(at, extended, priors))
+        })
     }
 
     fn more_than_plain(
@@ -153,19 +163,29 @@ impl<E: Effect> AnyEffect for E {
         place: Place,
         robots: [&Robot; 2],
         frame: &Frame,
+        priors: &Priors,
     ) -> Vec<(usize, f64)> {
         let plainer = self.plainer().zip(E::At::of(place));
-        plainer.map(|(effect, at)| effect.more_than_plain(at, robots, frame)).unwrap_or_default()
+        plainer
+            .map(|(effect, at)| effect.more_than_plain(at, robots, frame, priors))
+            .unwrap_or_default()
     }
 
-    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame) -> f64 {
+    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame, priors: &Priors) -> f64 {
         let hidden = self.can_hide().zip(E::At::of(place));
-        hidden.map_or(1.0, |(effect, at)| effect.largest_unseen(at, robot, frame))
+        hidden.map_or(1.0, |(effect, at)| effect.largest_unseen(at, robot, frame, priors))
     }
 
-    fn extend(&self, place: Place, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+    fn extend(
+        &self,
+        place: Place,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    ) {
         if let Some(at) = E::At::of(place) {
-            Effect::extend(self, at, robot, weights, frame);
+            Effect::extend(self, at, robot, weights, frame, priors);
         }
     }
 

@@ -9,6 +9,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::TypedPlace;
+use crate::priors::Priors;
 use crate::quantity::Quantity;
 use crate::traits::Nature;
 
@@ -57,13 +58,20 @@ pub trait Effect: Sync {
     fn columns(&self, at: Self::At, motion: &Motion) -> Vec<Column>;
 
     /// Standard deviation of each weight before any data is seen.
-    fn prior(&self, at: Self::At, robot: &Robot, scale: &Scale) -> Vec<f64>;
+    fn prior(&self, at: Self::At, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
     /// Lowest and highest physically possible value of each weight.
-    fn bounds(&self, at: Self::At, robot: &Robot) -> Vec<(f64, f64)>;
+    fn bounds(&self, at: Self::At, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)>;
 
     /// Changes the robot by `weights`, whose columns were made in `frame`.
-    fn extend(&self, at: Self::At, robot: &mut Robot, weights: &[f64], frame: &Frame);
+    fn extend(
+        &self,
+        at: Self::At,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    );
 
     /// The parameters that a user reads, from the robot before and after.
     fn quantities(&self, at: Self::At, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;

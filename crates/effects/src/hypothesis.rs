@@ -8,6 +8,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::Place;
+use crate::priors::Priors;
 use crate::quantity::Quantity;
 use crate::traits::{Linearity, Nature, Relation, Seat};
 
@@ -72,49 +73,56 @@ impl Hypothesis {
     }
 
     /// See [`Effect::prior`].
-    pub fn prior(self, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        self.model().map(|m| m.prior(self.place, robot, scale)).unwrap_or_default()
+    pub fn prior(self, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
+        self.model().map(|m| m.prior(self.place, robot, scale, priors)).unwrap_or_default()
     }
 
     /// See [`Effect::everyday`].
-    pub fn everyday(self, robot: &Robot) -> Option<Vec<f64>> {
-        self.model()?.everyday(self.place, robot)
+    pub fn everyday(self, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
+        self.model()?.everyday(self.place, robot, priors)
     }
 
     /// See [`Effect::rarity`].
-    pub fn rarity(self, robot: &Robot) -> f64 {
-        self.model().map_or(0.0, |m| m.rarity(self.place, robot))
+    pub fn rarity(self, robot: &Robot, priors: &Priors) -> f64 {
+        self.model().map_or(0.0, |m| m.rarity(self.place, robot, priors))
     }
 
     /// See [`Effect::bounds`].
-    pub fn bounds(self, robot: &Robot) -> Vec<(f64, f64)> {
-        self.model().map(|m| m.bounds(self.place, robot)).unwrap_or_default()
+    pub fn bounds(self, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        self.model().map(|m| m.bounds(self.place, robot, priors)).unwrap_or_default()
     }
 
     /// See [`Effect::admissible`].
-    pub fn admissible(self, robot: &Robot, weights: &[f64]) -> bool {
-        self.model().is_some_and(|m| m.admissible(self.place, robot, weights))
+    pub fn admissible(self, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
+        self.model().is_some_and(|m| m.admissible(self.place, robot, weights, priors))
     }
 
     /// See [`Effect::is_sound`].
-    pub fn is_sound(self, extended: &Robot) -> bool {
-        self.model().is_some_and(|m| m.is_sound(self.place, extended))
+    pub fn is_sound(self, extended: &Robot, priors: &Priors) -> bool {
+        self.model().is_some_and(|m| m.is_sound(self.place, extended, priors))
     }
 
     /// See [`Effect::more_than_plain`]; `robots` are the nominal and the extended one.
-    pub fn more_than_plain(self, robots: [&Robot; 2], frame: &Frame) -> Vec<(usize, f64)> {
-        self.model().map(|m| m.more_than_plain(self.place, robots, frame)).unwrap_or_default()
+    pub fn more_than_plain(
+        self,
+        robots: [&Robot; 2],
+        frame: &Frame,
+        priors: &Priors,
+    ) -> Vec<(usize, f64)> {
+        self.model()
+            .map(|m| m.more_than_plain(self.place, robots, frame, priors))
+            .unwrap_or_default()
     }
 
     /// See [`Effect::largest_unseen`].
-    pub fn largest_unseen(self, robot: &Robot, frame: &Frame) -> f64 {
-        self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame))
+    pub fn largest_unseen(self, robot: &Robot, frame: &Frame, priors: &Priors) -> f64 {
+        self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame, priors))
     }
 
     /// See [`Effect::extend`].
-    pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+    pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame, priors: &Priors) {
         if let Some(model) = self.model() {
-            model.extend(self.place, robot, weights, frame);
+            model.extend(self.place, robot, weights, frame, priors);
         }
     }
 

@@ -8,6 +8,7 @@ use crate::model::{MODELLED, model};
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, Place, TypedPlace};
+use crate::priors::Priors;
 
 /// An effect of no size at a joint, with a trial value of the parameter that its columns are not
 /// linear in: a Stribeck velocity, periods in a turn, a play.
@@ -20,12 +21,12 @@ pub struct Germ {
 }
 
 /// Every germ that could be sown in this robot.
-pub fn germs(robot: &Robot, scale: &Scale) -> Vec<Germ> {
+pub fn germs(robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<Germ> {
     let mut all = Vec::new();
     for (kind, effect) in shaped() {
         for joint in 0..robot.joint_count() {
             let hypothesis = Hypothesis { kind, place: Place::Joint(joint) };
-            let shapes = effect.shapes(AtJoint(joint), robot, scale).into_iter();
+            let shapes = effect.shapes(AtJoint(joint), robot, scale, priors).into_iter();
             all.extend(shapes.map(|shape| Germ { hypothesis, shape }));
         }
     }

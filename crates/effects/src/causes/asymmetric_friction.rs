@@ -9,16 +9,13 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// `forward` for positive and `-backward` for negative velocity: two weights a joint,
 /// the change of the mean level and half the change of the difference.
 pub(crate) struct AsymmetricFriction;
-
-/// Largest believable difference of the two levels, as a share of their sum: one that is three times
-/// the other.
-const LARGEST_SKEW: f64 = 0.5;
 
 impl Effect for AsymmetricFriction {
     type At = AtJoint;
@@ -60,16 +57,23 @@ impl Effect for AsymmetricFriction {
     }
 
     /// Levels as large as the effort itself.
-    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, _: &Priors) -> Vec<f64> {
         vec![scale.effort[j]; 2]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let a = &robot.links()[j].actuator;
         [down_to_zero(a.coulomb_forward.min(a.coulomb_backward)), unbounded(1)].concat()
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [level, skew] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.coulomb_forward += level + skew;
@@ -96,12 +100,18 @@ impl Effect for AsymmetricFriction {
 
 impl IsRestricted<AtJoint> for AsymmetricFriction {
     /// A larger difference is that of an offset.
-    fn admissible(&self, AtJoint(j): AtJoint, robot: &Robot, weights: &[f64]) -> bool {
+    fn admissible(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        weights: &[f64],
+        priors: &Priors,
+    ) -> bool {
         let [level, skew] = weights else { return false };
         let a = &robot.links()[j].actuator;
         let (forward, backward) =
             (a.coulomb_forward + level + skew, a.coulomb_backward + level - skew);
-        (forward - backward).abs() <= LARGEST_SKEW * (forward + backward)
+        (forward - backward).abs() <= priors.asymmetry_limit * (forward + backward)
     }
 }
 
@@ -112,6 +122,7 @@ impl HasPlainer<AtJoint> for AsymmetricFriction {
         AtJoint(j): AtJoint,
         [nominal, extended]: [&Robot; 2],
         _: &Frame,
+        _: &Priors,
     ) -> Vec<(usize, f64)> {
         let skew = |robot: &Robot| {
             let a = &robot.links()[j].actuator;

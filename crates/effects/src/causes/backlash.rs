@@ -10,6 +10,7 @@ use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::motion::transmission::{Carried, Gap, play};
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -30,10 +31,6 @@ const SMALL: f64 = 0.005;
 
 /// Relative difference of the gaps whose motions are compared.
 const STEP: f64 = 0.1;
-
-/// Standard deviation of a gap before any data (rad or m): gears have tenths of a milliradian,
-/// worn joints some ten.
-const GAP_SD: f64 = 0.01;
 
 impl Effect for Backlash {
     type At = AtJoint;
@@ -70,15 +67,22 @@ impl Effect for Backlash {
         vec![motion.twisted(j, &play_per_gap(motion, j, carried))]
     }
 
-    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![GAP_SD]
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
+        vec![priors.gap_sd]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         down_to_zero(robot.links()[j].actuator.backlash)
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.backlash += change;
@@ -99,7 +103,7 @@ impl Effect for Backlash {
 }
 
 impl HasShape for Backlash {
-    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, _: &Scale) -> Vec<f64> {
+    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, _: &Scale, _: &Priors) -> Vec<f64> {
         let known = robot.links()[joint].actuator.backlash > 0.0;
         if known { Vec::new() } else { TRIALS.to_vec() }
     }

@@ -10,6 +10,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -29,9 +30,6 @@ pub(crate) struct CableSpring;
 /// Way over which the loop is believed to be drawn out that a robot has not yet, over the range of
 /// motion.
 const WAY: f64 = 1.0 / 16.0;
-
-/// Standard deviation of the rest position before any data, over the range of motion.
-const REST_SD: f64 = 0.25;
 
 /// Least and largest change of a loop in one step, over the loop.
 const LOOP_STEP: (f64, f64) = (-0.5, 1.0);
@@ -101,16 +99,22 @@ impl Effect for CableSpring {
     }
 
     /// A torque as large as the effort itself over the range of the joint.
-    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let (stiffness, range) = (scale.effort_per(j, &scale.range), scale.range[j]);
         let drive = &robot.links()[j].actuator;
         if !is_there(drive) {
             return vec![stiffness];
         }
-        vec![stiffness, stiffness / (range * range), scale.effort[j], REST_SD * range]
+        vec![stiffness, stiffness / (range * range), scale.effort[j], priors.spring_rest_sd * range]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let drive = &robot.links()[j].actuator;
         if !is_there(drive) {
             return down_to_zero(drive.spring_stiffness);
@@ -128,7 +132,14 @@ impl Effect for CableSpring {
         .concat()
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        _: &Priors,
+    ) {
         let Some(link) = robot.link_mut(j) else { return };
         let a = &mut link.actuator;
         match weights {
@@ -170,7 +181,7 @@ impl Effect for CableSpring {
 
 impl CanBeUnsound<AtJoint> for CableSpring {
     /// Whether what slides is held by a spring.
-    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, _: &Priors) -> bool {
         let drive = &extended.links()[j].actuator;
         drive.spring_hysteresis == 0.0 || is_there(drive)
     }

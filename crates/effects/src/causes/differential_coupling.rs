@@ -9,6 +9,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
@@ -25,14 +26,6 @@ const WAYS: [f64; 2] = [1.0, -1.0];
 
 /// Relative difference of the ratios whose friction is compared.
 const STEP: f64 = 0.02;
-
-/// Standard deviation of a ratio before any data.
-const RATIO_SD: f64 = 0.2;
-
-/// Log odds (nats) against motors that are shared and described nowhere: of what such friction has to add to
-/// friction of each joint. In the panel, whose arms share none, 33 such findings are 11 with it, and those of a Stäubli
-/// TX40, whose wrist shares two, stay; with 30 they are 22, with 300 most of the TX40's go.
-const RARE: f64 = 100.0;
 
 impl DifferentialCoupling {
     /// Friction at both joints per unit of `level` and `viscous` of one motor.
@@ -119,21 +112,34 @@ impl Effect for DifferentialCoupling {
     }
 
     /// Levels and viscous torques as large as the effort itself.
-    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let Some(known) = robot.links()[j].actuator.coupling else { return Vec::new() };
         let one = [scale.effort[j], scale.effort_per(j, &scale.speed)];
-        let ratio = is_known(&known).then_some(RATIO_SD);
+        let ratio = is_known(&known).then_some(priors.shared_ratio_sd);
         one.into_iter().chain(one).chain(ratio).collect()
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let Some(c) = robot.links()[j].actuator.coupling else { return Vec::new() };
         let frictions = [c.level[0], c.viscous[0], c.level[1], c.viscous[1]];
         let ratio = is_known(&c).then_some((-0.5 * c.ratio, c.ratio));
         frictions.into_iter().flat_map(down_to_zero).chain(ratio).collect()
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [sum, slope, difference, slant, ratio @ ..] = weights else {
             return;
         };
@@ -169,7 +175,7 @@ impl Effect for DifferentialCoupling {
 }
 
 impl HasShape for DifferentialCoupling {
-    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, _: &Scale) -> Vec<f64> {
+    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, _: &Scale, _: &Priors) -> Vec<f64> {
         let next = robot.links().get(joint + 1).filter(|link| link.parent == Some(joint));
         let known = robot.links()[joint].actuator.coupling.is_some();
         let alike = next.is_some_and(|link| {
@@ -194,9 +200,13 @@ impl HasShape for DifferentialCoupling {
 impl IsRare<AtJoint> for DifferentialCoupling {
     /// Few arms share motors, and of most of these it is known: friction of the sum and difference of two
     /// speeds passes for what else goes with both joints.
-    fn rarity(&self, AtJoint(j): AtJoint, robot: &Robot) -> f64 {
+    fn rarity(&self, AtJoint(j): AtJoint, robot: &Robot, priors: &Priors) -> f64 {
         let drive = robot.links().get(j).map(|link| &link.actuator);
         let coupling = drive.and_then(|drive| drive.coupling);
-        if coupling.is_some_and(|c| is_known(&c)) { 0.0 } else { RARE }
+        if coupling.is_some_and(|c| is_known(&c)) {
+            0.0
+        } else {
+            priors.shared_motors_log_odds_against
+        }
     }
 }

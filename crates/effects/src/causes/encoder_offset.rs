@@ -9,6 +9,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -16,10 +17,6 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 ///
 /// The column is the slope of the torque of every joint by the position of this one.
 pub(crate) struct EncoderOffset;
-
-/// Standard deviation of an offset before any data (rad or m): a scribed zero is good to a few
-/// hundredths.
-const OFFSET_SD: f64 = 0.05;
 
 impl Effect for EncoderOffset {
     type At = AtJoint;
@@ -57,15 +54,22 @@ impl Effect for EncoderOffset {
         vec![motion.displaced(j, [&moved, &still, &still])]
     }
 
-    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![OFFSET_SD]
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
+        vec![priors.encoder_offset_sd]
     }
 
-    fn bounds(&self, _: AtJoint, _: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, _: AtJoint, _: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         unbounded(1)
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.encoder_offset += change;

@@ -10,6 +10,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -27,9 +28,6 @@ pub(crate) struct FrictionTemperatureDrift;
 /// Trial time constants (s), a factor of 2 apart: motors and gears of arms warm up within minutes to an
 /// hour (Bittencourt & Gunnarsson 2012).
 const TRIALS_S: [f64; 4] = [300.0, 600.0, 1200.0, 2400.0];
-
-/// Longest time constant that is tried, in sessions: of a longer one the logs have the beginning alone.
-const LONGEST: f64 = 3.0;
 
 /// Least and largest change of a time constant in one step, over the time constant.
 const TIME_STEP: (f64, f64) = (-0.5, 1.0);
@@ -104,13 +102,19 @@ impl Effect for FrictionTemperatureDrift {
     }
 
     /// Losses as large as the effort itself, a time constant known to its half.
-    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
-        let time = has_size(known).then_some(0.5 * known.time_constant_s);
+        let time = has_size(known).then_some(priors.shape_sd_share * known.time_constant_s);
         [scale.effort_per(j, &scale.speed), scale.effort[j]].into_iter().chain(time).collect()
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
         let (least, most) = TIME_STEP;
         let time = has_size(known)
@@ -120,7 +124,14 @@ impl Effect for FrictionTemperatureDrift {
     }
 
     /// No more is lost than the cold drive has.
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [viscous, coulomb, time @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
@@ -156,11 +167,20 @@ impl Effect for FrictionTemperatureDrift {
 }
 
 impl HasShape for FrictionTemperatureDrift {
-    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn shapes(
+        &self,
+        AtJoint(joint): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         if of(&robot.links()[joint].actuator).is_some() {
             return Vec::new();
         }
-        TRIALS_S.into_iter().filter(|trial| *trial <= LONGEST * scale.session_s).collect()
+        TRIALS_S
+            .into_iter()
+            .filter(|trial| *trial <= priors.warming_longest_sessions * scale.session_s)
+            .collect()
     }
 
     fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
@@ -178,7 +198,7 @@ impl HasShape for FrictionTemperatureDrift {
 
 impl CanBeUnsound<AtJoint> for FrictionTemperatureDrift {
     /// Whether a warm drive has lost friction, and not all of it.
-    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, _: &Priors) -> bool {
         let share = share(&extended.links()[j].actuator);
         share > 0.0 && share < 1.0
     }

@@ -10,6 +10,7 @@ use crate::motion::rigid_bodies::tilt_axes;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::AtBase;
+use crate::priors::Priors;
 use crate::quantity::Quantity;
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -17,13 +18,6 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 ///
 /// The columns are those of a small tilt, `g - g_nominal = tilt x g_nominal`.
 pub(crate) struct GravityDirection;
-
-/// Standard deviation of a tilt before any data (rad): a base is rarely off by more than
-/// a few degrees.
-const TILT_SD: f64 = 0.1;
-
-/// Largest tilt that the linear columns describe (rad).
-const TILT_LIMIT: f64 = 0.5;
 
 impl Effect for GravityDirection {
     type At = AtBase;
@@ -65,15 +59,15 @@ impl Effect for GravityDirection {
         vec![column(0), column(1)]
     }
 
-    fn prior(&self, _: AtBase, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![TILT_SD; 2]
+    fn prior(&self, _: AtBase, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
+        vec![priors.tilt_sd_rad; 2]
     }
 
-    fn bounds(&self, _: AtBase, _: &Robot) -> Vec<(f64, f64)> {
-        vec![(-TILT_LIMIT, TILT_LIMIT); 2]
+    fn bounds(&self, _: AtBase, _: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        vec![(-priors.tilt_limit_rad, priors.tilt_limit_rad); 2]
     }
 
-    fn extend(&self, _: AtBase, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(&self, _: AtBase, robot: &mut Robot, weights: &[f64], _: &Frame, _: &Priors) {
         let [first, second] = weights else { return };
         let gravity = robot.gravity_in_base();
         let axes = tilt_axes(gravity);
@@ -101,8 +95,8 @@ impl Effect for GravityDirection {
 
 impl IsRestricted<AtBase> for GravityDirection {
     /// A tilt at the limit of what the columns describe is no explanation.
-    fn admissible(&self, _: AtBase, _: &Robot, weights: &[f64]) -> bool {
-        weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * TILT_LIMIT)
+    fn admissible(&self, _: AtBase, _: &Robot, weights: &[f64], priors: &Priors) -> bool {
+        weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * priors.tilt_limit_rad)
     }
 }
 

@@ -10,21 +10,13 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::InLink;
+use crate::priors::Priors;
 use crate::quantity::Quantity;
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
 /// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
 pub(crate) struct InertialParameters;
-
-/// Share by which masses and inertias of CAD are wrong: cables, screws and castings are not in it.
-const SHARE: f64 = 0.1;
-
-/// Distance by which its centres of mass are wrong (m).
-const CENTRE_M: f64 = 0.01;
-
-/// The smallest mass that a share is taken of (kg).
-const LEAST_MASS: f64 = 0.01;
 
 impl Effect for InertialParameters {
     type At = InLink;
@@ -74,9 +66,15 @@ impl Effect for InertialParameters {
 
     /// Round numbers: the mass is known to itself plus a third of a mean link, the centre of
     /// mass to the length of a link.
-    fn prior(&self, InLink(link): InLink, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(
+        &self,
+        InLink(link): InLink,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let mass = robot.links()[link].inertia.mass.max(0.0);
-        let (m, l) = (mass + 0.3 * scale.link_mass, scale.link_length);
+        let (m, l) = (mass + priors.link_mass_sd_share * scale.link_mass, scale.link_length);
         let mut sd = vec![m];
         sd.extend([m * l; 3]);
         sd.extend([m * l * l; 6]);
@@ -85,13 +83,20 @@ impl Effect for InertialParameters {
 
     /// The mass stays positive; that the whole inertia is physical is seen to where it is
     /// written into a robot.
-    fn bounds(&self, InLink(link): InLink, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, InLink(link): InLink, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let mut bounds = down_to_zero(robot.links()[link].inertia.mass);
         bounds.extend(unbounded(PARAMETERS_PER_LINK - 1));
         bounds
     }
 
-    fn extend(&self, InLink(index): InLink, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        InLink(index): InLink,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         if let Some(link) = robot.link_mut(index) {
             let mut pi = link.inertia.parameters();
             pi.iter_mut().zip(weights).for_each(|(p, w)| *p += w);
@@ -113,18 +118,19 @@ impl HasCadError<InLink> for InertialParameters {
     /// What CAD is wrong by: a tenth of the mass and of the inertia, a centimetre of the centre of mass.
     ///
     /// ```text
-    /// sd(m)   = SHARE m
-    /// sd(m c) = SHARE m |c| + CENTRE_M m
-    /// sd(I)   = SHARE (Ixx + Iyy + Izz) + 2 CENTRE_M m (|c| + CENTRE_M)
+    /// sd(m)   = cad_share m
+    /// sd(m c) = cad_share m |c| + cad_centre_m m
+    /// sd(I)   = cad_share (Ixx + Iyy + Izz) + 2 cad_centre_m m (|c| + cad_centre_m)
     /// ```
-    fn everyday(&self, InLink(link): InLink, robot: &Robot) -> Vec<f64> {
+    fn everyday(&self, InLink(link): InLink, robot: &Robot, priors: &Priors) -> Vec<f64> {
         let inertia = &robot.links()[link].inertia;
-        let mass = inertia.mass.max(LEAST_MASS);
+        let mass = inertia.mass.max(priors.cad_least_mass_kg);
         let reach = inertia.com_in_link.norm();
         let [.., xx, _, yy, _, _, zz] = inertia.parameters();
-        let mut sd = vec![SHARE * mass];
-        sd.extend([mass * (SHARE * reach + CENTRE_M); 3]);
-        let second = SHARE * (xx + yy + zz).max(0.0) + 2.0 * CENTRE_M * mass * (reach + CENTRE_M);
+        let mut sd = vec![priors.cad_share * mass];
+        sd.extend([mass * (priors.cad_share * reach + priors.cad_centre_m); 3]);
+        let second = priors.cad_share * (xx + yy + zz).max(0.0)
+            + 2.0 * priors.cad_centre_m * mass * (reach + priors.cad_centre_m);
         sd.extend([second; 6]);
         sd
     }

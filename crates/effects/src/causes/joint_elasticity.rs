@@ -10,15 +10,13 @@ use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::motion::transmission::{Carried, Gap, play};
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
 /// `1 / stiffness`.
 pub(crate) struct JointElasticity;
-
-/// Twist under the RMS effort that is believed beforehand (rad or m).
-const TWIST_SD: f64 = 0.01;
 
 fn compliance(drive: &Actuator) -> f64 {
     drive.elasticity.map_or(0.0, f64::recip)
@@ -91,16 +89,23 @@ impl Effect for JointElasticity {
         vec![motion.twisted(j, &twist)]
     }
 
-    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
         let effort = scale.effort.get(j).copied().unwrap_or(0.0);
-        vec![if effort > 0.0 { TWIST_SD / effort } else { 0.0 }]
+        vec![if effort > 0.0 { priors.twist_sd / effort } else { 0.0 }]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         down_to_zero(compliance(&robot.links()[j].actuator))
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let compliance = compliance(&link.actuator) + change;

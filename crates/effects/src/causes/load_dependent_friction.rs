@@ -8,14 +8,12 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// `coefficient |load| sign(qd)`: one weight a joint, the change of the coefficient.
 pub(crate) struct LoadDependentFriction;
-
-/// Standard deviation of a coefficient before any data.
-const COEFFICIENT_SD: f64 = 0.2;
 
 impl Effect for LoadDependentFriction {
     type At = AtJoint;
@@ -53,15 +51,22 @@ impl Effect for LoadDependentFriction {
         vec![at_joint(j, pairs.map(|(load, s)| motion.gain[j] * load.abs() * s))]
     }
 
-    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![COEFFICIENT_SD]
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
+        vec![priors.load_friction_sd]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         down_to_zero(robot.links()[j].actuator.load_friction)
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.load_friction += change;

@@ -10,6 +10,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::InLink;
+use crate::priors::Priors;
 use crate::quantity::Quantity;
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -19,9 +20,6 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 /// The columns are those of the link's own inertial parameters; a payload differs from a
 /// wrong link only in that it must be a body: it weighs something, and within reach.
 pub(crate) struct Payload;
-
-/// Farthest centre of mass of a payload from the origin of the link that holds it (m).
-const REACH: f64 = 0.5;
 
 impl Effect for Payload {
     type At = InLink;
@@ -59,17 +57,24 @@ impl Effect for Payload {
         InertialParameters.columns(place, motion)
     }
 
-    fn prior(&self, place: InLink, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        InertialParameters.prior(place, robot, scale)
+    fn prior(&self, place: InLink, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
+        InertialParameters.prior(place, robot, scale, priors)
     }
 
     /// As for the link's own parameters: what makes it a body is tested together.
-    fn bounds(&self, place: InLink, robot: &Robot) -> Vec<(f64, f64)> {
-        InertialParameters.bounds(place, robot)
+    fn bounds(&self, place: InLink, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        InertialParameters.bounds(place, robot, priors)
     }
 
-    fn extend(&self, place: InLink, robot: &mut Robot, weights: &[f64], frame: &Frame) {
-        InertialParameters.extend(place, robot, weights, frame);
+    fn extend(
+        &self,
+        place: InLink,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    ) {
+        InertialParameters.extend(place, robot, weights, frame, priors);
     }
 
     fn quantities(&self, InLink(link): InLink, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
@@ -85,8 +90,8 @@ impl Effect for Payload {
 }
 
 impl IsRestricted<InLink> for Payload {
-    fn admissible(&self, _: InLink, _: &Robot, weights: &[f64]) -> bool {
+    fn admissible(&self, _: InLink, _: &Robot, weights: &[f64], priors: &Priors) -> bool {
         let [mass, x, y, z, ..] = weights else { return false };
-        *mass > 0.0 && Vector3::new(*x, *y, *z).norm() <= REACH * mass
+        *mass > 0.0 && Vector3::new(*x, *y, *z).norm() <= priors.payload_reach_m * mass
     }
 }

@@ -12,6 +12,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
@@ -22,12 +23,6 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Wei
 /// z = level share exp(i phase),  friction = Re(z exp(i periods q)) sign(qd)
 /// ```
 pub(crate) struct PositionDependentFriction;
-
-/// Fewest periods in a turn that are tried: a wave longer than that is no wave.
-const FEWEST: f64 = 1.0;
-
-/// Most periods in a turn that are tried.
-const MOST: f64 = 42.0;
 
 /// Change of phase over the range of motion between two trial values.
 const APART: f64 = FRAC_PI_2;
@@ -98,20 +93,33 @@ impl Effect for PositionDependentFriction {
     }
 
     /// A wave as large as the effort itself, periods known to a phase of one over the range.
-    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let Some((wave, _)) = amplitude(&robot.links()[j].actuator) else { return Vec::new() };
-        let periods = (wave.norm() > 0.0).then_some(2.0 / scale.range[j]);
+        let periods = (wave.norm() > 0.0).then_some(priors.wave_periods_sd / scale.range[j]);
         [scale.effort[j]; 2].into_iter().chain(periods).collect()
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let Some((wave, known)) = amplitude(&robot.links()[j].actuator) else { return Vec::new() };
         let periods = (wave.norm() > 0.0).then_some((-0.5 * known.periods, f64::INFINITY));
         unbounded(2).into_iter().chain(periods).collect()
     }
 
     /// The wave of a joint whose level is not known stays without size.
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        _: &Priors,
+    ) {
         let [cosine, sine, periods @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
@@ -153,14 +161,20 @@ impl Effect for PositionDependentFriction {
 }
 
 impl HasShape for PositionDependentFriction {
-    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn shapes(
+        &self,
+        AtJoint(joint): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let range = scale.range[joint];
         if robot.links()[joint].actuator.friction_wave.is_some() || range <= 0.0 {
             return Vec::new();
         }
         let step = APART / range;
-        let count = ((MOST - FEWEST) / step) as usize + 1;
-        (0..count).map(|k| FEWEST + k as f64 * step).collect()
+        let count = ((priors.wave_most_periods - priors.wave_fewest_periods) / step) as usize + 1;
+        (0..count).map(|k| priors.wave_fewest_periods + k as f64 * step).collect()
     }
 
     fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
@@ -176,17 +190,23 @@ impl HasShape for PositionDependentFriction {
 
 impl CanBeUnsound<AtJoint> for PositionDependentFriction {
     /// Whether friction is against the motion everywhere.
-    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, priors: &Priors) -> bool {
         let wave = extended.links()[j].actuator.friction_wave;
-        wave.is_some_and(|w| w.share > 0.0 && w.share < 0.9)
+        wave.is_some_and(|w| w.share > 0.0 && w.share < priors.wave_share_limit)
     }
 }
 
 impl CanHide<AtJoint> for PositionDependentFriction {
     /// Of the longest wave, whose crest stands in the middle of what the joint has covered:
     /// `1 - cos(reach)` of it is to be seen there.
-    fn largest_unseen(&self, AtJoint(j): AtJoint, _: &Robot, frame: &Frame) -> f64 {
-        let phase = FEWEST * frame.reach[j];
+    fn largest_unseen(
+        &self,
+        AtJoint(j): AtJoint,
+        _: &Robot,
+        frame: &Frame,
+        priors: &Priors,
+    ) -> f64 {
+        let phase = priors.wave_fewest_periods * frame.reach[j];
         if phase < FRAC_PI_2 { (1.0 - phase.cos()).recip() } else { 1.0 }
     }
 }

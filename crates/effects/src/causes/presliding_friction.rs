@@ -10,6 +10,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
@@ -26,18 +27,8 @@ pub(crate) struct PreslidingFriction;
 /// Way for which the column of a robot without one is made (rad or m).
 const SMALL: f64 = 0.002;
 
-/// Shortest way that is one (rad or m): drives have 0.2 to 5 mrad, and encoders count in tenths of that.
-const SHORTEST: f64 = 1e-4;
-
-/// The same in changes of position that the logs resolve: a shorter one is dry friction whose turn
-/// the encoder shows late.
-const RESOLVED: f64 = 2.0;
-
 /// Relative difference of the ways whose motions are compared.
 const STEP: f64 = 0.1;
-
-/// Standard deviation of a way before any data (rad or m).
-const WAY_SD: f64 = 0.005;
 
 /// Least and largest change of a way in one step, over the way.
 const WAY_STEP: (f64, f64) = (-0.5, 1.0);
@@ -97,14 +88,20 @@ impl Effect for PreslidingFriction {
         vec![at_joint(j, longer), at_joint(j, damped)]
     }
 
-    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         match robot.links()[j].actuator.presliding {
-            Some(_) => vec![WAY_SD, scale.effort_per(j, &scale.speed)],
+            Some(_) => vec![priors.presliding_way_sd, scale.effort_per(j, &scale.speed)],
             None => vec![scale.effort[j]],
         }
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let drive = &robot.links()[j].actuator;
         let Some(way) = drive.presliding else { return vec![(0.0, f64::INFINITY)] };
         let (least, most) = WAY_STEP;
@@ -113,7 +110,14 @@ impl Effect for PreslidingFriction {
     }
 
     /// To first order in the way, half the friction over a way is all of it over half the way.
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    ) {
         let [change, damping @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
@@ -123,10 +127,11 @@ impl Effect for PreslidingFriction {
             None if level > 0.0 => SMALL * change / level,
             None => 0.0,
         };
-        let resolved = frame.resolution.get(j).map_or(0.0, |r| RESOLVED * r);
+        let resolved = frame.resolution.get(j).map_or(0.0, |r| priors.presliding_resolved * r);
         if drive.presliding.is_some() || way > 0.0 {
             // What is not resolved has no way, which is not sound.
-            drive.presliding = Some(if way >= resolved { way } else { 0.5 * SHORTEST });
+            drive.presliding =
+                Some(if way >= resolved { way } else { 0.5 * priors.presliding_shortest_way });
         }
         if let [damping] = damping {
             drive.presliding_damping = Some(drive.presliding_damping.unwrap_or(0.0) + damping);
@@ -151,8 +156,9 @@ impl Effect for PreslidingFriction {
 impl CanBeUnsound<AtJoint> for PreslidingFriction {
     /// Whether there is dry friction that builds up, and slowly enough to be told from one that is
     /// there at once.
-    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, priors: &Priors) -> bool {
         let drive = &extended.links()[j].actuator;
-        drive.presliding.is_some_and(|way| way >= SHORTEST) && level(drive) > 0.0
+        drive.presliding.is_some_and(|way| way >= priors.presliding_shortest_way)
+            && level(drive) > 0.0
     }
 }

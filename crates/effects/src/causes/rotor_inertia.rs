@@ -9,6 +9,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -50,15 +51,22 @@ impl Effect for RotorInertia {
     }
 
     /// A torque as large as the effort itself at the largest acceleration.
-    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, _: &Priors) -> Vec<f64> {
         vec![scale.effort_per(j, &scale.acceleration)]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         down_to_zero(robot.links()[j].actuator.rotor_inertia)
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.rotor_inertia += change;
@@ -76,7 +84,7 @@ impl Effect for RotorInertia {
 
 impl CanBeUnsound<AtJoint> for RotorInertia {
     /// Whether a rotor is left: one that weighs nothing is what takes the place of another cause.
-    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, _: &Priors) -> bool {
         extended.links()[j].actuator.rotor_inertia > 0.0
     }
 }

@@ -9,6 +9,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
@@ -24,13 +25,6 @@ pub(crate) struct StribeckFriction;
 /// Trial velocities as shares of the largest speed: a factor of 2 apart, from about the speed at
 /// which a joint counts as at rest.
 const SHARES: [f64; 6] = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
-
-/// Least excess, as a share of the Coulomb level.
-const LEAST: f64 = 0.1;
-
-/// Least velocity, in speeds at which the joint counts as at rest: of what is gone before the
-/// direction of motion is known, the logs show neither height nor width.
-const LEAST_OF_REST: f64 = 2.0;
 
 /// Least and largest change of a velocity in one step, over the velocity.
 const VELOCITY_STEP: (f64, f64) = (-0.5, 1.0);
@@ -91,13 +85,19 @@ impl Effect for StribeckFriction {
     }
 
     /// An excess as large as the effort itself, a velocity known to its half.
-    fn prior(&self, AtJoint(j): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
-        let velocity = (known.excess > 0.0).then_some(0.5 * known.velocity);
+        let velocity = (known.excess > 0.0).then_some(priors.shape_sd_share * known.velocity);
         [scale.effort[j]].into_iter().chain(velocity).collect()
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let Some(known) = of(&robot.links()[j].actuator) else { return Vec::new() };
         let (least, most) = VELOCITY_STEP;
         let velocity =
@@ -105,13 +105,20 @@ impl Effect for StribeckFriction {
         down_to_zero(known.excess).into_iter().chain(velocity).collect()
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    ) {
         let [excess, velocity @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
         if let Some(known) = &mut link.actuator.stribeck {
             known.excess += excess;
             let velocity = known.velocity + velocity.first().unwrap_or(&0.0);
-            known.velocity = velocity.max(LEAST_OF_REST * frame.rest_speed[j]);
+            known.velocity = velocity.max(priors.stribeck_least_velocity * frame.rest_speed[j]);
         }
     }
 
@@ -145,7 +152,13 @@ impl Effect for StribeckFriction {
 }
 
 impl HasShape for StribeckFriction {
-    fn shapes(&self, AtJoint(joint): AtJoint, robot: &Robot, scale: &Scale) -> Vec<f64> {
+    fn shapes(
+        &self,
+        AtJoint(joint): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        _: &Priors,
+    ) -> Vec<f64> {
         let known = of(&robot.links()[joint].actuator).is_some();
         let speed = scale.speed[joint];
         if known || speed <= 0.0 { Vec::new() } else { SHARES.map(|s| s * speed).to_vec() }
@@ -164,10 +177,10 @@ impl HasShape for StribeckFriction {
 
 impl CanBeUnsound<AtJoint> for StribeckFriction {
     /// Whether a joint at rest needs notably more to come loose than it has while it moves.
-    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot) -> bool {
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, priors: &Priors) -> bool {
         let drive = &extended.links()[j].actuator;
         let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
-        of(drive).is_some_and(|s| s.excess > LEAST * level)
+        of(drive).is_some_and(|s| s.excess > priors.stribeck_least_excess * level)
     }
 }
 
@@ -179,10 +192,11 @@ impl HasPlainer<AtJoint> for StribeckFriction {
         AtJoint(j): AtJoint,
         [nominal, extended]: [&Robot; 2],
         frame: &Frame,
+        priors: &Priors,
     ) -> Vec<(usize, f64)> {
         let excess = |robot: &Robot| of(&robot.links()[j].actuator).map_or(0.0, |s| s.excess);
         let velocity = of(&extended.links()[j].actuator).map_or(0.0, |s| s.velocity);
-        let unseen = self.largest_unseen(AtJoint(j), extended, frame);
+        let unseen = self.largest_unseen(AtJoint(j), extended, frame, priors);
         vec![(0, excess(extended) - excess(nominal)), (1, velocity * (1.0 - unseen.powi(-2)))]
     }
 }
@@ -190,8 +204,14 @@ impl HasPlainer<AtJoint> for StribeckFriction {
 impl CanHide<AtJoint> for StribeckFriction {
     /// At the least velocity: the samples near rest, and with them what the logs say of the excess,
     /// go with the velocity, and the smallest excess with the inverse of its root.
-    fn largest_unseen(&self, AtJoint(j): AtJoint, robot: &Robot, frame: &Frame) -> f64 {
-        let least = LEAST_OF_REST * frame.rest_speed[j];
+    fn largest_unseen(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        frame: &Frame,
+        priors: &Priors,
+    ) -> f64 {
+        let least = priors.stribeck_least_velocity * frame.rest_speed[j];
         let velocity = of(&robot.links()[j].actuator).map_or(least, |s| s.velocity);
         (velocity / least).sqrt().max(1.0)
     }

@@ -8,6 +8,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::AtBase;
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -51,15 +52,15 @@ impl Effect for TimeSkew {
         vec![column]
     }
 
-    fn prior(&self, _: AtBase, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![0.005]
+    fn prior(&self, _: AtBase, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
+        vec![priors.time_sd_s]
     }
 
-    fn bounds(&self, _: AtBase, _: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, _: AtBase, _: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         unbounded(1)
     }
 
-    fn extend(&self, _: AtBase, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(&self, _: AtBase, robot: &mut Robot, weights: &[f64], _: &Frame, _: &Priors) {
         let [change] = weights else { return };
         for j in 0..robot.joint_count() {
             if let Some(link) = robot.link_mut(j) {

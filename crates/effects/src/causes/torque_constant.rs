@@ -8,6 +8,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -16,13 +17,6 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 /// The column is the torque of the nominal robot, so the model is linear in the change
 /// of the gain only about that robot: `d effort / d gain = torque`.
 pub(crate) struct TorqueConstant;
-
-/// Standard deviation of a gain before any data: published constants of one drive differ
-/// by 5 to 30 per cent (Barrett puck IPNM values, 2472 to 2755 and 17474 to 21400).
-const GAIN_SD: f64 = 0.2;
-
-/// Largest believable relative error of a gain.
-const GAIN_LIMIT: f64 = 0.4;
 
 impl Effect for TorqueConstant {
     type At = AtJoint;
@@ -58,16 +52,23 @@ impl Effect for TorqueConstant {
         vec![at_joint(j, motion.torque[j].iter().map(|t| motion.drives[j].transmission_ratio * t))]
     }
 
-    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![GAIN_SD]
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
+        vec![priors.torque_gain_sd]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
-        let largest = GAIN_LIMIT * robot.links()[j].actuator.torque_gain;
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        let largest = priors.torque_gain_limit * robot.links()[j].actuator.torque_gain;
         vec![(-largest, largest)]
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.torque_gain += change;
@@ -85,8 +86,15 @@ impl Effect for TorqueConstant {
 
 impl IsRestricted<AtJoint> for TorqueConstant {
     /// A gain at the limit of what is believable is no explanation.
-    fn admissible(&self, AtJoint(j): AtJoint, robot: &Robot, weights: &[f64]) -> bool {
+    fn admissible(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        weights: &[f64],
+        priors: &Priors,
+    ) -> bool {
         let [change] = weights else { return false };
-        change.abs() < (1.0 - 1e-9) * GAIN_LIMIT * robot.links()[j].actuator.torque_gain
+        change.abs()
+            < (1.0 - 1e-9) * priors.torque_gain_limit * robot.links()[j].actuator.torque_gain
     }
 }

@@ -8,6 +8,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -49,15 +50,22 @@ impl Effect for TorqueOffset {
     }
 
     /// An offset as large as the effort itself.
-    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, _: &Priors) -> Vec<f64> {
         vec![scale.effort[j]]
     }
 
-    fn bounds(&self, _: AtJoint, _: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, _: AtJoint, _: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         unbounded(1)
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.torque_offset += change;

@@ -8,20 +8,13 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
 /// `ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)`: one weight a joint, the change of
 /// the ratio.
 pub(crate) struct TransmissionRatio;
-
-/// Standard deviation of a ratio before any data: published ratios of one arm differ by up to
-/// 4.3 per cent (Barrett WAM).
-const RATIO_SD: f64 = 0.03;
-
-/// Largest believable relative error of a ratio: more than that of a pulley that was taken for
-/// another one.
-const RATIO_LIMIT: f64 = 0.25;
 
 impl Effect for TransmissionRatio {
     type At = AtJoint;
@@ -71,16 +64,24 @@ impl Effect for TransmissionRatio {
         vec![column]
     }
 
-    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale) -> Vec<f64> {
-        vec![RATIO_SD]
+    fn prior(&self, _: AtJoint, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
+        vec![priors.transmission_ratio_sd]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
-        let largest = RATIO_LIMIT * robot.links()[j].actuator.transmission_ratio;
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        let largest =
+            priors.transmission_ratio_limit * robot.links()[j].actuator.transmission_ratio;
         vec![(-largest, largest)]
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.transmission_ratio += change;
@@ -111,9 +112,15 @@ impl BetweenEncoders for TransmissionRatio {
 
 impl IsRestricted<AtJoint> for TransmissionRatio {
     /// A ratio at the limit of what is believable is no explanation.
-    fn admissible(&self, AtJoint(j): AtJoint, robot: &Robot, weights: &[f64]) -> bool {
+    fn admissible(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        weights: &[f64],
+        priors: &Priors,
+    ) -> bool {
         let [change] = weights else { return false };
         let ratio = robot.links()[j].actuator.transmission_ratio;
-        change.abs() < (1.0 - 1e-9) * RATIO_LIMIT * ratio
+        change.abs() < (1.0 - 1e-9) * priors.transmission_ratio_limit * ratio
     }
 }

@@ -8,6 +8,7 @@ use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
@@ -49,15 +50,22 @@ impl Effect for ViscousFriction {
     }
 
     /// Friction torque as large as the effort itself at the largest speed.
-    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale) -> Vec<f64> {
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, _: &Priors) -> Vec<f64> {
         vec![scale.effort_per(j, &scale.speed)]
     }
 
-    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot) -> Vec<(f64, f64)> {
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         down_to_zero(robot.links()[j].actuator.viscous)
     }
 
-    fn extend(&self, AtJoint(j): AtJoint, robot: &mut Robot, weights: &[f64], _: &Frame) {
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
         let [change] = weights else { return };
         if let Some(link) = robot.link_mut(j) {
             link.actuator.viscous += change;
