@@ -41,7 +41,7 @@ impl Hypothesis {
     pub fn columns(self, motion: &Motion) -> Vec<Column> {
         let mut columns = self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default();
         for part in columns.iter_mut().flatten() {
-            part.values = motion.timed(part.joint, std::mem::take(&mut part.values));
+            part.values = motion.with_timing(part.joint, std::mem::take(&mut part.values));
         }
         columns
     }

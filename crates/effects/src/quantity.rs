@@ -15,7 +15,7 @@ pub struct Quantity {
 }
 
 /// The units of parameter `index` of `kind` at joint `joint`, and its name.
-pub(crate) fn named(
+pub(crate) fn name_and_unit(
     kind: EffectKind,
     index: usize,
     robot: &Robot,
@@ -34,7 +34,7 @@ pub(crate) fn actuator_quantity(
     [nominal, extended]: [&Robot; 2],
     read: impl Fn(&Actuator) -> f64,
 ) -> Quantity {
-    let (name, unit) = named(kind, index, nominal, joint);
+    let (name, unit) = name_and_unit(kind, index, nominal, joint);
     let value = |r: &Robot| r.links().get(joint).map_or(f64::NAN, |l| read(&l.actuator));
     Quantity { name, value: value(extended), nominal: value(nominal), unit }
 }

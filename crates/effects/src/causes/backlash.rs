@@ -8,7 +8,7 @@ use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::motion::transmission::{Carried, Gap, play};
+use crate::motion::transmission::{Gap, LoadAlong, play};
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
@@ -63,8 +63,8 @@ impl Effect for Backlash {
     }
 
     fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
-        let carried = Carried::beyond(motion.tight_load(j), &motion.slopes(j)[j]);
-        vec![motion.twisted(j, &play_per_gap(motion, j, carried))]
+        let carried = LoadAlong::at_motor(motion.rigid_load(j), &motion.slopes(j)[j]);
+        vec![motion.twist_column(j, &play_per_gap(motion, j, carried))]
     }
 
     fn prior(&self, _: AtJoint, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {
@@ -120,13 +120,14 @@ impl HasShape for Backlash {
 impl BetweenEncoders for Backlash {
     fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let ratio = motion.drives[j].transmission_ratio;
-        let play = play_per_gap(motion, j, Carried::here(&motion.load[j], &motion.slopes(j)[j]));
+        let play =
+            play_per_gap(motion, j, LoadAlong::at_link(&motion.load[j], &motion.slopes(j)[j]));
         vec![at_joint(j, play.into_iter().map(|x| x / ratio))]
     }
 }
 
 /// What a unit of gap adds to `theta - q` at joint `j`.
-fn play_per_gap(motion: &Motion, j: usize, carried: Carried<'_>) -> Vec<f64> {
+fn play_per_gap(motion: &Motion, j: usize, carried: LoadAlong<'_>) -> Vec<f64> {
     let drive = &motion.drives[j];
     let at = |gap: f64| play(carried, Gap::of(drive, gap), motion.period_s);
     let Actuator { backlash: gap, backlash_trial: trial, .. } = *drive;

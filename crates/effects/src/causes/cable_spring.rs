@@ -66,8 +66,8 @@ impl Effect for CableSpring {
 
     fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let (q, drive) = (&motion.link[0][j], &motion.drives[j]);
-        if !is_there(drive) {
-            return vec![vec![motion.carried(j, q.iter().map(|q| q - motion.centre[j]))]];
+        if !has_spring(drive) {
+            return vec![vec![motion.load_part(j, q.iter().map(|q| q - motion.centre[j]))]];
         }
         let hysteresis = if drive.spring_hysteresis > 0.0 {
             drive.spring_hysteresis
@@ -88,10 +88,10 @@ impl Effect for CableSpring {
         };
         let slope = |x: f64| drive.spring_stiffness + 3.0 * drive.spring_cubic * x * x;
         [
-            motion.carried(j, stiffness.into_iter()),
-            motion.carried(j, x().map(|x| x.powi(3))),
-            motion.carried(j, hysteresis.into_iter()),
-            motion.carried(j, x().map(|x| -slope(x))),
+            motion.load_part(j, stiffness.into_iter()),
+            motion.load_part(j, x().map(|x| x.powi(3))),
+            motion.load_part(j, hysteresis.into_iter()),
+            motion.load_part(j, x().map(|x| -slope(x))),
         ]
         .into_iter()
         .map(|part| vec![part])
@@ -108,7 +108,7 @@ impl Effect for CableSpring {
     ) -> Vec<f64> {
         let (stiffness, range) = (scale.effort_per(j, &scale.range), scale.range[j]);
         let drive = &robot.links()[j].actuator;
-        if !is_there(drive) {
+        if !has_spring(drive) {
             return vec![stiffness];
         }
         vec![stiffness, stiffness / (range * range), scale.effort[j], priors.spring_rest_sd * range]
@@ -116,7 +116,7 @@ impl Effect for CableSpring {
 
     fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let drive = &robot.links()[j].actuator;
-        if !is_there(drive) {
+        if !has_spring(drive) {
             return down_to_zero(drive.spring_stiffness);
         }
         let dragged = drive.spring_hysteresis;
@@ -183,11 +183,11 @@ impl CanBeUnsound<AtJoint> for CableSpring {
     /// Whether what slides is held by a spring.
     fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, _: &Priors) -> bool {
         let drive = &extended.links()[j].actuator;
-        drive.spring_hysteresis == 0.0 || is_there(drive)
+        drive.spring_hysteresis == 0.0 || has_spring(drive)
     }
 }
 
 /// Whether there is a spring to which more can be said.
-fn is_there(drive: &Actuator) -> bool {
+fn has_spring(drive: &Actuator) -> bool {
     drive.spring_stiffness > 0.0
 }

@@ -61,7 +61,7 @@ impl Effect for Counterbalance {
     fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let wave = |of: fn(f64) -> f64| {
             let q = motion.link[0][j].iter();
-            vec![motion.carried(j, q.map(|q| of(*q)))]
+            vec![motion.load_part(j, q.map(|q| of(*q)))]
         };
         vec![wave(f64::sin), wave(f64::cos)]
     }

@@ -51,7 +51,7 @@ impl Effect for EncoderOffset {
     fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let moved = vec![-motion.drives[j].transmission_ratio; motion.samples()];
         let still = vec![0.0; motion.samples()];
-        vec![motion.displaced(j, [&moved, &still, &still])]
+        vec![motion.displacement_column(j, [&moved, &still, &still])]
     }
 
     fn prior(&self, _: AtJoint, _: &Robot, _: &Scale, priors: &Priors) -> Vec<f64> {

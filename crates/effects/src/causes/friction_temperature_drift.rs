@@ -33,7 +33,7 @@ const TRIALS_S: [f64; 4] = [300.0, 600.0, 1200.0, 2400.0];
 const TIME_STEP: (f64, f64) = (-0.5, 1.0);
 
 /// Speed at which the share of friction that is lost is told (rad/s or m/s).
-const TOLD_AT: f64 = 1.0;
+const SHARE_SPEED: f64 = 1.0;
 
 fn of(drive: &Actuator) -> Option<Warming> {
     drive.warming
@@ -46,8 +46,8 @@ fn has_size(warming: Warming) -> bool {
 /// Share of the cold drive's friction at a speed of one that a warm one has lost.
 fn share(drive: &Actuator) -> f64 {
     let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
-    let cold = level + TOLD_AT * drive.viscous;
-    let lost = of(drive).map_or(0.0, |w| w.coulomb_lost + TOLD_AT * w.viscous_lost);
+    let cold = level + SHARE_SPEED * drive.viscous;
+    let lost = of(drive).map_or(0.0, |w| w.coulomb_lost + SHARE_SPEED * w.viscous_lost);
     if cold > 0.0 { lost / cold } else { 0.0 }
 }
 

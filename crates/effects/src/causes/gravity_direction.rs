@@ -52,7 +52,7 @@ impl Effect for GravityDirection {
     fn columns(&self, _: AtBase, motion: &Motion) -> Vec<Column> {
         let column = |axis: usize| {
             let part = |(joint, tilt): (usize, &[Vec<f64>; 2])| {
-                motion.carried(joint, tilt[axis].iter().copied())
+                motion.load_part(joint, tilt[axis].iter().copied())
             };
             motion.tilt().iter().enumerate().map(part).collect()
         };

@@ -57,7 +57,7 @@ impl Effect for InertialParameters {
         let column = |parameter: usize| {
             let carriers = regressor.iter().enumerate().filter(|(_, signals)| !signals.is_empty());
             let part = |(joint, signals): (usize, &Vec<Vec<f64>>)| {
-                motion.carried(joint, signals[parameter].iter().copied())
+                motion.load_part(joint, signals[parameter].iter().copied())
             };
             carriers.map(part).collect()
         };

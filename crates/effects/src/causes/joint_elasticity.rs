@@ -8,7 +8,7 @@ use crate::effect::Effect;
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::Motion;
 use crate::motion::scale::Scale;
-use crate::motion::transmission::{Carried, Gap, play};
+use crate::motion::transmission::{Gap, LoadAlong, play};
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
@@ -33,7 +33,7 @@ fn per_compliance(
     motion: &Motion,
     j: usize,
     play_load: &[f64],
-    carried: for<'a> fn(&'a [f64], &'a [Vec<f64>; 3]) -> Carried<'a>,
+    carried: for<'a> fn(&'a [f64], &'a [Vec<f64>; 3]) -> LoadAlong<'a>,
 ) -> Vec<f64> {
     let drive = &motion.drives[j];
     let mut twist = motion.load[j].clone();
@@ -85,8 +85,8 @@ impl Effect for JointElasticity {
     }
 
     fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
-        let twist = per_compliance(motion, j, motion.tight_load(j), Carried::beyond);
-        vec![motion.twisted(j, &twist)]
+        let twist = per_compliance(motion, j, motion.rigid_load(j), LoadAlong::at_motor);
+        vec![motion.twist_column(j, &twist)]
     }
 
     fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
@@ -126,7 +126,7 @@ impl Effect for JointElasticity {
 impl BetweenEncoders for JointElasticity {
     fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
         let ratio = motion.drives[j].transmission_ratio;
-        let twist = per_compliance(motion, j, &motion.load[j], Carried::here);
+        let twist = per_compliance(motion, j, &motion.load[j], LoadAlong::at_link);
         vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]
     }
 }

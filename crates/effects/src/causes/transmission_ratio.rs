@@ -52,7 +52,7 @@ impl Effect for TransmissionRatio {
         let over =
             |x: &Vec<f64>| -> Vec<f64> { x.iter().map(|x| x / drive.transmission_ratio).collect() };
         let [q, qd, qdd] = [&motion.q[j], &motion.qd[j], &motion.qdd[j]].map(over);
-        let mut column = motion.displaced(j, [&q, &qd, &qdd]);
+        let mut column = motion.displacement_column(j, [&q, &qd, &qdd]);
         let gain = motion.gain[j];
         // Effort for the same torque, and what the drive itself needs to move otherwise.
         for part in column.iter_mut().filter(|part| part.joint == j) {

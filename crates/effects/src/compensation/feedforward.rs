@@ -163,7 +163,7 @@ impl Compensation {
         if !self.drives.iter().all(is_rigid) {
             self.dynamics.mass_matrix_into(dynamics, q_now, &mut ws.mass_matrix);
         }
-        self.share(qd_now, &mut ws.shared);
+        self.add_shared_friction(qd_now, &mut ws.shared);
         for (j, drive) in self.drives.iter().enumerate() {
             let tau_0 = CROSSING_ACCELERATION * ws.mass_matrix[j * n + j];
             let motor = |at: usize| {
@@ -191,7 +191,7 @@ impl Compensation {
     }
 
     /// Friction of the motors that joints share, at the velocities of the motion (N·m or N).
-    fn share(&self, qd: &[f64], shared: &mut [f64]) {
+    fn add_shared_friction(&self, qd: &[f64], shared: &mut [f64]) {
         shared.fill(0.0);
         for (j, drive) in self.drives.iter().enumerate() {
             let Some(c) = drive.coupling else { continue };

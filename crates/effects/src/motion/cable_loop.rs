@@ -52,7 +52,7 @@ impl Loop {
 
     /// What a small displacement of the motion changes in the torque:
     /// `dh' = dh + stiffness ds` while it sticks, 0 where it slides.
-    pub fn displaced(&self, s: &[f64]) -> Vec<f64> {
+    pub fn change_under(&self, s: &[f64]) -> Vec<f64> {
         let mut before = s.first().copied().unwrap_or(0.0);
         let mut change = 0.0;
         let step = |(s, stiffness): (&f64, &f64)| {

@@ -10,7 +10,7 @@
 /// twist grows without bounds, in a drive without damping. So it is the solution of least squares of
 /// `|D s - f|² + RESISTS² |E s|²`, which leaves slow twists as they are.
 #[derive(Debug, Clone)]
-pub(crate) struct Give {
+pub(crate) struct Compliance {
     /// `D`, row by row: what the twist before, here and after has in it.
     rows: Vec<[f64; 3]>,
     /// `D'D + RESISTS² E'E`, diagonal and the two below, as `L diag(d) L'`.
@@ -20,12 +20,12 @@ pub(crate) struct Give {
 
 /// Weight of what holds the twist: close to the frequency at which the link rings it grows to some half
 /// of the inverse of this, and there it is none.
-const RESISTS: f64 = 0.2;
+const RESISTANCE: f64 = 0.2;
 
 /// Least pivot: a load that falls with the twist as fast as the spring grows holds nothing.
 const LEAST: f64 = 1e-6;
 
-impl Give {
+impl Compliance {
     /// Of the derivatives of the load by position, velocity and acceleration, every `period_s`.
     pub fn new(compliance: f64, slopes: &[Vec<f64>; 3], period_s: f64) -> Self {
         let [dq, dqd, dqdd] = slopes;
@@ -51,8 +51,9 @@ impl Give {
             let first = (t + k).saturating_sub(1);
             (first..=t + 1).filter_map(both).sum()
         };
-        let matrix =
-            |t: usize, k: usize| entry(&rows, t, k) + RESISTS * RESISTS * entry(&swings, t, k);
+        let matrix = |t: usize, k: usize| {
+            entry(&rows, t, k) + RESISTANCE * RESISTANCE * entry(&swings, t, k)
+        };
         let mut pivots: Vec<f64> = Vec::with_capacity(samples);
         let mut below = [Vec::with_capacity(samples), Vec::with_capacity(samples)];
         for t in 0..samples {
@@ -69,7 +70,7 @@ impl Give {
     }
 
     /// The twist under `f`, what the torque alone would twist.
-    pub fn under(&self, f: &[f64]) -> Vec<f64> {
+    pub fn twist_under(&self, f: &[f64]) -> Vec<f64> {
         let samples = self.rows.len();
         let across = |t: usize| {
             let from =
@@ -90,7 +91,7 @@ impl Give {
     }
 }
 
-/// The rate of a twist (1/s), by the differences that [`Give`] has; the twist is held beyond its ends.
+/// The rate of a twist (1/s), by the differences that [`Compliance`] has; the twist is held beyond its ends.
 pub(crate) fn rate(x: &[f64], period_s: f64) -> Vec<f64> {
     let last = x.len().saturating_sub(1);
     let at = |t: usize| {
@@ -100,7 +101,7 @@ pub(crate) fn rate(x: &[f64], period_s: f64) -> Vec<f64> {
     (0..x.len()).map(at).collect()
 }
 
-/// The second derivative of a twist (1/s²), by the differences that [`Give`] has; 0 at its ends.
+/// The second derivative of a twist (1/s²), by the differences that [`Compliance`] has; 0 at its ends.
 pub(crate) fn curvature(x: &[f64], period_s: f64) -> Vec<f64> {
     let at = |t: usize| match (t.checked_sub(1), x.get(t + 1)) {
         (Some(before), Some(after)) => (x[before] - 2.0 * x[t] + after) / (period_s * period_s),
@@ -122,7 +123,7 @@ mod tests {
         let slopes = [vec![0.0; samples], vec![0.0; samples], vec![0.5; samples]];
         let sine = |t: usize| 0.01 * (std::f64::consts::TAU * hz * PERIOD_S * t as f64).sin();
         let f: Vec<f64> = (0..samples).map(sine).collect();
-        let s = Give::new(1.0 / 200.0, &slopes, PERIOD_S).under(&f);
+        let s = Compliance::new(1.0 / 200.0, &slopes, PERIOD_S).twist_under(&f);
         let inner = 1000..3000;
         let product = |a: &[f64], b: &[f64]| inner.clone().map(|t| a[t] * b[t]).sum::<f64>();
         product(&s, &f) / product(&f, &f)
@@ -145,8 +146,10 @@ mod tests {
     #[test]
     fn a_load_that_grows_with_the_twist_holds_it_back() {
         let slopes = [vec![300.0; 5], vec![0.0; 5], vec![0.0; 5]];
-        let give = Give::new(0.01, &slopes, PERIOD_S);
-        assert!(give.under(&[4.0; 5]).iter().all(|s| (s - 1.0).abs() < 1e-12));
-        assert!(Give::new(0.01, &[vec![], vec![], vec![]], PERIOD_S).under(&[]).is_empty());
+        let compliance = Compliance::new(0.01, &slopes, PERIOD_S);
+        assert!(compliance.twist_under(&[4.0; 5]).iter().all(|s| (s - 1.0).abs() < 1e-12));
+        assert!(
+            Compliance::new(0.01, &[vec![], vec![], vec![]], PERIOD_S).twist_under(&[]).is_empty()
+        );
     }
 }

@@ -5,7 +5,7 @@ use robot::{Actuator, Robot, SensingSide};
 
 use crate::column::{Column, Part, at_joint};
 use crate::motion::cable_loop::Loop;
-use crate::motion::compliance::{Give, curvature, rate};
+use crate::motion::compliance::{Compliance, curvature, rate};
 use crate::motion::direction::{direction, stands};
 use crate::motion::drive::{bristles, motor_torque, warmth};
 use crate::motion::encoders::{Encoders, State};
@@ -13,7 +13,7 @@ use crate::motion::frame::Frame;
 use crate::motion::rigid_bodies::{LinkRegressor, link_regressor, loads, tilt};
 use crate::motion::slopes::Slopes;
 use crate::motion::timing::Timing;
-use crate::motion::transmission::{Carried, Gap, Parted, corrected, play};
+use crate::motion::transmission::{Deflection, Gap, LoadAlong, correct_reading, play};
 
 /// The motion of one run and what the nominal robot makes of it.
 ///
@@ -59,9 +59,9 @@ pub struct Motion {
     /// The drives of the nominal robot.
     pub(crate) drives: Vec<Actuator>,
     /// Load of the links if they moved as was measured, where motor and link part.
-    tight_load: Option<Vec<Vec<f64>>>,
+    rigid_load: Option<Vec<Vec<f64>>>,
     /// How each joint gives that has a spring between its encoder and its link.
-    gives: Vec<Option<Give>>,
+    compliances: Vec<Option<Compliance>>,
 }
 
 impl Motion {
@@ -98,8 +98,8 @@ impl Motion {
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
         let Encoders { reported, links, since_cold_s } = encoders;
         let qd_reported = reported[1].clone();
-        let Parted { motor, link, tight_load, gives } =
-            Parted::new(robot, corrected(robot, reported), links, period_s);
+        let Deflection { motor, link, rigid_load, compliances } =
+            Deflection::new(robot, correct_reading(robot, reported), links, period_s);
         let [q, qd, qdd] = motor;
         let directions = (0..joints).map(|j| {
             let by_speed =
@@ -127,10 +127,10 @@ impl Motion {
             slopes: OnceLock::new(),
             robot: robot.clone(),
             drives,
-            tight_load,
-            gives,
+            rigid_load,
+            compliances,
         };
-        motion.drive();
+        motion.add_drives();
         motion
     }
 
@@ -168,7 +168,7 @@ impl Motion {
     }
 
     /// Adds what the drives do, then gain, offset and time.
-    fn drive(&mut self) {
+    fn add_drives(&mut self) {
         for (i, a) in self.drives.iter().enumerate() {
             let torque = |t: usize| {
                 let (state, load) =
@@ -178,10 +178,10 @@ impl Motion {
             };
             self.torque[i] = (0..self.samples()).map(torque).collect();
         }
-        self.couple();
+        self.add_shared_friction();
         for (i, a) in self.drives.iter().enumerate() {
             let scaled = self.torque[i].iter().map(|torque| self.gain[i] * torque).collect();
-            let timed = self.timed(i, scaled);
+            let timed = self.with_timing(i, scaled);
             self.effort[i] = timed.into_iter().map(|effort| effort + a.torque_offset).collect();
         }
     }
@@ -198,7 +198,7 @@ impl Motion {
     }
 
     /// Adds the friction of motors that joints share.
-    fn couple(&mut self) {
+    fn add_shared_friction(&mut self) {
         for j in 0..self.drives.len() {
             let Some(c) = self.drives[j].coupling else { continue };
             for (k, way) in [1.0, -1.0].into_iter().enumerate() {
@@ -223,8 +223,8 @@ impl Motion {
     }
 
     /// Effort of joint `j` at the times at which the log has it.
-    pub(crate) fn timed(&self, j: usize, effort: Vec<f64>) -> Vec<f64> {
-        Timing::of(&self.drives[j]).reported(effort, self.period_s)
+    pub(crate) fn with_timing(&self, j: usize, effort: Vec<f64>) -> Vec<f64> {
+        Timing::of(&self.drives[j]).as_logged(effort, self.period_s)
     }
 
     /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.
@@ -251,14 +251,14 @@ impl Motion {
     }
 
     /// What a change of the load of joint `j` changes in its effort.
-    pub(crate) fn carried(&self, j: usize, load: impl Iterator<Item = f64>) -> Part {
+    pub(crate) fn load_part(&self, j: usize, load: impl Iterator<Item = f64>) -> Part {
         let values = load.enumerate().map(|(t, load)| self.load_gain(j, t) * load);
         Part { joint: j, values: values.collect() }
     }
 
     /// Load of joint `j` if motor and link moved as one.
-    pub(crate) fn tight_load(&self, j: usize) -> &[f64] {
-        self.tight_load.as_ref().map_or(&self.load[j], |tight| &tight[j])
+    pub(crate) fn rigid_load(&self, j: usize) -> &[f64] {
+        self.rigid_load.as_ref().map_or(&self.load[j], |load| &load[j])
     }
 
     /// Position that the robot has the encoder of joint `j` report minus that of the link, where
@@ -271,7 +271,7 @@ impl Motion {
         let drive = &self.drives[j];
         let compliance = drive.elasticity.map_or(0.0, f64::recip);
         let gap = Gap::of(drive, drive.backlash);
-        let carried = Carried::here(&self.load[j], &self.slopes(j)[j]);
+        let carried = LoadAlong::at_link(&self.load[j], &self.slopes(j)[j]);
         let play = play(carried, gap, self.period_s);
         let signals = self.link[0][j].iter().zip(&self.load[j]).zip(play);
         let twist = |((q, load), x): ((&f64, &f64), f64)| {
@@ -282,8 +282,8 @@ impl Motion {
 
     /// What changes in the efforts where motor and link of joint `j` part by `twist`, `theta - q`, and by
     /// what its spring gives to that: the one that was not measured moves otherwise.
-    pub(crate) fn twisted(&self, j: usize, twist: &[f64]) -> Column {
-        let given = self.gives[j].as_ref().map(|give| give.under(twist));
+    pub(crate) fn twist_column(&self, j: usize, twist: &[f64]) -> Column {
+        let given = self.compliances[j].as_ref().map(|compliance| compliance.twist_under(twist));
         let twist = given.as_deref().unwrap_or(twist);
         let first = rate(twist, self.period_s);
         let second = curvature(twist, self.period_s);
@@ -293,7 +293,7 @@ impl Motion {
             let values = first.iter().zip(&second).map(|state| self.gain[j] * motor(state));
             return vec![Part { joint: j, values: values.collect() }];
         }
-        let mut column = self.displaced(j, [twist, &first, &second]);
+        let mut column = self.displacement_column(j, [twist, &first, &second]);
         column.iter_mut().flat_map(|part| &mut part.values).for_each(|v| *v = -*v);
         column
     }
@@ -304,15 +304,15 @@ impl Motion {
     /// ```text
     /// d load / dq s + d load / dqd sd + d load / dqdd sdd
     /// ```
-    pub(crate) fn displaced(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
-        let dragged = Loop::of(&self.drives[j], &self.link[0][j]).map(|h| h.displaced(s));
+    pub(crate) fn displacement_column(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
+        let dragged = Loop::of(&self.drives[j], &self.link[0][j]).map(|h| h.change_under(s));
         let part = |i: usize| {
             let [dq, dqd, dqdd] = &self.slopes(j)[i];
             let own = dragged.as_ref().filter(|_| i == j);
             let load = |t: usize| {
                 dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t] + own.map_or(0.0, |h| h[t])
             };
-            self.carried(i, (0..s.len()).map(load))
+            self.load_part(i, (0..s.len()).map(load))
         };
         (0..self.q.len()).map(part).collect()
     }
