@@ -31,7 +31,10 @@ pub(crate) fn sown(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
         looked_for && g.hypothesis.joint().is_some_and(|j| moved[j])
     };
     let germs: Vec<Germ> =
-        germs(robot, &Scale::of_logs(robot, prepared)).into_iter().filter(relevant).collect();
+        germs(robot, &Scale::of_logs(robot, prepared), &effects::Priors::default())
+            .into_iter()
+            .filter(relevant)
+            .collect();
     let kinds = germs.iter().map(|germ| germ.hypothesis.kind).chain(log.without.iter().copied());
     let without: Vec<EffectKind> = kinds.collect::<BTreeSet<_>>().into_iter().collect();
     let design = Design::new(robot, &Log { without: &without, ..*log })?;

@@ -22,7 +22,7 @@ use crate::search::select::Selection;
 /// small an error is nobody knows, and `least` what a name needs (Hoeting et al. 1999).
 ///
 /// The priors in `B` are those of the search but for links, whose errors are those of CAD
-/// ([`effects::Explain::everyday`]): logs often show the mass of two neighbours together alone, and by the priors of
+/// ([`effects::HasCadError::everyday`]): logs often show the mass of two neighbours together alone, and by the priors of
 /// the search either could have all of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Unnamed<'a> {
@@ -81,7 +81,9 @@ impl<'a> Unnamed<'a> {
 fn everyday(design: &Design, robot: &Robot) -> Vec<f64> {
     let mut prior = design.prior.clone();
     for group in &design.groups {
-        let Some(small) = group.hypothesis.everyday(robot) else { continue };
+        let Some(small) = group.hypothesis.everyday(robot, &effects::Priors::default()) else {
+            continue;
+        };
         group.columns.iter().zip(small).for_each(|(&column, sd)| prior[column] = sd);
     }
     prior

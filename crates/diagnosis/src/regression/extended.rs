@@ -9,7 +9,7 @@ pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &
     for &g in model {
         let group = &design.groups[g];
         let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
-        group.hypothesis.extend(&mut changed, &own, &design.frame);
+        group.hypothesis.extend(&mut changed, &own, &design.frame, &effects::Priors::default());
     }
     changed
 }

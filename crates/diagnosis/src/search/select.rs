@@ -253,7 +253,9 @@ impl Selection<'_> {
     /// arms have needs; none where no hypothesis does.
     pub fn without_rare(&self, model: &Model) -> Option<Model> {
         let is_rare = |g: &usize| {
-            let rarity = self.problem.design.groups[*g].hypothesis.rarity(self.robot);
+            let rarity = self.problem.design.groups[*g]
+                .hypothesis
+                .rarity(self.robot, &effects::Priors::default());
             let least = self.least_evidence(*g) + rarity;
             rarity > 0.0 && self.beyond_the_plain(&removed(model, *g), *g) < least
         };
@@ -310,7 +312,7 @@ impl Selection<'_> {
         let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
         // A friction that wants to be negative is held at zero, and then is no change at all.
         let changes = own.iter().any(|w| w.abs() > 0.0);
-        changes && group.hypothesis.admissible(self.robot, &own)
+        changes && group.hypothesis.admissible(self.robot, &own, &effects::Priors::default())
     }
 
     /// Whether `larger`, which has `g`, does enough better on held-out blocks than `before`: by
