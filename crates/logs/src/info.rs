@@ -1,12 +1,18 @@
 use robot::{Joint, Robot};
 
 use crate::{
-    Agreement, Channel, Channels, Mend, Run, choice,
-    clock::Fill,
-    degrees,
-    run::{median, range},
-    sources::Comparison,
-    uniform::{moving, uniform},
+    checks::{degrees, saturation::saturation},
+    runs::{
+        mend::Mend,
+        run::{Channel, Channels, Run, median, range},
+    },
+    signals::{
+        agreement::Agreement,
+        choice,
+        clock::Fill,
+        sources::Comparison,
+        uniform::{moving, uniform},
+    },
 };
 
 /// What there is to know about a run before it is used.
@@ -105,7 +111,7 @@ pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
         jitter_max_s,
         gaps: steps.iter().enumerate().filter_map(gap).collect(),
         joints: joints.map(|((link, c), a)| joint_info(&link.joint, c, a)).collect(),
-        unknown_joints: unknown_joints(run),
+        unknown_joints: run.unknown_joints(),
         extra: run.extra.keys().cloned().collect(),
     }
 }
@@ -140,23 +146,6 @@ fn joint_info(joint: &Joint, channels: &Channels, agreement: Option<Agreement>) 
 
 fn share(x: &[f64], test: impl Fn(f64) -> bool) -> f64 {
     x.iter().filter(|&&v| test(v)).count() as f64 / x.len().max(1) as f64
-}
-
-/// Joints of the log that the robot does not have, by their position column.
-pub(crate) fn unknown_joints(run: &Run) -> Vec<String> {
-    run.extra.keys().filter_map(|n| n.strip_suffix(".position")).map(str::to_owned).collect()
-}
-
-/// Share of the samples at the lowest or highest value, beyond the two that any signal
-/// has; 0 for a constant one.
-pub(crate) fn saturation(x: &[f64]) -> f64 {
-    let (low, high) = range(x);
-    let near = 1e-9 * low.abs().max(high.abs());
-    if high - low <= near {
-        return 0.0;
-    }
-    let at_extreme = x.iter().filter(|&&v| v <= low + near || v >= high - near).count();
-    at_extreme.saturating_sub(2) as f64 / x.len() as f64
 }
 
 /// The smallest difference between neighbouring positions that one difference in a
