@@ -11,11 +11,11 @@ use crate::{
         choice,
         clock::Fill,
         sources::Comparison,
-        uniform::{moving, uniform},
+        uniform::{moving, uniform_pieces},
     },
 };
 
-/// What there is to know about a run before it is used.
+/// Description of a run before it is used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LogInfo {
     /// Name of the run.
@@ -24,7 +24,7 @@ pub struct LogInfo {
     pub samples: usize,
     /// Whether the file ended in the middle of a further row, which is left out.
     pub is_torn: bool,
-    /// What was put right while it was read.
+    /// Changes made while it was read.
     pub mended: Vec<Mend>,
     /// Time from the first row to the last (s).
     pub duration_s: f64,
@@ -55,7 +55,7 @@ pub struct Gap {
     pub length_s: f64,
 }
 
-/// What there is to know about one joint.
+/// Description of one joint of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointInfo {
     /// Name of the joint.
@@ -79,14 +79,14 @@ pub struct JointInfo {
     pub effort_limit: Option<f64>,
     /// Share of the samples at the lowest or the highest effort, 0 to 1.
     pub effort_saturation: f64,
-    /// Whether the positions may be degrees. A log in which they must be is not read at all.
+    /// Whether the positions may be degrees. A log in which they must be degrees is refused by reading.
     pub suspected_degrees: bool,
     /// The velocity column against the derivative of the position, both low-passed at
     /// the cut-off of this run; `None` without the column or without motion.
     pub velocity_agreement: Option<Agreement>,
 }
 
-/// Looks a run over.
+/// Describes a run before it is used.
 ///
 /// Joints are taken in the order of the robot, which is that of [`crate::read_run`].
 pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
@@ -167,7 +167,7 @@ fn quantisation_step(position: &[f64]) -> Option<f64> {
 /// Agreement of each joint's velocity column, over the longest piece of the run.
 fn agreements(run: &Run) -> Vec<Option<Agreement>> {
     let none = || vec![None; run.joints.len()];
-    let pieces = uniform(run, 0, Fill::SAMPLES);
+    let pieces = uniform_pieces(run, 0, Fill::SAMPLES);
     let longest = pieces.into_iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s()));
     let Some(piece) = longest else { return none() };
     let pieces = [piece];

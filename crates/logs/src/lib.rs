@@ -1,4 +1,4 @@
-//! The motion log: its files, checks, resampling, filters and derivatives.
+//! The motion log: runs, checks, resampling, filters and derivatives.
 //!
 //! ```text
 //! file -> read_run -> Run -> prepare -> q, qd, qdd, effort on a uniform clock

@@ -1,22 +1,22 @@
 use crate::common::error::FormatError;
 
-/// What becomes of a log that is damaged somewhere.
+/// What to do with a damaged log.
 #[derive(Debug, Default)]
 pub enum Damage {
     /// It is refused.
     #[default]
     Refused,
-    /// It is read up to there; what was found there is kept.
+    /// It is read up to the damage; the error found there is kept.
     CutOff(Option<Box<FormatError>>),
 }
 
 impl Damage {
-    /// Takes what was found at the end of what is whole.
+    /// Keeps an error that ends the log.
     ///
     /// # Errors
     ///
-    /// What was found, of a log that is then refused. Only what is wrong at a place in the log can be
-    /// taken, and only once.
+    /// The error itself, where the log is to be refused or the error has no place in the log. Of several errors the
+    /// first is kept.
     pub fn take(&mut self, error: FormatError) -> Result<(), FormatError> {
         let is_at_a_place = matches!(
             error,

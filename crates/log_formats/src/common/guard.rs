@@ -5,8 +5,7 @@ use std::{
 
 use crate::common::error::FormatError;
 
-/// Runs a decoder of another crate, which may panic at a damaged file of this kind instead of
-/// refusing it.
+/// Runs a decoder of another crate and turns its panic into an error: some panic at a damaged file.
 pub(crate) fn guard<T>(
     path: &Path,
     kind: &'static str,

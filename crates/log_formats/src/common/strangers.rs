@@ -1,6 +1,6 @@
 //! Files that are not read, each with what it is and what to do.
 
-/// A kind of file that is no log, or none that is read.
+/// A kind of file that is not read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Stranger {
     /// What it is, as the end of `this is ...`.
@@ -17,7 +17,7 @@ pub(crate) fn stranger(first: &[u8]) -> Option<Stranger> {
     Some(Stranger { found: found.2, advice: found.3 })
 }
 
-/// A binary file that begins as nothing here does.
+/// A binary file of an unknown kind.
 pub(crate) const UNKNOWN: Stranger = Stranger {
     found: "a binary file of no kind that is known here",
     advice: "write the log as CSV or Parquet",

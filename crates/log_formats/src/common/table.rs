@@ -28,7 +28,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// The same of the rows that are needed, where all were read.
+    /// The table of the rows in the excerpt, of one that was read whole.
     pub(crate) fn excerpt(mut self, needed: &Needed) -> Self {
         let (Some(mut filter), Some(time)) =
             (needed.excerpt.clone(), self.columns.get(needed.time))
@@ -41,7 +41,7 @@ impl Table {
         self
     }
 
-    /// Leaves the first samples alone.
+    /// Keeps only the first samples.
     pub fn truncate(&mut self, samples: usize) {
         self.columns.values_mut().for_each(|column| column.truncate(samples));
         self.rows.truncate(samples);
@@ -74,9 +74,8 @@ pub(crate) enum Cell {
 
 /// A table that is filled row by row.
 ///
-/// A row in which all signals are empty is left out: it is one of another topic that was
-/// written between those of the joints. Of the columns that are not needed those stay in
-/// which every other row has a number.
+/// A row without any signal is left out: it belongs to another topic that was written between the joints'. A column
+/// that is not needed stays where all other rows have a number in it.
 pub(crate) struct Rows {
     excerpt: Option<ExcerptFilter>,
     columns: Vec<Column>,

@@ -1,10 +1,10 @@
 /// Rows of a log long enough for its clock to be judged.
 const FEWEST: usize = 256;
 
-/// Share of the steps that are far from the mean one where stamps say nothing of single rows.
+/// Share of steps far from the mean step above which stamps are those of arrival.
 const IRREGULAR: f64 = 1.0 / 3.0;
 
-/// An even clock in the place of stamps that say when rows arrived.
+/// An even clock that replaces stamps of arrival.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct EvenClock {
     /// Time of every row (s).
@@ -15,16 +15,15 @@ pub(crate) struct EvenClock {
     pub largest_s: f64,
 }
 
-/// The even clock of rows whose stamps scatter about it by more than a step; `None` where stamps can be
-/// believed, or where no even clock is behind them.
+/// The even clock behind stamps that scatter by more than a step. `None` where the stamps are good, or where the
+/// rows were not recorded at an even rate.
 ///
 /// ```text
 /// a third of the steps beyond 1/2 .. 3/2 of the mean step
 /// sd(t[k+m] - t[k]) < sqrt(m) / 2 sd(t[k+1] - t[k]),   m = n / 8
 /// ```
 ///
-/// The second tells delays, which do not add up from row to row, from rows that come when they like and from
-/// rows that are lost.
+/// By the second condition delays do not add up from row to row. Rows at random times and lost rows fail it.
 pub(crate) fn even_clock(time: &[f64]) -> Option<EvenClock> {
     let n = time.len();
     if n < FEWEST {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use robot::Joint;
 
 use crate::{
-    checks::turns::unwrapped,
+    checks::turns::unwrap_turns,
     runs::run::{Channel, Channels, median},
 };
 
@@ -26,15 +26,15 @@ const FARTHEST: f64 = 1e4;
 /// Position that no joint has (rad or m): beyond it the digits of a file say little of a motion.
 const NOWHERE: f64 = 1e6;
 
-/// Rows of which what is usual can be said.
+/// Fewest rows that show what is usual.
 const FEWEST: usize = 20;
 
 /// How many rows may be left out: one in a hundred, and three of a short log.
-pub(crate) fn few(rows: usize) -> usize {
+pub(crate) fn most_left_out(rows: usize) -> usize {
     (rows / 100).max(3)
 }
 
-/// A sample that cannot be.
+/// A sample that the joint cannot have.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Impossible {
     /// Its index.
@@ -43,8 +43,8 @@ pub(crate) struct Impossible {
     pub expectation: String,
 }
 
-/// Samples of a joint that cannot be, by channel.
-pub(crate) fn impossible(
+/// Finds impossible samples of a joint, by channel.
+pub(crate) fn find_impossible(
     joint: &Joint,
     time: &[f64],
     c: &Channels,
@@ -75,7 +75,7 @@ pub(crate) fn impossible(
 /// where it is within reach of what came before; another one holds samples that cannot be when it is short,
 /// or lies outside of the limits by their span.
 fn of_position(joint: &Joint, time: &[f64], q: &[f64]) -> Vec<Impossible> {
-    let turns = joint.kind.is_rotation().then(|| unwrapped(time, q)).flatten();
+    let turns = joint.kind.is_rotation().then(|| unwrap_turns(time, q)).flatten();
     let q = turns.as_ref().map_or(q, |turns| &turns.position);
     let Some(reach) = Reach::of(joint, time, q) else { return nowhere(q) };
     let stretches = reach.stretches(time, q);
@@ -84,7 +84,7 @@ fn of_position(joint: &Joint, time: &[f64], q: &[f64]) -> Vec<Impossible> {
         (!is_outside(joint, q[own.start]), own.len())
     });
     let Some(longest) = longest else { return Vec::new() };
-    let short = few(q.len());
+    let short = most_left_out(q.len());
     let strange = |s: &Range<usize>| s.len() <= short || is_outside(joint, q[s.start]);
     let mut out = Vec::new();
     let mut last = stretches[longest].end - 1;

@@ -2,18 +2,18 @@ use std::f64::consts::TAU;
 
 use crate::runs::run::median;
 
-/// Farthest that a link lies from its motor (rad): far more than a transmission gives.
+/// Largest distance of a link from its motor (rad), far more than any transmission deflects.
 const APART: f64 = 0.5;
 
-/// The position of the link of a rotation (rad) on the turn of its motor's `position`: an encoder
-/// that knows one turn alone starts anew after it.
+/// Moves the position of a rotation's link (rad) to the turn of its motor's `position`: a single-turn encoder starts
+/// anew after each turn.
 ///
 /// ```text
 /// link + 2 pi round((position - link) / 2 pi)
 /// ```
 ///
-/// One that does not keep to the motor then either is no encoder of this link, and stays as it is.
-pub(crate) fn on_the_turn_of(position: &[f64], link: Vec<f64>) -> Vec<f64> {
+/// A link position that is still apart from the motor after that is left unchanged: it is from another link.
+pub(crate) fn to_turn_of(position: &[f64], link: Vec<f64>) -> Vec<f64> {
     let turned = |(q, link): (&f64, &f64)| {
         let turns = ((q - link) / TAU).round();
         if turns.abs() > 0.0 { link + TAU * turns } else { *link }
@@ -40,7 +40,7 @@ pub(crate) struct Unwrapped {
 ///
 /// with the usual step the largest of all but one in fifty, so that what is left of a jump is a step of the
 /// motion. Steps count by rows of the usual clock.
-pub(crate) fn unwrapped(time: &[f64], position: &[f64]) -> Option<Unwrapped> {
+pub(crate) fn unwrap_turns(time: &[f64], position: &[f64]) -> Option<Unwrapped> {
     const USUAL_STEPS: f64 = 10.0;
     /// Turns that an encoder of many turns counts, 12 bits of them: what jumps by more is no counter.
     const MOST_TURNS: f64 = 4096.0;
@@ -84,23 +84,23 @@ mod tests {
     fn an_encoder_of_one_turn_is_taken_to_that_of_its_motor() {
         let link: Vec<f64> = swing().iter().map(|q| q - 0.01).collect();
         let wrapped = link.iter().map(|q| q.rem_euclid(TAU)).collect();
-        let found = on_the_turn_of(&swing(), wrapped);
+        let found = to_turn_of(&swing(), wrapped);
         assert!(found.iter().zip(&link).all(|(a, b)| (a - b).abs() < 1e-12));
-        assert_eq!(on_the_turn_of(&swing(), link.clone()), link);
+        assert_eq!(to_turn_of(&swing(), link.clone()), link);
     }
 
     #[test]
     fn what_does_not_keep_to_the_motor_stays_as_it_is() {
         let reversed: Vec<f64> = swing().iter().map(|q| -q).collect();
-        assert_eq!(on_the_turn_of(&swing(), reversed.clone()), reversed);
+        assert_eq!(to_turn_of(&swing(), reversed.clone()), reversed);
     }
 
     #[test]
     fn a_counter_of_one_turn_is_unwrapped_and_a_motion_is_left_alone() {
         let time: Vec<f64> = (0..1000).map(|k| 0.002 * f64::from(k)).collect();
-        assert_eq!(unwrapped(&time, &swing()), None);
+        assert_eq!(unwrap_turns(&time, &swing()), None);
         let wrapped: Vec<f64> = swing().iter().map(|q| q.rem_euclid(TAU)).collect();
-        let found = unwrapped(&time, &wrapped).unwrap();
+        let found = unwrap_turns(&time, &wrapped).unwrap();
         assert!(found.position.iter().zip(swing()).all(|(a, b)| (a - b).abs() < 1e-9));
         assert_eq!(found.jumps.len(), 3);
     }
@@ -110,6 +110,6 @@ mod tests {
         let time: Vec<f64> = (0..1000).map(|k| 0.002 * f64::from(k)).collect();
         let mut q = swing();
         q[400..].iter_mut().for_each(|q| *q += 5.0);
-        assert_eq!(unwrapped(&time, &q), None);
+        assert_eq!(unwrap_turns(&time, &q), None);
     }
 }

@@ -55,7 +55,7 @@ impl<'a> Finder<'_, 'a> {
             && robot.links().iter().all(|link| link.actuator.position_loop.is_some())
     }
 
-    /// What there is instead of an effort that is missing beside a goal.
+    /// The end of the error for a missing effort: the hint at `effort_source`, where the log has a goal.
     fn other_effort(&self, joint: &str, channel: Channel) -> &'static str {
         let goal = self.source(joint, Channel::DesiredPosition).column;
         if channel == Channel::Effort && self.names.contains(&goal) {

@@ -14,11 +14,11 @@ pub struct ReadOptions<'a> {
     /// The topic of a bag whose joint states are read; `/joint_states` or the only one of the type
     /// where it is left out.
     pub topic: Option<&'a str>,
-    /// The seconds that are read; the whole log where they are left out. Rows outside of them are not looked at.
+    /// The seconds that are read, or the whole log. Rows outside are ignored, also by checks.
     pub excerpt: Option<Excerpt>,
     /// The episode of a dataset of LeRobot; one that has a single episode needs none.
     pub episode: Option<u64>,
-    /// The dataset that the path is, where it was opened already: its column of episodes is not read again.
+    /// The dataset at the path, where it is open already, so that its column of episodes is read once.
     pub dataset: Option<&'a Dataset>,
 }
 

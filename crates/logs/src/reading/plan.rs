@@ -8,8 +8,8 @@ use robot::{Joint, Link, Robot};
 use crate::{
     checks::{
         degrees,
-        impossible::{few, impossible},
-        turns::unwrapped,
+        impossible::{find_impossible, most_left_out},
+        turns::unwrap_turns,
     },
     error::LogError,
     naming::{column_map::ColumnMap, map_entry::MappedColumn},
@@ -29,7 +29,7 @@ pub(crate) struct Plan<'a> {
     pub time: Source<'a>,
     pub joints: Vec<Vec<(Channel, Source<'a>)>>,
     excerpt: Option<Excerpt>,
-    /// Whether efforts are those of the position loop of the robot.
+    /// Whether efforts are computed from the position loop of the robot.
     pub is_effort_computed: bool,
 }
 
@@ -88,12 +88,12 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Two rows or more, finite numbers, time that increases; what is not is cut off with what
-    /// follows, where damage may be.
+    /// Checks that there are two rows or more, that their numbers are finite and that time increases. A log that
+    /// may be damaged is cut off before the first row that fails.
     pub(crate) fn check(&self, table: &mut Table, damage: &mut Damage) -> Result<(), LogError> {
-        // Behind a number that is none, time may go back before it: at most once a signal.
+        // Cutting at a number that is not finite may leave an earlier row at which time goes back: one cut a signal at most.
         for _ in 0..=self.sources().count() {
-            let Some((sample, error)) = self.damaged(table) else { break };
+            let Some((sample, error)) = self.first_damage(table) else { break };
             damage.take(error)?;
             table.truncate(sample);
         }
@@ -103,11 +103,11 @@ impl<'a> Plan<'a> {
             let (found, expected) = (time.len(), FEWEST_ROWS);
             return Err(LogError::TooFewRows { path: path(), found, expected });
         }
-        self.damaged(table).map_or(Ok(()), |(_, error)| Err(error.into()))
+        self.first_damage(table).map_or(Ok(()), |(_, error)| Err(error.into()))
     }
 
     /// The first sample that cannot be used, and why.
-    fn damaged(&self, table: &Table) -> Option<(usize, FormatError)> {
+    fn first_damage(&self, table: &Table) -> Option<(usize, FormatError)> {
         let path = || self.path.clone();
         let time = self.time.take(&table.columns);
         for source in self.sources() {
@@ -129,7 +129,7 @@ impl<'a> Plan<'a> {
         Some((index + 1, error))
     }
 
-    /// The signals of every joint, taken out of the table: it keeps the columns that become none.
+    /// The signals of every joint, moved out of the table, which keeps the further columns.
     pub(crate) fn take_channels(&self, robot: &Robot, table: &mut Table) -> Vec<Channels> {
         let time = self.time.take(&table.columns);
         let mut all = Vec::with_capacity(self.joints.len());
@@ -163,12 +163,12 @@ impl<'a> Plan<'a> {
         channels
     }
 
-    /// Leaves out the rows with samples that cannot be.
+    /// Leaves out the rows with impossible samples.
     ///
     /// # Errors
     ///
-    /// [`LogError::Impossible`] where those are more than a few, unless they look like degrees, which
-    /// [`Plan::check_degrees`] tells.
+    /// [`LogError::Impossible`] for more than a few such rows, or that of [`Plan::check_degrees`] where they look like
+    /// degrees.
     pub(crate) fn leave_out_impossible(
         &self,
         robot: &Robot,
@@ -179,7 +179,7 @@ impl<'a> Plan<'a> {
         let mut mended = Vec::new();
         for (link, sources) in robot.links().iter().zip(&self.joints) {
             let (joint, channels) = (&link.joint, self.channels((link, sources), &time, table));
-            for (channel, found) in impossible(joint, &time, &channels) {
+            for (channel, found) in find_impossible(joint, &time, &channels) {
                 let Some(first) = found.first() else { continue };
                 let (row, count) = (table.row(first.sample), found.len());
                 let source = sources.iter().find(|(c, _)| *c == channel);
@@ -189,10 +189,10 @@ impl<'a> Plan<'a> {
                 );
                 let value = channels.get(channel).map_or(f64::NAN, |x| x[first.sample]);
                 let expectation = first.expectation.clone();
-                if count > few(time.len()) {
+                if count > most_left_out(time.len()) {
                     self.check_degrees(joint, sources, (&time, table), &channels)?;
                     let (path, rows) = (self.path.clone(), time.len());
-                    let few = few(rows);
+                    let few = most_left_out(rows);
                     return Err(LogError::Impossible {
                         path,
                         column,
@@ -216,7 +216,7 @@ impl<'a> Plan<'a> {
         Ok(mended)
     }
 
-    /// Takes out of the positions of a rotation the full turns that they jump by.
+    /// Takes full turns out of the positions of a rotation that jumps by them.
     pub(crate) fn unwrap(
         &self,
         sources: &[(Channel, Source)],
@@ -225,7 +225,7 @@ impl<'a> Plan<'a> {
     ) -> Vec<Mend> {
         let mut mended = Vec::new();
         for (channel, source) in sources.iter().filter(|(c, _)| *c == Channel::Position) {
-            let Some(found) = unwrapped(time, &channels.position) else { continue };
+            let Some(found) = unwrap_turns(time, &channels.position) else { continue };
             let (row, count) = (table.row(found.jumps[0]), found.jumps.len());
             channels.set(*channel, found.position);
             mended.push(Mend::Turns { column: source.column.clone(), row, count });
@@ -233,7 +233,7 @@ impl<'a> Plan<'a> {
         mended
     }
 
-    /// A unit that was stated is believed.
+    /// Refuses positions that look like degrees, unless the column map states their unit.
     pub(crate) fn check_degrees(
         &self,
         joint: &Joint,

@@ -2,7 +2,7 @@ use robot::Gain;
 
 use crate::runs::run::Channels;
 
-/// Effort that a servo's position loop asks for, of a log that holds none (N m or N).
+/// Effort that a servo's position loop asks for, for logs without effort (N m or N).
 ///
 /// ```text
 /// effort[k] = kp (goal[k] - q[k]) - kd qd[k]

@@ -15,7 +15,7 @@ struct Preset {
     words: &'static str,
     /// The map.
     text: &'static str,
-    /// Whether joints can be told by it: by name, or by the order that is the arm's.
+    /// Whether the columns say which joint each one is: by name, or by a fixed order of the arm.
     is_certain: bool,
 }
 
@@ -120,14 +120,11 @@ pub fn preset_names() -> Vec<&'static str> {
     names
 }
 
-/// The preset whose time, positions and efforts a file has for all joints of a robot: one of that
-/// `name`, or any that tells the joints for certain. A file that has its columns under their usual
-/// names needs none.
+/// Finds the preset whose time, positions and efforts a file has for all joints of a robot.
 ///
-/// Of what is `asked` the topic and the episode count.
-///
-/// With a name, the first of that name comes back where none fits, so that reading says what is
-/// missing.
+/// With a `name` only presets of that name are tried; where none fits the first one is returned, so that reading
+/// says what is missing. Without a name only presets that identify the joints are tried, and a file with the usual
+/// names needs none. Of `asked` only topic, episode and dataset are used.
 ///
 /// # Errors
 ///

@@ -7,7 +7,7 @@ use robot::Robot;
 use crate::{
     checks::{
         even_clock::{EvenClock, even_clock},
-        turns::on_the_turn_of,
+        turns::to_turn_of,
     },
     error::LogError,
     reading::{options::ReadOptions, plan::Plan, position_loop},
@@ -20,13 +20,15 @@ use crate::{
 /// does not have stays among the further columns; [`crate::prepare`] warns of it.
 /// The position of a rotation's link is brought to the turn of the motor's.
 ///
-/// Rows with a sample that cannot be are left out where they are few: a position beyond the reach of the rows
-/// beside it, an effort or speed of a size that no joint has. Full turns by which the position of a rotation
-/// jumps are taken out. Stamps that scatter about an even clock by more than its step give way to it.
-/// [`Run::mended`] tells of all.
+/// [`Run::mended`] lists what was put right:
+///
+/// - Rows with an impossible sample are left out where they are few: a position out of reach of its neighbours, an
+///   effort or speed of a size that no joint has.
+/// - Full turns by which the position of a rotation jumps are taken out.
+/// - Time stamps that scatter by more than a step are replaced by an even clock.
 ///
 /// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5 or 7.3, MCAP or SQLite, or one of them packed
-/// with gzip or zstd, which is seen from its first bytes.
+/// with gzip or zstd. The first bytes tell the kind.
 ///
 /// Of an npz or mat file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
@@ -51,20 +53,20 @@ use crate::{
 ///
 /// Every [`LogError`] that names a file: no file, an empty or broken one, a missing
 /// column or joint, a field that is not a finite number, time that does not increase,
-/// fewer than two rows, many samples that cannot be, positions in degrees, a column map that does not fit.
+/// fewer than two rows, many impossible samples, positions in degrees, a column map that does not fit.
 pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run, LogError> {
     read(path, robot, options, &mut Damage::Refused)
 }
 
-/// Reads one run as [`read_run`] does, up to where it is damaged, and says what is there.
+/// Reads one run as [`read_run`] does, up to where it is damaged, and returns the error found there.
 ///
-/// Of CSV that is the first row that cannot be read, of a bag the first record or page, of any file the
-/// first sample that is no number or whose time does not increase. A file of another kind that is
-/// broken is refused.
+/// A CSV file ends before the first row that cannot be read, a bag before the first damaged record or page, and any
+/// file before the first sample that is not finite or whose time does not increase. A broken file of another kind is
+/// refused.
 ///
 /// # Errors
 ///
-/// Those of [`read_run`] that have no place in the log, and fewer than two rows before it.
+/// Errors of [`read_run`] without a place in the log, and fewer than two rows before the damage.
 pub fn read_run_until_damage(
     path: &Path,
     robot: &Robot,
@@ -88,7 +90,7 @@ fn read(
     let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
     let options = &ReadOptions { map: map.as_ref(), ..*options };
     let file = open(path, &options.request(), options.dataset, damage)?;
-    checked((path, file.as_ref()), robot, options, damage)
+    read_opened((path, file.as_ref()), robot, options, damage)
 }
 
 /// The run that columns in memory hold, read and checked as [`read_run`] does it with a file:
@@ -119,13 +121,13 @@ pub fn run_of_columns(
     let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
     let options = &ReadOptions { map: map.as_ref(), ..*options };
     let file = Columns(columns);
-    let run = checked((Path::new(name), &file), robot, options, &mut Damage::Refused)?;
-    // A name with a dot is none with an extension.
+    let run = read_opened((Path::new(name), &file), robot, options, &mut Damage::Refused)?;
+    // A dot in the name begins no extension.
     Ok(Run { name: name.to_owned(), ..run })
 }
 
-/// The run of a log that is opened.
-fn checked(
+/// Reads the run of an open log.
+fn read_opened(
     (path, file): (&Path, &dyn Opened),
     robot: &Robot,
     options: &ReadOptions,
@@ -152,7 +154,7 @@ fn checked(
         plan.check_degrees(joint, sources, (&time, &table), channels)?;
         if joint.kind.is_rotation() {
             let link = channels.link_position.take();
-            channels.link_position = link.map(|link| on_the_turn_of(&channels.position, link));
+            channels.link_position = link.map(|link| to_turn_of(&channels.position, link));
         }
     }
     if plan.is_effort_computed {

@@ -12,7 +12,7 @@ pub fn distinct(runs: &[Run]) -> Cow<'_, [Run]> {
     }
 }
 
-/// Index of the first earlier run that is [`repeated`] by this one.
+/// Index of the first earlier run that has the same samples as this one ([`repeated`]).
 pub fn duplicate_of(runs: &[Run], index: usize) -> Option<usize> {
     let run = runs.get(index)?;
     runs.iter().take(index).position(|earlier| repeated(earlier, run))

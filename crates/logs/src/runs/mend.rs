@@ -1,11 +1,11 @@
 use std::fmt;
 
-/// What was put right in a run, or computed for it, while it was read.
+/// A change of a run while it was read: something put right, left out or computed.
 ///
 /// Rows are those of the file, counted from 1.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mend {
-    /// Rows with a sample that cannot be, which are left out.
+    /// Rows with an impossible sample were left out.
     LeftOut {
         /// The column.
         column: String,
@@ -13,28 +13,28 @@ pub enum Mend {
         row: usize,
         /// What it holds there, in the unit of the signal.
         found: f64,
-        /// Why it cannot be, as the end of `but ...`.
+        /// Why it is impossible, as the end of `but ...`.
         expectation: String,
         /// How many rows.
         count: usize,
     },
-    /// Stamps that say when rows arrived, in the place of which an even clock is taken.
+    /// Time stamps of arrival were replaced by an even clock.
     EvenClock {
         /// Its step (s).
         step_s: f64,
-        /// How far a stamp was off it at most (s).
+        /// Largest distance of a stamp from it (s).
         largest_s: f64,
     },
-    /// Efforts that are not in the log: those of the position loop of `robot.toml`.
+    /// Efforts were computed from the position loop of `robot.toml`; the log has none.
     FromPositionLoop,
-    /// Stretches that are spread evenly over logs which are longer than they need to be, alone; the rest is left out.
+    /// Only stretches of long logs are used, spread evenly over them.
     Stretches {
-        /// What is left out between samples of the run (s).
+        /// Lengths of the gaps between the stretches of this run (s).
         gaps_s: Vec<f64>,
-        /// What takes part of all logs, and how long they are (s).
+        /// Length of what is used of all logs, and of all logs (s).
         all: [f64; 2],
     },
-    /// Full turns by which a position jumps, which are taken out.
+    /// Full turns by which a position jumped were taken out.
     Turns {
         /// The column.
         column: String,
@@ -46,14 +46,14 @@ pub enum Mend {
 }
 
 impl Mend {
-    /// How much of all logs takes part, in words, where that is not all.
+    /// How much of all logs is used, in words; `None` for other changes.
     pub fn taken(&self) -> Option<String> {
         let Self::Stretches { all, .. } = self else { return None };
         let [taken_min, whole_min] = all.map(|seconds| seconds / 60.0);
         Some(format!("of {whole_min:.1} min of logs {taken_min:.1} min take part"))
     }
 
-    /// How many gaps it leaves in the run.
+    /// Number of gaps that it leaves in the run.
     pub(crate) fn gaps(&self) -> usize {
         match self {
             Self::Stretches { gaps_s, .. } => gaps_s.len(),
@@ -61,7 +61,7 @@ impl Mend {
         }
     }
 
-    /// Whether it says of all logs what the other one says of them.
+    /// Whether both are the same change of all logs, which is reported once.
     pub(crate) fn says_of_all(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::FromPositionLoop, Self::FromPositionLoop) => true,

@@ -15,7 +15,7 @@ pub struct Run {
     pub sha256: String,
     /// Whether the file ended in the middle of a row, which is left out.
     pub is_torn: bool,
-    /// What was put right while it was read.
+    /// Changes made while it was read.
     pub mended: Vec<Mend>,
     /// Time of each sample as in the file (s), strictly increasing.
     pub time: Vec<f64>,
@@ -54,7 +54,7 @@ pub struct Channels {
 }
 
 impl Run {
-    /// The run without the samples of some seconds, each from its first to its last moment.
+    /// The run without the samples between each pair of times (s), both ends included.
     #[must_use]
     pub fn without(&self, seconds: &[[f64; 2]]) -> Self {
         let is_left = |t: &f64| !seconds.iter().any(|[from, to]| (*from..=*to).contains(t));
@@ -67,7 +67,7 @@ impl Run {
         self.extra.keys().filter_map(|n| n.strip_suffix(".position")).map(str::to_owned).collect()
     }
 
-    /// The run with the samples that are `left`.
+    /// The run with those samples alone whose entry in `left` is true.
     pub(crate) fn with_rows(&self, left: &[bool]) -> Self {
         let keep = |x: &Vec<f64>| -> Vec<f64> {
             x.iter().zip(left).filter(|(_, left)| **left).map(|(x, _)| *x).collect()
@@ -202,7 +202,7 @@ pub(crate) fn median(x: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
-/// A run in a sentence: `run wipe`, or its name alone where that begins with the word, as `run_2` does.
+/// The words for a run in a sentence: `run wipe`, or `run_2` alone, which begins with the word.
 pub fn of_run(name: &str) -> String {
     let says_so = name.get(..3).is_some_and(|first| first.eq_ignore_ascii_case("run"));
     if says_so { name.to_owned() } else { format!("run {name}") }

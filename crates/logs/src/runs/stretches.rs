@@ -2,24 +2,24 @@ use std::ops::Range;
 
 use crate::runs::{mend::Mend, run::Run};
 
-/// Samples of single joints that are enough for what is asked of logs: 20 minutes of seven joints at 500 Hz.
+/// Samples, counted per joint, beyond which a diagnosis gains little: 20 minutes of seven joints at 500 Hz.
 pub const ENOUGH_SAMPLES: usize = 4_200_000;
 
 /// Length of a stretch (s).
 const STRETCH_S: f64 = 60.0;
 
-/// Fewest stretches that are chosen: at a high rate they are shorter.
+/// Fewest stretches that are kept: at a high rate each one is shorter.
 const FEWEST: usize = 20;
 
-/// Where in its part of the logs each stretch is chosen, as the fraction of a multiple of it: the golden section,
-/// whose multiples fall evenly and keep no step with a motion that repeats.
+/// Place of stretch `k` in its part of the logs: the fraction of `k` times the golden section. Its multiples spread
+/// evenly and never lock to a periodic motion.
 const PHASE: f64 = 0.618_033_988_749_894_9;
 
-/// Of logs with more than `most` samples of single joints, stretches of about a minute that have as many, spread
-/// evenly over all of them; others as they are.
+/// Thins long logs out to `most` samples, counted per joint: stretches of about a minute, spread evenly over them.
+/// Logs with no more samples are returned unchanged.
 ///
-/// The logs are cut into `N` stretches in order, of which `n = N most / samples` are kept, one of each n-th part of
-/// them. A run of which none is kept is left out. [`Mend::Stretches`] says so of every run that is left.
+/// The logs are cut into `N` stretches in order. Of these `n = N most / samples` are kept, one from each n-th part.
+/// A run without a kept stretch is left out; every other run gets a [`Mend::Stretches`].
 pub fn stretches(runs: Vec<Run>, most: usize) -> Vec<Run> {
     let samples: usize = runs.iter().map(|run| run.time.len() * run.joints.len()).sum();
     if samples <= most {
@@ -28,7 +28,7 @@ pub fn stretches(runs: Vec<Run>, most: usize) -> Vec<Run> {
     let cut: Vec<Vec<Range<usize>>> = runs.iter().map(|run| cut(run, most)).collect();
     let count = cut.iter().map(Vec::len).sum();
     let wanted = (count as f64 * most as f64 / samples as f64) as usize;
-    let chosen = chosen(count, wanted.max(1));
+    let chosen = choose(count, wanted.max(1));
     let whole_s = runs.iter().map(length_s).sum();
     let mut first = 0;
     let mut kept: Vec<Run> = Vec::new();
@@ -37,7 +37,7 @@ pub fn stretches(runs: Vec<Run>, most: usize) -> Vec<Run> {
         let own: Vec<Range<usize>> = own.collect();
         first += cut.len();
         if !own.is_empty() {
-            kept.push(of_rows(&run, &own));
+            kept.push(keep_rows(&run, &own));
         }
     }
     let taken_s = kept.iter().map(Run::recorded_s).sum();
@@ -61,7 +61,7 @@ fn cut(run: &Run, most: usize) -> Vec<Range<usize>> {
 }
 
 /// `wanted` of `count` numbers, one in each of as many equal parts.
-fn chosen(count: usize, wanted: usize) -> Vec<usize> {
+fn choose(count: usize, wanted: usize) -> Vec<usize> {
     let of = |part: usize| {
         let [from, to] = [part, part + 1].map(|p| p * count / wanted);
         from + ((part as f64 * PHASE).fract() * (to - from) as f64) as usize
@@ -70,7 +70,7 @@ fn chosen(count: usize, wanted: usize) -> Vec<usize> {
 }
 
 /// The run with these of its rows alone, in rising order.
-fn of_rows(run: &Run, kept: &[Range<usize>]) -> Run {
+fn keep_rows(run: &Run, kept: &[Range<usize>]) -> Run {
     let mut left = vec![false; run.time.len()];
     kept.iter().for_each(|rows| left[rows.clone()].fill(true));
     let apart = kept.windows(2).filter(|pair| pair[0].end < pair[1].start);
@@ -86,7 +86,7 @@ fn length_s(run: &Run) -> f64 {
 }
 
 impl Run {
-    /// Time from the first to the last sample without what [`stretches`] left out between them (s).
+    /// Time from the first to the last sample, without the gaps that [`stretches`] left (s).
     pub fn recorded_s(&self) -> f64 {
         let left_out = self.mended.iter().flat_map(|mend| match mend {
             Mend::Stretches { gaps_s, .. } => gaps_s.as_slice(),

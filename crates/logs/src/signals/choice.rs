@@ -7,7 +7,7 @@ use crate::{
         cutoff::{self, Bounds, Cutoff},
         filter::LowPass,
         filtered::{ORDER, SETTLING_PERIODS},
-        motion_band::Moved,
+        motion_band::BandInputs,
         noise::JointNoise,
         origin::Sources,
         readings::Readings,
@@ -46,7 +46,7 @@ pub(crate) fn choose(
     let joints = 0..pieces.first().map_or(0, |piece| piece.joints.len());
     let (positions, in_pieces): (Vec<_>, Vec<_>) =
         joints.clone().map(|j| readings.position(j)).unzip();
-    let motion = Moved { pieces, moving, noise: &in_pieces }.band();
+    let motion = BandInputs { pieces, moving, noise: &in_pieces }.band();
     let slowest_hz = pieces.iter().map(|p| p.rate_hz).fold(f64::INFINITY, f64::min);
     let bounds = Bounds::new(&motion, slowest_hz);
     let motion_hz = bounds.motion_hz();

@@ -124,7 +124,7 @@ pub(crate) fn choose(
     let joints = noise.iter().zip(&motion.accelerations).zip(names);
     let moving = joints.filter(|((_, motion), _)| motion.below(by_motion) > 0.0);
     let worst = moving.map(|((noise, motion), name)| {
-        let reached_hz = reached(noise, motion, by_motion);
+        let reached_hz = noise_limit_hz(noise, motion, by_motion);
         Worst { name, noise, motion, reached_hz }
     });
     let worst = worst.min_by(|a, b| a.reached_hz.total_cmp(&b.reached_hz));
@@ -139,7 +139,7 @@ pub(crate) fn choose(
 }
 
 /// The highest frequency up to `highest_hz` at which the noise is below its share (Hz).
-fn reached(noise: &JointNoise, motion: &Accelerations, highest_hz: f64) -> f64 {
+fn noise_limit_hz(noise: &JointNoise, motion: &Accelerations, highest_hz: f64) -> f64 {
     let mut hz = highest_hz;
     while hz > 0.01 * highest_hz && noise.acceleration_rms(hz) > NOISE_SHARE * motion.below(hz) {
         hz /= FINENESS;

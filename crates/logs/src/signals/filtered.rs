@@ -18,7 +18,7 @@ pub(crate) const ORDER: usize = 4;
 pub(crate) const SETTLING_PERIODS: f64 = 1.5;
 
 /// The low-passed signals of a piece of a run.
-pub(crate) struct Filtered {
+pub(crate) struct FilteredRun {
     rate_hz: f64,
     cutoff_hz: f64,
     samples: usize,
@@ -52,7 +52,7 @@ pub(crate) const WIDE: f64 = 4.0;
 /// Largest cut-off, as a share of the sampling rate.
 const WIDEST: f64 = 0.2;
 
-impl Filtered {
+impl FilteredRun {
     /// The signals of a piece, from the columns that `sources` tells for each joint.
     pub(crate) fn of(
         piece: &UniformRun,
@@ -66,20 +66,23 @@ impl Filtered {
         let joint = |(raw, from): (&UniformJoint, &Sources)| FilteredJoint {
             own: Band::of(raw, &low_pass, rate_hz).take(*from, rate_hz),
             wide: Band::of(raw, &wide, rate_hz).take(*from, rate_hz),
-            link: raw.link.as_ref().map(|link| derived(passed(&low_pass, link), rate_hz)),
+            link: raw
+                .link
+                .as_ref()
+                .map(|link| with_derivatives(low_pass_copy(&low_pass, link), rate_hz)),
         };
         let joints = piece.joints.iter().zip(sources).map(joint).collect();
         Ok(Self { rate_hz, cutoff_hz, samples: piece.time.len(), joints })
     }
 
     /// The samples at which the filter has settled: all but `1.5 / cutoff` at both ends.
-    pub(crate) fn settled(&self) -> Range<usize> {
-        settled(self.samples, self.rate_hz, self.cutoff_hz)
+    pub(crate) fn settled_range(&self) -> Range<usize> {
+        settled_range(self.samples, self.rate_hz, self.cutoff_hz)
     }
 }
 
 /// The samples at which a low-pass has settled: all but `1.5 / cutoff` at both ends.
-pub(crate) fn settled(samples: usize, rate_hz: f64, cutoff_hz: f64) -> Range<usize> {
+pub(crate) fn settled_range(samples: usize, rate_hz: f64, cutoff_hz: f64) -> Range<usize> {
     let end = (SETTLING_PERIODS * rate_hz / cutoff_hz).ceil() as usize;
     let end = end.min(samples.saturating_sub(1) / 2);
     end..samples - end
@@ -87,8 +90,8 @@ pub(crate) fn settled(samples: usize, rate_hz: f64, cutoff_hz: f64) -> Range<usi
 
 impl Band {
     pub(crate) fn of(raw: &UniformJoint, low_pass: &LowPass, rate_hz: f64) -> Self {
-        let pass = |x: &Vec<f64>| passed(low_pass, x);
-        let [q, qd, qdd] = derived(pass(&raw.q), rate_hz);
+        let pass = |x: &Vec<f64>| low_pass_copy(low_pass, x);
+        let [q, qd, qdd] = with_derivatives(pass(&raw.q), rate_hz);
         let velocity = raw.velocity.as_ref().map(pass);
         let acceleration = raw.acceleration.as_ref().map(pass);
         Self { q, qd, qdd, velocity, acceleration }
@@ -112,14 +115,14 @@ impl Band {
 }
 
 /// The signal behind a low-pass.
-fn passed(low_pass: &LowPass, x: &[f64]) -> Vec<f64> {
+fn low_pass_copy(low_pass: &LowPass, x: &[f64]) -> Vec<f64> {
     let mut x = x.to_vec();
     low_pass.apply(&mut x);
     x
 }
 
 /// Position, velocity and acceleration.
-fn derived(q: Vec<f64>, rate_hz: f64) -> [Vec<f64>; 3] {
+fn with_derivatives(q: Vec<f64>, rate_hz: f64) -> [Vec<f64>; 3] {
     let qd = differentiate(&q, rate_hz);
     let qdd = differentiate(&qd, rate_hz);
     [q, qd, qdd]

@@ -21,7 +21,8 @@ impl std::fmt::Debug for Fourier {
 }
 
 impl Fourier {
-    /// Of `N` samples, which are used up, the transform at frequencies from zero to half their rate; of none, none.
+    /// The transform of `N` samples at frequencies from zero to half their rate; empty without samples. The samples
+    /// are overwritten.
     ///
     /// ```text
     /// X[k] = sum over n of x[n] exp(-i 2 pi k n / N),   k = 0 .. N / 2

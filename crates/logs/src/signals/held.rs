@@ -12,8 +12,8 @@ use crate::signals::prepared::PreparedRun;
 /// ```
 ///
 /// Without this, half a period of delay passes for friction: 1 ms at 500 Hz takes 1.5 % off the
-/// viscous friction of a joint that moves under gravity. Without a rate the log is taken to hold
-/// every command.
+/// viscous friction of a joint that moves under gravity. Without a rate every command is assumed to be in the
+/// log.
 pub fn centre_commands(robot: &Robot, runs: &mut [PreparedRun], control_rate_hz: Option<f64>) {
     for run in runs {
         let share = 0.5 * (run.rate_hz / control_rate_hz.unwrap_or(run.rate_hz)).min(1.0);

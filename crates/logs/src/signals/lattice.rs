@@ -2,17 +2,17 @@
 
 use std::f64::consts::TAU;
 
-/// Ranks of the gaps between sorted readings that may be the step, as shares.
+/// Quantiles of the gaps between sorted readings: each is a candidate for the step.
 const RANKS: [f64; 7] = [0.0, 0.01, 0.05, 0.1, 0.25, 0.5, 0.75];
-/// Most decimals that a file is looked at for.
+/// Most decimals of a file that are tried as a step.
 const MOST_DECIMALS: i32 = 9;
-/// Largest whole number that a gap may be of the step.
+/// Largest number of steps in a gap.
 const MULTIPLES: i32 = 3;
 /// Least coherence of a lattice: that of a step with an error of 7 % of it.
 const LEAST_COHERENCE: f64 = 0.9;
 /// Fewest readings that differ from the one before.
 const FEWEST_CHANGES: usize = 10;
-/// Most readings and most differences that are looked at, but for a factor of two.
+/// Readings and differences that are sampled, up to a factor of two.
 const MOST_LOOKED_AT: usize = 5000;
 
 /// Step of the lattice on which the values of a signal lie, in the order in which they were read;
@@ -44,13 +44,13 @@ pub(crate) fn step(x: &[f64]) -> Option<f64> {
     let ranked = RANKS.iter().filter_map(|r| gaps.get((r * gaps.len() as f64) as usize));
     let candidates = ranked.flat_map(|gap| (1..=MULTIPLES).map(move |m| gap / f64::from(m)));
     let decimals = (1..=MOST_DECIMALS).map(|k| 0.1_f64.powi(k));
-    let steps = candidates.map(|h| refined(h, &differences)).chain(decimals);
+    let steps = candidates.map(|h| refine(h, &differences)).chain(decimals);
     steps.filter(|h| *h > least && is_coherent(*h, &differences)).max_by(f64::total_cmp)
 }
 
 /// Least squares of `d = h n` with `n` the nearest whole numbers, over more and more steps: an
 /// error of `h` must stay below half a step after `n` of them.
-fn refined(mut h: f64, differences: &[f64]) -> f64 {
+fn refine(mut h: f64, differences: &[f64]) -> f64 {
     for reach in [3.0, 10.0, 30.0, 100.0, 300.0] {
         let near = differences.iter().filter(|d| **d < (reach + 0.5) * h && **d > 0.5 * h);
         let (dn, nn) = near.fold((0.0, 0.0), |(dn, nn), d| {
@@ -64,8 +64,9 @@ fn refined(mut h: f64, differences: &[f64]) -> f64 {
     h
 }
 
-/// Whether the mean of `cos(2 pi d / h)` is large enough; a difference of less than half a step speaks against
-/// it. What is missing to the largest mean only grows, and a step that is none is told from a tenth of them.
+/// Whether the mean of `cos(2 pi d / h)` is at least [`LEAST_COHERENCE`]; a difference below half a step counts as -1.
+/// The sum of what is missing to 1 only grows, so the search stops early: a wrong step is refused after about a tenth
+/// of the differences.
 fn is_coherent(h: f64, differences: &[f64]) -> bool {
     let most = (1.0 - LEAST_COHERENCE) * differences.len() as f64;
     let mut missing = 0.0;

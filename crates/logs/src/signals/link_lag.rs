@@ -5,7 +5,7 @@ use crate::{
     runs::run::Run,
     signals::{
         filter::LowPass,
-        filtered::{Band, ORDER, settled},
+        filtered::{Band, ORDER, settled_range},
         uniform::{UniformRun, moving},
         warning::LogWarning,
     },
@@ -32,8 +32,8 @@ struct Lag {
     std_s: f64,
 }
 
-/// Brings the second encoders to the clock of the first, where they are later or earlier by more
-/// than four standard errors and a tenth of a millisecond, and tells by how much.
+/// Moves second encoders to the clock of the first where they are later or earlier by more than four standard errors
+/// and a tenth of a millisecond. Returns a warning with each lag.
 ///
 /// The link follows the motor but for a twist under load, so that over a log
 ///
@@ -43,9 +43,9 @@ struct Lag {
 ///
 /// with `a` the inertia behind the spring over its stiffness, `b`, `c` and `d` gravity and the
 /// scale of either encoder, and `e` dry friction or play. A viscous friction of the link over the
-/// stiffness of the joint looks like a lag and is taken for one. The standard error is that of
-/// blocks of five periods of the cut-off. Only what moves tells a lag.
-pub(crate) fn taken_out(
+/// stiffness of the joint looks like a lag and is taken for one. The standard error is computed from
+/// blocks of five periods of the cut-off. Only joints that move show a lag.
+pub(crate) fn remove_lags(
     pieces: &mut [UniformRun],
     first: &Run,
     cutoff_hz: f64,
@@ -120,7 +120,7 @@ impl Rows {
         low_pass.apply(&mut link);
         let stride = ((piece.rate_hz / (PER_PERIOD * cutoff_hz)) as usize).max(1);
         let in_block = (BLOCK_PERIODS * piece.rate_hz / cutoff_hz).max(1.0) as usize;
-        let kept = settled(link.len(), piece.rate_hz, cutoff_hz);
+        let kept = settled_range(link.len(), piece.rate_hz, cutoff_hz);
         let before = self.block.last().map_or(0, |last| last + 1);
         for k in kept.clone().step_by(stride) {
             let (q, qd) = (band.q[k], band.qd[k]);

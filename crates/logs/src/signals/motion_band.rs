@@ -47,13 +47,13 @@ pub(crate) struct Accelerations {
 /// The pieces of a log, which joints move in each, and the noise of each joint's position in
 /// each piece.
 #[derive(Clone, Copy)]
-pub(crate) struct Moved<'a> {
+pub(crate) struct BandInputs<'a> {
     pub pieces: &'a [UniformRun],
     pub moving: &'a [Vec<bool>],
     pub noise: &'a [Vec<ChannelNoise>],
 }
 
-impl Moved<'_> {
+impl BandInputs<'_> {
     /// The motion's band.
     ///
     /// Of the power spectrum of each moving joint's velocity, by differences of its position,

@@ -7,8 +7,8 @@ pub enum NoiseSource {
     Step,
     /// What the channel holds above the motion, flat over an octave and a half or more.
     AboveTheMotion,
-    /// Nothing tells it: no step, and above the motion no flat noise, or less behind the edge of a
-    /// low-pass than any sensor has. The density is zero.
+    /// Unknown, with a density of zero: the readings have no step, and above the motion there is no flat noise or
+    /// less than any sensor has, behind the edge of a low-pass.
     Unknown,
 }
 
@@ -19,7 +19,7 @@ pub struct ChannelNoise {
     pub density: f64,
     /// Step of the readings, where they lie on a lattice (unit).
     pub step: Option<f64>,
-    /// What told the density.
+    /// Where the density comes from.
     pub source: NoiseSource,
 }
 
@@ -44,12 +44,12 @@ pub struct JointNoise {
 const PASSED: [f64; 3] = [0.897_91, 0.265_66, 0.159_39];
 
 impl ChannelNoise {
-    /// A channel of which nothing is known.
+    /// A channel whose noise is unknown.
     pub const UNKNOWN: Self = Self { density: 0.0, step: None, source: NoiseSource::Unknown };
 }
 
 impl JointNoise {
-    /// A joint of whose noise nothing is known.
+    /// A joint whose noise is unknown.
     pub const UNKNOWN: Self = Self {
         position: ChannelNoise::UNKNOWN,
         velocity: None,

@@ -9,10 +9,10 @@ use crate::{
     signals::{
         choice::choose,
         clock::Fill,
-        filtered::{Filtered, SETTLING_PERIODS},
+        filtered::{FilteredRun, SETTLING_PERIODS},
         link_lag,
         prepared::{Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide},
-        uniform::{UniformRun, check, uniform},
+        uniform::{UniformRun, check_runs, uniform_pieces},
         warning::LogWarning,
     },
 };
@@ -53,25 +53,25 @@ pub struct PrepareSettings {
 /// [`LogError::NoRuns`], [`LogError::JointsDiffer`], [`LogError::WrongLength`],
 /// [`LogError::CutoffOutOfRange`] and [`LogError::RunTooShort`].
 pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, LogError> {
-    check(runs)?;
+    check_runs(runs)?;
     let split = |fill: Fill| -> Vec<UniformRun> {
-        runs.iter().enumerate().flat_map(|(index, run)| uniform(run, index, fill)).collect()
+        runs.iter().enumerate().flat_map(|(index, run)| uniform_pieces(run, index, fill)).collect()
     };
     let choice = choose(runs, &split(Fill::SAMPLES), settings.cutoff_hz)?;
     let cutoff_hz = choice.cutoff.cutoff_hz;
     let fill = Fill::below(cutoff_hz);
     let all = split(fill);
-    let mut warnings = about_runs(runs, &all, fill, cutoff_hz);
-    let mut pieces = long_enough(runs, all, cutoff_hz)?;
-    warnings.extend(whole_links(runs, &mut pieces));
-    warnings.extend(link_lag::taken_out(&mut pieces, &runs[0], cutoff_hz)?);
+    let mut warnings = run_warnings(runs, &all, fill, cutoff_hz);
+    let mut pieces = keep_long_pieces(runs, all, cutoff_hz)?;
+    warnings.extend(drop_partial_links(runs, &mut pieces));
+    warnings.extend(link_lag::remove_lags(&mut pieces, &runs[0], cutoff_hz)?);
     warnings.extend(choice.warnings);
 
-    let filtered = pieces.iter().map(|p| Filtered::of(p, cutoff_hz, &choice.sources));
-    let filtered: Vec<Filtered> = filtered.collect::<Result<_, _>>()?;
+    let filtered = pieces.iter().map(|p| FilteredRun::of(p, cutoff_hz, &choice.sources));
+    let filtered: Vec<FilteredRun> = filtered.collect::<Result<_, _>>()?;
     let starts = session_starts(runs);
     let ends = pieces.into_iter().zip(filtered);
-    let ends = ends.map(|(piece, f)| (starts[piece.run], piece, f)).map(without_ends);
+    let ends = ends.map(|(piece, f)| (starts[piece.run], piece, f)).map(cut_ends);
     let prepared = Prepared {
         runs: ends.collect(),
         cutoff_hz,
@@ -80,7 +80,7 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
         noise: choice.noise,
         warnings,
     };
-    Ok(prepared.told_of_noise(&runs[0]))
+    Ok(prepared.with_noise_warnings(&runs[0]))
 }
 
 /// The shortest piece that is of use (s): a third of it is left between the ends.
@@ -89,7 +89,7 @@ fn shortest_s(cutoff_hz: f64) -> f64 {
 }
 
 /// The pieces that are long enough, at least one of every run.
-fn long_enough(
+fn keep_long_pieces(
     runs: &[Run],
     all: Vec<UniformRun>,
     cutoff_hz: f64,
@@ -106,8 +106,8 @@ fn long_enough(
     Ok(all.into_iter().filter(|p| p.duration_s() >= expected_s).collect())
 }
 
-fn without_ends((session_start_s, piece, filtered): (f64, UniformRun, Filtered)) -> PreparedRun {
-    let kept = filtered.settled();
+fn cut_ends((session_start_s, piece, filtered): (f64, UniformRun, FilteredRun)) -> PreparedRun {
+    let kept = filtered.settled_range();
     let cut = |x: Vec<f64>| x[kept.clone()].to_vec();
     let joints = piece
         .joints
@@ -132,7 +132,7 @@ fn without_ends((session_start_s, piece, filtered): (f64, UniformRun, Filtered))
 }
 
 /// Leaves out the second encoder of a joint that some runs lack.
-fn whole_links(runs: &[Run], pieces: &mut [UniformRun]) -> Vec<LogWarning> {
+fn drop_partial_links(runs: &[Run], pieces: &mut [UniformRun]) -> Vec<LogWarning> {
     let mut warnings = Vec::new();
     for (joint, channels) in runs[0].joints.iter().enumerate() {
         let has = |piece: &UniformRun| piece.joints[joint].link.is_some();
@@ -147,7 +147,12 @@ fn whole_links(runs: &[Run], pieces: &mut [UniformRun]) -> Vec<LogWarning> {
 }
 
 /// What can be said of the runs before they are filtered.
-fn about_runs(runs: &[Run], pieces: &[UniformRun], fill: Fill, cutoff_hz: f64) -> Vec<LogWarning> {
+fn run_warnings(
+    runs: &[Run],
+    pieces: &[UniformRun],
+    fill: Fill,
+    cutoff_hz: f64,
+) -> Vec<LogWarning> {
     let mut warnings = Vec::new();
     for (index, run) in runs.iter().enumerate() {
         let name = || run.name.clone();
@@ -177,13 +182,13 @@ fn about_runs(runs: &[Run], pieces: &[UniformRun], fill: Fill, cutoff_hz: f64) -
             let longest_s = fill.longest_s(&run.time);
             warnings.push(LogWarning::Split { run: name(), gaps, longest_s, shortest_s });
         }
-        warnings.extend(saturated(run));
+        warnings.extend(saturation_warnings(run));
     }
     warnings
 }
 
 /// Joints whose effort sits at its extreme values for a hundredth of the run or more.
-fn saturated(run: &Run) -> impl Iterator<Item = LogWarning> {
+fn saturation_warnings(run: &Run) -> impl Iterator<Item = LogWarning> {
     const SHARE: f64 = 0.01;
     run.joints.iter().filter_map(|joint| {
         let share = saturation(&joint.effort);

@@ -31,8 +31,8 @@ pub struct PreparedRun {
     pub rate_hz: f64,
     /// Time of each sample, on the clock of the file (s).
     pub time: Vec<f64>,
-    /// Time at which the session began that it is part of, on the clock of the file (s): before it the arm
-    /// stood for an hour or longer, as far as the logs tell.
+    /// Start of the session that the run belongs to, on the clock of the file (s). Before a session the arm stood
+    /// still for an hour or longer, as far as the logs show.
     pub session_start_s: f64,
     /// Signals of each joint, in the order of the robot.
     pub joints: Vec<PreparedJoint>,
@@ -47,7 +47,7 @@ pub struct PreparedJoint {
     pub qd: Vec<f64>,
     /// Acceleration, low-passed (rad/s² or m/s²).
     pub qdd: Vec<f64>,
-    /// The same behind four times the cut-off.
+    /// Motion low-passed at four times the cut-off.
     pub wide: Wide,
     /// Effort on the same clock, not low-passed (N·m or N).
     pub effort: Vec<f64>,
@@ -55,9 +55,9 @@ pub struct PreparedJoint {
     pub link: Option<PreparedLink>,
 }
 
-/// Motion behind four times the cut-off of the other signals: what a model makes of it and the
-/// measured effort may then pass the same low-pass, and the sign of the velocity is that of the
-/// motion up to the moments at which it starts and stops.
+/// Motion low-passed at four times the cut-off of the other signals. A model computes effort from it, which then
+/// passes the same low-pass as the measured effort. The sign of the velocity holds up to the moments at which the
+/// motion starts and stops.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wide {
     /// Position (rad or m).
@@ -81,12 +81,11 @@ pub struct PreparedLink {
     pub twist: Vec<f64>,
 }
 
-/// Share of a joint's acceleration that is noise above which it is told.
-const TOLD_NOISE: f64 = 0.1;
+/// Share of noise in a joint's acceleration above which there is a warning.
+const NOISE_TO_WARN_OF: f64 = 0.1;
 
 impl Prepared {
-    /// Runs whose signals are exact: of their noise nothing is known, and their motion lies below
-    /// a fifth of the cut-off.
+    /// Runs with exact signals: their noise is unknown, and their motion lies below a fifth of the cut-off.
     pub fn exact(runs: Vec<PreparedRun>, cutoff_hz: f64) -> Self {
         let joints = runs.first().map_or(0, |run| run.joints.len());
         Self {
@@ -126,12 +125,12 @@ impl Prepared {
         (rms > 0.0).then_some(noise / rms)
     }
 
-    /// With a warning of each moving joint whose acceleration is noise in large part.
-    pub(crate) fn told_of_noise(mut self, first: &Run) -> Self {
+    /// Adds a warning for each moving joint whose acceleration is noise to a large part.
+    pub(crate) fn with_noise_warnings(mut self, first: &Run) -> Self {
         let largest = (0..first.joints.len()).map(|j| self.way(j)).fold(0.0, f64::max);
         for (j, joint) in first.joints.iter().enumerate() {
             let moves = self.way(j) >= MOVING_SHARE * largest;
-            if let Some(share) = self.noise_share(j).filter(|s| moves && *s > TOLD_NOISE) {
+            if let Some(share) = self.noise_share(j).filter(|s| moves && *s > NOISE_TO_WARN_OF) {
                 let (joint, cutoff_hz) = (joint.name.clone(), self.cutoff_hz);
                 self.warnings.push(LogWarning::NoisyAcceleration { joint, share, cutoff_hz });
             }
@@ -153,7 +152,7 @@ impl Prepared {
 }
 
 impl PreparedJoint {
-    /// A joint without second encoder whose motion is exact: no low-pass has a part in it.
+    /// A joint without second encoder whose motion is exact, so that no low-pass is applied.
     pub fn exact([q, qd, qdd]: [Vec<f64>; 3], effort: Vec<f64>) -> Self {
         let wide = Wide { q: q.clone(), qd: qd.clone(), qdd: qdd.clone() };
         Self { q, qd, qdd, wide, effort, link: None }
@@ -161,7 +160,7 @@ impl PreparedJoint {
 }
 
 impl PreparedRun {
-    /// The run's `samples` alone; what lies beyond its end is left out.
+    /// The given range of samples of the run, cut at its end.
     pub fn part(&self, samples: Range<usize>) -> Self {
         let end = samples.end.min(self.time.len());
         let samples = samples.start.min(end)..end;

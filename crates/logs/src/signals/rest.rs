@@ -6,7 +6,7 @@ use crate::{
 /// Least and largest speed that counts as rest, as shares of the largest speed in the logs.
 const REST_SHARES: [f64; 2] = [2e-4, 0.1];
 
-/// The largest share that what a filter takes from the velocity makes rest of.
+/// Largest speed that counts as rest because of the difference between the filters, as a share of the largest speed.
 const LARGEST_TAKEN: f64 = 1e-2;
 
 /// Speed that counts as rest, in standard deviations of the velocity's noise.
@@ -18,9 +18,9 @@ const MEDIAN_OF_NORMAL: f64 = 0.6745;
 /// Speed below which each joint counts as at rest (rad/s or m/s): four standard deviations of
 /// the noise of its velocity behind the wide filter, between 0.02 and 10 per cent of its largest speed.
 ///
-/// The noise is that of its channels, or what the narrow filter takes from the velocity of the wide
-/// one: that is also how a filter rings where a joint stops, and counts up to 1 per cent. Where
-/// neither tells anything 1 per cent is taken.
+/// The noise is that of the joint's channels, or the difference between its velocities behind the wide and the narrow
+/// filter. That difference includes the ringing of a filter where a joint stops, so it counts up to 1 per cent only.
+/// Where neither is known 1 per cent is taken.
 pub fn rest_speeds(prepared: &Prepared) -> Vec<f64> {
     let joints = prepared.runs.first().map_or(0, |r| r.joints.len());
     (0..joints).map(|j| rest_speed(prepared, j)).collect()
@@ -32,17 +32,18 @@ fn rest_speed(prepared: &Prepared, j: usize) -> f64 {
     let [low, high] = REST_SHARES.map(|share| share * largest);
     let cutoff_hz = WIDE * prepared.cutoff_hz;
     let known = prepared.noise.get(j).map_or(0.0, |noise| noise.velocity_rms(cutoff_hz));
-    let taken = taken(prepared, j);
-    let taken = if taken > 0.0 { taken } else { largest };
-    let speed = (REST_OF_NOISE * known).max((REST_OF_NOISE * taken).min(LARGEST_TAKEN * largest));
+    let difference = filter_difference(prepared, j);
+    let difference = if difference > 0.0 { difference } else { largest };
+    let speed =
+        (REST_OF_NOISE * known).max((REST_OF_NOISE * difference).min(LARGEST_TAKEN * largest));
     speed.clamp(low, high).max(f64::MIN_POSITIVE)
 }
 
 /// What the narrow filter takes from the velocity of the wide one, as a standard deviation.
-fn taken(prepared: &Prepared, j: usize) -> f64 {
+fn filter_difference(prepared: &Prepared, j: usize) -> f64 {
     let joints = prepared.runs.iter().map(|r| &r.joints[j]);
-    let taken = joints.flat_map(|s| s.wide.qd.iter().zip(&s.qd)).map(|(w, n)| (w - n).abs());
-    median(&taken.collect::<Vec<f64>>()) / MEDIAN_OF_NORMAL
+    let difference = joints.flat_map(|s| s.wide.qd.iter().zip(&s.qd)).map(|(w, n)| (w - n).abs());
+    median(&difference.collect::<Vec<f64>>()) / MEDIAN_OF_NORMAL
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::{
     signals::{
         agreement::Agreement,
         filter::LowPass,
-        filtered::{Band, ORDER, settled},
+        filtered::{Band, ORDER, settled_range},
         origin::{Origin, Sources},
         uniform::UniformRun,
         warning::LogWarning,
@@ -92,7 +92,7 @@ impl Comparison {
 
     /// A measured column against its derivative, both low-passed, away from their ends.
     fn agreement(&self, rate_hz: f64, measured: &[f64], derived: &[f64]) -> Option<Agreement> {
-        let kept = settled(measured.len(), rate_hz, self.cutoff_hz);
+        let kept = settled_range(measured.len(), rate_hz, self.cutoff_hz);
         Agreement::of(&measured[kept.clone()], &derived[kept], rate_hz, self.cutoff_hz)
     }
 

@@ -36,7 +36,7 @@ impl UniformRun {
 }
 
 /// The pieces of one run, each on its own uniform clock.
-pub(crate) fn uniform(run: &Run, index: usize, fill: Fill) -> Vec<UniformRun> {
+pub(crate) fn uniform_pieces(run: &Run, index: usize, fill: Fill) -> Vec<UniformRun> {
     let pieces = pieces(&run.time, fill);
     let several = pieces.len() > 1;
     let named = pieces.iter().enumerate().map(|(number, piece)| {
@@ -44,12 +44,12 @@ pub(crate) fn uniform(run: &Run, index: usize, fill: Fill) -> Vec<UniformRun> {
             true => format!("{} part {}", run.name, number + 1),
             false => run.name.clone(),
         };
-        resampled(run, index, name, piece)
+        resample(run, index, name, piece)
     });
     named.collect()
 }
 
-fn resampled(run: &Run, index: usize, name: String, piece: &Piece) -> UniformRun {
+fn resample(run: &Run, index: usize, name: String, piece: &Piece) -> UniformRun {
     let time = piece.clock(&run.time);
     let read = |x: &[f64]| piece.resample(&run.time, x, &time);
     let joints = run
@@ -84,7 +84,7 @@ pub(crate) fn moving(runs: &[UniformRun]) -> Vec<Vec<bool>> {
 }
 
 /// Checks that the runs belong together and are whole.
-pub(crate) fn check(runs: &[Run]) -> Result<(), LogError> {
+pub(crate) fn check_runs(runs: &[Run]) -> Result<(), LogError> {
     let first = runs.first().ok_or(LogError::NoRuns)?;
     let names = |run: &Run| run.joints.iter().map(|j| j.name.clone()).collect::<Vec<_>>();
     for run in runs {

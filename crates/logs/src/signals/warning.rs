@@ -1,6 +1,6 @@
 use crate::runs::{mend::Mend, run::of_run};
 
-/// Something about a log that its reader should know; it can be used nevertheless.
+/// A problem of a log that can be used nevertheless.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogWarning {
@@ -18,7 +18,7 @@ pub enum LogWarning {
         /// The run.
         run: String,
     },
-    /// Something was put right while the run was read.
+    /// The run was changed while it was read.
     #[error("{of_run}: {mend}", of_run = of_run(run))]
     Mended {
         /// The run.
@@ -26,7 +26,7 @@ pub enum LogWarning {
         /// What.
         mend: Mend,
     },
-    /// Some of all logs takes part.
+    /// Only part of the logs is used.
     #[error("{mend}")]
     Thinned {
         /// How much.
@@ -43,7 +43,7 @@ pub enum LogWarning {
     },
     /// The measured velocity is not the derivative of the position.
     #[error("{of_run}: the velocity of {} is {scale:.3} times the derivative of the position and {}; \
-        the derivative of the position is used in all runs", named(joints), late(*lag_s), of_run = of_run(run))]
+        the derivative of the position is used in all runs", joint_words(joints), lag_words(*lag_s), of_run = of_run(run))]
     VelocityDisagrees {
         /// The run in which it differs most, of the first joint.
         run: String,
@@ -56,7 +56,7 @@ pub enum LogWarning {
     },
     /// The measured acceleration is not the derivative of the velocity.
     #[error("{of_run}: the acceleration of {} is {scale:.3} times the derivative of the velocity and {}; \
-        the derivative of the velocity is used in all runs", named(joints), late(*lag_s), of_run = of_run(run))]
+        the derivative of the velocity is used in all runs", joint_words(joints), lag_words(*lag_s), of_run = of_run(run))]
     AccelerationDisagrees {
         /// The run in which it differs most, of the first joint.
         run: String,
@@ -77,7 +77,7 @@ pub enum LogWarning {
         joint: String,
     },
     /// The second encoder of a joint is on another clock than the first.
-    #[error("joint {joint}: its link_position is {} (standard error {:.2} ms) against its position; it was moved by that", late(*lag_s), 1e3 * lag_std_s)]
+    #[error("joint {joint}: its link_position is {} (standard error {:.2} ms) against its position; it was moved by that", lag_words(*lag_s), 1e3 * lag_std_s)]
     LinkLag {
         /// The joint.
         joint: String,
@@ -133,8 +133,7 @@ pub enum LogWarning {
 }
 
 impl LogWarning {
-    /// Takes the joints of `other` in when it says of them what this says of its own, to what
-    /// is printed; gives `other` back when it does not.
+    /// Adds the joints of `other` where both print the same lag and scale; returns `other` where they do not.
     pub(crate) fn join(&mut self, other: Self) -> Option<Self> {
         use LogWarning::{AccelerationDisagrees, VelocityDisagrees};
         let alike = |a: (f64, f64), b: (f64, f64)| {
@@ -162,7 +161,7 @@ const SAME_LAG_S: f64 = 5e-5;
 const SAME_SCALE: f64 = 5e-3;
 
 /// Joints in words: `joint a`, `joints a, b and c`.
-fn named(joints: &[String]) -> String {
+fn joint_words(joints: &[String]) -> String {
     match joints {
         [] => "no joint".to_owned(),
         [one] => format!("joint {one}"),
@@ -171,7 +170,7 @@ fn named(joints: &[String]) -> String {
 }
 
 /// A lag in words, such as `6.50 ms late`.
-fn late(lag_s: f64) -> String {
+fn lag_words(lag_s: f64) -> String {
     format!("{:.2} ms {}", 1e3 * lag_s.abs(), if lag_s < 0.0 { "early" } else { "late" })
 }
 

@@ -39,7 +39,7 @@ pub fn write_table(
     columns: Vec<(String, ArrayRef)>,
     metadata: Vec<KeyValue>,
 ) -> Result<(), LogError> {
-    replace_file(path, |file| encoded(file, columns, metadata))
+    replace_file(path, |file| encode(file, columns, metadata))
 }
 
 /// The bytes of the file that [`write_table`] writes.
@@ -53,12 +53,12 @@ pub fn table_bytes(
     metadata: Vec<KeyValue>,
 ) -> Result<Vec<u8>, LogError> {
     let mut bytes = Vec::new();
-    encoded(&mut bytes, columns, metadata)
+    encode(&mut bytes, columns, metadata)
         .map_err(|e| LogError::Unwritable { path: path.to_owned(), reason: e.to_string() })?;
     Ok(bytes)
 }
 
-fn encoded(
+fn encode(
     into: impl Write + Send,
     columns: Vec<(String, ArrayRef)>,
     metadata: Vec<KeyValue>,
@@ -112,7 +112,7 @@ pub fn write_csv(path: &Path, run: &Run) -> Result<(), LogError> {
 }
 
 /// The name of a column.
-pub(crate) fn name_of(joint: &str, channel: Channel) -> String {
+pub(crate) fn column_name(joint: &str, channel: Channel) -> String {
     format!("{joint}.{}", channel.suffix())
 }
 
@@ -122,7 +122,7 @@ fn columns(run: &Run) -> Vec<(String, &[f64])> {
     for channel in Channel::ALL {
         for joint in &run.joints {
             if let Some(samples) = joint.get(channel) {
-                columns.push((name_of(&joint.name, channel), samples));
+                columns.push((column_name(&joint.name, channel), samples));
             }
         }
     }

@@ -6,9 +6,9 @@ use std::{
 
 use log_formats::FormatError;
 
-use crate::{error::LogError, runs::run::Channel, writing::write::name_of};
+use crate::{error::LogError, runs::run::Channel, writing::write::column_name};
 
-/// Time of a log after which what was collected is written (s).
+/// Time of the log between two writes (s).
 const BLOCK_S: f64 = 1.0;
 
 /// A CSV log that is written while it grows, about once a second of its own time.
@@ -24,8 +24,8 @@ const BLOCK_S: f64 = 1.0;
 /// reads: a last row without its closing quote was torn and is left out, so that half a number
 /// is never taken for a whole one. Numbers read back to the last bit.
 ///
-/// What was collected is also written when the writer goes out of scope, where an error is
-/// lost: [`LogWriter::finish`] tells it.
+/// Rows not yet written are also written when the writer goes out of scope. An error is lost there;
+/// [`LogWriter::finish`] returns it.
 #[derive(Debug)]
 pub struct LogWriter {
     path: PathBuf,
@@ -57,7 +57,7 @@ impl LogWriter {
         further: &[&str],
     ) -> Result<Self, LogError> {
         let mut names = vec!["time".to_owned()];
-        names.extend(channels.iter().flat_map(|&c| joints.iter().map(move |j| name_of(j, c))));
+        names.extend(channels.iter().flat_map(|&c| joints.iter().map(move |j| column_name(j, c))));
         names.extend(further.iter().map(|&name| name.to_owned()));
         let unwritable = |reason: String| LogError::Unwritable { path: path.to_owned(), reason };
         let header = header(&names).map_err(|e| unwritable(e.to_string()))?;
@@ -139,7 +139,7 @@ impl LogWriter {
 
 impl Drop for LogWriter {
     fn drop(&mut self) {
-        // There is nobody left to be told.
+        // Nobody is left to receive the error.
         let _ = self.flush();
     }
 }

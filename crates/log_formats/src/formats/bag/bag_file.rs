@@ -17,7 +17,7 @@ use crate::{
         joint_state::{JointState, TYPE},
         joint_states::JointStates,
         storage::Storage,
-        topic::{Listener, Topic},
+        topic::{MessageSink, Topic},
     },
 };
 
@@ -126,8 +126,8 @@ impl TopicStates<'_> {
     }
 }
 
-impl Listener for TopicStates<'_> {
-    fn topic(&mut self, topic: &Topic) {
+impl MessageSink for TopicStates<'_> {
+    fn add_topic(&mut self, topic: &Topic) {
         if self.is_wanted(topic) {
             self.by_topic.entry(topic.name.clone()).or_insert_with(JointStates::new);
         } else {
@@ -140,7 +140,7 @@ impl Listener for TopicStates<'_> {
         self.is_wanted(topic)
     }
 
-    fn message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError> {
+    fn add_message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError> {
         let states = self.by_topic.entry(topic.name.clone()).or_insert_with(JointStates::new);
         let result = JointState::decode(message).and_then(|state| states.push(state));
         result.map_err(|reason| FormatError::BadMessage {

@@ -3,7 +3,7 @@ use std::{fs::File, path::Path};
 use crate::{
     common::{damage::Damage, error::FormatError},
     format::Magic,
-    formats::bag::{mcap::mcap_file, sqlite::sqlite_file, topic::Listener},
+    formats::bag::{mcap::mcap_file, sqlite::sqlite_file, topic::MessageSink},
 };
 
 /// How the messages of a bag are stored.
@@ -13,7 +13,7 @@ pub(crate) struct Storage {
     pub name: &'static str,
     pub magic: &'static [Magic],
     /// Reads the messages of a file.
-    pub read: fn(&Path, &File, &mut dyn Listener, &mut Damage) -> Result<(), FormatError>,
+    pub read: fn(&Path, &File, &mut dyn MessageSink, &mut Damage) -> Result<(), FormatError>,
 }
 
 pub(crate) const STORAGES: [Storage; 2] = [MCAP, SQLITE];

@@ -10,14 +10,14 @@ pub(crate) struct Topic {
     pub encoding: String,
 }
 
-/// What the messages of a bag are given to.
-pub(crate) trait Listener {
-    /// Hears of a topic, before its messages.
-    fn topic(&mut self, topic: &Topic);
+/// Receives the topics and messages of a bag.
+pub(crate) trait MessageSink {
+    /// Takes a topic, before its messages.
+    fn add_topic(&mut self, topic: &Topic);
 
-    /// Whether its messages are heard; others need not be read.
+    /// Whether the messages of a topic are wanted; others need not be read.
     fn wants(&self, topic: &Topic) -> bool;
 
-    /// Hears a message.
-    fn message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError>;
+    /// Takes a message.
+    fn add_message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError>;
 }

@@ -59,7 +59,7 @@ impl CsvFile {
     pub(crate) fn open(path: &Path, file: File) -> Result<Self, FormatError> {
         let told = |e: io::Error| FormatError::unreadable(path, &e);
         let mut preview = Vec::new();
-        rewound(&file, 0)
+        rewind_to(&file, 0)
             .and_then(|file| file.take(PREVIEW).read_to_end(&mut preview))
             .map_err(told)?;
         let dialect = Dialect::of(&preview);
@@ -90,7 +90,7 @@ impl CsvFile {
         let start = self.dialect.start as u64;
         let end = self.torn_from.unwrap_or(u64::MAX);
         let text =
-            rewound(&self.file, start).map_err(|e| FormatError::unreadable(&self.path, &e))?;
+            rewind_to(&self.file, start).map_err(|e| FormatError::unreadable(&self.path, &e))?;
         Ok(self.dialect.records(text.take(end.saturating_sub(start))))
     }
 
@@ -183,7 +183,7 @@ impl Opened for CsvFile {
     }
 }
 
-fn rewound(file: &File, start: u64) -> io::Result<&File> {
+fn rewind_to(file: &File, start: u64) -> io::Result<&File> {
     let mut from = file;
     from.seek(SeekFrom::Start(start))?;
     Ok(file)
@@ -198,12 +198,12 @@ fn torn_from(mut file: &File) -> io::Result<Option<u64>> {
     let start = length.saturating_sub(TAIL);
     let last_byte = length.saturating_sub(1);
     let mut tail = Vec::new();
-    rewound(file, last_byte)?.read_to_end(&mut tail)?;
+    rewind_to(file, last_byte)?.read_to_end(&mut tail)?;
     if tail == b"\n" || tail.is_empty() {
         return Ok(None);
     }
     tail.clear();
-    rewound(file, start)?.read_to_end(&mut tail)?;
+    rewind_to(file, start)?.read_to_end(&mut tail)?;
     let mut lines = tail.rsplitn(3, |&byte| byte == b'\n');
     let (last, before) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
     let is_torn = ends_in_quoted_number(before) && !ends_in_quoted_number(last);

@@ -141,7 +141,7 @@ fn read_info(path: &Path) -> Result<Info, FormatError> {
 fn by_joint(info: &Info, columns: &[String]) -> BTreeMap<String, String> {
     let mut by_joint = BTreeMap::new();
     for (feature, Feature { names }) in &info.features {
-        for (k, name) in listed(names).into_iter().enumerate() {
+        for (k, name) in names_in(names).into_iter().enumerate() {
             let (own, named) = (part_name(feature, k), format!("{feature}[{}]", joint_of(name)));
             if columns.contains(&own) && !columns.contains(&named) {
                 by_joint.entry(named).or_insert(own);
@@ -152,10 +152,10 @@ fn by_joint(info: &Info, columns: &[String]) -> BTreeMap<String, String> {
 }
 
 /// The names of a feature, a list or one in a table such as `{ motors = [...] }`.
-fn listed(names: &Value) -> Vec<&str> {
+fn names_in(names: &Value) -> Vec<&str> {
     match names {
         Value::Array(list) => list.iter().map(|name| name.as_str().unwrap_or_default()).collect(),
-        Value::Object(table) => table.values().flat_map(listed).collect(),
+        Value::Object(table) => table.values().flat_map(names_in).collect(),
         _ => Vec::new(),
     }
 }

@@ -26,7 +26,7 @@ pub(crate) struct GrowingColumns {
 
 impl GrowingColumns {
     /// Counts the rows of the next batch, of which some are read, or all.
-    pub(crate) fn see(&mut self, rows: usize, is_read: Option<&BooleanArray>) {
+    pub(crate) fn begin_batch(&mut self, rows: usize, is_read: Option<&BooleanArray>) {
         if let Some(is_read) = is_read {
             let numbered = (self.seen + 1..).zip(is_read.values());
             self.rows.extend(numbered.filter(|(_, is_read)| *is_read).map(|(row, _)| row));
@@ -60,7 +60,7 @@ impl GrowingColumns {
     }
 
     /// Ends a batch that had so many rows that are read.
-    pub(crate) fn next(&mut self, rows: usize) {
+    pub(crate) fn end_batch(&mut self, rows: usize) {
         self.samples += rows;
     }
 

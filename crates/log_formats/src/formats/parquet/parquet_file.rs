@@ -149,7 +149,7 @@ impl ParquetFile {
         further: Further,
     ) -> Result<Table, FormatError> {
         let (path, mut builder) = (&self.path, self.builder()?);
-        let mut wanted = wanted(path, builder.schema(), needed)?;
+        let mut wanted = wanted_columns(path, builder.schema(), needed)?;
         if further == Further::LeftOut {
             wanted.retain(|&index| needed.contains(builder.schema().field(index).name()));
         }
@@ -169,7 +169,7 @@ impl ParquetFile {
         for batch in batches {
             let batch = batch.map_err(|e| broken(path, &e))?;
             let is_read = filter.as_mut().and_then(|e| is_read(&batch, needed.time, e));
-            columns.see(batch.num_rows(), is_read.as_ref());
+            columns.begin_batch(batch.num_rows(), is_read.as_ref());
             let batch = match is_read {
                 None => batch,
                 Some(is_read) => {
@@ -185,7 +185,7 @@ impl ParquetFile {
                     columns.add(path, &name, &array, needed)?;
                 }
             }
-            columns.next(batch.num_rows());
+            columns.end_batch(batch.num_rows());
         }
         columns.finish(path, needed)
     }
@@ -220,7 +220,11 @@ fn is_read(batch: &RecordBatch, time: &str, filter: &mut ExcerptFilter) -> Optio
 }
 
 /// Indices of the numeric columns; a needed one that is not numeric is an error.
-fn wanted(path: &Path, schema: &Schema, needed: &Needed) -> Result<Vec<usize>, FormatError> {
+fn wanted_columns(
+    path: &Path,
+    schema: &Schema,
+    needed: &Needed,
+) -> Result<Vec<usize>, FormatError> {
     let mut wanted = Vec::new();
     for (index, field) in schema.fields().iter().enumerate() {
         let is_needed_list = || {

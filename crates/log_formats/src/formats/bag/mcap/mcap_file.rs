@@ -12,7 +12,7 @@ use crate::{
     common::{allowance::Allowance, damage::Damage, error::FormatError, guard::guard},
     formats::bag::{
         mcap::record::{Chunk, McapRecord},
-        topic::{Listener, Topic},
+        topic::{MessageSink, Topic},
     },
 };
 
@@ -27,14 +27,14 @@ const PIECE: usize = 1 << 16;
 pub(crate) fn read(
     path: &Path,
     file: &File,
-    listener: &mut dyn Listener,
+    sink: &mut dyn MessageSink,
     damage: &mut Damage,
 ) -> Result<(), FormatError> {
     let read = guard(path, NAME, || {
         let length = file.metadata().map_err(|e| FormatError::unreadable(path, &e))?.len();
         let (schemas, topics) = (BTreeMap::new(), BTreeMap::new());
         let allowance = Allowance::of(length);
-        Reader { path, allowance, schemas, topics, listener }.read(file)
+        Reader { path, allowance, schemas, topics, sink }.read(file)
     });
     read.or_else(|error| damage.take(error))
 }
@@ -46,7 +46,7 @@ struct Reader<'a> {
     schemas: BTreeMap<u16, String>,
     /// Topics by the number of their channel.
     topics: BTreeMap<u16, Topic>,
-    listener: &'a mut dyn Listener,
+    sink: &'a mut dyn MessageSink,
 }
 
 impl Reader<'_> {
@@ -89,12 +89,12 @@ impl Reader<'_> {
                 let kind = self.schemas.get(&schema).cloned().unwrap_or_default();
                 let (name, encoding) = (topic.to_owned(), encoding.to_owned());
                 let topic = Topic { name, kind, encoding };
-                self.listener.topic(&topic);
+                self.sink.add_topic(&topic);
                 self.topics.insert(id, topic);
             }
             McapRecord::Message { channel, data } => match self.topics.get(&channel) {
-                Some(topic) if !self.listener.wants(topic) => {}
-                Some(topic) => self.listener.message(topic, data)?,
+                Some(topic) if !self.sink.wants(topic) => {}
+                Some(topic) => self.sink.add_message(topic, data)?,
                 None => return Err(self.broken(&"a message is of no channel")),
             },
             McapRecord::Chunk(_) | McapRecord::Other => {}

@@ -15,7 +15,7 @@ use crate::{
             record::{Value, value},
             table::{Row, rows},
         },
-        topic::{Listener, Topic},
+        topic::{MessageSink, Topic},
     },
 };
 
@@ -30,7 +30,7 @@ const MOST_TOPICS: usize = 10_000;
 pub(crate) fn read(
     path: &Path,
     file: &File,
-    listener: &mut dyn Listener,
+    sink: &mut dyn MessageSink,
     damage: &mut Damage,
 ) -> Result<(), FormatError> {
     if is_unfinished(path) {
@@ -38,7 +38,7 @@ pub(crate) fn read(
     }
     let read = guard(path, NAME, || {
         let told = |reason: String| FormatError::broken(path, NAME, &reason);
-        Bag { path, pages: Pages::new(file).map_err(told)?, listener }.read()
+        Bag { path, pages: Pages::new(file).map_err(told)?, sink }.read()
     });
     read.or_else(|error| damage.take(error))
 }
@@ -61,7 +61,7 @@ struct Table {
 struct Bag<'a> {
     path: &'a Path,
     pages: Pages<'a>,
-    listener: &'a mut dyn Listener,
+    sink: &'a mut dyn MessageSink,
 }
 
 /// Why a row is not read.
@@ -135,13 +135,13 @@ impl Bag<'_> {
             }
             Ok(())
         })?;
-        topics.values().for_each(|topic| self.listener.topic(topic));
+        topics.values().for_each(|topic| self.sink.add_topic(topic));
         Ok(topics)
     }
 
     fn messages(&mut self, table: &Table, topics: &BTreeMap<i64, Topic>) -> Result<(), Trouble> {
         let (of_topic, of_data) = (table.place("topic_id")?, table.place("data")?);
-        let Self { pages, listener, .. } = self;
+        let Self { pages, sink, .. } = self;
         rows(pages, table.root, |pages, row: &Row| -> Result<(), Trouble> {
             let number = match value(row.beginning(), of_topic) {
                 Some(Value::Integer(number)) => number,
@@ -150,12 +150,12 @@ impl Bag<'_> {
             let topic = topics
                 .get(&number)
                 .ok_or_else(|| format!("message {} is of topic {number}, of none", row.id))?;
-            if !listener.wants(topic) {
+            if !sink.wants(topic) {
                 return Ok(());
             }
             match value(&row.record(pages)?, of_data) {
                 Some(Value::Blob(message)) => {
-                    listener.message(topic, message).map_err(Trouble::Refused)
+                    sink.add_message(topic, message).map_err(Trouble::Refused)
                 }
                 _ => Err(format!("message {} has no data", row.id).into()),
             }
