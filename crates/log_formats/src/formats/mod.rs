@@ -2,6 +2,7 @@
 
 pub(crate) mod bag;
 pub(crate) mod csv;
+pub(crate) mod hdf5;
 pub(crate) mod lerobot;
 pub(crate) mod matlab;
 pub(crate) mod numpy;
@@ -18,6 +19,7 @@ pub(crate) const FORMATS: Formats = Formats {
         &numpy::numpy_file::Npz,
         &matlab::matlab_file::Matlab5,
         &matlab::matlab_file::Matlab73,
+        &hdf5::Hdf5,
         &bag::storage::MCAP,
         &bag::storage::SQLITE,
     ],

@@ -27,12 +27,12 @@ use crate::{
 /// - Full turns by which the position of a rotation jumps are taken out.
 /// - Time stamps that scatter by more than a step are replaced by an even clock.
 ///
-/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5 or 7.3, MCAP or SQLite, or one of them packed
+/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5 or 7.3, HDF5, MCAP or SQLite, or one of them packed
 /// with gzip or zstd. The first bytes tell the kind.
 ///
-/// Of an npz or mat file an array of one dimension is a column by its name, such as `tau`; one of samples
+/// Of an npz, mat or HDF5 file an array of one dimension is a column by its name, such as `tau`; one of samples
 /// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
-/// as long as time; fields of a structure of MATLAB are `log.q`. Other arrays are left out.
+/// as long as time; fields of a structure of MATLAB and arrays in a group of HDF5 are `log.q`. Other arrays are left out.
 ///
 /// Of a bag of ROS 2, an MCAP or SQLite file or a folder with `metadata.yaml` and such files, the messages
 /// `sensor_msgs/msg/JointState` of one topic are read, joints by the names in each message; one that
