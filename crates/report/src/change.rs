@@ -1,11 +1,10 @@
 use askama::Template;
 use diagnosis::{Comparison, Estimate, Finding};
 
-use crate::html::inert;
+use crate::Report;
 use crate::json::json;
-use crate::page::page;
 use crate::tables::{Cause, cause, class_of, sizes};
-use crate::{Report, ReportError};
+use pages::{ReportError, escape_json, render_page};
 
 #[derive(Template)]
 #[template(path = "change.html")]
@@ -41,7 +40,7 @@ struct Side {
 ///
 /// [`ReportError::Format`].
 pub fn change_page(comparison: &Comparison, after: &Report) -> Result<String, ReportError> {
-    let provenance = after.provenance.without_places();
+    let provenance = after.provenance.without_folders();
     let report = Report { provenance: &provenance, ..*after };
     let [before, changed] = [&comparison.before, &comparison.after].map(|side| &side.diagnosis);
     let side = |name, words, of: &diagnosis::Diagnosis| Side {
@@ -50,7 +49,7 @@ pub fn change_page(comparison: &Comparison, after: &Report) -> Result<String, Re
         class: class_of(of.verdict),
         verdict: of.verdict.words(),
     };
-    page(&Page {
+    render_page(&Page {
         robot: &changed.robot,
         class: if changed.findings.is_empty() { "good" } else { "part" },
         sentence: change_sentence(comparison),
@@ -63,7 +62,7 @@ pub fn change_page(comparison: &Comparison, after: &Report) -> Result<String, Re
             side("after", "what the others say of the robot as the first found it", changed),
         ],
         provenance: &provenance,
-        json: inert(&json(&report)?),
+        json: escape_json(&json(&report)?),
     })
 }
 

@@ -1,10 +1,10 @@
 use diagnosis::{JointTraces, RunTraces};
 
-use crate::decimate::{bands, columns};
+use crate::Report;
 use crate::places::JointUnits;
 use crate::tables::known_floor;
-use crate::{Axis, Chart, Report, Series, Shape};
 use colours::Role;
+use pages::{Axis, Chart, CurveShape, Series, column_extremes, percentile_bands};
 
 /// Size of a figure over time and of one of three beside each other (px).
 const WIDE: (f64, f64) = (1040.0, 180.0);
@@ -129,7 +129,7 @@ fn over_time(title: String, units: JointUnits, stretch: Stretch, width: usize) -
     let line = |(role, torque): (Role, &[f64])| {
         let points: Vec<[f64; 2]> =
             stretch.time.iter().zip(torque).map(|(&t, &tau)| [t, tau]).collect();
-        Series::of(role, Shape::Line(columns(&points, width)))
+        Series::of(role, CurveShape::Line(column_extremes(&points, width)))
     };
     Chart {
         title,
@@ -152,7 +152,7 @@ fn left_over_time(
         let left = measured.iter().zip(predicted).map(|(m, p)| m - p);
         let points: Vec<[f64; 2]> =
             stretch.time.iter().copied().zip(left).map(Into::into).collect();
-        Series::of(role, Shape::Line(columns(&points, width)))
+        Series::of(role, CurveShape::Line(column_extremes(&points, width)))
     };
     Chart {
         title: format!("What the models leave of the {}", units.load),
@@ -218,11 +218,11 @@ fn residual_against(
         [(Role::Nominal, all(|t| &t.nominal)), (Role::Extended, all(|t| &t.extended))]
     {
         let left: Vec<f64> = measured.iter().zip(&predicted).map(|(m, p)| m - p).collect();
-        let bands = bands(&signal, &left, SLICES);
+        let bands = percentile_bands(&signal, &left, SLICES);
         let area = bands.iter().map(|&[x, low, _, high]| [x, low, high]).collect();
         let line = bands.iter().map(|&[x, _, middle, _]| [x, middle]).collect();
-        areas.push(Series::of(role, Shape::Band(area)));
-        lines.push(Series::of(role, Shape::Line(line)));
+        areas.push(Series::of(role, CurveShape::Band(area)));
+        lines.push(Series::of(role, CurveShape::Line(line)));
     }
     areas.append(&mut lines);
     let y = Axis::new("measured − model", units.effort);
@@ -240,7 +240,9 @@ mod tests {
         let figures = figures_of(&sample.report(), 0);
         assert_eq!(figures.time.len(), 3, "one enlarged, two runs");
         assert_eq!(figures.residual.len(), 3);
-        let Shape::Line(measured) = &figures.time[1][0].series[0].shape else { panic!("no line") };
+        let CurveShape::Line(measured) = &figures.time[1][0].series[0].shape else {
+            panic!("no line")
+        };
         let highest = measured.iter().map(|p| p[1]).fold(0.0, f64::max);
         assert!(highest > 10.0, "{highest}");
     }
@@ -259,8 +261,8 @@ mod tests {
             .series
             .iter()
             .map(|series| match &series.shape {
-                Shape::Line(points) => points[0][1],
-                Shape::Band(_) => f64::NAN,
+                CurveShape::Line(points) => points[0][1],
+                CurveShape::Band(_) => f64::NAN,
             })
             .collect();
         assert_eq!((values, left.floor, torque.floor), (vec![2.0, 0.5], Some(0.02), None));
@@ -269,9 +271,9 @@ mod tests {
     #[test]
     fn time_begins_at_zero_where_a_run_does() {
         let begin = |time: &[f64]| time_axis(time).begin;
-        assert_eq!(begin(&[0.33, 15.0]), crate::chart::Begin::Zero);
-        assert_eq!(begin(&[7.0, 15.0]), crate::chart::Begin::Least);
-        assert_eq!(begin(&[]), crate::chart::Begin::Least);
+        assert_eq!(begin(&[0.33, 15.0]), pages::AxisBegin::Zero);
+        assert_eq!(begin(&[7.0, 15.0]), pages::AxisBegin::Least);
+        assert_eq!(begin(&[]), pages::AxisBegin::Least);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 use evaluation::{Drift, ForwardGap, ForwardWindow};
 
-use crate::numbers::significant;
-use crate::{Axis, Chart, Report, ReportError, Series, Shape};
+use crate::Report;
 use colours::Role;
+use pages::{Axis, Chart, CurveShape, ReportError, Series, significant};
 
 /// How far both simulations drift in some lengths of time, as text.
 pub(crate) struct ForwardTable {
@@ -61,7 +61,7 @@ pub(crate) fn drift_chart(gap: &ForwardGap) -> Option<Chart> {
         let step_ms = 1e3 * window.window_s / course.len() as f64;
         let grown = course.iter().enumerate().map(|(k, m)| [step_ms * (k + 1) as f64, 1e3 * m]);
         let points = std::iter::once([0.0, 0.0]).chain(grown).collect();
-        Series::of(role, Shape::Line(points))
+        Series::of(role, CurveShape::Line(points))
     };
     let roles = [Role::Nominal, Role::Extended].into_iter().zip(drifts(window));
     Some(Chart {
@@ -175,9 +175,9 @@ mod tests {
     fn the_drift_over_time_starts_at_nothing_and_ends_at_that_of_the_table() {
         let mut gap = gap();
         let chart = drift_chart(&gap).unwrap();
-        let lines: Vec<&Shape> = chart.series.iter().map(|series| &series.shape).collect();
-        let nominal = Shape::Line(vec![[0.0, 0.0], [100.0, 20.0], [200.0, 50.0]]);
-        let extended = Shape::Line(vec![[0.0, 0.0], [100.0, 3.0], [200.0, 4.0]]);
+        let lines: Vec<&CurveShape> = chart.series.iter().map(|series| &series.shape).collect();
+        let nominal = CurveShape::Line(vec![[0.0, 0.0], [100.0, 20.0], [200.0, 50.0]]);
+        let extended = CurveShape::Line(vec![[0.0, 0.0], [100.0, 3.0], [200.0, 4.0]]);
         assert_eq!(lines, [&nominal, &extended]);
         gap.windows[0].extended.tip_course_m.clear();
         assert!(drift_chart(&gap).is_none());

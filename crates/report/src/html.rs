@@ -3,10 +3,7 @@ use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 
 use crate::figures::figures_of;
 use crate::forward::{ForwardTable, drift_in_page, forward_table};
-use crate::html_grid::rendered;
-use crate::numbers::{percent, significant};
-use crate::page::page;
-use crate::places::{joint_anchor, joint_of, listed};
+use crate::places::{joint_anchor, joint_of};
 use crate::residual::{ResidualRow, residual_rows};
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::spectra::spectra;
@@ -14,7 +11,11 @@ use crate::tables::{
     Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, name_beside_joint,
     negligible, ruled_out,
 };
-use crate::{Chart, Provenance, Report, ReportError, ResidualModel, json};
+use crate::{Report, ResidualModel, json};
+use pages::{
+    Chart, Provenance, ReportError, escape_json, join_names, percent, render_html, render_page,
+    significant,
+};
 
 /// `report.html`: one file that opens offline, and without scripts too.
 ///
@@ -22,8 +23,8 @@ use crate::{Chart, Provenance, Report, ReportError, ResidualModel, json};
 ///
 /// [`ReportError::Format`].
 pub fn html(report: &Report) -> Result<String, ReportError> {
-    let provenance = report.provenance.without_places();
-    page(&Page::new(&Report { provenance: &provenance, ..*report })?)
+    let provenance = report.provenance.without_folders();
+    render_page(&Page::new(&Report { provenance: &provenance, ..*report })?)
 }
 
 /// The sections of the page that say what was found, what is left, what every joint shows and what
@@ -34,7 +35,7 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
 /// [`ReportError::Format`].
 pub(crate) fn sections_of(report: &Report) -> Result<String, ReportError> {
     let page = Page::new(report)?;
-    rendered(&page.as_sections())
+    render_html(&page.as_sections())
 }
 
 #[derive(Template)]
@@ -136,7 +137,7 @@ impl<'a> Page<'a> {
             data: &diagnosis.data,
             held_out: &diagnosis.gain.inverse.held_out,
             provenance: report.provenance,
-            json: inert(&json(report)?),
+            json: escape_json(&json(report)?),
         })
     }
 }
@@ -187,16 +188,11 @@ fn left(diagnosis: &Diagnosis) -> Vec<Left> {
             depends_on: if signals.is_empty() {
                 "none of the signals in the log".to_owned()
             } else {
-                listed(&signals)
+                join_names(&signals)
             },
         }
     });
     rows.collect()
-}
-
-/// JSON that cannot end the script element that holds it.
-pub(crate) fn inert(json: &str) -> String {
-    json.replace('<', "\\u003c")
 }
 
 /// Filters of the template.

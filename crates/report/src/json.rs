@@ -5,7 +5,8 @@ use diagnosis::{
 use evaluation::ForwardGap;
 use serde::{Serialize, Serializer};
 
-use crate::{Provenance, Report, ReportError, ResidualModel};
+use crate::{Report, ResidualModel};
+use pages::{Provenance, ReportError, to_json};
 
 /// `diagnosis.json`: the diagnosis in the schema [`diagnosis::SCHEMA`], with provenance.
 ///
@@ -16,26 +17,7 @@ use crate::{Provenance, Report, ReportError, ResidualModel};
 /// [`ReportError::Format`].
 pub fn json(report: &Report) -> Result<String, ReportError> {
     let document = Document::new(report);
-    pretty(&document)
-}
-
-/// A value as JSON on lines, the last one ended.
-pub(crate) fn pretty(value: &impl Serialize) -> Result<String, ReportError> {
-    let mut text = serde_json::to_string_pretty(value)
-        .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
-    text.push('\n');
-    Ok(text)
-}
-
-/// A value as JSON, with the name of its schema at the top.
-pub(crate) fn with_schema(schema: &str, value: &impl Serialize) -> Result<String, ReportError> {
-    #[derive(Serialize)]
-    struct Named<'a, T> {
-        schema: &'a str,
-        #[serde(flatten)]
-        value: &'a T,
-    }
-    pretty(&Named { schema, value })
+    to_json(&document)
 }
 
 /// [`Diagnosis`] as it is written: parameters by name, provenance at the end.

@@ -19,48 +19,33 @@
 #[cfg(test)]
 mod browser;
 mod change;
-mod chart;
-mod decimate;
-mod dots;
-mod error;
+mod claims;
+mod estimate;
 mod figures;
-mod files;
 mod forward;
-mod grid;
 mod html;
-mod html_grid;
-mod inks;
 mod json;
 mod learning;
-mod linear_axis;
-mod log_axis;
 mod markdown;
 mod notebook;
-mod numbers;
-mod page;
 mod paper;
 mod places;
-mod plot;
 mod poster;
-mod provenance;
 mod replay;
 mod residual;
 mod run;
 #[cfg(test)]
 mod sample;
-mod script;
 mod sentence;
-mod sheet;
 mod spectra;
 mod tables;
 mod terminal;
 mod tracking;
 mod trials;
-mod wrap;
 
 pub use change::{change_page, change_sentence, sizes_before};
-pub use error::ReportError;
-pub use files::{sha256_of, write_folder};
+pub use claims::{ClaimRow, Quantity, claim_rows, claim_text, claims_sentence};
+pub use estimate::interval;
 pub use html::html;
 pub use json::json;
 pub use learning::{
@@ -69,27 +54,26 @@ pub use learning::{
 };
 pub use markdown::markdown;
 pub use notebook::notebook;
-pub use numbers::{interval, percent, significant, unit};
+pub use pages::{
+    FileHash, Provenance, ReportError, pack as packed, percent, push_warnings as warnings,
+    quote_argument as quoted, sha256_of, significant, unit, write_folder,
+};
 pub use paper::{
     LEARNING_FIGURE_SCHEMA, LearningFigureReport, PREDICTION_TIME_FIGURE_SCHEMA,
     PredictionTimeFigureReport,
 };
 pub use poster::figure;
-pub use provenance::{FileHash, Provenance, quoted};
 pub use replay::{REPLAY_SCHEMA, ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 pub use residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use run::{RUN_SCHEMA, RunReport, Told, told};
 pub use sentence::{bottom_line, verdict_sentence};
 pub use tables::sizes;
-pub use terminal::{text, warnings};
+pub use terminal::text;
 pub use tracking::{
     FirstSeconds, Gains, Sweep, SweptModel, TRACKING_SCHEMA, TrackedModel, TrackingComparison,
     WallTiming,
 };
 pub use trials::{panel_page, trials_page};
-pub use wrap::packed;
-
-use chart::{Axis, Chart, Series, Shape};
 
 /// Everything that a report shows.
 #[derive(Debug, Clone, Copy)]

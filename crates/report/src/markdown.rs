@@ -1,8 +1,8 @@
 use crate::Report;
-use crate::numbers::{percent, significant};
 use crate::places::JointUnits;
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::tables::sizes;
+use pages::{percent, significant};
 
 /// The verdict as Markdown, short enough to stand beside a moving picture: the verdict, what it
 /// buys, the held-out errors of the joints and the causes with their sizes.

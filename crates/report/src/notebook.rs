@@ -1,9 +1,9 @@
 use askama::Template;
 
-use crate::html_grid::rendered;
+use crate::Report;
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::tables::{Cause, JointRow, cause, joint_rows};
-use crate::{Report, ReportError};
+use pages::{ReportError, render_html};
 
 /// The first screen of the report for the cell of a notebook: the verdict, the error of every joint
 /// before and after, and the findings. It brings no style sheet, so that it looks as the notebook does.
@@ -13,7 +13,7 @@ use crate::{Report, ReportError};
 /// [`ReportError::Format`].
 pub fn notebook(report: &Report) -> Result<String, ReportError> {
     let diagnosis = report.diagnosis;
-    rendered(&Cell {
+    render_html(&Cell {
         sentence: verdict_sentence(diagnosis),
         bottom_line: bottom_line(report),
         warnings: &diagnosis.warnings,

@@ -80,20 +80,6 @@ pub(crate) fn acting_on<'a>(report: &Report<'a>, joint: usize) -> Vec<&'a Findin
     report.diagnosis.findings.iter().filter(|f| acts(&f.at)).collect()
 }
 
-/// Names as they stand in a sentence: `a`, `a and b`, `a, b and c`.
-pub(crate) fn listed(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [only] => only.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
-}
-
-/// `1 effect`, `3 effects`.
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

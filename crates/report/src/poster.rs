@@ -1,15 +1,13 @@
 use askama::Template;
 use diagnosis::{Estimate, Finding, Verdict};
 
+use crate::Report;
+use crate::estimate::value;
 use crate::figures::worst_of;
-use crate::inks::{Colours, Place};
-use crate::numbers::value;
-use crate::places::{JointUnits, acting_on, listed};
+use crate::places::{JointUnits, acting_on};
 use crate::sentence::{short_bottom_line, title};
-use crate::sheet::{Placed, placed};
 use crate::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
-use crate::wrap::{packed, shortened, wrapped};
-use crate::{Chart, Report, ReportError};
+use pages::{Chart, Medium, Palette, Placed, ReportError, join_names, pack, shorten, stack, wrap};
 
 /// Width of the right panel (px); the left one stands in the template.
 const RIGHT: f64 = 452.0;
@@ -55,7 +53,7 @@ pub fn figure(report: &Report) -> Result<String, ReportError> {
 #[template(path = "figure.svg")]
 struct Poster {
     height: f64,
-    colours: Colours,
+    colours: Palette,
     title: String,
     subtitle: String,
     joints: Vec<Placed<JointRow>>,
@@ -94,11 +92,11 @@ impl Poster {
         let chart = (left - text).max(LEAST_CHART);
         Ok(Self {
             height: TOP + left.max(chart + text) + 14.0,
-            colours: Place::Alone.colours(),
-            title: shortened(&title(report.diagnosis), TITLE_CHARACTERS),
+            colours: Medium::Alone.palette(),
+            title: shorten(&title(report.diagnosis), TITLE_CHARACTERS),
             subtitle: short_bottom_line(report),
-            notes: placed(notes, TOP + row * joints.len() as f64 + 12.0, LINE),
-            joints: placed(joints, TOP, row),
+            notes: stack(notes, TOP + row * joints.len() as f64 + 12.0, LINE),
+            joints: stack(joints, TOP, row),
             best: match best {
                 Some(joint) => Best::new(report, joint, (RIGHT, chart), lines)?,
                 None => None,
@@ -123,13 +121,11 @@ fn rows(report: &Report) -> (Vec<JointRow>, Vec<String>) {
     }
     if !silent.is_empty() {
         let names: Vec<String> = silent.into_iter().map(|(_, row)| row.name).collect();
-        let sentence = format!("These logs show too little of {}.", listed(&names));
-        notes.extend(wrapped(&sentence, LEFT_CHARACTERS));
+        let sentence = format!("These logs show too little of {}.", join_names(&names));
+        notes.extend(wrap(&sentence, LEFT_CHARACTERS));
     }
-    let short = |(_, row): (usize, JointRow)| JointRow {
-        name: shortened(&row.name, NAME_CHARACTERS),
-        ..row
-    };
+    let short =
+        |(_, row): (usize, JointRow)| JointRow { name: shorten(&row.name, NAME_CHARACTERS), ..row };
     (rows.into_iter().map(short).collect(), notes)
 }
 
@@ -164,11 +160,11 @@ impl Best {
         };
         let chart = Chart { size, ..chart };
         Ok(Some(Self {
-            joint: shortened(name, NAME_CHARACTERS),
-            run: shortened(run, NAME_CHARACTERS),
+            joint: shorten(name, NAME_CHARACTERS),
+            run: shorten(run, NAME_CHARACTERS),
             load: JointUnits::of(report.robot, name).load,
-            chart: chart.placed([0.0, 150.0], Place::Alone)?,
-            lines: placed(lines, TOP + size.1 + 16.0, LINE),
+            chart: chart.draw_at([0.0, 150.0], Medium::Alone)?,
+            lines: stack(lines, TOP + size.1 + 16.0, LINE),
         }))
     }
 }
@@ -190,13 +186,13 @@ fn lines(findings: &[&Finding]) -> Vec<TextLine> {
 
 /// Name and changes on one line; a name on its own line where they do not fit.
 fn lines_of(finding: &Finding) -> Vec<TextLine> {
-    let bold = shortened(&name_beside_joint(&finding.at), RIGHT_CHARACTERS - 8);
+    let bold = shorten(&name_beside_joint(&finding.at), RIGHT_CHARACTERS - 8);
     let changes = changes(finding);
     let plain = changes.join(", ");
     if bold.chars().count() + plain.chars().count() + 2 <= RIGHT_CHARACTERS {
         return vec![TextLine { bold, plain }];
     }
-    let below = packed(changes.iter().map(String::as_str), ", ", RIGHT_CHARACTERS);
+    let below = pack(changes.iter().map(String::as_str), ", ", RIGHT_CHARACTERS);
     let below = below.into_iter().map(|plain| TextLine { bold: String::new(), plain });
     std::iter::once(TextLine { bold, plain: String::new() }).chain(below).collect()
 }

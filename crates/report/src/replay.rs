@@ -1,18 +1,11 @@
 use askama::Template;
 use serde::Serialize;
 
-use crate::chart::Ink;
-use crate::dots::{Dots, JointDots};
-use crate::grid::{Cell, DIGITS};
-use crate::html::inert;
-use crate::html_grid::{Grid, rendered};
-use crate::inks::Place;
-use crate::json::with_schema;
-use crate::numbers::significant;
-use crate::page::page;
-use crate::sheet::Key;
-use crate::{Provenance, ReportError};
 use colours::Role;
+use pages::{
+    Cell, Dots, HtmlGrid, Ink, JointDots, LegendKey, Medium, Provenance, ReportError, TABLE_DIGITS,
+    escape_json, render_html, render_page, significant, with_schema,
+};
 
 /// Name and version of the schema of `replay.json`.
 pub const REPLAY_SCHEMA: &str = "plumbline.replay/1";
@@ -98,7 +91,7 @@ impl ReplayReport {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let provenance = self.provenance.without_places();
+        let provenance = self.provenance.without_folders();
         let shared = Self { provenance: provenance.clone(), ..self.clone() };
         let sections = self.runs.iter().map(|run| {
             Ok(Section {
@@ -108,17 +101,17 @@ impl ReplayReport {
                 table: self.table(run)?,
             })
         });
-        page(&Page {
+        render_page(&Page {
             report: self,
             sections: sections.collect::<Result<_, ReportError>>()?,
             provenance: &provenance,
-            json: inert(&shared.json()?),
+            json: escape_json(&shared.json()?),
         })
     }
 
     /// The drift of a run as dots, one a length of time.
     fn drift(&self, run: &ReplayedRun) -> Result<String, ReportError> {
-        let key = |(index, window): (usize, &ReplayedWindow)| Key {
+        let key = |(index, window): (usize, &ReplayedWindow)| LegendKey {
             name: format!("{} ms", window.window_ms),
             ink: Ink::Model(index),
         };
@@ -134,7 +127,7 @@ impl ReplayReport {
     /// The torque of a run as dots: how far off it is, beside how large it is.
     fn torque(&self, run: &ReplayedRun) -> Result<String, ReportError> {
         let Some(torque) = &run.torque else { return Ok(String::new()) };
-        let key = |name: &str, role| Key { name: name.to_owned(), ink: Ink::Role(role) };
+        let key = |name: &str, role| LegendKey { name: name.to_owned(), ink: Ink::Role(role) };
         let at = |values: &[f64], joint: usize| values.get(joint).copied().unwrap_or(f64::NAN);
         let keys =
             vec![key("simulated minus measured", Role::Error), key("measured", Role::Measured)];
@@ -148,7 +141,7 @@ impl ReplayReport {
         run: &ReplayedRun,
         title: &str,
         axis: &'static str,
-        (keys, values): (Vec<Key>, &dyn Fn(usize) -> Vec<f64>),
+        (keys, values): (Vec<LegendKey>, &dyn Fn(usize) -> Vec<f64>),
     ) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(joint, name)| JointDots {
             name: name.clone(),
@@ -163,7 +156,7 @@ impl ReplayReport {
             joints: joints.collect(),
             mark: None,
         };
-        dots.drawn(Place::Page)
+        dots.draw(Medium::Page)
     }
 
     /// Every number of a run, one row a joint.
@@ -178,10 +171,10 @@ impl ReplayReport {
             let torques = run.torque.iter().flat_map(|t| [&t.error_rms_nm, &t.measured_rms_nm]);
             let columns = drifts.chain(torques.map(Vec::as_slice));
             let number = |column: &[f64]| column.get(joint).copied().unwrap_or(f64::NAN);
-            let cells = columns.map(|c| Cell::plain(significant(number(c), DIGITS)));
+            let cells = columns.map(|c| Cell::plain(significant(number(c), TABLE_DIGITS)));
             (name.clone(), cells.collect())
         };
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: "Joint".to_owned(),
             header,
             rows: self.joints.iter().enumerate().map(row).collect(),

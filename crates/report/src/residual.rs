@@ -1,8 +1,8 @@
 use serde::Serialize;
 
 use crate::Report;
-use crate::numbers::{percent, significant};
-use crate::places::{JointUnits, counted, listed};
+use crate::places::JointUnits;
+use pages::{count_noun, join_names, percent, significant};
 
 /// A model of what the findings leave, learned beside them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -69,11 +69,11 @@ impl ResidualModel {
         let without = self.joints.len() - shares.len();
         let elsewhere = match without {
             0 => String::new(),
-            n => format!("; at {} it is not used", counted(n, "joint")),
+            n => format!("; at {} it is not used", count_noun(n, "joint")),
         };
         format!(
             "Of what is left a Gaussian process predicts {} on held-out data{elsewhere}",
-            listed(&shares)
+            join_names(&shares)
         )
     }
 
@@ -88,7 +88,7 @@ impl ResidualJoint {
     pub(crate) fn bends_with(&self) -> String {
         let one =
             |l: &LengthScale| format!("{} ({} of its range)", l.signal, percent(l.share_of_range));
-        listed(&self.length_scales.iter().map(one).collect::<Vec<_>>())
+        join_names(&self.length_scales.iter().map(one).collect::<Vec<_>>())
     }
 }
 

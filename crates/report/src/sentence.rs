@@ -1,13 +1,12 @@
 use diagnosis::{Diagnosis, JointReport, Verdict};
 
 use crate::Report;
-use crate::numbers::{percent, significant};
-use crate::places::{counted, listed};
+use pages::{count_noun, join_names, percent, significant};
 
 /// The verdict over all joints in one sentence.
 pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
     let Diagnosis { robot, joints, findings, verdict, data, .. } = diagnosis;
-    let effects = counted(findings.len(), "named effect");
+    let effects = count_noun(findings.len(), "named effect");
     let is_open = |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained);
     let left = at_joints(joints, is_open);
     let is_lost = |v| v == Verdict::DataInadequate;
@@ -66,7 +65,7 @@ fn at_joints(joints: &[JointReport], wanted: impl Fn(Verdict) -> bool) -> String
         0 => "no joint".to_owned(),
         n if n == joints.len() && n > 1 => "every joint".to_owned(),
         1..=4 => {
-            format!("{} {}", if names.len() == 1 { "joint" } else { "joints" }, listed(&names))
+            format!("{} {}", if names.len() == 1 { "joint" } else { "joints" }, join_names(&names))
         }
         n => format!("{n} of {} joints", joints.len()),
     }
@@ -75,7 +74,7 @@ fn at_joints(joints: &[JointReport], wanted: impl Fn(Verdict) -> bool) -> String
 /// The robot and its verdict, as a title.
 pub(crate) fn title(diagnosis: &Diagnosis) -> String {
     let Diagnosis { robot, findings, verdict, .. } = diagnosis;
-    let effects = counted(findings.len(), "named effect");
+    let effects = count_noun(findings.len(), "named effect");
     match verdict {
         Verdict::Explained | Verdict::PartlyExplained => {
             format!("{robot}: {} by {effects}", verdict.words())

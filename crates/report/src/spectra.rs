@@ -1,13 +1,9 @@
 use askama::Template;
 use diagnosis::{JointReport, Verdict};
 
-use crate::html_grid::rendered;
-use crate::inks::{Colours, Place};
-use crate::log_axis::{LogAxis, Tick};
-use crate::numbers::significant;
+use crate::Report;
 use crate::places::JointUnits;
-use crate::wrap::shortened;
-use crate::{Report, ReportError};
+use pages::{AxisTick, LogAxis, Medium, Palette, ReportError, render_html, shorten, significant};
 
 /// Left and right, lower and upper edge of what a panel shows (px).
 const X: [f64; 2] = [58.0, 330.0];
@@ -30,7 +26,7 @@ const NAME_CHARACTERS: usize = 40;
 ///
 /// [`ReportError::Format`].
 pub(crate) fn spectra(report: &Report) -> Result<Vec<String>, ReportError> {
-    panels(report).iter().map(rendered).collect()
+    panels(report).iter().map(render_html).collect()
 }
 
 /// The spectra of one joint.
@@ -42,11 +38,11 @@ struct Panel {
     unit: &'static str,
     /// For those who cannot see the lines.
     words: String,
-    colours: Colours,
+    colours: Palette,
     x: [f64; 2],
     y: [f64; 2],
-    x_ticks: Vec<Tick>,
-    y_ticks: Vec<Tick>,
+    x_ticks: Vec<AxisTick>,
+    y_ticks: Vec<AxisTick>,
     /// The lines, as the `d` of a path.
     left: String,
     noise: String,
@@ -71,7 +67,7 @@ fn panel(joint: &JointReport, unit: &'static str, hz: LogAxis) -> Option<Panel> 
     let (left_path, noise_path) = (path(left), path(noise));
     let is_drawn = !(left_path.is_empty() && noise_path.is_empty());
     is_drawn.then(|| Panel {
-        name: shortened(&joint.name, NAME_CHARACTERS),
+        name: shorten(&joint.name, NAME_CHARACTERS),
         unit,
         words: format!(
             "{}: what is left {} {unit}, noise {} {unit}, from {} Hz",
@@ -80,7 +76,7 @@ fn panel(joint: &JointReport, unit: &'static str, hz: LogAxis) -> Option<Panel> 
             span(noise),
             span(&spectrum.hz)
         ),
-        colours: Place::Page.colours(),
+        colours: Medium::Page.palette(),
         x: X,
         y: Y,
         x_ticks: ticks_hz(&hz),
@@ -114,11 +110,11 @@ fn path(hz: &[f64], densities: &[f64], [x, y]: [LogAxis; 2]) -> String {
 }
 
 /// One, two and five times the powers of ten that are on the axis (Hz).
-fn ticks_hz(axis: &LogAxis) -> Vec<Tick> {
+fn ticks_hz(axis: &LogAxis) -> Vec<AxisTick> {
     let numbers = DECADES_HZ.flat_map(|decade| [1.0, 2.0, 5.0].map(|digit| (digit, decade)));
     let ticks = numbers.filter_map(|(digit, decade)| {
         let (hz, decimals) = (digit * 10_f64.powi(decade), (-decade).max(0) as usize);
-        axis.holds(hz).then(|| Tick { at: axis.at(hz), label: format!("{hz:.decimals$}") })
+        axis.holds(hz).then(|| AxisTick { at: axis.at(hz), label: format!("{hz:.decimals$}") })
     });
     ticks.collect()
 }

@@ -4,8 +4,9 @@ use diagnosis::{
 };
 
 use crate::Report;
-use crate::numbers::{interval, percent, significant, unit};
+use crate::estimate::interval;
 use crate::places::{JointUnits, joint_anchor, joint_of};
+use pages::{percent, significant, unit};
 
 /// One row of the table before and after, as text.
 pub(crate) struct JointRow {

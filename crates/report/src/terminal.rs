@@ -3,20 +3,13 @@ use diagnosis::{Finding, JointReport, Verdict};
 
 use crate::Report;
 use crate::forward::forward_sentence;
-use crate::numbers::{percent, significant};
-use crate::places::{JointUnits, acting_on, findings_of, listed};
+use crate::places::{JointUnits, acting_on, findings_of};
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::tables::{name_beside_joint, sizes, words_for_floor};
-use crate::wrap::{packed, wrapped};
-
-/// Columns of the terminal that the text fills.
-pub(crate) const WIDTH: usize = 100;
-
-/// Warnings that [`first_warnings`] shows.
-const MOST_WARNINGS: usize = 6;
-
-pub(crate) const BOLD: Style = Style::new().bold();
-pub(crate) const FAINT: Style = Style::new().dimmed();
+use pages::{
+    BOLD, FAINT, TERMINAL_WIDTH, join_names, pack, percent, push_entry, push_warnings, significant,
+    wrap,
+};
 
 /// The verdict as text for a terminal of 100 columns, with colours as escape codes that
 /// `anstream` removes where they are not wanted.
@@ -28,13 +21,14 @@ pub fn text(report: &Report) -> String {
     let diagnosis = report.diagnosis;
     let style = style_of(diagnosis.verdict).bold();
     let mut out = String::new();
-    for line in wrapped(&format!("{}.", verdict_sentence(diagnosis)), WIDTH) {
+    for line in wrap(&format!("{}.", verdict_sentence(diagnosis)), TERMINAL_WIDTH) {
         out.push_str(&format!("{style}{line}{style:#}\n"));
     }
-    for line in wrapped(&format!("{}.", bottom_line(report)), WIDTH) {
+    for line in wrap(&format!("{}.", bottom_line(report)), TERMINAL_WIDTH) {
         out.push_str(&format!("{line}\n"));
     }
-    for line in forward_sentence(report).iter().flat_map(|said| wrapped(&format!("{said}."), WIDTH))
+    for line in
+        forward_sentence(report).iter().flat_map(|said| wrap(&format!("{said}."), TERMINAL_WIDTH))
     {
         out.push_str(&format!("{line}\n"));
     }
@@ -56,7 +50,7 @@ pub fn text(report: &Report) -> String {
     }
     residual(&mut out, report);
     motions(&mut out, &diagnosis.findings);
-    warnings(&mut out, &diagnosis.warnings);
+    push_warnings(&mut out, &diagnosis.warnings);
     out
 }
 
@@ -89,30 +83,29 @@ fn legend(out: &mut String, report: &Report) {
         adequate.map(|j| words_for_floor(j.noise_floor_from)).collect();
     if !floors.is_empty() {
         out.push('\n');
-        entry(
+        push_entry(
             out,
             "error",
             "measured minus predicted torque, nominal -> extended model, of the torque itself",
         );
     }
     if !report.diagnosis.findings.is_empty() {
-        entry(
+        push_entry(
             out,
             "gap",
             "mean square of the nominal error; shares of similar causes need not add up",
         );
-        entry(out, "gain", "fall of the held-out mean square error when the cause is added last");
+        push_entry(
+            out,
+            "gain",
+            "fall of the held-out mean square error when the cause is added last",
+        );
     }
     floors.sort_unstable();
     floors.dedup();
     for [word, meaning] in floors {
-        entry(out, &format!("noise ({word})"), meaning);
+        push_entry(out, &format!("noise ({word})"), meaning);
     }
-}
-
-/// A word of a table and what it means.
-pub(crate) fn entry(out: &mut String, word: &str, meaning: &str) {
-    out.push_str(&format!("{FAINT}{word:<18} {meaning}{FAINT:#}\n"));
 }
 
 /// Columns of the names of joints: of short ones, and the most of long ones.
@@ -152,7 +145,7 @@ fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
         let follows = if signals.is_empty() {
             "follows no signal of the log".to_owned()
         } else {
-            format!("follows {}", listed(&signals))
+            format!("follows {}", join_names(&signals))
         };
         note(out, &format!("left: {} of the gap has no name, it {follows}", percent(left.share)));
         bends(out, report, &joint.name);
@@ -172,7 +165,7 @@ fn residual(out: &mut String, report: &Report) {
     let Some(model) = report.residual else { return };
     out.push('\n');
     for sentence in std::iter::once(&model.sentence()).chain(&model.remarks) {
-        for line in wrapped(&format!("{sentence}."), WIDTH) {
+        for line in wrap(&format!("{sentence}."), TERMINAL_WIDTH) {
             out.push_str(&format!("{line}\n"));
         }
     }
@@ -183,7 +176,7 @@ fn elsewhere(out: &mut String, report: &Report, index: usize) {
     let names: Vec<String> =
         acting_on(report, index).iter().map(|f| name_beside_joint(&f.at)).collect();
     if !names.is_empty() {
-        note(out, &format!("no cause of its own; affected by {}", listed(&names)));
+        note(out, &format!("no cause of its own; affected by {}", join_names(&names)));
     }
 }
 
@@ -218,7 +211,7 @@ fn finding(out: &mut String, finding: &Finding) {
         // What does not fit between the columns takes lines of its own.
         _ => {
             out.push_str(&format!("  {name:<68}{worth}\n"));
-            for line in packed(sizes.iter().map(String::as_str), "; ", WIDTH - 4) {
+            for line in pack(sizes.iter().map(String::as_str), "; ", TERMINAL_WIDTH - 4) {
                 out.push_str(&format!("    {line}\n"));
             }
         }
@@ -246,48 +239,15 @@ fn motions(out: &mut String, findings: &[Finding]) {
         out.push_str("\nTo tell a cause from what it may as well be, record\n");
     }
     for motion in motions {
-        for (i, line) in wrapped(motion, WIDTH - 4).iter().enumerate() {
+        for (i, line) in wrap(motion, TERMINAL_WIDTH - 4).iter().enumerate() {
             out.push_str(&format!("  {} {line}\n", if i == 0 { '-' } else { ' ' }));
         }
     }
 }
 
-/// Warnings, each in sentences of its own.
-pub fn warnings(out: &mut String, warnings: &[String]) {
-    if !warnings.is_empty() {
-        out.push('\n');
-    }
-    for warning in warnings {
-        let style = AnsiColor::Yellow.on_default();
-        for (i, line) in wrapped(warning, WIDTH - 9).iter().enumerate() {
-            let lead = if i == 0 { "warning:" } else { "        " };
-            out.push_str(&format!("{style}{lead}{style:#} {line}\n"));
-        }
-    }
-}
-
-/// The first warnings, and how many more there are in the file that holds them all.
-pub(crate) fn first_warnings(out: &mut String, all: &[String], file: &str) {
-    let shown = all.len().min(MOST_WARNINGS);
-    warnings(out, &all[..shown]);
-    if shown < all.len() {
-        out.push_str(&format!("         and {} more in {file}\n", all.len() - shown));
-    }
-}
-
-/// Sentences below a table, wrapped.
-pub(crate) fn notes(out: &mut String, notes: &[String]) {
-    if !notes.is_empty() {
-        out.push('\n');
-    }
-    for line in notes.iter().flat_map(|note| wrapped(note, WIDTH)) {
-        out.push_str(&format!("{line}\n"));
-    }
-}
-
-/// A faint line under a finding, wrapped.
+/// A faint line under a finding, wrap.
 fn note(out: &mut String, text: &str) {
-    for line in wrapped(text, WIDTH - 4) {
+    for line in wrap(text, TERMINAL_WIDTH - 4) {
         out.push_str(&format!("    {FAINT}{line}{FAINT:#}\n"));
     }
 }
@@ -301,16 +261,10 @@ fn style_of(verdict: Verdict) -> Style {
     }
 }
 
-/// A text without its colours.
-#[cfg(test)]
-pub(crate) fn without_escapes(text: &str) -> String {
-    let mut pieces = text.split('\u{1b}');
-    let first = pieces.next().unwrap_or_default().to_owned();
-    pieces.fold(first, |out, piece| out + piece.split_once('m').map_or("", |(_, rest)| rest))
-}
-
 #[cfg(test)]
 mod tests {
+    use pages::without_escapes;
+
     use super::*;
     use crate::sample;
 
@@ -351,7 +305,7 @@ warning: elbow: quantised in steps of 0.01 N m
         assert!(coloured.contains("\u{1b}["));
         let plain = without_escapes(&coloured);
         assert_eq!(plain, EXPECTED);
-        assert!(plain.lines().all(|line| line.chars().count() <= WIDTH));
+        assert!(plain.lines().all(|line| line.chars().count() <= TERMINAL_WIDTH));
     }
 
     #[test]
@@ -392,7 +346,7 @@ warning: elbow: quantised in steps of 0.01 N m
         let plain = without_escapes(&text(&sample.report()));
         let row = "FR03 asymmetric friction 2.00 N·m·s/rad (1.80 to 2.20), was 0.205   99.7 % of";
         assert!(plain.contains(row), "{plain}");
-        assert!(plain.lines().all(|line| line.chars().count() <= WIDTH), "{plain}");
+        assert!(plain.lines().all(|line| line.chars().count() <= TERMINAL_WIDTH), "{plain}");
     }
 
     #[test]

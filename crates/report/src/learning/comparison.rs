@@ -1,7 +1,6 @@
 use serde::{Serialize, Serializer};
 
-use crate::json::with_schema;
-use crate::{FileHash, Provenance, ReportError};
+use pages::{FileHash, Provenance, ReportError, with_schema};
 
 /// Name and version of the schema of `learning.json`.
 pub const LEARNING_SCHEMA: &str = "plumbline.learning/1";

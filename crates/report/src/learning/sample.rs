@@ -2,7 +2,7 @@
 
 use super::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
 use super::times::{Curve, Maker, PredictionTimes, TimePoint};
-use crate::{FileHash, Provenance};
+use pages::{FileHash, Provenance};
 
 /// Rigid bodies, a Gaussian process and both, for two joints; nothing is known of the rigid
 /// bodies at the elbow.

@@ -3,7 +3,7 @@
 use evaluation::{Claim, ClaimCase, LearningErrors, ModelErrors, Scope};
 
 use super::LearningFigureReport;
-use crate::Provenance;
+use pages::Provenance;
 
 /// What a [`LearningFigureReport`] borrows.
 pub struct Sample {

@@ -2,9 +2,8 @@ use evaluation::Metrics;
 use robot::Robot;
 
 use super::Told;
-use crate::json::with_schema;
-use crate::paper::Quantity;
-use crate::{Provenance, ReportError};
+use crate::claims::Quantity;
+use pages::{Provenance, ReportError, with_schema};
 
 /// Name and version of the schema of `metrics.json`.
 pub const RUN_SCHEMA: &str = "plumbline.run/1";

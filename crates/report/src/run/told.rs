@@ -1,9 +1,10 @@
 use serde::{Deserialize, Serialize};
 
+use crate::Report;
 use crate::html::sections_of;
 use crate::sentence::{bottom_line, verdict_sentence};
 use crate::tables::{class_of, known_floor};
-use crate::{Report, ReportError};
+use pages::ReportError;
 
 /// A diagnosis as the report of a run tells it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

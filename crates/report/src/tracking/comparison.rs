@@ -1,8 +1,7 @@
 use serde::Serialize;
 
-use crate::decimate::columns;
-use crate::json::with_schema;
-use crate::{ComparedJoint, Provenance, ReportError};
+use crate::ComparedJoint;
+use pages::{Provenance, ReportError, column_extremes, with_schema};
 
 /// Name and version of the schema of `tracking.json`.
 pub const TRACKING_SCHEMA: &str = "plumbline.tracking/1";
@@ -150,7 +149,7 @@ impl FirstSeconds {
         let drawn = |signals: &[&[f64]]| {
             let points = |signal: &&[f64]| {
                 let pairs = time_s.iter().zip(signal.iter()).take_while(|(t, _)| **t <= end);
-                columns(&pairs.map(|(&t, &x)| [t, x]).collect::<Vec<_>>(), COLUMNS)
+                column_extremes(&pairs.map(|(&t, &x)| [t, x]).collect::<Vec<_>>(), COLUMNS)
             };
             signals.iter().map(points).collect()
         };

@@ -9,7 +9,7 @@ pub struct LogAxis {
 
 /// A number at an axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tick {
+pub struct AxisTick {
     /// Where it lies (px).
     pub at: f64,
     /// The number; empty between powers of ten.
@@ -42,7 +42,7 @@ impl LogAxis {
     pub fn at(&self, value: f64) -> f64 {
         let [low, high] = self.log;
         let share = ((value.max(0.0).log10() - low) / (high - low)).clamp(0.0, 1.0);
-        rounded(self.px[0] + share * (self.px[1] - self.px[0]))
+        round_px(self.px[0] + share * (self.px[1] - self.px[0]))
     }
 
     /// Whether a number lies on the axis.
@@ -52,7 +52,7 @@ impl LogAxis {
     }
 
     /// The powers of ten, with their names, and the whole multiples between them, without.
-    pub fn ticks(&self) -> Vec<Tick> {
+    pub fn ticks(&self) -> Vec<AxisTick> {
         let [low, high] = self.log.map(|end| end.floor() as i32);
         let name = if low < -3 || high > 5 { as_power } else { in_digits };
         let numbers = (low..=high).flat_map(|decade| {
@@ -62,12 +62,12 @@ impl LogAxis {
             })
         });
         let on_axis = numbers.filter(|(value, _)| self.holds(*value));
-        on_axis.map(|(value, label)| Tick { at: self.at(value), label }).collect()
+        on_axis.map(|(value, label)| AxisTick { at: self.at(value), label }).collect()
     }
 }
 
 /// A place on a drawing with as many digits as the eye can tell (px).
-pub fn rounded(px: f64) -> f64 {
+pub fn round_px(px: f64) -> f64 {
     (10.0 * px).round() / 10.0
 }
 
@@ -102,7 +102,7 @@ fn as_power(exponent: i32) -> String {
 mod tests {
     use super::*;
 
-    /// Where numbers lie, which is rounded and so compared exactly.
+    /// Where numbers lie, which is round_px and so compared exactly.
     fn places(axis: LogAxis, values: &[f64]) -> Vec<f64> {
         values.iter().map(|&value| axis.at(value)).collect()
     }

@@ -1,32 +1,37 @@
-use colours::{Colour, MODELS, Role, model};
+use colours::{MODELS, Role, model};
 
-use crate::chart::Ink;
+use crate::charts::chart::Ink;
 
 /// What a drawing is drawn in, as SVG understands it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Colours {
-    place: Place,
+pub struct Palette {
+    place: Medium,
+    /// Of letters and axes.
     pub ink: &'static str,
+    /// Of letters that matter less.
     pub soft: &'static str,
+    /// Of borders.
     pub line: &'static str,
+    /// Of the lines at the numbers of an axis.
     pub grid: &'static str,
+    /// Of the ground.
     pub paper: &'static str,
 }
 
 /// Where a figure is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
+pub enum Medium {
     /// In a file of its own, on white.
     Alone,
     /// In a page, which defines its colours for light and dark.
     Page,
 }
 
-impl Place {
+impl Medium {
     /// The colours of a figure that is shown there.
-    pub fn colours(self) -> Colours {
+    pub fn palette(self) -> Palette {
         match self {
-            Self::Alone => Colours {
+            Self::Alone => Palette {
                 place: self,
                 ink: "#1f2328",
                 soft: "#59636e",
@@ -34,7 +39,7 @@ impl Place {
                 grid: "#e4e8ec",
                 paper: "#ffffff",
             },
-            Self::Page => Colours {
+            Self::Page => Palette {
                 place: self,
                 ink: "var(--ink)",
                 soft: "var(--soft)",
@@ -46,15 +51,15 @@ impl Place {
     }
 }
 
-impl Colours {
+impl Palette {
     /// The colour of a series.
     pub fn of(&self, ink: Ink) -> String {
         match (self.place, ink) {
             (_, Ink::Noise) => self.ink.to_owned(),
-            (Place::Page, Ink::Role(role)) => format!("var(--{})", role.name()),
-            (Place::Page, Ink::Model(index)) => format!("var(--model{})", index % MODELS.len()),
-            (Place::Alone, Ink::Role(role)) => role.colour().on_white.to_string(),
-            (Place::Alone, Ink::Model(index)) => model(index).on_white.to_string(),
+            (Medium::Page, Ink::Role(role)) => format!("var(--{})", role.name()),
+            (Medium::Page, Ink::Model(index)) => format!("var(--model{})", index % MODELS.len()),
+            (Medium::Alone, Ink::Role(role)) => role.colour().on_white.to_string(),
+            (Medium::Alone, Ink::Model(index)) => model(index).on_white.to_string(),
         }
     }
 
@@ -74,28 +79,17 @@ impl Colours {
     }
 }
 
-/// The colours of a page as a style sheet: on white, in the dark, on paper.
-pub(crate) fn style() -> String {
-    let named = Role::ALL.into_iter().map(|role| (role.name().to_owned(), role.colour()));
-    let models = MODELS.into_iter().enumerate().map(|(i, colour)| (format!("model{i}"), colour));
-    let all: Vec<(String, Colour)> = named.chain(models).collect();
-    let white: String = all.iter().map(|(name, c)| format!("--{name}: {}; ", c.on_white)).collect();
-    let dark: String = all.iter().map(|(name, c)| format!("--{name}: {}; ", c.on_dark)).collect();
-    format!(
-        ":root {{ {white}}}\n@media screen and (prefers-color-scheme: dark) {{ :root {{ {dark}}} }}"
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::html::style::page_style;
 
     #[test]
     fn a_figure_and_a_page_have_the_colours_of_every_role_and_model() {
-        let style = style();
+        let style = page_style();
         for ink in Role::ALL.map(Ink::Role).into_iter().chain([Ink::Model(0), Ink::Model(6)]) {
-            let alone = Place::Alone.colours().of(ink);
-            let name = Place::Page.colours().of(ink);
+            let alone = Medium::Alone.palette().of(ink);
+            let name = Medium::Page.palette().of(ink);
             let name = name.trim_start_matches("var(").trim_end_matches(')');
             assert!(style.contains(&format!("{name}: {alone};")), "{name} {alone}");
         }

@@ -2,7 +2,7 @@
 /// and the highest, in the order of time. A spike of one sample survives.
 ///
 /// `points` are `[x, y]` with ascending `x`; those that are not finite are left out.
-pub(crate) fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
+pub fn column_extremes(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     let finite: Vec<[f64; 2]> =
         points.iter().copied().filter(|p| p.iter().all(|v| v.is_finite())).collect();
     let (Some(first), Some(last)) = (finite.first(), finite.last()) else { return Vec::new() };
@@ -24,7 +24,7 @@ pub(crate) fn columns(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     kept
 }
 
-/// Fewest points of a slice of [`bands`].
+/// Fewest points of a slice of [`percentile_bands`].
 const FEWEST: usize = 20;
 
 /// Where `y` lies along `x`: `[x, low, middle, high]` per slice, with the median of `x` and
@@ -32,7 +32,7 @@ const FEWEST: usize = 20;
 ///
 /// There are at most so many slices, all of the same number of points, so that none is
 /// sparse. Nothing when `x` is constant.
-pub(crate) fn bands(x: &[f64], y: &[f64], slices: usize) -> Vec<[f64; 4]> {
+pub fn percentile_bands(x: &[f64], y: &[f64], slices: usize) -> Vec<[f64; 4]> {
     let pairs = x.iter().copied().zip(y.iter().copied());
     let mut points: Vec<(f64, f64)> =
         pairs.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
@@ -68,7 +68,7 @@ mod tests {
         let mut points: Vec<[f64; 2]> = (0..10_000).map(|k| [f64::from(k), 0.0]).collect();
         points[5_003][1] = 7.0;
         points[5_004][1] = f64::NAN;
-        let kept = columns(&points, 100);
+        let kept = column_extremes(&points, 100);
         assert!(kept.len() <= 200);
         assert!(kept.contains(&[5_003.0, 7.0]));
         assert!(kept.is_sorted_by(|a, b| a[0] <= b[0]));
@@ -79,7 +79,7 @@ mod tests {
         let x: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.01).collect();
         let mut y: Vec<f64> = x.iter().map(|x| 2.0 * x).collect();
         y[500] = 1e6;
-        for [x, low, middle, high] in bands(&x, &y, 20) {
+        for [x, low, middle, high] in percentile_bands(&x, &y, 20) {
             assert!((middle - 2.0 * x).abs() < 0.1, "{middle} at {x}");
             assert!(low >= 2.0 * x - 0.6 && high <= 2.0 * x + 0.6, "{low} {high} at {x}");
         }
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_constant_signal_has_no_bands() {
-        assert!(bands(&[1.0; 50], &[0.0; 50], 10).is_empty());
-        assert!(bands(&[], &[], 10).is_empty());
+        assert!(percentile_bands(&[1.0; 50], &[0.0; 50], 10).is_empty());
+        assert!(percentile_bands(&[], &[], 10).is_empty());
     }
 }

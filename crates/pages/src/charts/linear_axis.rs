@@ -1,4 +1,4 @@
-use crate::log_axis::{Tick, rounded};
+use crate::charts::log_axis::{AxisTick, round_px};
 
 /// An axis on a drawing on which equal differences are equal lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,11 +23,11 @@ impl LinearAxis {
     /// Where a number lies (px).
     pub fn at(&self, value: f64) -> f64 {
         let [low, high] = self.ends;
-        rounded(self.px[0] + (value - low) / (high - low) * (self.px[1] - self.px[0]))
+        round_px(self.px[0] + (value - low) / (high - low) * (self.px[1] - self.px[0]))
     }
 
     /// At most six round numbers: multiples of one, two or five times a power of ten.
-    pub fn ticks(&self) -> Vec<Tick> {
+    pub fn ticks(&self) -> Vec<AxisTick> {
         let [low, high] = self.ends;
         let exponent = (0.2 * (high - low)).log10().floor() as i32;
         let steps = [(1.0, exponent), (2.0, exponent), (5.0, exponent), (1.0, exponent + 1)];
@@ -38,7 +38,7 @@ impl LinearAxis {
         let numbers = (low / step - 1e-9).ceil() as i64..=(high / step + 1e-9).floor() as i64;
         let tick = |number: i64| {
             let value = number as f64 * step;
-            Tick { at: self.at(value), label: format!("{value:.decimals$}") }
+            AxisTick { at: self.at(value), label: format!("{value:.decimals$}") }
         };
         numbers.map(tick).collect()
     }

@@ -2,11 +2,7 @@ use std::ops::RangeInclusive;
 
 use evaluation::{Claim, ClaimCase, Verdict};
 
-use crate::grid::DIGITS;
-use crate::numbers::significant;
-use crate::places::counted;
-use crate::terminal::{BOLD, WIDTH};
-use crate::wrap::wrapped;
+use pages::{BOLD, TABLE_DIGITS, TERMINAL_WIDTH, count_noun, significant, wrap};
 
 /// Cases that a claim which does not hold is told with at most.
 const MOST_CASES: usize = 3;
@@ -16,7 +12,7 @@ const TOLD_TIMES: RangeInclusive<f64> = 0.001..=1000.0;
 
 /// What the numbers of claims are, as they are printed.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Quantity {
+pub struct Quantity {
     /// What they are multiplied by.
     pub scale: f64,
     /// Their unit then, empty for pure numbers.
@@ -30,13 +26,13 @@ impl Quantity {
     pub const MICROSECONDS: Self = Self { scale: 1.0, unit: "µs" };
 
     fn told(self, value: Option<f64>) -> String {
-        let number = significant(self.scale * value.unwrap_or(f64::NAN), DIGITS);
+        let number = significant(self.scale * value.unwrap_or(f64::NAN), TABLE_DIGITS);
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
 }
 
 /// A claim in words.
-pub(crate) struct ClaimRow {
+pub struct ClaimRow {
     /// What is claimed.
     pub statement: String,
     /// Whether it holds.
@@ -48,7 +44,7 @@ pub(crate) struct ClaimRow {
 }
 
 /// Claims in words.
-pub(crate) fn claim_rows(claims: &[Claim], quantity: Quantity) -> Vec<ClaimRow> {
+pub fn claim_rows(claims: &[Claim], quantity: Quantity) -> Vec<ClaimRow> {
     let row = |claim: &Claim| {
         let (verdict, class) = match claim.verdict {
             Verdict::Holds => ("holds", "good"),
@@ -73,7 +69,7 @@ fn finding(claim: &Claim, quantity: Quantity) -> String {
         case.map_or_else(String::new, |case| format!(", narrowest {case}"))
     };
     if failing.is_empty() {
-        return format!("in all of {}{}", counted(all, "case"), narrowest());
+        return format!("in all of {}{}", count_noun(all, "case"), narrowest());
     }
     let cases: Vec<String> =
         failing.iter().take(MOST_CASES).map(|case| told(case, quantity)).collect();
@@ -81,7 +77,7 @@ fn finding(claim: &Claim, quantity: Quantity) -> String {
         0 => String::new(),
         more => format!("; and {more} more"),
     };
-    format!("in {held} of {}, not {}{more}", counted(all, "case"), cases.join("; "))
+    format!("in {held} of {}, not {}{more}", count_noun(all, "case"), cases.join("; "))
 }
 
 /// A number with its place, and what it is held against.
@@ -90,7 +86,7 @@ fn told(case: &ClaimCase, quantity: Quantity) -> String {
     let beside = match (&case.other, case.times().filter(|times| TOLD_TIMES.contains(times))) {
         (Some((other, number)), Some(times)) => format!(
             ", {} times the {} of {other}",
-            significant(times, DIGITS),
+            significant(times, TABLE_DIGITS),
             quantity.told(Some(*number))
         ),
         (Some((other, number)), None) => {
@@ -102,7 +98,7 @@ fn told(case: &ClaimCase, quantity: Quantity) -> String {
 }
 
 /// How many of some claims hold, in a sentence.
-pub(crate) fn claims_sentence(claims: &[Claim]) -> String {
+pub fn claims_sentence(claims: &[Claim]) -> String {
     let held = claims.iter().filter(|claim| claim.verdict == Verdict::Holds).count();
     let names = match claims.len() {
         1 => "the claim",
@@ -112,11 +108,11 @@ pub(crate) fn claims_sentence(claims: &[Claim]) -> String {
 }
 
 /// One sentence a claim, for a terminal.
-pub(crate) fn claim_text(claims: &[Claim], quantity: Quantity) -> String {
+pub fn claim_text(claims: &[Claim], quantity: Quantity) -> String {
     let mut out = String::new();
     for ClaimRow { statement, verdict, finding, .. } in claim_rows(claims, quantity) {
         let sentence = format!("{verdict}: {statement} ({finding}).");
-        let lines = wrapped(&sentence, WIDTH - 2);
+        let lines = wrap(&sentence, TERMINAL_WIDTH - 2);
         for (i, line) in lines.iter().enumerate() {
             let lead = if i == 0 { "" } else { "  " };
             let line = match line.strip_prefix(verdict).filter(|_| i == 0) {
@@ -134,7 +130,7 @@ mod tests {
     use evaluation::Scope;
 
     use super::*;
-    use crate::terminal::without_escapes;
+    use pages::without_escapes;
 
     fn case(joint: &str, value: f64) -> ClaimCase {
         ClaimCase::beside(("gp-rbd", Some(value)), ("gp", Some(0.02)), joint, (1.0, 0.0))

@@ -5,7 +5,7 @@ use std::path::Path;
 use logs::WholeFile;
 use sha2::{Digest, Sha256};
 
-use crate::ReportError;
+use crate::output::error::ReportError;
 
 /// SHA-256 of the bytes of a file, in hexadecimal.
 ///

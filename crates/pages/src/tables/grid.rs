@@ -1,20 +1,20 @@
 use anstyle::Style;
 
-use crate::numbers::significant;
-use crate::terminal::{BOLD, FAINT, WIDTH};
+use crate::text::numbers::significant;
+use crate::text::terminal::{BOLD, FAINT, TERMINAL_WIDTH};
 
 /// Significant digits of every number of a table.
-pub const DIGITS: usize = 3;
+pub const TABLE_DIGITS: usize = 3;
 
-/// A column of a [`grid`].
-pub struct Column {
+/// A column of a [`text_grid`].
+pub struct GridColumn {
     /// What it is.
     pub header: String,
     /// Its cells, row by row.
     pub cells: Vec<Cell>,
 }
 
-/// What stands in one place of a [`grid`].
+/// What stands in one place of a [`text_grid`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cell {
     /// Its text.
@@ -46,11 +46,11 @@ impl Cell {
 }
 
 /// Numbers beside each other, a star at those that show the least of them.
-pub fn marked(values: &[f64]) -> Vec<Cell> {
+pub fn mark_least(values: &[f64]) -> Vec<Cell> {
     let least = values.iter().copied().filter(|v| v.is_finite()).min_by(f64::total_cmp);
-    let least = least.map(|value| significant(value, DIGITS));
+    let least = least.map(|value| significant(value, TABLE_DIGITS));
     let cells = values.iter().map(|&value| {
-        let shown = significant(value, DIGITS);
+        let shown = significant(value, TABLE_DIGITS);
         let is_least = least.as_ref() == Some(&shown);
         if is_least { Cell::best(shown + "*") } else { Cell::plain(shown + " ") }
     });
@@ -59,7 +59,7 @@ pub fn marked(values: &[f64]) -> Vec<Cell> {
 
 /// A table with the labels of the rows at the left, as many columns side by side as the
 /// terminal holds, the others below them under the same labels.
-pub fn grid(corner: &str, labels: &[String], columns: &[Column]) -> String {
+pub fn text_grid(corner: &str, labels: &[String], columns: &[GridColumn]) -> String {
     let width = |text: &str| text.chars().count();
     let first = labels.iter().map(|l| width(l)).chain([width(corner)]).max().unwrap_or(0);
     let widths: Vec<usize> = columns
@@ -96,7 +96,7 @@ fn blocks(first: usize, widths: &[usize]) -> Vec<(usize, usize)> {
     for (index, width) in widths.iter().enumerate() {
         total += 2 + width;
         match blocks.last_mut() {
-            Some((_, end)) if total <= WIDTH => *end = index + 1,
+            Some((_, end)) if total <= TERMINAL_WIDTH => *end = index + 1,
             _ => {
                 blocks.push((index, index + 1));
                 total = first + 2 + width;
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn the_least_number_is_marked_as_it_is_shown() {
         let texts = |values: &[f64]| -> Vec<String> {
-            marked(values).into_iter().map(|cell| cell.text).collect()
+            mark_least(values).into_iter().map(|cell| cell.text).collect()
         };
         assert_eq!(texts(&[0.02, f64::NAN, 0.0200049, 1.0]), ["0.0200*", "- ", "0.0200*", "1.00 "]);
         assert_eq!(texts(&[f64::NAN]), ["- "]);
@@ -121,17 +121,17 @@ mod tests {
 
     #[test]
     fn columns_that_do_not_fit_stand_below_under_the_same_labels() {
-        let column = |name: &str| Column {
+        let column = |name: &str| GridColumn {
             header: format!("{name:-<44}"),
             cells: vec![Cell::plain("1".into()), Cell::best("2".into())],
         };
         let labels = ["x".to_owned(), "y".to_owned()];
-        let text = grid("", &labels, &[column("a"), column("b"), column("c")]);
-        let plain = crate::terminal::without_escapes(&text);
+        let text = text_grid("", &labels, &[column("a"), column("b"), column("c")]);
+        let plain = crate::text::terminal::without_escapes(&text);
         let lines: Vec<&str> = plain.lines().collect();
         assert_eq!(lines.len(), 7);
         assert!(lines[0].contains("a--") && lines[0].contains("b--") && !lines[0].contains("c--"));
         assert!(lines[3].is_empty() && lines[4].contains("c--") && lines[6].starts_with('y'));
-        assert!(lines.iter().all(|line| line.chars().count() <= WIDTH));
+        assert!(lines.iter().all(|line| line.chars().count() <= TERMINAL_WIDTH));
     }
 }

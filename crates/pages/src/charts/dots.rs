@@ -1,13 +1,13 @@
 use askama::Template;
 
-use crate::ReportError;
-use crate::chart::Ink;
-use crate::html_grid::rendered;
-use crate::inks::{Colours, Place};
-use crate::log_axis::{LogAxis, Tick};
-use crate::numbers::significant;
-use crate::sheet::{EDGES, Key, Sheet};
-use crate::wrap::shortened;
+use crate::charts::chart::Ink;
+use crate::charts::inks::{Medium, Palette};
+use crate::charts::log_axis::{AxisTick, LogAxis};
+use crate::charts::sheet::{FIGURE_EDGES, FigureSheet, LegendKey};
+use crate::html::render::render_html;
+use crate::output::error::ReportError;
+use crate::text::numbers::significant;
+use crate::text::wrap::shorten;
 
 /// Height of a joint, and of what stands above the first and below the last (px).
 const ROW: f64 = 36.0;
@@ -32,7 +32,7 @@ pub struct Dots {
     /// The quantity, as it stands at the axis.
     pub axis: &'static str,
     /// The models.
-    pub keys: Vec<Key>,
+    pub keys: Vec<LegendKey>,
     /// The joints.
     pub joints: Vec<JointDots>,
     /// A number to compare with, and what it means.
@@ -55,24 +55,24 @@ impl Dots {
     /// # Errors
     ///
     /// [`ReportError::Format`].
-    pub fn drawn(&self, place: Place) -> Result<String, ReportError> {
+    pub fn draw(&self, place: Medium) -> Result<String, ReportError> {
         let area = Area::new(self, place);
         match place {
-            Place::Page => rendered(&InPage { keys: self.keys(), area }),
-            Place::Alone => {
+            Medium::Page => render_html(&InPage { keys: self.keys(), area }),
+            Medium::Alone => {
                 let keys = self.keys();
-                let sheet = Sheet::new(&self.title, &self.subtitle, keys, place);
+                let sheet = FigureSheet::new(&self.title, &self.subtitle, keys, place);
                 let top = sheet.bottom() + ABOVE;
                 let sheet = sheet.down_to(top + area.height + BELOW);
-                rendered(&Alone { x: EDGES, top, sheet, area })
+                render_html(&Alone { x: FIGURE_EDGES, top, sheet, area })
             }
         }
     }
 
     /// The names of the legend: the models, and the noise where it is known.
-    fn keys(&self) -> Vec<Key> {
+    fn keys(&self) -> Vec<LegendKey> {
         let floor = self.joints.iter().any(|joint| joint.floor.is_some());
-        let noise = floor.then(|| Key { name: "noise floor".to_owned(), ink: Ink::Noise });
+        let noise = floor.then(|| LegendKey { name: "noise floor".to_owned(), ink: Ink::Noise });
         self.keys.iter().cloned().chain(noise).collect()
     }
 }
@@ -81,7 +81,7 @@ impl Dots {
 #[derive(Template)]
 #[template(path = "dots.html")]
 struct InPage {
-    keys: Vec<Key>,
+    keys: Vec<LegendKey>,
     area: Area,
 }
 
@@ -91,7 +91,7 @@ struct InPage {
 struct Alone {
     x: [f64; 2],
     top: f64,
-    sheet: Sheet,
+    sheet: FigureSheet,
     area: Area,
 }
 
@@ -101,10 +101,10 @@ struct Alone {
 struct Area {
     words: String,
     axis: &'static str,
-    colours: Colours,
+    colours: Palette,
     height: f64,
     /// Places are shares of the width (%).
-    ticks: Vec<Tick>,
+    ticks: Vec<AxisTick>,
     mark: Option<(f64, &'static str)>,
     rows: Vec<Row>,
 }
@@ -128,11 +128,11 @@ struct Dot {
 }
 
 impl Area {
-    fn new(dots: &Dots, place: Place) -> Self {
+    fn new(dots: &Dots, place: Medium) -> Self {
         let floors = dots.joints.iter().filter_map(|joint| joint.floor);
         let values = dots.joints.iter().flat_map(|joint| joint.values.iter().copied());
         let axis = LogAxis::over_decades(values.chain(floors), MOST_DECADES, [0.0, 100.0]);
-        let colours = place.colours();
+        let colours = place.palette();
         let rows = dots.joints.iter().enumerate();
         let row = |(i, joint)| Row::new(&dots.keys, joint, axis.as_ref(), (i, &colours));
         Self {
@@ -152,10 +152,10 @@ impl Area {
 
 impl Row {
     fn new(
-        keys: &[Key],
+        keys: &[LegendKey],
         joint: &JointDots,
         axis: Option<&LogAxis>,
-        (index, colours): (usize, &Colours),
+        (index, colours): (usize, &Palette),
     ) -> Self {
         let top = ROW * index as f64;
         let told =
@@ -177,7 +177,7 @@ impl Row {
         Self {
             name_y: top + 13.0,
             y: top + LINE,
-            name: shortened(&joint.name, NAME_CHARACTERS),
+            name: shorten(&joint.name, NAME_CHARACTERS),
             span: span.map(|(low, high)| [low, high]),
             floor: floor.map(|(axis, floor)| (axis.at(floor), told("noise floor", floor))),
             dots,
@@ -192,7 +192,8 @@ mod tests {
 
     /// Two joints and three models, one of which knows nothing of the second joint.
     fn dots() -> Dots {
-        let key = |(index, name): (usize, &str)| Key { name: name.into(), ink: Ink::Model(index) };
+        let key =
+            |(index, name): (usize, &str)| LegendKey { name: name.into(), ink: Ink::Model(index) };
         let joint = |name: &str, values: [f64; 3]| JointDots {
             name: name.into(),
             values: values.to_vec(),
@@ -215,7 +216,7 @@ mod tests {
     fn a_dot_lies_where_its_number_does_and_what_is_not_a_number_has_none() {
         let mut dots = dots();
         dots.joints[0].floor = Some(0.001);
-        let area = Area::new(&dots, Place::Alone);
+        let area = Area::new(&dots, Medium::Alone);
         let [shoulder, elbow] = &area.rows[..] else { panic!("two joints") };
         assert_eq!((shoulder.dots.len(), elbow.dots.len()), (3, 2));
         // 0.1, 0.01 and 0.001 on an axis from 0.0001 to 0.1.
@@ -231,18 +232,18 @@ mod tests {
     fn a_figure_without_a_number_has_rows_without_dots() {
         let mut dots = dots();
         dots.joints.iter_mut().for_each(|joint| joint.values.clear());
-        let area = Area::new(&dots, Place::Alone);
+        let area = Area::new(&dots, Medium::Alone);
         assert!(area.rows.iter().all(|row| row.dots.is_empty() && row.span.is_none()));
-        text_of_xml(&dots.drawn(Place::Alone).unwrap());
+        text_of_xml(&dots.draw(Medium::Alone).unwrap());
         dots.joints.clear();
-        text_of_xml(&dots.drawn(Place::Alone).unwrap());
+        text_of_xml(&dots.draw(Medium::Alone).unwrap());
     }
 
     #[test]
     fn a_page_has_a_legend_and_its_own_colours() {
         let mut dots = dots();
         dots.joints[1].floor = Some(0.01);
-        let page = dots.drawn(Place::Page).unwrap();
+        let page = dots.draw(Medium::Page).unwrap();
         for expected in ["</i>gp-rbd", "</i>noise floor", "var(--model2)"] {
             assert!(page.contains(expected), "{expected} is missing in {page}");
         }

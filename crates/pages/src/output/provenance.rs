@@ -30,13 +30,14 @@ pub struct FileHash {
 impl Provenance {
     /// The command line as one would type it, with quotes where a shell needs them.
     pub fn command_line(&self) -> String {
-        let quoted: Vec<String> = self.command.iter().map(|argument| quoted(argument)).collect();
-        quoted.join(" ")
+        let quote_argument: Vec<String> =
+            self.command.iter().map(|argument| quote_argument(argument)).collect();
+        quote_argument.join(" ")
     }
 
     /// The same for a page that others are given, without the folders of this machine: of every file
     /// as many of its last folders as tell it from the others, in the command line too.
-    pub(crate) fn without_places(&self) -> Self {
+    pub fn without_folders(&self) -> Self {
         let paths: Vec<Vec<&str>> = self.files.iter().map(|file| parts(&file.path)).collect();
         let short: Vec<String> = paths.iter().map(|path| ending(path, &paths)).collect();
         let command = self.command.iter().map(|argument| {
@@ -78,7 +79,7 @@ fn ending(path: &[&str], all: &[Vec<&str>]) -> String {
 }
 
 /// An argument as a shell reads it back, in quotes where it needs them.
-pub fn quoted(argument: &str) -> String {
+pub fn quote_argument(argument: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
     if !argument.is_empty() && argument.chars().all(plain) {
         return argument.to_owned();
@@ -88,14 +89,14 @@ pub fn quoted(argument: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{FileHash, Provenance, quoted};
+    use super::{FileHash, Provenance, quote_argument};
 
     #[test]
     fn an_argument_with_a_space_or_a_quote_is_quoted() {
-        assert_eq!(quoted("data/log_1.csv"), "data/log_1.csv");
-        assert_eq!(quoted("my log"), "'my log'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
-        assert_eq!(quoted(""), "''");
+        assert_eq!(quote_argument("data/log_1.csv"), "data/log_1.csv");
+        assert_eq!(quote_argument("my log"), "'my log'");
+        assert_eq!(quote_argument("it's"), r"'it'\''s'");
+        assert_eq!(quote_argument(""), "''");
     }
 
     #[test]
@@ -112,7 +113,7 @@ mod tests {
             files: files.map(file).to_vec(),
             seed: None,
         };
-        let shown = provenance.without_places();
+        let shown = provenance.without_folders();
         let paths: Vec<&str> = shown.files.iter().map(|file| file.path.as_str()).collect();
         assert_eq!(paths, ["arm.toml", "a/1.csv", "b/1.csv"]);
         assert_eq!(shown.command_line(), "plumbline --robot arm.toml --map=x map.toml ../b/1.csv");

@@ -1,12 +1,13 @@
 use askama::Template;
 
-use crate::chart::{Begin, Ink};
-use crate::decimate::columns;
-use crate::html_grid::rendered;
-use crate::inks::{Colours, Place};
-use crate::linear_axis::LinearAxis;
-use crate::log_axis::{Tick, rounded};
-use crate::{Axis, Chart, ReportError, Series, Shape};
+use crate::charts::chart::{Axis, Chart, CurveShape, Series};
+use crate::charts::chart::{AxisBegin, Ink};
+use crate::charts::decimate::column_extremes;
+use crate::charts::inks::{Medium, Palette};
+use crate::charts::linear_axis::LinearAxis;
+use crate::charts::log_axis::{AxisTick, round_px};
+use crate::html::render::render_html;
+use crate::output::error::ReportError;
 use colours::Role;
 
 /// Width of the curves, which a page stretches to its own (px).
@@ -25,15 +26,15 @@ const COLUMNS: usize = 700;
 struct Plot<'a> {
     chart: &'a Chart,
     words: String,
-    colours: Colours,
+    colours: Palette,
     width: f64,
     height: f64,
     /// Ends of the axes, in their units.
     x: [f64; 2],
     y: [f64; 2],
     /// Places of numbers: shares of the width (%), and heights (px).
-    x_ticks: Vec<Tick>,
-    y_ticks: Vec<Tick>,
+    x_ticks: Vec<AxisTick>,
+    y_ticks: Vec<AxisTick>,
     /// Upper edge and height of the noise (px).
     floor: Option<(f64, f64)>,
     curves: Vec<Curve<'a>>,
@@ -54,19 +55,19 @@ impl Chart {
     /// # Errors
     ///
     /// [`ReportError::Format`].
-    pub(crate) fn in_page(&self) -> Result<String, ReportError> {
-        let svg = self.drawn(Place::Page)?;
+    pub fn in_page(&self) -> Result<String, ReportError> {
+        let svg = self.draw(Medium::Page)?;
         Ok(if svg.is_empty() { svg } else { format!("<div class=\"chart\">{svg}</div>") })
     }
 
     /// The area between the axes of a figure, as wide as what it is put into; empty when there is
-    /// nothing to draw. Letters need [`MARGINS`] around it.
+    /// nothing to draw. Letters need [`CHART_MARGINS`] around it.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
-    pub(crate) fn drawn(&self, place: Place) -> Result<String, ReportError> {
-        Plot::new(self, place).map_or_else(|| Ok(String::new()), |plot| rendered(&plot))
+    pub fn draw(&self, place: Medium) -> Result<String, ReportError> {
+        Plot::new(self, place).map_or_else(|| Ok(String::new()), |plot| render_html(&plot))
     }
 
     /// The figure at a place of a drawing that stands alone (px), letters included.
@@ -74,11 +75,11 @@ impl Chart {
     /// # Errors
     ///
     /// [`ReportError::Format`].
-    pub(crate) fn placed(&self, [x, y]: [f64; 2], place: Place) -> Result<String, ReportError> {
-        let [top, right, bottom, left] = MARGINS;
+    pub fn draw_at(&self, [x, y]: [f64; 2], place: Medium) -> Result<String, ReportError> {
+        let [top, right, bottom, left] = CHART_MARGINS;
         let (width, height) = (self.size.0 - left - right, self.size.1 - top - bottom);
         let inner = Self { size: (width, height), ..self.clone() };
-        let drawn = inner.drawn(place)?;
+        let drawn = inner.draw(place)?;
         let [x, y] = [x + left, y + top];
         Ok(format!(
             "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
@@ -88,11 +89,11 @@ impl Chart {
 }
 
 /// Room for letters above, right of, below and left of the area between the axes (px).
-pub(crate) const MARGINS: [f64; 4] = [24.0, 12.0, 36.0, 52.0];
+pub const CHART_MARGINS: [f64; 4] = [24.0, 12.0, 36.0, 52.0];
 
 impl<'a> Plot<'a> {
     /// The plot of a chart; none where there is nothing to draw.
-    fn new(chart: &'a Chart, place: Place) -> Option<Self> {
+    fn new(chart: &'a Chart, place: Medium) -> Option<Self> {
         let (ranges, height) = (chart.ranges(), chart.size.1);
         let x = ends(&chart.x, ranges[0], 0.0);
         let y = ends(&chart.y, ranges[1], ROOM);
@@ -101,10 +102,10 @@ impl<'a> Plot<'a> {
             LinearAxis::over(x.into_iter(), [0.0, WIDTH])?,
             LinearAxis::over(y.into_iter(), [height, 0.0])?,
         ];
-        let colours = place.colours();
+        let colours = place.palette();
         let floor = chart.floor.filter(|floor| *floor > 0.0).map(|floor| {
             let edge = |value: f64| up.at(value).clamp(0.0, height);
-            (edge(floor), rounded(edge(-floor) - edge(floor)))
+            (edge(floor), round_px(edge(-floor) - edge(floor)))
         });
         let curve = |series: &'a Series| Curve::new(series, &colours, &across, &up);
         Some(Self {
@@ -125,11 +126,11 @@ impl<'a> Plot<'a> {
 
 /// Where an axis ends, with room beyond the numbers; never two times at the same place.
 fn ends(axis: &Axis, [low, high]: [f64; 2], room: f64) -> [f64; 2] {
-    let low = if axis.begin == Begin::Zero { low.min(0.0) } else { low };
+    let low = if axis.begin == AxisBegin::Zero { low.min(0.0) } else { low };
     let size = low.abs().max(high.abs());
     let is_flat = high - low <= 1e-9 * size;
     let room = if is_flat { (0.1 * size).max(0.01) } else { room * (high - low) };
-    let below = if axis.begin == Begin::Zero && low >= 0.0 { 0.0 } else { room };
+    let below = if axis.begin == AxisBegin::Zero && low >= 0.0 { 0.0 } else { room };
     [low - below, high + room].map(short)
 }
 
@@ -139,13 +140,13 @@ fn short(value: f64) -> f64 {
 }
 
 impl<'a> Curve<'a> {
-    fn new(series: &'a Series, colours: &Colours, across: &LinearAxis, up: &LinearAxis) -> Self {
+    fn new(series: &'a Series, colours: &Palette, across: &LinearAxis, up: &LinearAxis) -> Self {
         let at = |[x, y]: [f64; 2]| format!("{} {}", across.at(x), up.at(y));
         let line =
             |points: &[[f64; 2]]| points.iter().map(|p| at(*p)).collect::<Vec<_>>().join(" ");
         let (points, is_area) = match &series.shape {
-            Shape::Line(points) => (columns(points, COLUMNS), false),
-            Shape::Band(band) => {
+            CurveShape::Line(points) => (column_extremes(points, COLUMNS), false),
+            CurveShape::Band(band) => {
                 let low = band.iter().map(|&[x, low, _]| [x, low]);
                 (low.chain(band.iter().rev().map(|&[x, _, high]| [x, high])).collect(), true)
             }
@@ -177,13 +178,13 @@ mod tests {
     }
 
     fn line(points: &[[f64; 2]]) -> Series {
-        Series::of(Role::Nominal, Shape::Line(points.to_vec()))
+        Series::of(Role::Nominal, CurveShape::Line(points.to_vec()))
     }
 
     #[test]
     fn a_point_lies_where_its_numbers_say() {
         let chart = chart(vec![line(&[[2.0, -1.0], [4.0, 1.0]])]);
-        let plot = Plot::new(&chart, Place::Page).unwrap();
+        let plot = Plot::new(&chart, Medium::Page).unwrap();
         assert_eq!((plot.x, plot.y), ([0.0, 4.0], [-1.1, 1.1]));
         assert_eq!(plot.curves[0].path, "M500 190.9 1000 9.1");
         let labels: Vec<&str> = plot.x_ticks.iter().map(|tick| tick.label.as_str()).collect();
@@ -194,11 +195,11 @@ mod tests {
     fn a_quantity_that_begins_at_zero_has_nothing_below_and_noise_lies_about_zero() {
         let mut chart = chart(vec![line(&[[0.0, 1.0], [4.0, 2.0]])]);
         chart.y = Axis::from_zero("drift", "mm");
-        assert!(Plot::new(&chart, Place::Page).unwrap().y[0].abs() < 1e-12);
+        assert!(Plot::new(&chart, Medium::Page).unwrap().y[0].abs() < 1e-12);
         chart.y = Axis::new("residual", "N·m");
         chart.series = vec![line(&[[0.0, -2.0], [4.0, 2.0]])];
         chart.floor = Some(1.1);
-        assert_eq!(Plot::new(&chart, Place::Page).unwrap().floor, Some((50.0, 100.0)));
+        assert_eq!(Plot::new(&chart, Medium::Page).unwrap().floor, Some((50.0, 100.0)));
     }
 
     #[test]
@@ -207,7 +208,7 @@ mod tests {
         assert!(svg.contains("aria-label=\"a &#60; b:") && svg.contains("var(--nominal)"), "{svg}");
         assert!(!svg.contains("http") && !svg.contains("NaN"), "{svg}");
         assert!(chart(vec![line(&[])]).in_page().unwrap().is_empty());
-        let alone = chart(vec![line(&[[0.0, 0.0], [1.0, 0.0]])]).placed([5.0, 7.0], Place::Alone);
+        let alone = chart(vec![line(&[[0.0, 0.0], [1.0, 0.0]])]).draw_at([5.0, 7.0], Medium::Alone);
         let alone = alone.unwrap();
         assert!(
             alone.starts_with("<svg x=\"57\" y=\"31\" width=\"236\" height=\"140\""),

@@ -1,10 +1,10 @@
 /// Lines of at most `width` characters, broken at spaces; a longer word has a line of its own.
-pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
-    packed(text.split_whitespace(), " ", width)
+pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    pack(text.split_whitespace(), " ", width)
 }
 
 /// Pieces joined by `between` on as few lines of at most `width` characters as they need.
-pub fn packed<'a>(
+pub fn pack<'a>(
     pieces: impl IntoIterator<Item = &'a str>,
     between: &str,
     width: usize,
@@ -24,7 +24,7 @@ pub fn packed<'a>(
 }
 
 /// A text of at most `most` characters, with an ellipsis for what is cut off.
-pub(crate) fn shortened(text: &str, most: usize) -> String {
+pub fn shorten(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();
     }
@@ -37,15 +37,15 @@ mod tests {
 
     #[test]
     fn a_long_name_ends_in_an_ellipsis() {
-        assert_eq!(shortened("élbow", 5), "élbow");
-        assert_eq!(shortened("élbow_1", 5), "élbo…");
+        assert_eq!(shorten("élbow", 5), "élbow");
+        assert_eq!(shorten("élbow_1", 5), "élbo…");
     }
 
     #[test]
     fn lines_are_filled_and_not_overfilled() {
-        assert_eq!(wrapped("one two  three µµµµ", 8), ["one two", "three", "µµµµ"]);
-        assert_eq!(wrapped("a longest b", 3), ["a", "longest", "b"]);
-        assert_eq!(packed(["x 1", "y 2", "z 3"], "; ", 8), ["x 1; y 2", "z 3"]);
-        assert!(wrapped(" ", 8).is_empty());
+        assert_eq!(wrap("one two  three µµµµ", 8), ["one two", "three", "µµµµ"]);
+        assert_eq!(wrap("a longest b", 3), ["a", "longest", "b"]);
+        assert_eq!(pack(["x 1", "y 2", "z 3"], "; ", 8), ["x 1; y 2", "z 3"]);
+        assert!(wrap(" ", 8).is_empty());
     }
 }

@@ -1,6 +1,6 @@
 use colours::Role;
 
-use crate::numbers::significant;
+use crate::text::numbers::significant;
 
 /// A figure: what is drawn, not how.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,12 +27,12 @@ pub struct Axis {
     /// Its unit.
     pub unit: &'static str,
     /// Where it begins.
-    pub begin: Begin,
+    pub begin: AxisBegin,
 }
 
 /// Where an axis begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Begin {
+pub enum AxisBegin {
     /// At the least number.
     Least,
     /// At zero.
@@ -42,12 +42,12 @@ pub enum Begin {
 impl Axis {
     /// An axis that begins at the least number.
     pub fn new(label: &str, unit: &'static str) -> Self {
-        Self { label: label.to_owned(), unit, begin: Begin::Least }
+        Self { label: label.to_owned(), unit, begin: AxisBegin::Least }
     }
 
     /// An axis that begins at zero.
     pub fn from_zero(label: &str, unit: &'static str) -> Self {
-        Self { begin: Begin::Zero, ..Self::new(label, unit) }
+        Self { begin: AxisBegin::Zero, ..Self::new(label, unit) }
     }
 
     /// Quantity and unit, as they stand at the axis.
@@ -64,7 +64,7 @@ pub struct Series {
     /// What it shows, which decides its colour.
     pub ink: Ink,
     /// Its points.
-    pub shape: Shape,
+    pub shape: CurveShape,
 }
 
 /// Whose colour a series has.
@@ -72,7 +72,7 @@ pub struct Series {
 pub enum Ink {
     /// That of a role.
     Role(Role),
-    /// That of one of several models, counted from 0.
+    /// That of one of several models, count_noun from 0.
     Model(usize),
     /// That of letters, for the noise.
     Noise,
@@ -103,7 +103,7 @@ impl Ink {
 
 impl Series {
     /// A series under the name of its role.
-    pub fn of(role: Role, shape: Shape) -> Self {
+    pub fn of(role: Role, shape: CurveShape) -> Self {
         Self { name: words(role).to_owned(), ink: Ink::Role(role), shape }
     }
 }
@@ -119,14 +119,14 @@ pub fn words(role: Role) -> &'static str {
 
 /// The points of a series.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
+pub enum CurveShape {
     /// Joined points `[x, y]`.
     Line(Vec<[f64; 2]>),
     /// The area between two curves, `[x, low, high]`.
     Band(Vec<[f64; 3]>),
 }
 
-impl Shape {
+impl CurveShape {
     /// Every `[x, y]` that is drawn.
     fn points(&self) -> Vec<[f64; 2]> {
         match self {
@@ -146,7 +146,7 @@ impl Chart {
     pub fn alt_text(&self) -> String {
         let mut parts = Vec::new();
         for series in &self.series {
-            let Shape::Line(points) = &series.shape else { continue };
+            let CurveShape::Line(points) = &series.shape else { continue };
             let [low, high] = range(points.iter().map(|p| p[1]));
             let (low, high) = (significant(low, 3), significant(high, 3));
             parts.push(format!("{} {low} to {high} {}", series.name, self.y.unit));
@@ -165,7 +165,7 @@ impl Chart {
     }
 
     /// Lowest and highest x, lowest and highest y.
-    pub(crate) fn ranges(&self) -> [[f64; 2]; 2] {
+    pub fn ranges(&self) -> [[f64; 2]; 2] {
         let points: Vec<[f64; 2]> = self.series.iter().flat_map(|s| s.shape.points()).collect();
         [range(points.iter().map(|p| p[0])), range(points.iter().map(|p| p[1]))]
     }
@@ -186,7 +186,10 @@ mod tests {
             title: "Torque of elbow".into(),
             x: Axis::new("time", "s"),
             y: Axis::new("torque", "N·m"),
-            series: vec![Series::of(Role::Measured, Shape::Line(vec![[0.0, -1.5], [2.0, 3.25]]))],
+            series: vec![Series::of(
+                Role::Measured,
+                CurveShape::Line(vec![[0.0, -1.5], [2.0, 3.25]]),
+            )],
             floor: None,
             size: (300.0, 200.0),
         };

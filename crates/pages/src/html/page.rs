@@ -1,7 +1,7 @@
 use askama::Template;
 
-use crate::ReportError;
-use crate::html_grid::rendered;
+use crate::html::render::render_html;
+use crate::output::error::ReportError;
 
 /// Where a page lists its contents.
 const CONTENTS: &str = "<nav></nav>";
@@ -11,8 +11,8 @@ const CONTENTS: &str = "<nav></nav>";
 /// # Errors
 ///
 /// [`ReportError::Format`].
-pub fn page(template: &impl Template) -> Result<String, ReportError> {
-    Ok(with_contents(&rendered(template)?))
+pub fn render_page(template: &impl Template) -> Result<String, ReportError> {
+    Ok(with_contents(&render_html(template)?))
 }
 
 /// The page with an anchor at every heading of a section and a link to each in its contents.
@@ -24,7 +24,7 @@ fn with_contents(page: &str) -> String {
         let title = piece.split_once("</h2>").map_or("", |(title, _)| title);
         let namesakes = anchors.iter().filter(|(_, other)| *other == title).count();
         let ending = if namesakes == 0 { String::new() } else { format!("-{}", namesakes + 1) };
-        let anchor = anchor(title) + &ending;
+        let anchor = heading_anchor(title) + &ending;
         body.push_str(&format!("<h2 id=\"{anchor}\">{piece}"));
         anchors.push((anchor, title));
     }
@@ -34,7 +34,7 @@ fn with_contents(page: &str) -> String {
 }
 
 /// A name for an address: `What is left` becomes `what-is-left`.
-pub fn anchor(title: &str) -> String {
+pub fn heading_anchor(title: &str) -> String {
     let words = title.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
 }
