@@ -10,7 +10,8 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 
-use crate::{LengthScale, Report, ResidualJoint, ResidualModel};
+use crate::diagnosis::report::Report;
+use crate::diagnosis::residual::{LengthScale, ResidualJoint, ResidualModel};
 use pages::{FileHash, Provenance};
 
 /// What a [`Report`] borrows.

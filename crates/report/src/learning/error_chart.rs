@@ -1,4 +1,4 @@
-use super::comparison::Comparison;
+use crate::learning::comparison::Comparison;
 use pages::{Dots, JointDots, LegendKey, Medium, ReportError};
 
 impl Comparison {

@@ -1,13 +1,13 @@
 use askama::Template;
 
-use super::comparison::{Comparison, DataSet, KernelRow, ModelRow};
+use crate::learning::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
 use pages::{
     Cell, FileHash, HtmlGrid, Medium, Provenance, ReportError, TABLE_DIGITS, escape_json,
     mark_least, percent_range, render_html, render_page, significant,
 };
 
 #[derive(Template)]
-#[template(path = "learning.html")]
+#[template(path = "learning/learning.html")]
 struct Page<'a> {
     comparison: &'a Comparison,
     sentence: String,
@@ -94,7 +94,7 @@ impl Comparison {
         corner: &str,
         numbers: fn(&ModelRow) -> &Vec<f64>,
     ) -> Result<String, ReportError> {
-        let row = |(i, joint): (usize, &crate::ComparedJoint)| {
+        let row = |(i, joint): (usize, &ComparedJoint)| {
             let errors = self.models.iter().map(|model| numbers(model).get(i).copied());
             let errors: Vec<f64> = errors.map(|error| error.unwrap_or(f64::NAN)).collect();
             (joint.name.clone(), mark_least(&errors))
@@ -129,7 +129,7 @@ impl Comparison {
 
     /// The hyperparameters of a model, one row a joint.
     fn kernel_table(&self, kernels: &[KernelRow]) -> Result<String, ReportError> {
-        let row = |(joint, kernel): (&crate::ComparedJoint, &KernelRow)| {
+        let row = |(joint, kernel): (&ComparedJoint, &KernelRow)| {
             let scales = kernel.length_scales.iter();
             let scales = scales.map(|(name, scale)| format!("{name} {}", significant(*scale, 3)));
             let cells = [

@@ -1,7 +1,7 @@
 //! Small results made by hand, for the tests of this module.
 
-use super::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
-use super::times::{Curve, Maker, PredictionTimes, TimePoint};
+use crate::learning::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
+use crate::learning::times::{Curve, Maker, PredictionTimes, TimePoint};
 use pages::{FileHash, Provenance};
 
 /// Rigid bodies, a Gaussian process and both, for two joints; nothing is known of the rigid

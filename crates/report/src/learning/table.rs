@@ -1,4 +1,4 @@
-use super::comparison::{Comparison, DataSet, ModelRow};
+use crate::learning::comparison::{Comparison, DataSet, ModelRow};
 use pages::{
     BOLD, Cell, GridColumn, TABLE_DIGITS, TERMINAL_WIDTH, mark_least, percent_range, push_entry,
     push_first_warnings, push_notes, significant, text_grid, wrap,

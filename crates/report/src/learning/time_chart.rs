@@ -1,6 +1,6 @@
 use askama::Template;
 
-use super::times::{Curve, Maker, PredictionTimes};
+use crate::learning::times::{Curve, Maker, PredictionTimes};
 use pages::{
     AxisTick, CHARACTER_WIDTH, FigureSheet, Ink, LogAxis, Medium, Palette, ReportError, round_px,
     shorten,
@@ -30,7 +30,7 @@ const MOST_DECADES: i32 = 9;
 const DASHES: [&str; 3] = ["7 4", "2 3", "9 3 2 3"];
 
 #[derive(Template)]
-#[template(path = "times.svg")]
+#[template(path = "learning/times.svg")]
 struct Drawing {
     sheet: FigureSheet,
     x: [f64; 2],

@@ -5,7 +5,7 @@ use pages::{
 };
 
 /// Name and version of the schema of `prediction_times.json`.
-pub const TIMES_SCHEMA: &str = "plumbline.prediction_times/1";
+const SCHEMA: &str = "plumbline.prediction_times/1";
 
 /// Time of one prediction against the number of training points.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,13 +55,13 @@ pub struct TimePoint {
 }
 
 impl PredictionTimes {
-    /// `prediction_times.json`, in the schema [`TIMES_SCHEMA`].
+    /// `prediction_times.json`, in the schema `plumbline.prediction_times/1`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(TIMES_SCHEMA, self)
+        with_schema(SCHEMA, self)
     }
 
     /// The times as a table for a terminal, one row a number of points.

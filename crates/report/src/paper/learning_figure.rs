@@ -3,7 +3,7 @@ use serde::Serialize;
 
 use super::error_tables::{ErrorTable, worse_than_named};
 use super::page::{Contents, Drawing, page, table};
-use crate::claims::{Quantity, claim_text, claims_sentence};
+use crate::run::claims::{Quantity, claim_text, claims_sentence};
 use pages::{
     BOLD, GridColumn, Medium, Provenance, ReportError, push_entry, text_grid, with_schema,
 };

@@ -1,7 +1,7 @@
 use askama::Template;
 use evaluation::Claim;
 
-use crate::claims::{ClaimRow, Quantity, claim_rows, claims_sentence};
+use crate::run::claims::{ClaimRow, Quantity, claim_rows, claims_sentence};
 use pages::{GridColumn, HtmlGrid, Provenance, ReportError, escape_json, render_html, render_page};
 
 /// What the page of a figure shows.

@@ -2,8 +2,8 @@ use evaluation::{Claim, ModelTime};
 use serde::Serialize;
 
 use super::page::{Contents, Drawing, page, table};
-use crate::PredictionTimes;
-use crate::claims::{Quantity, claim_text, claims_sentence};
+use crate::learning::times::PredictionTimes;
+use crate::run::claims::{Quantity, claim_text, claims_sentence};
 use pages::{BOLD, Medium, ReportError, with_schema};
 
 /// Name and version of the schema of the `metrics.json` of figure 1.

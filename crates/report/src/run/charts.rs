@@ -1,5 +1,5 @@
-use super::RunReport;
-use super::rows::{JointNumbers, joint_numbers};
+use crate::run::rows::{JointNumbers, joint_numbers};
+use crate::run::run_report::RunReport;
 use pages::{Dots, JointDots, LegendKey, Medium, ReportError};
 
 /// Title of the chart of the torque.

@@ -1,7 +1,7 @@
 use evaluation::{Named, PutIn, Score, Size};
 use robot::Robot;
 
-use crate::places::JointUnits;
+use crate::diagnosis::places::JointUnits;
 use pages::{count_noun, percent, significant, unit};
 
 /// What was put in beside what was found of it.

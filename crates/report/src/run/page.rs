@@ -1,19 +1,19 @@
 use askama::Template;
 use evaluation::ForwardWindow;
 
-use super::RunReport;
-use super::charts::GainChart;
-use super::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
-use super::rows::{GainRow, gain_rows};
-use crate::claims::{ClaimRow, claim_rows};
-use crate::forward::{drift_in_page, drifts};
+use crate::diagnosis::forward::{drift_in_page, drifts};
+use crate::run::charts::GainChart;
+use crate::run::claims::{ClaimRow, claim_rows};
+use crate::run::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
+use crate::run::rows::{GainRow, gain_rows};
+use crate::run::run_report::RunReport;
 use pages::{
     Cell, HtmlGrid, Provenance, ReportError, TABLE_DIGITS, escape_json, render_html, render_page,
     significant,
 };
 
 #[derive(Template)]
-#[template(path = "run.html")]
+#[template(path = "run/run.html")]
 struct Page<'a> {
     robot: &'a str,
     class: &'a str,

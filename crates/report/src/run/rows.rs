@@ -1,6 +1,6 @@
 use evaluation::{ForwardWindow, Gain, Metrics};
 
-use crate::forward::drifts;
+use crate::diagnosis::forward::drifts;
 use pages::significant;
 
 /// Length of time after which the drift is told joint by joint (s).

@@ -1,8 +1,8 @@
-use super::RunReport;
-use super::hidden::{hidden_rows, score_sentence, stray_sentence};
-use super::rows::{gain_rows, joint_numbers};
-use crate::claims::claim_text;
-use crate::forward::remarks;
+use crate::diagnosis::forward::remarks;
+use crate::run::claims::claim_text;
+use crate::run::hidden::{hidden_rows, score_sentence, stray_sentence};
+use crate::run::rows::{gain_rows, joint_numbers};
+use crate::run::run_report::RunReport;
 use pages::{
     BOLD, Cell, GridColumn, TABLE_DIGITS, TERMINAL_WIDTH, push_notes, significant, text_grid, wrap,
 };

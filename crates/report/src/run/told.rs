@@ -1,9 +1,9 @@
 use serde::{Deserialize, Serialize};
 
-use crate::Report;
-use crate::html::sections_of;
-use crate::sentence::{bottom_line, verdict_sentence};
-use crate::tables::{class_of, known_floor};
+use crate::diagnosis::page::sections_of;
+use crate::diagnosis::report::Report;
+use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
+use crate::diagnosis::tables::{class_of, known_floor};
 use pages::ReportError;
 
 /// A diagnosis as the report of a run tells it.

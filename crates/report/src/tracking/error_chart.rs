@@ -1,4 +1,4 @@
-use super::comparison::TrackingComparison;
+use crate::tracking::comparison::TrackingComparison;
 use pages::{Dots, JointDots, Medium, ReportError};
 
 impl TrackingComparison {

@@ -1,6 +1,6 @@
-use super::comparison::{TrackedModel, TrackingComparison};
-use crate::ComparedJoint;
-use pages::{Ink, LegendKey};
+use crate::learning::comparison::ComparedJoint;
+use crate::tracking::comparison::{TrackedModel, TrackingComparison};
+use pages::{Ink, LegendKey, significant};
 
 impl ComparedJoint {
     /// Unit of its position.
@@ -42,7 +42,7 @@ impl TrackingComparison {
 
     /// Motion, time and gains of all runs, in words.
     pub(crate) fn circumstances(&self) -> String {
-        let time = crate::significant(self.duration_s, 3);
+        let time = significant(self.duration_s, 3);
         format!("{}, {time} s, gains {}, {}", self.motion, self.gains.name, self.clock)
     }
 }

@@ -1,7 +1,7 @@
 use askama::Template;
 use colours::Role;
 
-use super::comparison::TrackingComparison;
+use crate::tracking::comparison::TrackingComparison;
 use pages::{
     Axis, Chart, CurveShape, FIGURE_EDGES, FigureSheet, Ink, LegendKey, Medium, ReportError,
     Series, render_html,
@@ -13,7 +13,7 @@ const ABOVE: f64 = 10.0;
 
 /// Drawings below each other on a sheet.
 #[derive(Template)]
-#[template(path = "motion.svg")]
+#[template(path = "tracking/motion.svg")]
 struct Alone {
     sheet: FigureSheet,
     panels: Vec<String>,
@@ -21,7 +21,7 @@ struct Alone {
 
 /// Plots of a page with one axis of time.
 #[derive(Template)]
-#[template(path = "motion.html")]
+#[template(path = "tracking/motion.html")]
 struct InPage {
     keys: Vec<LegendKey>,
     panels: Vec<String>,

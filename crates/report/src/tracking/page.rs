@@ -1,13 +1,13 @@
 use askama::Template;
 
-use super::comparison::{TrackedModel, TrackingComparison};
+use crate::tracking::comparison::{TrackedModel, TrackingComparison};
 use pages::{
     Cell, HtmlGrid, Medium, Provenance, ReportError, TABLE_DIGITS, escape_json, mark_least,
     render_html, render_page, significant,
 };
 
 #[derive(Template)]
-#[template(path = "tracking.html")]
+#[template(path = "tracking/tracking.html")]
 struct Page<'a> {
     robot: &'a str,
     circumstances: String,

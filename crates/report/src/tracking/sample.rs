@@ -1,7 +1,9 @@
 //! A small result made by hand, for the tests of this module.
 
-use super::comparison::{FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison};
-use crate::ComparedJoint;
+use crate::learning::comparison::ComparedJoint;
+use crate::tracking::comparison::{
+    FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison,
+};
 use pages::Provenance;
 
 /// A hinge and a slide that follow a sine of 1 rad and 1 m with no feedforward, which the slide

@@ -1,4 +1,4 @@
-use super::comparison::{TrackedModel, TrackingComparison};
+use crate::tracking::comparison::{TrackedModel, TrackingComparison};
 use pages::significant;
 
 /// The error that runs are ranked by.

@@ -1,6 +1,6 @@
 use askama::Template;
 
-use super::comparison::{Sweep, SweptModel, TrackingComparison};
+use crate::tracking::comparison::{Sweep, SweptModel, TrackingComparison};
 use pages::{
     AxisTick, FIGURE_EDGES, FigureSheet, LegendKey, LogAxis, Medium, Palette, ReportError,
     round_px, significant,
@@ -22,7 +22,7 @@ const APART: f64 = 30.0;
 const MOST_DECADES: i32 = 6;
 
 #[derive(Template)]
-#[template(path = "sweep.svg")]
+#[template(path = "tracking/sweep.svg")]
 struct Drawing {
     sheet: FigureSheet,
     edges: [f64; 2],

@@ -1,4 +1,5 @@
-use super::comparison::{TrackedModel, TrackingComparison, WallTiming};
+use crate::learning::comparison::ComparedJoint;
+use crate::tracking::comparison::{TrackedModel, TrackingComparison, WallTiming};
 use pages::{
     BOLD, Cell, GridColumn, TABLE_DIGITS, TERMINAL_WIDTH, mark_least, percent, percent_range,
     push_entry, push_first_warnings, push_notes, significant, text_grid, wrap,
@@ -60,7 +61,7 @@ impl TrackingComparison {
     }
 
     /// A joint, with its unit where joints differ.
-    pub(crate) fn label(&self, joint: &crate::ComparedJoint) -> String {
+    pub(crate) fn label(&self, joint: &ComparedJoint) -> String {
         match self.thousandths() {
             "mrad" | "mm" => joint.name.clone(),
             _ => format!("{} (m{})", joint.name, joint.position_unit()),

@@ -1,8 +1,8 @@
 use askama::Template;
 
-use crate::Report;
-use crate::sentence::{bottom_line, verdict_sentence};
-use crate::tables::{Cause, JointRow, cause, joint_rows};
+use crate::diagnosis::report::Report;
+use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
+use crate::diagnosis::tables::{Cause, JointRow, cause, joint_rows};
 use pages::{ReportError, render_html};
 
 /// The first screen of the report for the cell of a notebook: the verdict, the error of every joint
@@ -23,7 +23,7 @@ pub fn notebook(report: &Report) -> Result<String, ReportError> {
 }
 
 #[derive(Template)]
-#[template(path = "notebook.html")]
+#[template(path = "diagnosis/notebook.html")]
 struct Cell<'a> {
     sentence: String,
     bottom_line: String,

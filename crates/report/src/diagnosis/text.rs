@@ -1,11 +1,11 @@
 use anstyle::{AnsiColor, Style};
 use diagnosis::{Finding, JointReport, Verdict};
 
-use crate::Report;
-use crate::forward::forward_sentence;
-use crate::places::{JointUnits, acting_on, findings_of};
-use crate::sentence::{bottom_line, verdict_sentence};
-use crate::tables::{name_beside_joint, sizes, words_for_floor};
+use crate::diagnosis::forward::forward_sentence;
+use crate::diagnosis::places::{JointUnits, acting_on, findings_of};
+use crate::diagnosis::report::Report;
+use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
+use crate::diagnosis::tables::{name_beside_joint, sizes, words_for_floor};
 use pages::{
     BOLD, FAINT, TERMINAL_WIDTH, join_names, pack, percent, push_entry, push_warnings, significant,
     wrap,

@@ -1,64 +1,15 @@
 use askama::Template;
-use serde::Serialize;
+
+use crate::replay::replay_report::{ReplayReport, ReplayedRun, ReplayedWindow};
 
 use colours::Role;
 use pages::{
     Cell, Dots, HtmlGrid, Ink, JointDots, LegendKey, Medium, Provenance, ReportError, TABLE_DIGITS,
-    escape_json, render_html, render_page, significant, with_schema,
+    escape_json, render_html, render_page, significant,
 };
 
-/// Name and version of the schema of `replay.json`.
-pub const REPLAY_SCHEMA: &str = "plumbline.replay/1";
-
-/// How far a simulation is from recorded motion and torque.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReplayReport {
-    /// Name of the robot.
-    pub robot: String,
-    /// Names of the joints, in the order of all that is told joint by joint.
-    pub joints: Vec<String>,
-    /// The runs.
-    pub runs: Vec<ReplayedRun>,
-    /// What was done to the clocks of the logs, in sentences.
-    pub warnings: Vec<String>,
-    /// Where it all comes from.
-    pub provenance: Provenance,
-}
-
-/// What was simulated of one run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReplayedRun {
-    /// Its name.
-    pub name: String,
-    /// Drift under the measured torque, by length of time.
-    pub windows: Vec<ReplayedWindow>,
-    /// The torque along the measured motion; none for a robot without gains.
-    pub torque: Option<ReplayedTorque>,
-    /// What was left out, in sentences.
-    pub remarks: Vec<String>,
-}
-
-/// Drift of a simulation that the measured torque moves for some time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReplayedWindow {
-    /// How long (ms).
-    pub window_ms: f64,
-    /// Simulated minus measured position at the end, RMS over all such windows, by joint (rad or
-    /// m); none where every window ran away.
-    pub drift_rms: Option<Vec<f64>>,
-}
-
-/// Torque of a simulation that follows the measured motion.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReplayedTorque {
-    /// Simulated minus measured, RMS, by joint (N m or N).
-    pub error_rms_nm: Vec<f64>,
-    /// The measured one, RMS, by joint (N m or N).
-    pub measured_rms_nm: Vec<f64>,
-}
-
 #[derive(Template)]
-#[template(path = "replay.html")]
+#[template(path = "replay/replay.html")]
 struct Page<'a> {
     report: &'a ReplayReport,
     sections: Vec<Section<'a>>,
@@ -75,15 +26,6 @@ struct Section<'a> {
 }
 
 impl ReplayReport {
-    /// `replay.json`, in the schema [`REPLAY_SCHEMA`]. A number that is not finite is `null`.
-    ///
-    /// # Errors
-    ///
-    /// [`ReportError::Format`].
-    pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(REPLAY_SCHEMA, self)
-    }
-
     /// `report.html`: the drift and the torque of every run, in one file that opens offline, and
     /// without scripts too.
     ///
@@ -182,36 +124,9 @@ impl ReplayReport {
     }
 }
 
-/// A run of a two-joint arm, for the tests of this crate.
-#[cfg(test)]
-pub fn sample() -> ReplayReport {
-    let window = |window_ms, drift_rms| ReplayedWindow { window_ms, drift_rms };
-    ReplayReport {
-        robot: "arm".into(),
-        joints: vec!["shoulder".into(), "<elbow>".into()],
-        runs: vec![ReplayedRun {
-            name: "run_1".into(),
-            windows: vec![window(50.0, Some(vec![0.001, 0.002])), window(200.0, None)],
-            torque: Some(ReplayedTorque {
-                error_rms_nm: vec![0.5, 0.25],
-                measured_rms_nm: vec![12.0, 3.0],
-            }),
-            remarks: vec!["a joint ran away".into()],
-        }],
-        warnings: Vec::new(),
-        provenance: Provenance {
-            program: "plumbline",
-            version: "0.1.0",
-            command: vec!["plumbline".into(), "replay".into()],
-            files: Vec::new(),
-            seed: None,
-        },
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::replay::sample::sample;
 
     #[test]
     fn the_page_tells_drift_and_torque_of_every_run() {

@@ -1,6 +1,6 @@
 use evaluation::{Drift, ForwardGap, ForwardWindow};
 
-use crate::Report;
+use crate::diagnosis::report::Report;
 use colours::Role;
 use pages::{Axis, Chart, CurveShape, ReportError, Series, significant};
 
@@ -146,10 +146,11 @@ mod tests {
              one in 0; they are left out of the drift"
         );
         assert_eq!(table.remarks[1], "The extended robot is not simulated: a reason");
-        let page = crate::html(&report).unwrap();
+        let page = crate::diagnosis::page::html(&report).unwrap();
         assert!(page.contains("How far the simulation drifts") && page.contains("50.0"));
-        assert!(crate::text(&report).contains("50.0 mm RMS"));
-        let json: serde_json::Value = serde_json::from_str(&crate::json(&report).unwrap()).unwrap();
+        assert!(crate::diagnosis::text::text(&report).contains("50.0 mm RMS"));
+        let json: serde_json::Value =
+            serde_json::from_str(&crate::diagnosis::json::json(&report).unwrap()).unwrap();
         assert_eq!(json["gain"]["forward"]["windows"][0]["extended"]["tip_rms_m"], 0.004);
     }
 
@@ -157,7 +158,11 @@ mod tests {
     fn what_was_not_simulated_is_not_told() {
         let sample = sample::arm();
         assert!(forward_table(&sample.report()).is_none());
-        assert!(!crate::html(&sample.report()).unwrap().contains("How far the simulation drifts"));
+        assert!(
+            !crate::diagnosis::page::html(&sample.report())
+                .unwrap()
+                .contains("How far the simulation drifts")
+        );
         let gap = ForwardGap {
             windows: vec![ForwardWindow {
                 window_s: 0.2,

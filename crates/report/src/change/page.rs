@@ -1,13 +1,13 @@
 use askama::Template;
 use diagnosis::{Comparison, Estimate, Finding};
 
-use crate::Report;
-use crate::json::json;
-use crate::tables::{Cause, cause, class_of, sizes};
-use pages::{ReportError, escape_json, render_page};
+use crate::diagnosis::json::json;
+use crate::diagnosis::report::Report;
+use crate::diagnosis::tables::{Cause, cause, class_of, sizes};
+use pages::{Provenance, ReportError, escape_json, render_page};
 
 #[derive(Template)]
-#[template(path = "change.html")]
+#[template(path = "change/change.html")]
 struct Page<'a> {
     robot: &'a str,
     class: &'static str,
@@ -19,7 +19,7 @@ struct Page<'a> {
     /// What is no change, each with what it is.
     unchanged: Vec<(&'static str, Vec<[String; 2]>)>,
     sides: [Side; 2],
-    provenance: &'a crate::Provenance,
+    provenance: &'a Provenance,
     json: String,
 }
 

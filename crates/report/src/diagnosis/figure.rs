@@ -1,12 +1,12 @@
 use askama::Template;
 use diagnosis::{Estimate, Finding, Verdict};
 
-use crate::Report;
-use crate::estimate::value;
-use crate::figures::worst_of;
-use crate::places::{JointUnits, acting_on};
-use crate::sentence::{short_bottom_line, title};
-use crate::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
+use crate::diagnosis::estimate::value;
+use crate::diagnosis::joint_charts::worst_of;
+use crate::diagnosis::places::{JointUnits, acting_on};
+use crate::diagnosis::report::Report;
+use crate::diagnosis::sentence::{short_bottom_line, title};
+use crate::diagnosis::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
 use pages::{Chart, Medium, Palette, Placed, ReportError, join_names, pack, shorten, stack, wrap};
 
 /// Width of the right panel (px); the left one stands in the template.
@@ -50,7 +50,7 @@ pub fn figure(report: &Report) -> Result<String, ReportError> {
 }
 
 #[derive(Template)]
-#[template(path = "figure.svg")]
+#[template(path = "diagnosis/figure.svg")]
 struct Poster {
     height: f64,
     colours: Palette,

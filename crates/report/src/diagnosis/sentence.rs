@@ -1,6 +1,6 @@
 use diagnosis::{Diagnosis, JointReport, Verdict};
 
-use crate::Report;
+use crate::diagnosis::report::Report;
 use pages::{count_noun, join_names, percent, significant};
 
 /// The verdict over all joints in one sentence.

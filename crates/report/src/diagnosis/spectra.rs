@@ -1,8 +1,8 @@
 use askama::Template;
 use diagnosis::{JointReport, Verdict};
 
-use crate::Report;
-use crate::places::JointUnits;
+use crate::diagnosis::places::JointUnits;
+use crate::diagnosis::report::Report;
 use pages::{AxisTick, LogAxis, Medium, Palette, ReportError, render_html, shorten, significant};
 
 /// Left and right, lower and upper edge of what a panel shows (px).
@@ -31,7 +31,7 @@ pub(crate) fn spectra(report: &Report) -> Result<Vec<String>, ReportError> {
 
 /// The spectra of one joint.
 #[derive(Template)]
-#[template(path = "spectrum.svg")]
+#[template(path = "diagnosis/spectrum.svg")]
 struct Panel {
     name: String,
     /// Unit of the densities.

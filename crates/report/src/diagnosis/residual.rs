@@ -1,7 +1,7 @@
 use serde::Serialize;
 
-use crate::Report;
-use crate::places::JointUnits;
+use crate::diagnosis::places::JointUnits;
+use crate::diagnosis::report::Report;
 use pages::{count_noun, join_names, percent, significant};
 
 /// A model of what the findings leave, learned beside them.

@@ -1,17 +1,19 @@
 use askama::Template;
 use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
 
-use crate::figures::figures_of;
-use crate::forward::{ForwardTable, drift_in_page, forward_table};
-use crate::places::{joint_anchor, joint_of};
-use crate::residual::{ResidualRow, residual_rows};
-use crate::sentence::{bottom_line, verdict_sentence};
-use crate::spectra::spectra;
-use crate::tables::{
+use crate::diagnosis::forward::{ForwardTable, drift_in_page, forward_table};
+use crate::diagnosis::joint_charts::figures_of;
+use crate::diagnosis::json::json;
+use crate::diagnosis::places::{joint_anchor, joint_of};
+use crate::diagnosis::report::Report;
+use crate::diagnosis::residual::ResidualModel;
+use crate::diagnosis::residual::{ResidualRow, residual_rows};
+use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
+use crate::diagnosis::spectra::spectra;
+use crate::diagnosis::tables::{
     Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, name_beside_joint,
     negligible, ruled_out,
 };
-use crate::{Report, ResidualModel, json};
 use pages::{
     Chart, Provenance, ReportError, escape_json, join_names, percent, render_html, render_page,
     significant,
@@ -39,7 +41,7 @@ pub(crate) fn sections_of(report: &Report) -> Result<String, ReportError> {
 }
 
 #[derive(Template)]
-#[template(path = "report.html", blocks = ["sections"])]
+#[template(path = "diagnosis/report.html", blocks = ["sections"])]
 struct Page<'a> {
     robot: &'a str,
     class: &'static str,
@@ -285,7 +287,8 @@ mod tests {
         let without = super::html(&sample.report()).unwrap();
         assert!(!without.contains("residual model"));
         let residual = sample::residual();
-        let report = crate::Report { residual: Some(&residual), ..sample.report() };
+        let report =
+            crate::diagnosis::report::Report { residual: Some(&residual), ..sample.report() };
         let page = super::html(&report).unwrap();
         for expected in [
             "<p>Of what is left a Gaussian process predicts 59 % at elbow",
@@ -330,7 +333,8 @@ mod tests {
         let text = "<robot name=\"arm\"/>".to_owned();
         let export = exchange::Export { text, fates: Vec::new(), robot: sample.robot.clone() };
         let descriptions = [(exchange::Format::Urdf, export)];
-        let report = crate::Report { descriptions: &descriptions, ..sample.report() };
+        let report =
+            crate::diagnosis::report::Report { descriptions: &descriptions, ..sample.report() };
         let page = super::html(&report).unwrap();
         assert!(page.contains("<summary>URDF <small>extended.urdf</small></summary>"), "{page}");
         assert!(page.contains("<pre>&#60;robot name=&#34;arm&#34;/&#62;</pre>"));

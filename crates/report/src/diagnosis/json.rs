@@ -5,7 +5,8 @@ use diagnosis::{
 use evaluation::ForwardGap;
 use serde::{Serialize, Serializer};
 
-use crate::{Report, ResidualModel};
+use crate::diagnosis::report::Report;
+use crate::diagnosis::residual::ResidualModel;
 use pages::{Provenance, ReportError, to_json};
 
 /// `diagnosis.json`: the diagnosis in the schema [`diagnosis::SCHEMA`], with provenance.

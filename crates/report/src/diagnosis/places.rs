@@ -1,7 +1,7 @@
 use diagnosis::{EffectAt, Finding};
 use robot::Robot;
 
-use crate::Report;
+use crate::diagnosis::report::Report;
 
 /// Units of the signals of one joint, as they are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,9 +3,9 @@ use diagnosis::{
     EffectAt, Estimate, Finding, JointReport, Negligible, NoiseFloorSource, RuledOut, Verdict,
 };
 
-use crate::Report;
-use crate::estimate::interval;
-use crate::places::{JointUnits, joint_anchor, joint_of};
+use crate::diagnosis::estimate::interval;
+use crate::diagnosis::places::{JointUnits, joint_anchor, joint_of};
+use crate::diagnosis::report::Report;
 use pages::{percent, significant, unit};
 
 /// One row of the table before and after, as text.

@@ -1,8 +1,8 @@
 use diagnosis::{JointTraces, RunTraces};
 
-use crate::Report;
-use crate::places::JointUnits;
-use crate::tables::known_floor;
+use crate::diagnosis::places::JointUnits;
+use crate::diagnosis::report::Report;
+use crate::diagnosis::tables::known_floor;
 use colours::Role;
 use pages::{Axis, Chart, CurveShape, Series, column_extremes, percentile_bands};
 

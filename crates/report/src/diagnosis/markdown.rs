@@ -1,7 +1,7 @@
-use crate::Report;
-use crate::places::JointUnits;
-use crate::sentence::{bottom_line, verdict_sentence};
-use crate::tables::sizes;
+use crate::diagnosis::places::JointUnits;
+use crate::diagnosis::report::Report;
+use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
+use crate::diagnosis::tables::sizes;
 use pages::{percent, significant};
 
 /// The verdict as Markdown, short enough to stand beside a moving picture: the verdict, what it
