@@ -4,37 +4,6 @@ use crate::diagnosis::report::Report;
 use colours::Role;
 use pages::{Axis, Chart, CurveShape, ReportError, Series, significant};
 
-/// How far both simulations drift in some lengths of time, as text.
-pub(crate) struct ForwardTable {
-    /// The lengths of time.
-    pub windows: Vec<String>,
-    /// A row a joint and one of the tip: drift before and after, by length of time.
-    pub rows: Vec<(String, Vec<[String; 2]>)>,
-    /// What was left out, in sentences.
-    pub remarks: Vec<String>,
-}
-
-/// The drift of a report, where it was measured.
-pub(crate) fn forward_table(report: &Report) -> Option<ForwardTable> {
-    let ForwardGap { windows } = report.forward?;
-    let cells = |of: &dyn Fn(&Drift) -> f64| -> Vec<[String; 2]> {
-        let told = |drift: &Drift| significant(of(drift), 3);
-        windows.iter().map(|w| drifts(w).map(told)).collect()
-    };
-    let joints = report.robot.links().iter().enumerate().map(|(j, link)| {
-        let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
-        let at = |drift: &Drift| drift.rms.as_ref().and_then(|rms| rms.get(j).copied());
-        let name = format!("{} ({unit})", link.joint.name);
-        (name, cells(&|drift| at(drift).unwrap_or(f64::NAN)))
-    });
-    let tip = cells(&|drift| drift.tip_rms_m.map_or(f64::NAN, |m| 1e3 * m));
-    Some(ForwardTable {
-        windows: windows.iter().map(|w| format!("{:.0} ms", 1e3 * w.window_s)).collect(),
-        rows: joints.chain([("tip (mm)".to_owned(), tip)]).collect(),
-        remarks: remarks(windows),
-    })
-}
-
 /// How far the tip drifts in 200 ms, in a sentence.
 pub(crate) fn forward_sentence(report: &Report) -> Option<String> {
     let window = report.forward?.windows.iter().find(|w| (w.window_s - 0.2).abs() < 1e-9)?;
@@ -110,75 +79,9 @@ mod tests {
     use super::*;
     use crate::sample;
 
-    /// One length of time, of which two windows in five ran away with the nominal simulation.
-    fn gap() -> ForwardGap {
-        let nominal = Drift {
-            rms: Some(vec![0.1, 0.02]),
-            tip_rms_m: Some(0.05),
-            tip_course_m: vec![0.02, 0.05],
-            runaways: 2,
-            trouble: None,
-        };
-        let extended = Drift {
-            rms: Some(vec![0.01, 0.002]),
-            tip_rms_m: Some(0.004),
-            tip_course_m: vec![0.003, 0.004],
-            runaways: 0,
-            trouble: Some("a reason".into()),
-        };
-        ForwardGap { windows: vec![ForwardWindow { window_s: 0.2, windows: 5, nominal, extended }] }
-    }
-
-    #[test]
-    fn the_drift_is_told_by_joint_and_at_the_tip_and_what_ran_away_is_said() {
-        let (sample, gap) = (sample::arm(), gap());
-        let report = Report { forward: Some(&gap), ..sample.report() };
-        let table = forward_table(&report).unwrap();
-        assert_eq!(table.windows, ["200 ms"]);
-        assert_eq!(
-            table.rows[0],
-            ("shoulder (rad)".into(), vec![["0.100".into(), "0.0100".into()]])
-        );
-        assert_eq!(table.rows[2], ("tip (mm)".into(), vec![["50.0".into(), "4.00".into()]]));
-        assert_eq!(
-            table.remarks[0],
-            "In 2 of 5 windows of 200 ms a joint of the nominal simulation ran away, of the extended \
-             one in 0; they are left out of the drift"
-        );
-        assert_eq!(table.remarks[1], "The extended robot is not simulated: a reason");
-        let page = crate::diagnosis::page::html(&report).unwrap();
-        assert!(page.contains("How far the simulation drifts") && page.contains("50.0"));
-        assert!(crate::diagnosis::text::text(&report).contains("50.0 mm RMS"));
-        let json: serde_json::Value =
-            serde_json::from_str(&crate::diagnosis::json::json(&report).unwrap()).unwrap();
-        assert_eq!(json["gain"]["forward"]["windows"][0]["extended"]["tip_rms_m"], 0.004);
-    }
-
-    #[test]
-    fn what_was_not_simulated_is_not_told() {
-        let sample = sample::arm();
-        assert!(forward_table(&sample.report()).is_none());
-        assert!(
-            !crate::diagnosis::page::html(&sample.report())
-                .unwrap()
-                .contains("How far the simulation drifts")
-        );
-        let gap = ForwardGap {
-            windows: vec![ForwardWindow {
-                window_s: 0.2,
-                windows: 0,
-                nominal: Drift::default(),
-                extended: Drift::default(),
-            }],
-        };
-        let report = Report { forward: Some(&gap), ..sample.report() };
-        assert_eq!(forward_table(&report).unwrap().rows[0].1, [["-".to_owned(), "-".to_owned()]]);
-        assert!(forward_sentence(&report).is_none());
-    }
-
     #[test]
     fn the_drift_over_time_starts_at_nothing_and_ends_at_that_of_the_table() {
-        let mut gap = gap();
+        let mut gap = sample::forward_gap();
         let chart = drift_chart(&gap).unwrap();
         let lines: Vec<&CurveShape> = chart.series.iter().map(|series| &series.shape).collect();
         let nominal = CurveShape::Line(vec![[0.0, 0.0], [100.0, 20.0], [200.0, 50.0]]);

@@ -11,6 +11,7 @@ pub(crate) mod page;
 pub(crate) mod places;
 pub(crate) mod report;
 pub(crate) mod residual;
+pub(crate) mod sections;
 pub(crate) mod sentence;
 pub(crate) mod spectra;
 pub(crate) mod tables;

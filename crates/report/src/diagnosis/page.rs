@@ -1,23 +1,12 @@
 use askama::Template;
-use diagnosis::{DataSummary, Diagnosis, FoldGain, Verdict};
+use pages::{Provenance, ReportError, escape_json, render_page};
 
-use crate::diagnosis::forward::{ForwardTable, drift_in_page, forward_table};
-use crate::diagnosis::joint_charts::figures_of;
 use crate::diagnosis::json::json;
-use crate::diagnosis::places::{joint_anchor, joint_of};
 use crate::diagnosis::report::Report;
-use crate::diagnosis::residual::ResidualModel;
-use crate::diagnosis::residual::{ResidualRow, residual_rows};
+use crate::diagnosis::sections::section::draw_all;
+use crate::diagnosis::sections::{CLOSING, FOUND, OPENING};
 use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
-use crate::diagnosis::spectra::spectra;
-use crate::diagnosis::tables::{
-    Cause, JointRow, NegligibleRow, RuledOutRow, cause, class_of, joint_rows, name_beside_joint,
-    negligible, ruled_out,
-};
-use pages::{
-    Chart, Provenance, ReportError, escape_json, join_names, percent, render_html, render_page,
-    significant,
-};
+use crate::diagnosis::tables::class_of;
 
 /// `report.html`: one file that opens offline, and without scripts too.
 ///
@@ -29,182 +18,47 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
     render_page(&Page::new(&Report { provenance: &provenance, ..*report })?)
 }
 
-/// The sections of the page that say what was found, what is left, what every joint shows and what
-/// was ruled out.
+/// The sections of the page that the page of a run shows as well.
 ///
 /// # Errors
 ///
 /// [`ReportError::Format`].
-pub(crate) fn sections_of(report: &Report) -> Result<String, ReportError> {
-    let page = Page::new(report)?;
-    render_html(&page.as_sections())
+pub(crate) fn found_sections(report: &Report) -> Result<String, ReportError> {
+    Ok(format!("\n{}\n", draw_all(FOUND, report)?.join("\n\n")))
 }
 
+/// What stands about the sections.
 #[derive(Template)]
-#[template(path = "diagnosis/report.html", blocks = ["sections"])]
+#[template(path = "diagnosis/report.html")]
 struct Page<'a> {
     robot: &'a str,
     class: &'static str,
     sentence: String,
     bottom_line: String,
     warnings: &'a [String],
-    joints: Vec<JointRow>,
-    spectra: Vec<String>,
-    folds: Vec<Fold<'a>>,
-    forward: Option<ForwardTable>,
-    drift: String,
-    causes: Vec<Cause>,
-    negligible: Vec<NegligibleRow>,
-    figures: Vec<JointSection>,
-    left: Vec<Left>,
-    residual: Option<&'a ResidualModel>,
-    residual_rows: Vec<ResidualRow>,
-    ruled_out: Vec<(String, Vec<RuledOutRow>)>,
-    descriptions: &'a [(exchange::Format, exchange::Export)],
-    data: &'a DataSummary,
-    held_out: &'a str,
+    opening: String,
+    found: String,
+    closing: String,
     provenance: &'a Provenance,
     json: String,
-}
-
-/// The figures of one joint.
-struct JointSection {
-    name: String,
-    anchor: String,
-    verdict: &'static str,
-    class: &'static str,
-    /// The effects that were found at it, for which its figures are shown without a click.
-    findings: Vec<String>,
-    is_open: bool,
-    time: Vec<Figure>,
-    residual: Vec<Figure>,
-}
-
-/// A figure that is already drawn.
-struct Figure {
-    title: String,
-    svg: String,
-}
-
-impl Figure {
-    fn new(chart: Chart) -> Result<Self, ReportError> {
-        Ok(Self { svg: chart.in_page()?, title: chart.title })
-    }
-}
-
-/// The gain on one held-out part.
-struct Fold<'a>(&'a FoldGain);
-
-impl Fold<'_> {
-    fn name(&self) -> &str {
-        &self.0.name
-    }
-
-    /// Error before and after, joint by joint.
-    fn errors(&self) -> Vec<(String, String)> {
-        let pairs = self.0.rms_before_nm.iter().zip(&self.0.rms_after_nm);
-        pairs.map(|(&before, &after)| (significant(before, 3), significant(after, 3))).collect()
-    }
-}
-
-/// Structure left at a joint, as text.
-struct Left {
-    joint: String,
-    share: String,
-    depends_on: String,
 }
 
 impl<'a> Page<'a> {
     fn new(report: &Report<'a>) -> Result<Self, ReportError> {
         let diagnosis = report.diagnosis;
+        let opening = draw_all(OPENING, report)?;
         Ok(Self {
             robot: &diagnosis.robot,
             class: class_of(diagnosis.verdict),
             sentence: verdict_sentence(diagnosis),
             bottom_line: bottom_line(report),
             warnings: &diagnosis.warnings,
-            joints: joint_rows(report),
-            spectra: spectra(report)?,
-            folds: diagnosis.gain.inverse.folds.iter().map(Fold).collect(),
-            forward: forward_table(report),
-            drift: drift_in_page(report.forward)?,
-            causes: diagnosis.findings.iter().map(|f| cause(report, f)).collect(),
-            negligible: negligible(report),
-            figures: sections(report)?,
-            left: left(diagnosis),
-            residual: report.residual,
-            residual_rows: residual_rows(report),
-            ruled_out: ruled_out(report),
-            descriptions: report.descriptions,
-            data: &diagnosis.data,
-            held_out: &diagnosis.gain.inverse.held_out,
+            opening: opening.iter().map(|section| format!("{section}\n\n")).collect(),
+            found: found_sections(report)?,
+            closing: draw_all(CLOSING, report)?.join("\n\n"),
             provenance: report.provenance,
             json: escape_json(&json(report)?),
         })
-    }
-}
-
-/// The joints with adequate data first.
-fn sections(report: &Report) -> Result<Vec<JointSection>, ReportError> {
-    let joints = report.diagnosis.joints.iter().enumerate();
-    let (adequate, inadequate): (Vec<_>, Vec<_>) =
-        joints.partition(|(_, joint)| joint.verdict != Verdict::DataInadequate);
-    let sections = adequate.into_iter().chain(inadequate).map(|(i, joint)| {
-        let figures = figures_of(report, i);
-        let at_it = report.diagnosis.findings.iter().filter(|f| joint_of(report, &f.at) == Some(i));
-        let findings: Vec<String> = at_it.map(|f| name_beside_joint(&f.at)).collect();
-        Ok(JointSection {
-            name: joint.name.clone(),
-            anchor: joint_anchor(i),
-            verdict: joint.verdict.words(),
-            class: class_of(joint.verdict),
-            is_open: !findings.is_empty(),
-            findings,
-            time: figures.time.into_iter().map(over_time).collect::<Result<_, _>>()?,
-            residual: drawn(figures.residual)?,
-        })
-    });
-    sections.collect()
-}
-
-/// Torque over time and what is left of it below, on one axis of time.
-fn over_time([torque, left]: [Chart; 2]) -> Result<Figure, ReportError> {
-    let title = torque.title.clone();
-    Ok(Figure { svg: torque.in_page()? + &left.in_page()?, title })
-}
-
-fn drawn(charts: Vec<Chart>) -> Result<Vec<Figure>, ReportError> {
-    charts.into_iter().map(Figure::new).collect()
-}
-
-fn left(diagnosis: &Diagnosis) -> Vec<Left> {
-    let rows = diagnosis.unexplained.iter().map(|u| {
-        let signals: Vec<String> = u
-            .depends_on
-            .iter()
-            .map(|d| format!("{} (predicts {} of it)", d.signal, percent(d.share)))
-            .collect();
-        Left {
-            joint: u.joint.clone(),
-            share: percent(u.share),
-            depends_on: if signals.is_empty() {
-                "none of the signals in the log".to_owned()
-            } else {
-                join_names(&signals)
-            },
-        }
-    });
-    rows.collect()
-}
-
-/// Filters of the template.
-mod filters {
-    use super::significant;
-
-    /// Three significant digits.
-    #[askama::filter_fn]
-    pub fn short(value: &f64, _: &dyn askama::Values) -> askama::Result<String> {
-        Ok(significant(*value, 3))
     }
 }
 

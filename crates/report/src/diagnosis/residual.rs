@@ -1,8 +1,6 @@
 use serde::Serialize;
 
-use crate::diagnosis::places::JointUnits;
-use crate::diagnosis::report::Report;
-use pages::{count_noun, join_names, percent, significant};
+use pages::{count_noun, join_names, percent};
 
 /// A model of what the findings leave, learned beside them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -90,34 +88,6 @@ impl ResidualJoint {
             |l: &LengthScale| format!("{} ({} of its range)", l.signal, percent(l.share_of_range));
         join_names(&self.length_scales.iter().map(one).collect::<Vec<_>>())
     }
-}
-
-/// A row of the table of the page.
-pub(crate) struct ResidualRow {
-    pub name: String,
-    pub unit: &'static str,
-    pub extended: String,
-    pub with_residual: String,
-    pub share: String,
-    pub better_in: String,
-    pub is_used: bool,
-    pub bends_with: String,
-}
-
-/// The rows of the table of the page.
-pub(crate) fn residual_rows(report: &Report) -> Vec<ResidualRow> {
-    let Some(residual) = report.residual else { return Vec::new() };
-    let row = |joint: &ResidualJoint| ResidualRow {
-        name: joint.name.clone(),
-        unit: JointUnits::of(report.robot, &joint.name).effort,
-        extended: significant(joint.extended_rms_nm, 3),
-        with_residual: significant(joint.with_residual_rms_nm, 3),
-        share: percent(joint.share),
-        better_in: format!("{} of {}", joint.better_in, residual.parts),
-        is_used: joint.is_used,
-        bends_with: joint.bends_with(),
-    };
-    residual.joints.iter().map(row).collect()
 }
 
 #[cfg(test)]

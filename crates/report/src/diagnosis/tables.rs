@@ -1,7 +1,5 @@
 use catalogue::EffectKind;
-use diagnosis::{
-    EffectAt, Estimate, Finding, JointReport, Negligible, NoiseFloorSource, RuledOut, Verdict,
-};
+use diagnosis::{EffectAt, Estimate, Finding, JointReport, NoiseFloorSource, Verdict};
 
 use crate::diagnosis::estimate::interval;
 use crate::diagnosis::places::{JointUnits, joint_anchor, joint_of};
@@ -159,7 +157,7 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
     Cause {
         code: finding.at.effect.code(),
         effect: finding.at.effect.words(),
-        place: place(&finding.at),
+        place: place_of(&finding.at),
         anchor: joint_of(report, &finding.at).map(joint_anchor),
         equation: entry.equation,
         signature: entry.signature,
@@ -180,7 +178,8 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
     }
 }
 
-fn place(at: &EffectAt) -> String {
+/// Where an effect acts, in words.
+pub(crate) fn place_of(at: &EffectAt) -> String {
     match (&at.joint, &at.link) {
         (Some(joint), _) => format!("at joint {joint}"),
         (None, Some(link)) => format!("of link {link}"),
@@ -199,64 +198,5 @@ fn parameter_row(estimate: &Estimate, kind: EffectKind) -> ParameterRow {
         value: interval(estimate),
         nominal: format!("{}{space}{unit}", significant(estimate.nominal, 3)),
         determined: estimate.determined,
-    }
-}
-
-/// An effect that is seen and does not matter, as text.
-pub(crate) struct NegligibleRow {
-    pub effect: String,
-    pub place: String,
-    /// The joint at which it matters most, with its size there and the size that would matter.
-    pub joint: String,
-    pub size: String,
-    pub least: String,
-}
-
-/// What is seen and does not matter.
-pub(crate) fn negligible(report: &Report) -> Vec<NegligibleRow> {
-    let row = |seen: &Negligible| {
-        let effort = JointUnits::of(report.robot, &seen.most_at).effort;
-        NegligibleRow {
-            effect: seen.at.effect.label(),
-            place: place(&seen.at),
-            joint: seen.most_at.clone(),
-            size: format!("{} {effort}", significant(seen.rms_nm, 2)),
-            least: format!("{} {effort}", significant(seen.least_nm, 2)),
-        }
-    };
-    report.diagnosis.negligible.iter().map(row).collect()
-}
-
-/// An effect that was looked for and not found, as text.
-pub(crate) struct RuledOutRow {
-    pub effect: String,
-    pub smallest: String,
-    pub because: String,
-}
-
-/// What was ruled out, joint by joint; the first name is that of the whole robot.
-pub(crate) fn ruled_out(report: &Report) -> Vec<(String, Vec<RuledOutRow>)> {
-    let places = std::iter::once(None).chain((0..report.diagnosis.joints.len()).map(Some));
-    let groups = places.map(|place| {
-        let name = place.and_then(|i| report.diagnosis.joints.get(i)).map(|j| j.name.clone());
-        let here = report.diagnosis.ruled_out.iter().filter(|r| joint_of(report, &r.at) == place);
-        (name.unwrap_or_else(|| "whole robot".to_owned()), here.map(ruled_out_row).collect())
-    });
-    groups.filter(|(_, rows): &(String, Vec<RuledOutRow>)| !rows.is_empty()).collect()
-}
-
-fn ruled_out_row(ruled_out: &RuledOut) -> RuledOutRow {
-    let smallest = match ruled_out.smallest_detectable {
-        Some(size) => {
-            let parameter = ruled_out.parameter.replace('_', " ");
-            let of = if ruled_out.at.effect.grows_as_its_size_falls() { "up to " } else { "" };
-            format!("{parameter} {of}{} {}", significant(size, 2), unit(ruled_out.unit))
-        }
-        None => "these logs cannot show any".to_owned(),
-    };
-    RuledOutRow {
-        effect: name_beside_joint(&ruled_out.at),
-        smallest: smallest.trim_end().to_owned(),
-        because: ruled_out.because.clone(),
     }
 }

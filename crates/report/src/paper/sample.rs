@@ -2,7 +2,7 @@
 
 use evaluation::{Claim, ClaimCase, LearningErrors, ModelErrors, Scope};
 
-use super::LearningFigureReport;
+use super::learning_figure::LearningFigureReport;
 use pages::Provenance;
 
 /// What a [`LearningFigureReport`] borrows.

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::diagnosis::page::sections_of;
+use crate::diagnosis::page::found_sections;
 use crate::diagnosis::report::Report;
 use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
 use crate::diagnosis::tables::{class_of, known_floor};
@@ -44,6 +44,6 @@ pub fn told(report: &Report) -> Result<Told, ReportError> {
         warnings: diagnosis.warnings.clone(),
         motions,
         noise_floor_nm: diagnosis.joints.iter().map(known_floor).collect(),
-        sections: sections_of(report)?,
+        sections: found_sections(report)?,
     })
 }
