@@ -40,7 +40,9 @@ pub use crate::diagnosis::residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use crate::diagnosis::tables::sizes;
 pub use crate::diagnosis::text::text;
 pub use change::page::{change_page, change_sentence, sizes_before};
-pub use learning::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
+pub use learning::comparison::{
+    ComparedJoint, DataSet, KernelRow, LearningComparison as Comparison, ModelRow,
+};
 pub use learning::times::{Curve, Maker, PredictionTimes, TimePoint};
 pub use pages::{
     FileHash, Provenance, ReportError, pack as packed, percent, push_warnings as warnings,
@@ -51,10 +53,11 @@ pub use paper::{
     PredictionTimeFigureReport,
 };
 pub use replay::replay_report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
-pub use run::claims::{ClaimRow, Quantity, claim_rows, claim_text, claims_sentence};
+pub use run::claims::{ClaimRow, ClaimUnit, claim_rows, claim_text, claims_sentence};
+pub use run::diagnosis_summary::{DiagnosisSummary as Told, summarise as told};
 pub use run::run_report::RunReport;
-pub use run::told::{Told, told};
 pub use tracking::comparison::{
-    FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison, WallTiming,
+    ControllerGains as Gains, ErrorSweep as Sweep, FirstSeconds, SweptModel, TrackedModel,
+    TrackingComparison, WallTiming,
 };
 pub use trials::{panel_page, trials_page};

@@ -104,12 +104,12 @@ impl Ink {
 impl Series {
     /// A series under the name of its role.
     pub fn of(role: Role, shape: CurveShape) -> Self {
-        Self { name: words(role).to_owned(), ink: Ink::Role(role), shape }
+        Self { name: role_words(role).to_owned(), ink: Ink::Role(role), shape }
     }
 }
 
 /// The name of a role in a legend.
-pub fn words(role: Role) -> &'static str {
+fn role_words(role: Role) -> &'static str {
     match role {
         Role::Nominal => "nominal model",
         Role::Extended => "extended model",

@@ -5,7 +5,7 @@ use crate::charts::chart::Ink;
 /// What a drawing is drawn in, as SVG understands it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Palette {
-    place: Medium,
+    medium: Medium,
     /// Of letters and axes.
     pub ink: &'static str,
     /// Of letters that matter less.
@@ -32,7 +32,7 @@ impl Medium {
     pub fn palette(self) -> Palette {
         match self {
             Self::Alone => Palette {
-                place: self,
+                medium: self,
                 ink: "#1f2328",
                 soft: "#59636e",
                 line: "#d1d9e0",
@@ -40,7 +40,7 @@ impl Medium {
                 paper: "#ffffff",
             },
             Self::Page => Palette {
-                place: self,
+                medium: self,
                 ink: "var(--ink)",
                 soft: "var(--soft)",
                 line: "var(--line)",
@@ -54,7 +54,7 @@ impl Medium {
 impl Palette {
     /// The colour of a series.
     pub fn of(&self, ink: Ink) -> String {
-        match (self.place, ink) {
+        match (self.medium, ink) {
             (_, Ink::Noise) => self.ink.to_owned(),
             (Medium::Page, Ink::Role(role)) => format!("var(--{})", role.name()),
             (Medium::Page, Ink::Model(index)) => format!("var(--model{})", index % MODELS.len()),

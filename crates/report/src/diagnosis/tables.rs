@@ -41,7 +41,7 @@ pub(crate) fn joint_rows(report: &Report) -> Vec<JointRow> {
             name: joint.name.clone(),
             verdict: joint.verdict.words(),
             class: class_of(joint.verdict),
-            because: units.said(&joint.because),
+            because: units.with_unit(&joint.because),
             unit: units.effort,
             torque: significant(joint.torque_rms_nm, 3),
             before: significant(before, 3),
@@ -173,7 +173,7 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
         rivals,
         forms,
         told_apart_by: finding.told_apart_by,
-        evidence: finding.evidence.iter().map(|line| units.said(line)).collect(),
+        evidence: finding.evidence.iter().map(|line| units.with_unit(line)).collect(),
         undetermined: finding.undetermined.clone(),
     }
 }

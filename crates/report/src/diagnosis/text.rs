@@ -68,7 +68,7 @@ fn negligible(out: &mut String, report: &Report, joint: &str) {
             significant(seen.rms_nm, 2),
             significant(seen.least_nm, 2)
         );
-        note(out, &JointUnits::of(report.robot, joint).said(&said));
+        note(out, &JointUnits::of(report.robot, joint).with_unit(&said));
     }
 }
 
@@ -127,7 +127,7 @@ fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
     if found.is_empty() && is_adequate(joint) {
         elsewhere(out, report, index);
     }
-    let because = JointUnits::of(report.robot, &joint.name).said(&joint.because);
+    let because = JointUnits::of(report.robot, &joint.name).with_unit(&joint.because);
     if found.is_empty() || !is_adequate(joint) {
         note(out, &because);
     }

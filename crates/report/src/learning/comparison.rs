@@ -10,7 +10,7 @@ const SCHEMA: &str = "plumbline.learning/1";
 ///
 /// Whatever is told joint by joint is in the order of `joints`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub struct LearningComparison {
     /// Name of the robot.
     pub robot: String,
     /// The joints.
@@ -122,7 +122,7 @@ fn by_name<S: Serializer>(scales: &[(String, f64)], serializer: S) -> Result<S::
     serializer.collect_map(scales.iter().map(|(name, scale)| (name, scale)))
 }
 
-impl Comparison {
+impl LearningComparison {
     /// `learning.json`, in the schema `plumbline.learning/1`. A number that is not finite is
     /// `null`.
     ///

@@ -3,7 +3,7 @@ use serde::Serialize;
 
 use super::error_tables::{ErrorTable, worse_than_named};
 use super::page::{Contents, Drawing, page, table};
-use crate::run::claims::{Quantity, claim_text, claims_sentence};
+use crate::run::claims::{ClaimUnit, claim_text, claims_sentence};
 use pages::{
     BOLD, GridColumn, Medium, Provenance, ReportError, push_entry, text_grid, with_schema,
 };
@@ -73,7 +73,7 @@ impl LearningFigureReport<'_> {
         page(Contents {
             kicker: format!("{}: figure 2 of Nguyen-Tuong & Peters 2010", self.errors.robot),
             claims: self.claims,
-            quantity: Quantity::NMSE,
+            quantity: ClaimUnit::NMSE,
             drawings: drawings.collect::<Result<_, ReportError>>()?,
             remarks: &[],
             provenance: self.provenance,
@@ -84,7 +84,7 @@ impl LearningFigureReport<'_> {
     /// The tables and the claims as text for a terminal of 100 columns.
     pub fn text(&self) -> String {
         let mut out = format!("{BOLD}{}.{BOLD:#}\n\n", claims_sentence(self.claims));
-        out.push_str(&claim_text(self.claims, Quantity::NMSE));
+        out.push_str(&claim_text(self.claims, ClaimUnit::NMSE));
         for (errors, more) in self.tables().into_iter().zip(self.more()) {
             out.push_str(&format!("\n{BOLD}{}{BOLD:#}\n", errors.title));
             out.push_str(&text_grid("nMSE", errors.joints, &errors.columns(more)));

@@ -1,7 +1,7 @@
 use askama::Template;
 use evaluation::Claim;
 
-use crate::run::claims::{ClaimRow, Quantity, claim_rows, claims_sentence};
+use crate::run::claims::{ClaimRow, ClaimUnit, claim_rows, claims_sentence};
 use pages::{GridColumn, HtmlGrid, Provenance, ReportError, escape_json, render_html, render_page};
 
 /// What the page of a figure shows.
@@ -11,7 +11,7 @@ pub(super) struct Contents<'a> {
     /// What is claimed of it.
     pub claims: &'a [Claim],
     /// What the numbers of the claims are.
-    pub quantity: Quantity,
+    pub quantity: ClaimUnit,
     /// The drawings with their tables.
     pub drawings: Vec<Drawing>,
     /// What to know of the numbers.

@@ -3,7 +3,7 @@ use serde::Serialize;
 
 use super::page::{Contents, Drawing, page, table};
 use crate::learning::times::PredictionTimes;
-use crate::run::claims::{Quantity, claim_text, claims_sentence};
+use crate::run::claims::{ClaimUnit, claim_text, claims_sentence};
 use pages::{BOLD, Medium, ReportError, with_schema};
 
 /// Name and version of the schema of the `metrics.json` of figure 1.
@@ -59,7 +59,7 @@ impl PredictionTimeFigureReport<'_> {
         page(Contents {
             kicker: format!("{}: figure 1 of Nguyen-Tuong & Peters 2010", times.robot),
             claims: self.claims,
-            quantity: Quantity::MICROSECONDS,
+            quantity: ClaimUnit::MICROSECONDS,
             drawings: vec![drawing],
             remarks: &times.remarks,
             provenance: &times.provenance,
@@ -75,7 +75,7 @@ impl PredictionTimeFigureReport<'_> {
         format!(
             "{BOLD}{}.{BOLD:#}\n\n{}\n{}",
             claims_sentence(self.claims),
-            claim_text(self.claims, Quantity::MICROSECONDS),
+            claim_text(self.claims, ClaimUnit::MICROSECONDS),
             self.times.text()
         )
     }

@@ -21,7 +21,7 @@ impl RunReport<'_> {
         out.push_str(&self.joints());
         if !self.metrics.claims.is_empty() {
             out.push('\n');
-            out.push_str(&claim_text(&self.metrics.claims, self.tracked_quantity()));
+            out.push_str(&claim_text(&self.metrics.claims, self.tracked_unit()));
         }
         push_notes(&mut out, &self.remarks());
         out

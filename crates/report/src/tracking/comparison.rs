@@ -23,7 +23,7 @@ pub struct TrackingComparison {
     /// What was to be followed, in words.
     pub motion: String,
     /// The gains of the feedback.
-    pub gains: Gains,
+    pub gains: ControllerGains,
     /// What the time of a prediction was, in words.
     pub clock: String,
     /// How long the motion is (s).
@@ -31,7 +31,7 @@ pub struct TrackingComparison {
     /// The runs, in the order of tables and figures.
     pub models: Vec<TrackedModel>,
     /// The errors at other gains, if they were asked for.
-    pub sweep: Option<Sweep>,
+    pub sweep: Option<ErrorSweep>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// Where it all comes from.
@@ -40,7 +40,7 @@ pub struct TrackingComparison {
 
 /// The gains of the feedback.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Gains {
+pub struct ControllerGains {
     /// Name of the set.
     pub name: String,
     /// Effort per error, by joint (N m/rad).
@@ -116,7 +116,7 @@ pub struct FirstSeconds {
 
 /// The errors at several gains.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Sweep {
+pub struct ErrorSweep {
     /// Name of the set of gains that was scaled.
     pub gains: String,
     /// How much of the motion was followed (s).

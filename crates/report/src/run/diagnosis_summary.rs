@@ -8,7 +8,7 @@ use pages::ReportError;
 
 /// A diagnosis as the report of a run tells it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Told {
+pub struct DiagnosisSummary {
     /// The verdict in a sentence.
     pub sentence: String,
     /// What the extended model buys on data held out of the diagnosis, in a sentence.
@@ -31,13 +31,13 @@ pub struct Told {
 /// # Errors
 ///
 /// [`ReportError::Format`].
-pub fn told(report: &Report) -> Result<Told, ReportError> {
+pub fn summarise(report: &Report) -> Result<DiagnosisSummary, ReportError> {
     let diagnosis = report.diagnosis;
     let motions = diagnosis.findings.iter().filter_map(|f| f.told_apart_by);
     let mut motions: Vec<String> = motions.map(str::to_owned).collect();
     motions.sort_unstable();
     motions.dedup();
-    Ok(Told {
+    Ok(DiagnosisSummary {
         sentence: verdict_sentence(diagnosis),
         bottom_line: bottom_line(report),
         class: class_of(diagnosis.verdict).to_owned(),
