@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use logs::{
-    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, FormatError, LogError, Mend, ReadOptions, Recognised, Run,
-    stretches,
+    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, FormatError, LogError, Mend, ReadOptions,
+    Recognised, Run, stretches,
 };
 use robot::Robot;
 

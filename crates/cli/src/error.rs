@@ -193,11 +193,9 @@ const MAP: &str = "a column map (--map) says where a file with other names has i
 /// What to do about a log.
 fn of_log(log: &LogError) -> Option<&'static str> {
     match log {
-        LogError::File(FormatError::NoColumn { path, .. } | FormatError::OtherKind { path, .. })
-            if has_extension(path, &["urdf", "xml", "toml"]) =>
-        {
-            Some(KINDS_OF_FILES)
-        }
+        LogError::File(
+            FormatError::NoColumn { path, .. } | FormatError::OtherKind { path, .. },
+        ) if has_extension(path, &["urdf", "xml", "toml"]) => Some(KINDS_OF_FILES),
         LogError::JointAbsent { .. }
         | LogError::File(FormatError::NoColumn { .. })
         | LogError::NoNames { .. } => Some(MAP),

@@ -50,7 +50,11 @@ impl Log {
                 let [episode] = asked.each().collect::<Vec<_>>()[..] else {
                     let found = asked.each().filter_map(|episode| episode.number).collect();
                     let path = path.clone();
-                    return Err(raised(LogError::from(FormatError::Episode { path, asked: None, found })));
+                    return Err(raised(LogError::from(FormatError::Episode {
+                        path,
+                        asked: None,
+                        found,
+                    })));
                 };
                 let reader = columns.reader().map_err(raised)?;
                 reader.read(path, episode, robot).map_err(raised)
