@@ -100,7 +100,7 @@ fn read(
 ///
 /// # Errors
 ///
-/// [`LogError::ColumnLength`], and every other [`LogError`] of [`read_run`] that names a column or a row.
+/// [`FormatError::ColumnLength`], and every other [`LogError`] of [`read_run`] that names a column or a row.
 pub fn run_of_columns(
     name: &str,
     columns: BTreeMap<String, Vec<f64>>,
