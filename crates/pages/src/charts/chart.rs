@@ -72,7 +72,7 @@ pub struct Series {
 pub enum Ink {
     /// That of a role.
     Role(Role),
-    /// That of one of several models, count_noun from 0.
+    /// That of one of several models, counted from 0.
     Model(usize),
     /// That of letters, for the noise.
     Noise,

@@ -2,7 +2,7 @@ use colours::{MODELS, Role, model};
 
 use crate::charts::chart::Ink;
 
-/// What a drawing is drawn in, as SVG understands it.
+/// The colours of a drawing, as SVG writes them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Palette {
     medium: Medium,
@@ -63,17 +63,17 @@ impl Palette {
         }
     }
 
-    /// The colour of what the model as given predicts.
+    /// The colour of the nominal model.
     pub fn nominal(&self) -> String {
         self.of(Ink::Role(Role::Nominal))
     }
 
-    /// The colour of what the model with the findings predicts.
+    /// The colour of the model with the findings.
     pub fn extended(&self) -> String {
         self.of(Ink::Role(Role::Extended))
     }
 
-    /// The colour of what was measured.
+    /// The colour of measured signals.
     pub fn measured(&self) -> String {
         self.of(Ink::Role(Role::Measured))
     }

@@ -61,7 +61,7 @@ impl Chart {
     }
 
     /// The area between the axes of a figure, as wide as what it is put into; empty when there is
-    /// nothing to draw. Letters need [`CHART_MARGINS`] around it.
+    /// nothing to draw. Letters need room around it.
     ///
     /// # Errors
     ///
@@ -76,7 +76,7 @@ impl Chart {
     ///
     /// [`ReportError::Format`].
     pub fn draw_at(&self, [x, y]: [f64; 2], medium: Medium) -> Result<String, ReportError> {
-        let [top, right, bottom, left] = CHART_MARGINS;
+        let [top, right, bottom, left] = MARGINS;
         let (width, height) = (self.size.0 - left - right, self.size.1 - top - bottom);
         let inner = Self { size: (width, height), ..self.clone() };
         let drawn = inner.draw(medium)?;
@@ -89,7 +89,7 @@ impl Chart {
 }
 
 /// Room for letters above, right of, below and left of the area between the axes (px).
-pub const CHART_MARGINS: [f64; 4] = [24.0, 12.0, 36.0, 52.0];
+const MARGINS: [f64; 4] = [24.0, 12.0, 36.0, 52.0];
 
 impl<'a> Plot<'a> {
     /// The plot of a chart; none where there is nothing to draw.

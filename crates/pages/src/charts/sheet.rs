@@ -76,8 +76,8 @@ pub struct FigureSheet {
 impl FigureSheet {
     /// A sheet that ends where its legend does.
     ///
-    /// In a page the title only speaks to those who cannot see the figure: what stands above
-    /// and below it is told by the page.
+    /// In a page only screen readers read the title: the page has headings and captions of its
+    /// own.
     pub fn new(title: &str, subtitle: &str, keys: Vec<LegendKey>, medium: Medium) -> Self {
         let subtitle = match medium {
             Medium::Alone => wrap(subtitle, LINE_CHARACTERS),
@@ -110,7 +110,7 @@ impl FigureSheet {
     }
 }
 
-/// Things below each other.
+/// Places items below each other, the first at `top`, `step` apart (px).
 pub fn stack<T>(items: Vec<T>, top: f64, step: f64) -> Vec<Stacked<T>> {
     let at = |(i, item)| Stacked { y: top + step * i as f64, item };
     items.into_iter().enumerate().map(at).collect()

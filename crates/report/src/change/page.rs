@@ -99,7 +99,7 @@ fn first(comparison: &Comparison, finding: &Finding) -> Option<[String; 2]> {
     Some([finding.at.words(), sizes_before(comparison, finding)?.join("; ")])
 }
 
-/// The size that a change has in the first logs by themselves, where they tell it.
+/// The sizes of a changed effect in the first logs alone, where these determine them.
 pub fn sizes_before(comparison: &Comparison, finding: &Finding) -> Option<Vec<String>> {
     let size = comparison.first.iter().find(|size| size.at == finding.at)?;
     // It was what these logs say: there is nothing before them.

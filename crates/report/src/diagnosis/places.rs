@@ -16,7 +16,7 @@ pub(crate) struct JointUnits {
 }
 
 impl JointUnits {
-    /// The units of the joint with this name; those of a rotation when there is none.
+    /// The units of the joint with this name; those of a rotation where no joint has it.
     pub fn of(robot: &Robot, joint: &str) -> Self {
         let index = robot.joint_index(joint);
         let is_rotation =
@@ -34,7 +34,7 @@ impl JointUnits {
         }
     }
 
-    /// A sentence in which an effort has the unit `N m`, with the unit of this joint.
+    /// The sentence with the unit of this joint in place of `N m`.
     pub fn with_unit(self, sentence: &str) -> String {
         sentence.replace("N m", self.effort)
     }

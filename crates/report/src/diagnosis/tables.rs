@@ -93,8 +93,8 @@ pub(crate) fn words_for_floor(source: NoiseFloorSource) -> [&'static str; 2] {
     }
 }
 
-/// The sizes of a finding that the logs determine, with their names where it has several
-/// and with what they were.
+/// The parameters of a finding that the logs determine, as text: name where it has several, value
+/// with interval, and nominal value.
 pub fn sizes(finding: &Finding) -> Vec<String> {
     let known = finding.parameters.iter().filter(|p| p.determined);
     known.map(|p| size(p, finding.parameters.len())).collect()

@@ -14,9 +14,9 @@ use pages::{
 /// The verdict as text for a terminal of 100 columns, with colours as escape codes that
 /// `anstream` removes where they are not wanted.
 ///
-/// The first line is the verdict in a sentence, the second what it buys, then what the
-/// words of the blocks mean; then one block a joint, with its findings, the largest share
-/// first, their rivals and what is left. Joints that the log does not show come last.
+/// The first line is the verdict in a sentence, the second the gain of the extended model. The words
+/// of the blocks are explained next. Then comes one block a joint: its findings, the largest share
+/// first, their rivals, and the error that is left. Joints with inadequate data come last.
 pub fn text(report: &Report) -> String {
     let diagnosis = report.diagnosis;
     let style = style_of(diagnosis.verdict).bold();
@@ -245,7 +245,7 @@ fn motions(out: &mut String, findings: &[Finding]) {
     }
 }
 
-/// A faint line under a finding, wrap.
+/// A faint line under a finding, wrapped.
 fn note(out: &mut String, text: &str) {
     for line in wrap(text, TERMINAL_WIDTH - 4) {
         out.push_str(&format!("    {FAINT}{line}{FAINT:#}\n"));

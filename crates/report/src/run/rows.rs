@@ -3,7 +3,7 @@ use evaluation::{ForwardWindow, Gain, Metrics};
 use crate::diagnosis::forward::drifts;
 use pages::significant;
 
-/// Length of time after which the drift is with_unit joint by joint (s).
+/// Length of time after which the page shows the drift joint by joint (s).
 pub(crate) const TOLD_S: f64 = 0.2;
 
 /// A number before and after, and how many times less it is.
