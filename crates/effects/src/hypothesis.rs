@@ -56,7 +56,7 @@ impl Hypothesis {
         self.model().map(|m| m.nature())
     }
 
-    /// Whether its columns are those of a small change only ([`Linearity::Tangent`]).
+    /// Whether its columns hold for a small change only ([`Linearity::Tangent`]).
     pub fn is_tangent(self) -> bool {
         self.nature().is_some_and(|n| n.linearity != Linearity::Exact)
     }
@@ -66,8 +66,8 @@ impl Hypothesis {
         self.nature().is_some_and(|n| n.imitable)
     }
 
-    /// The joint of an effect that lies between its encoder and its link: where a second encoder
-    /// shows the link, it shows the effect.
+    /// The joint of an effect that lies between its encoder and its link, where a second encoder at the link shows
+    /// it.
     pub fn before_the_link(self) -> Option<usize> {
         self.joint().filter(|_| self.nature().is_some_and(|n| n.seat == Seat::BeforeTheLink))
     }
@@ -131,9 +131,8 @@ impl Hypothesis {
         self.model().map(|m| m.quantities(self.place, nominal, extended)).unwrap_or_default()
     }
 
-    /// Whether `self` and `other` are two names for changes of the same numbers,
-    /// so that both cannot be part of one model. Asymmetric friction is Coulomb friction with an
-    /// offset.
+    /// Whether `self` and `other` change the same numbers, so that one model cannot hold both. Asymmetric friction, for
+    /// example, is Coulomb friction with an offset.
     pub fn excludes(self, other: Self) -> bool {
         let holds = |a: Self, b: Self| {
             let is_b = |r: &Relation| match r {
@@ -146,25 +145,24 @@ impl Hypothesis {
         self.place == other.place && (holds(self, other) || holds(other, self))
     }
 
-    /// Whether `self` and `other` have the same columns about a robot without either.
+    /// Whether `self` and `other` have the same columns for a robot without either.
     pub fn is_twin(self, other: Self) -> bool {
         self.place == other.place && self.relations().contains(&Relation::TwinOf(other.kind))
     }
 
-    /// The Coulomb friction whose level this effect makes vary.
+    /// The Coulomb friction whose level varies by this effect.
     pub fn varies(self) -> Option<Self> {
         let (kind, _) = self.nature()?.form_of()?;
         Some(Self { kind, place: self.place })
     }
 
-    /// Effects of the same place that together are this one: Coulomb friction, the level of asymmetric
-    /// friction, and its offset.
+    /// Effects of the same place whose sum is this one: Coulomb friction and an offset for asymmetric friction.
     pub fn together(self) -> Vec<Self> {
         let kinds = self.nature().map_or(&[] as &[EffectKind], Nature::together);
         kinds.iter().map(|&kind| Self { kind, place: self.place }).collect()
     }
 
-    /// Effects that have the name where they do the work of this one, which reaches `joints`.
+    /// Simpler effects that are named instead of this one, which reaches `joints`, where they explain the same.
     pub fn plainer(self, joints: &[usize]) -> Vec<Self> {
         let at = |&kind: &EffectKind, place| Self { kind, place };
         let of = |relation: &Relation| match relation {

@@ -1,5 +1,5 @@
-//! The model side of the effects: the columns that explain it in a log, what its
-//! weights mean, and its place in the robot's description.
+//! The model side of the effects: the columns that explain an effect in a log, the meaning of their weights, and the
+//! place of the effect in the robot's description.
 //!
 //! ```text
 //! effort - nominal effort = sum over hypotheses of columns(motion) weights + noise
