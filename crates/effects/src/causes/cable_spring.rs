@@ -23,7 +23,8 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 /// x + dh / d stiffness,   x³,   dh / d hysteresis,   -(stiffness + 3 cubic x²)
 /// ```
 ///
-/// For a spring without a cubic term the rest position is equivalent to a torque offset.
+/// For a spring without a cubic term the rest position is equivalent to a torque offset. Where the rest position
+/// may lie within the range of motion, the logs decide nothing between the two, and the spring is named.
 pub(crate) struct CableSpring;
 
 /// Displacement over which a loop builds up in a robot that has none yet, over the range of motion.
