@@ -37,7 +37,7 @@ impl Hypothesis {
         model(self.kind).ok()
     }
 
-    /// See [`Effect::columns`].
+    /// See [`AnyEffect::columns`].
     pub fn columns(self, motion: &Motion) -> Vec<Column> {
         let mut columns = self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default();
         for part in columns.iter_mut().flatten() {
@@ -46,12 +46,12 @@ impl Hypothesis {
         columns
     }
 
-    /// See [`Effect::twist`].
+    /// See [`AnyEffect::twist`].
     pub fn twist(self, motion: &Motion) -> Vec<Column> {
         self.model().map(|m| m.twist(self.place, motion)).unwrap_or_default()
     }
 
-    /// See [`Effect::nature`]; none of an effect without a model.
+    /// See [`AnyEffect::nature`]; none of an effect without a model.
     pub fn nature(self) -> Option<Nature> {
         self.model().map(|m| m.nature())
     }
@@ -72,37 +72,37 @@ impl Hypothesis {
         self.joint().filter(|_| self.nature().is_some_and(|n| n.seat == Seat::BeforeTheLink))
     }
 
-    /// See [`Effect::prior`].
+    /// See [`AnyEffect::prior`].
     pub fn prior(self, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
         self.model().map(|m| m.prior(self.place, robot, scale, priors)).unwrap_or_default()
     }
 
-    /// See [`Effect::everyday`].
+    /// See [`AnyEffect::everyday`].
     pub fn everyday(self, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
         self.model()?.everyday(self.place, robot, priors)
     }
 
-    /// See [`Effect::rarity`].
+    /// See [`AnyEffect::rarity`].
     pub fn rarity(self, robot: &Robot, priors: &Priors) -> f64 {
         self.model().map_or(0.0, |m| m.rarity(self.place, robot, priors))
     }
 
-    /// See [`Effect::bounds`].
+    /// See [`AnyEffect::bounds`].
     pub fn bounds(self, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
         self.model().map(|m| m.bounds(self.place, robot, priors)).unwrap_or_default()
     }
 
-    /// See [`Effect::admissible`].
+    /// See [`AnyEffect::admissible`].
     pub fn admissible(self, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
         self.model().is_some_and(|m| m.admissible(self.place, robot, weights, priors))
     }
 
-    /// See [`Effect::is_sound`].
+    /// See [`AnyEffect::is_sound`].
     pub fn is_sound(self, extended: &Robot, priors: &Priors) -> bool {
         self.model().is_some_and(|m| m.is_sound(self.place, extended, priors))
     }
 
-    /// See [`Effect::more_than_plain`]; `robots` are the nominal and the extended one.
+    /// See [`AnyEffect::more_than_plain`]; `robots` are the nominal and the extended one.
     pub fn more_than_plain(
         self,
         robots: [&Robot; 2],
@@ -114,19 +114,19 @@ impl Hypothesis {
             .unwrap_or_default()
     }
 
-    /// See [`Effect::largest_unseen`].
+    /// See [`AnyEffect::largest_unseen`].
     pub fn largest_unseen(self, robot: &Robot, frame: &Frame, priors: &Priors) -> f64 {
         self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame, priors))
     }
 
-    /// See [`Effect::extend`].
+    /// See [`AnyEffect::extend`].
     pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame, priors: &Priors) {
         if let Some(model) = self.model() {
             model.extend(self.place, robot, weights, frame, priors);
         }
     }
 
-    /// See [`Effect::quantities`].
+    /// See [`AnyEffect::quantities`].
     pub fn quantities(self, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         self.model().map(|m| m.quantities(self.place, nominal, extended)).unwrap_or_default()
     }
