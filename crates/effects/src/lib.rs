@@ -1,64 +1,48 @@
-//! The model side of the effects: the columns that explain it in a log, what its
-//! weights mean, and its place in the robot's description.
+//! The model side of the effects: the columns that explain an effect in a log, the meaning of their weights, and the
+//! place of the effect in the robot's description.
 //!
 //! ```text
 //! effort - nominal effort = sum over hypotheses of columns(motion) weights + noise
 //! ```
 //!
-//! The README of this crate says how an effect is added. One file an effect, under the name it has in `catalogue` (delay and lag are `late_torque`);
-//! [`model`] finds it, or says what an effect without one would need. [`Compensation`] asks the
-//! motors for what undoes the effects that a robot's description holds, and [`remedy`] says
-//! which those are.
+//! The README of this crate says how an effect is added. `causes` has one file an effect, under the name that the
+//! effect has in `catalogue` (delay and lag are `late_torque`). [`model`] finds it, or says what an effect without one
+//! would need. [`Compensation`] gives the feedforward efforts that undo the effects of a robot's description, and
+//! [`remedy`] says which effects these are.
 
-mod asymmetric_friction;
-mod backlash;
-mod cable_loop;
-mod cable_spring;
+mod abilities;
+mod any_effect;
+mod bounds;
+mod causes;
+mod column;
 mod compensation;
-mod coulomb_friction;
-mod counterbalance;
-mod differential_coupling;
-mod direction;
-mod dry_friction;
-mod encoder_offset;
-mod explain;
-mod friction_temperature_drift;
-mod germ;
-mod give;
-mod gravity_direction;
+mod effect;
 mod hypothesis;
-mod inertial_parameters;
-mod joint_elasticity;
-mod late_torque;
-mod left_out;
-mod load_dependent_friction;
 mod model;
 mod motion;
-mod nature;
-mod payload;
-mod position_dependent_friction;
-mod presliding_friction;
-mod remedy;
-mod rigid_bodies;
-mod rotor_inertia;
-mod scale;
-mod slopes;
-mod stribeck_friction;
-mod time_skew;
-mod timing;
-mod torque_constant;
-mod torque_offset;
-mod transmission;
-mod transmission_ratio;
-mod viscous_friction;
+mod place;
+mod priors;
+mod quantity;
+mod traits;
+mod trial_shape;
 
-pub use compensation::{Compensated, Compensation, CompensationWorkspace};
-pub use explain::{Column, Explain, Part, Quantity};
-pub use germ::{Germ, germs, weeded};
-pub use hypothesis::{Hypothesis, Place, hypotheses};
-pub use left_out::left_out;
-pub use model::{MODELLED, model};
-pub use motion::{Encoders, Frame, Motion, drive_torque};
-pub use nature::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
-pub use remedy::remedy;
-pub use scale::Scale;
+pub use abilities::{
+    BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare, IsRestricted,
+};
+pub use any_effect::AnyEffect;
+pub use column::{Column, Part};
+pub use compensation::feedforward::{Compensated, Compensation, CompensationWorkspace};
+pub use compensation::left_out::left_out;
+pub use effect::Effect;
+pub use hypothesis::{Hypothesis, hypotheses};
+pub use model::{MODELLED, model, remedy};
+pub use motion::drive::drive_torque;
+pub use motion::encoders::Encoders;
+pub use motion::frame::Frame;
+pub use motion::run_motion::Motion;
+pub use motion::scale::Scale;
+pub use place::{AtBase, AtJoint, InLink, Place, TypedPlace};
+pub use priors::Priors;
+pub use quantity::Quantity;
+pub use traits::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+pub use trial_shape::{Germ, germs, weeded};

@@ -151,8 +151,8 @@ impl Design {
     ) -> Vec<(usize, usize)> {
         let mut origins: Vec<(usize, usize)> = Vec::new();
         for (h, &hypothesis) in hypotheses.iter().enumerate() {
-            let prior = hypothesis.prior(robot, scale);
-            let bounds = hypothesis.bounds(robot);
+            let prior = hypothesis.prior(robot, scale, &effects::Priors::default());
+            let bounds = hypothesis.bounds(robot, &effects::Priors::default());
             let mut group = Group { hypothesis, columns: Vec::new(), joints: Vec::new() };
             for (k, &sd) in prior.iter().enumerate() {
                 let reached =
