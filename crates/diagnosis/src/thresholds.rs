@@ -9,6 +9,7 @@ pub(crate) mod sizes;
 pub(crate) mod tones;
 pub(crate) mod verdict;
 
+use effects::Priors;
 use inspection::InspectionThresholds;
 
 use crate::thresholds::blocks::BlockThresholds;
@@ -38,6 +39,8 @@ pub struct Thresholds {
     pub tones: ToneThresholds,
     /// Limits of the efforts.
     pub limits: LimitThresholds,
+    /// What is believed of effects before any log, and the limits of that.
+    pub priors: Priors,
     /// Which hypotheses become findings.
     pub search: SearchThresholds,
     /// How well a size is known.

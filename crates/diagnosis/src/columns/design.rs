@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use effects::{Frame, Hypothesis, Scale, hypotheses};
+use effects::{Frame, Hypothesis, Priors, Scale, hypotheses};
 use logs::LogError;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -46,6 +46,8 @@ pub(crate) struct Design {
     pub rate_hz: f64,
     /// The frame in which the columns were evaluated.
     pub frame: Frame,
+    /// What was believed of the effects beforehand.
+    pub priors: Priors,
     /// Joints that moved; the rows of others take no part.
     pub moved: Vec<bool>,
     /// Which joints move in which run, `[run][joint]`.
@@ -130,6 +132,7 @@ impl Design {
             runs: Vec::new(),
             rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
             frame,
+            priors: log.thresholds.priors,
             moved: log.rows(),
             response: log.response,
             moves: Vec::new(),
@@ -151,8 +154,8 @@ impl Design {
     ) -> Vec<(usize, usize)> {
         let mut origins: Vec<(usize, usize)> = Vec::new();
         for (h, &hypothesis) in hypotheses.iter().enumerate() {
-            let prior = hypothesis.prior(robot, scale, &effects::Priors::default());
-            let bounds = hypothesis.bounds(robot, &effects::Priors::default());
+            let prior = hypothesis.prior(robot, scale, &self.priors);
+            let bounds = hypothesis.bounds(robot, &self.priors);
             let mut group = Group { hypothesis, columns: Vec::new(), joints: Vec::new() };
             for (k, &sd) in prior.iter().enumerate() {
                 let reached =

@@ -69,7 +69,7 @@ impl FindingBuilder<'_> {
         design.groups[g].hypothesis.largest_unseen(
             self.selection.robot,
             &design.frame,
-            &effects::Priors::default(),
+            &design.priors,
         )
     }
 

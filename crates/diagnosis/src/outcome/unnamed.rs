@@ -80,7 +80,7 @@ impl<'a> Unnamed<'a> {
 fn prior_of_small_errors(design: &Design, robot: &Robot) -> Vec<f64> {
     let mut prior = design.prior.clone();
     for group in &design.groups {
-        let Some(small) = group.hypothesis.everyday(robot, &effects::Priors::default()) else {
+        let Some(small) = group.hypothesis.everyday(robot, &design.priors) else {
             continue;
         };
         group.columns.iter().zip(small).for_each(|(&column, sd)| prior[column] = sd);
