@@ -16,6 +16,7 @@ mod rings;
 mod sealed;
 mod sources;
 mod supply;
+mod thresholds;
 mod tree;
 mod walls;
 mod workspace;

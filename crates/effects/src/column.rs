@@ -1,4 +1,4 @@
-/// What one unit of a weight adds to the effort of one joint, sample by sample.
+/// Change of the effort of one joint per unit of a weight, sample by sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// Index of the joint.
@@ -7,7 +7,7 @@ pub struct Part {
     pub values: Vec<f64>,
 }
 
-/// What one unit of a weight adds to the effort of every joint it reaches.
+/// Change of the effort of every joint that a weight reaches, per unit of the weight.
 pub type Column = Vec<Part>;
 
 /// A column that reaches one joint.

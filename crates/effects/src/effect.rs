@@ -35,7 +35,7 @@ pub trait Effect: Sync {
     /// What is known of it before any log.
     fn nature(&self) -> Nature;
 
-    /// What [`Compensation`](crate::Compensation) does against it; where it does nothing, why.
+    /// How [`Compensation`](crate::Compensation) undoes it.
     ///
     /// # Errors
     ///

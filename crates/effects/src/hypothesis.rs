@@ -37,7 +37,7 @@ impl Hypothesis {
         model(self.kind).ok()
     }
 
-    /// See [`Effect::columns`].
+    /// See [`AnyEffect::columns`].
     pub fn columns(self, motion: &Motion) -> Vec<Column> {
         let mut columns = self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default();
         for part in columns.iter_mut().flatten() {
@@ -46,17 +46,17 @@ impl Hypothesis {
         columns
     }
 
-    /// See [`Effect::twist`].
+    /// See [`AnyEffect::twist`].
     pub fn twist(self, motion: &Motion) -> Vec<Column> {
         self.model().map(|m| m.twist(self.place, motion)).unwrap_or_default()
     }
 
-    /// See [`Effect::nature`]; none of an effect without a model.
+    /// See [`AnyEffect::nature`]; none of an effect without a model.
     pub fn nature(self) -> Option<Nature> {
         self.model().map(|m| m.nature())
     }
 
-    /// Whether its columns are those of a small change only ([`Linearity::Tangent`]).
+    /// Whether its columns hold for a small change only ([`Linearity::Tangent`]).
     pub fn is_tangent(self) -> bool {
         self.nature().is_some_and(|n| n.linearity != Linearity::Exact)
     }
@@ -66,43 +66,43 @@ impl Hypothesis {
         self.nature().is_some_and(|n| n.imitable)
     }
 
-    /// The joint of an effect that lies between its encoder and its link: where a second encoder
-    /// shows the link, it shows the effect.
+    /// The joint of an effect that lies between its encoder and its link, where a second encoder at the link shows
+    /// it.
     pub fn before_the_link(self) -> Option<usize> {
         self.joint().filter(|_| self.nature().is_some_and(|n| n.seat == Seat::BeforeTheLink))
     }
 
-    /// See [`Effect::prior`].
+    /// See [`AnyEffect::prior`].
     pub fn prior(self, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
         self.model().map(|m| m.prior(self.place, robot, scale, priors)).unwrap_or_default()
     }
 
-    /// See [`Effect::everyday`].
+    /// See [`AnyEffect::everyday`].
     pub fn everyday(self, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
         self.model()?.everyday(self.place, robot, priors)
     }
 
-    /// See [`Effect::rarity`].
+    /// See [`AnyEffect::rarity`].
     pub fn rarity(self, robot: &Robot, priors: &Priors) -> f64 {
         self.model().map_or(0.0, |m| m.rarity(self.place, robot, priors))
     }
 
-    /// See [`Effect::bounds`].
+    /// See [`AnyEffect::bounds`].
     pub fn bounds(self, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
         self.model().map(|m| m.bounds(self.place, robot, priors)).unwrap_or_default()
     }
 
-    /// See [`Effect::admissible`].
+    /// See [`AnyEffect::admissible`].
     pub fn admissible(self, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
         self.model().is_some_and(|m| m.admissible(self.place, robot, weights, priors))
     }
 
-    /// See [`Effect::is_sound`].
+    /// See [`AnyEffect::is_sound`].
     pub fn is_sound(self, extended: &Robot, priors: &Priors) -> bool {
         self.model().is_some_and(|m| m.is_sound(self.place, extended, priors))
     }
 
-    /// See [`Effect::more_than_plain`]; `robots` are the nominal and the extended one.
+    /// See [`AnyEffect::more_than_plain`]; `robots` are the nominal and the extended one.
     pub fn more_than_plain(
         self,
         robots: [&Robot; 2],
@@ -114,26 +114,25 @@ impl Hypothesis {
             .unwrap_or_default()
     }
 
-    /// See [`Effect::largest_unseen`].
+    /// See [`AnyEffect::largest_unseen`].
     pub fn largest_unseen(self, robot: &Robot, frame: &Frame, priors: &Priors) -> f64 {
         self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame, priors))
     }
 
-    /// See [`Effect::extend`].
+    /// See [`AnyEffect::extend`].
     pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame, priors: &Priors) {
         if let Some(model) = self.model() {
             model.extend(self.place, robot, weights, frame, priors);
         }
     }
 
-    /// See [`Effect::quantities`].
+    /// See [`AnyEffect::quantities`].
     pub fn quantities(self, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         self.model().map(|m| m.quantities(self.place, nominal, extended)).unwrap_or_default()
     }
 
-    /// Whether `self` and `other` are two names for changes of the same numbers,
-    /// so that both cannot be part of one model. Asymmetric friction is Coulomb friction with an
-    /// offset.
+    /// Whether `self` and `other` change the same numbers, so that one model cannot hold both. Asymmetric friction, for
+    /// example, is Coulomb friction with an offset.
     pub fn excludes(self, other: Self) -> bool {
         let holds = |a: Self, b: Self| {
             let is_b = |r: &Relation| match r {
@@ -146,25 +145,24 @@ impl Hypothesis {
         self.place == other.place && (holds(self, other) || holds(other, self))
     }
 
-    /// Whether `self` and `other` have the same columns about a robot without either.
+    /// Whether `self` and `other` have the same columns for a robot without either.
     pub fn is_twin(self, other: Self) -> bool {
         self.place == other.place && self.relations().contains(&Relation::TwinOf(other.kind))
     }
 
-    /// The Coulomb friction whose level this effect makes vary.
+    /// The Coulomb friction whose level varies by this effect.
     pub fn varies(self) -> Option<Self> {
         let (kind, _) = self.nature()?.form_of()?;
         Some(Self { kind, place: self.place })
     }
 
-    /// Effects of the same place that together are this one: Coulomb friction, the level of asymmetric
-    /// friction, and its offset.
+    /// Effects of the same place whose sum is this one: Coulomb friction and an offset for asymmetric friction.
     pub fn together(self) -> Vec<Self> {
         let kinds = self.nature().map_or(&[] as &[EffectKind], Nature::together);
         kinds.iter().map(|&kind| Self { kind, place: self.place }).collect()
     }
 
-    /// Effects that have the name where they do the work of this one, which reaches `joints`.
+    /// Simpler effects that are named instead of this one, which reaches `joints`, where they explain the same.
     pub fn plainer(self, joints: &[usize]) -> Vec<Self> {
         let at = |&kind: &EffectKind, place| Self { kind, place };
         let of = |relation: &Relation| match relation {

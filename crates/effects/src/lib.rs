@@ -1,14 +1,14 @@
-//! The model side of the effects: the columns that explain it in a log, what its
-//! weights mean, and its place in the robot's description.
+//! The model side of the effects: the columns that explain an effect in a log, the meaning of their weights, and the
+//! place of the effect in the robot's description.
 //!
 //! ```text
 //! effort - nominal effort = sum over hypotheses of columns(motion) weights + noise
 //! ```
 //!
-//! The README of this crate says how an effect is added. One file an effect, under the name it has in `catalogue` (delay and lag are `late_torque`);
-//! [`model`] finds it, or says what an effect without one would need. [`Compensation`] asks the
-//! motors for what undoes the effects that a robot's description holds, and [`remedy`] says
-//! which those are.
+//! The README of this crate says how an effect is added. `causes` has one file an effect, under the name that the
+//! effect has in `catalogue` (delay and lag are `late_torque`). [`model`] finds it, or says what an effect without one
+//! would need. [`Compensation`] gives the feedforward efforts that undo the effects of a robot's description, and
+//! [`remedy`] says which effects these are.
 
 mod abilities;
 mod any_effect;

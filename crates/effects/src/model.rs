@@ -39,8 +39,8 @@ pub const MODELLED: [EffectKind; 24] = [
     EffectKind::FrictionTemperatureDrift,
     EffectKind::TorqueOffset,
     EffectKind::RotorInertia,
-    // Of the same columns the first counts: a body that is one is sooner carried than forgotten in
-    // the description of the link.
+    // Of two effects with the same columns the first counts: a payload is more likely than an error in the
+    // description of the link.
     EffectKind::Payload,
     EffectKind::InertialParameters,
     EffectKind::CableSpring,
@@ -58,17 +58,16 @@ pub const MODELLED: [EffectKind; 24] = [
     EffectKind::ActuatorLag,
 ];
 
-/// The model side of `kind`; where there is none, what it would need.
+/// The model side of `kind`.
 ///
 /// # Errors
 ///
-/// What a model of columns `f(q, qd, qdd)` and constant weights cannot hold.
+/// The reason that a model of columns `f(q, qd, qdd)` and constant weights cannot hold the effect.
 pub fn model(kind: EffectKind) -> Result<&'static dyn AnyEffect, &'static str> {
     find(kind).map_err(|effect| effect.reason)
 }
 
-/// What [`Compensation`](crate::Compensation) does against an effect that the robot's
-/// description holds; where it does nothing, why.
+/// How [`Compensation`](crate::Compensation) undoes an effect of the robot's description.
 ///
 /// # Errors
 ///

@@ -14,7 +14,7 @@ pub struct Quantity {
     pub unit: &'static str,
 }
 
-/// The units of parameter `index` of `kind` at joint `joint`, and its name.
+/// Name and unit of parameter `index` of `kind` at joint `joint`.
 pub(crate) fn name_and_unit(
     kind: EffectKind,
     index: usize,
@@ -26,7 +26,7 @@ pub(crate) fn name_and_unit(
     (parameter.name, if rotation { parameter.unit } else { parameter.unit_prismatic })
 }
 
-/// A parameter read from the actuator of `joint` in both robots.
+/// A parameter with its values by `read` from the actuator of `joint` in both robots.
 pub(crate) fn actuator_quantity(
     kind: EffectKind,
     index: usize,

@@ -1,11 +1,11 @@
 use catalogue::EffectKind;
 
-/// How the columns of an effect depend on the robot about which they are made.
+/// How the columns of an effect depend on the robot for which they are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Linearity {
-    /// They are the same however large the effect.
+    /// They are the same for every size of the effect.
     Exact,
-    /// They are those of a small change: about a robot that has it, or other effects, they are others.
+    /// They hold for a small change: with this or another effect in the robot they differ.
     Tangent,
 }
 
@@ -26,7 +26,7 @@ pub enum Law {
     Rough,
 }
 
-/// Where an effect lies, seen from the first encoder of a joint.
+/// Where an effect lies relative to the first encoder of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seat {
     /// Between that encoder and the link: a second one at the link shows it.
@@ -35,16 +35,16 @@ pub enum Seat {
     Elsewhere,
 }
 
-/// How a weight tells its parameter.
+/// How the weights are related to the parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weights {
-    /// It is the change of the parameter of the same index.
+    /// A weight is the change of the parameter of the same index.
     Direct,
-    /// It is the change of the reciprocal of that parameter.
+    /// A weight is the change of the reciprocal of that parameter.
     Reciprocal,
-    /// How large the effect would have to be to be seen is told of this parameter.
+    /// The size that the logs would show is reported as this parameter.
     SeenBy(usize),
-    /// The first two are one size in two phases.
+    /// The first two weights are one size in two phases.
     Phases,
 }
 
@@ -57,22 +57,22 @@ pub enum Shows {
     AtOtherPositions,
 }
 
-/// What an effect is to another.
+/// How an effect is related to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Relation {
-    /// It makes the size of that effect of the same joint vary, which shows there.
+    /// It makes the size of that effect at the same joint vary, which shows there.
     FormOf(EffectKind, Shows),
-    /// It is these effects of the same place together.
+    /// It is the sum of these effects at the same place.
     Together(&'static [EffectKind]),
     /// It is another name for changes of the same numbers.
     OtherNameOf(EffectKind),
     /// It has the same columns about a robot without either.
     TwinOf(EffectKind),
-    /// That effect at the same place has the name where it does the work.
+    /// That effect at the same place is simpler, and is named instead where it explains the same.
     PlainerHere(EffectKind),
-    /// The same of that effect at the joint that carries the link.
+    /// The same for that effect at the joint that carries the link.
     PlainerAtTheJoint(EffectKind),
-    /// The same of these at every joint that it reaches: what it explains is what it adds to them.
+    /// The same for these effects at every joint that it reaches: it counts only for what it explains beyond them.
     PlainerAtEveryJoint(&'static [EffectKind]),
 }
 
@@ -89,9 +89,9 @@ pub struct Nature {
     pub law: Law,
     /// Where it lies.
     pub seat: Seat,
-    /// How its weights tell its parameters.
+    /// How its weights are related to its parameters.
     pub weights: Weights,
-    /// What it is to other effects.
+    /// How it is related to other effects.
     pub relations: &'static [Relation],
 }
 
@@ -109,12 +109,12 @@ impl Nature {
         Self { linearity, imitable, law, seat, weights, relations }
     }
 
-    /// Whether what it explains is what it adds to its plainer rivals at every joint.
+    /// Whether it counts only for what it explains beyond simpler effects at every joint.
     pub fn adds_to_the_plain(self) -> bool {
         self.relations.iter().any(|r| matches!(r, Relation::PlainerAtEveryJoint(_)))
     }
 
-    /// Effects that together are this one.
+    /// Effects whose sum is this one.
     pub fn together(self) -> &'static [EffectKind] {
         let parts = |r: &Relation| match r {
             Relation::Together(kinds) => Some(*kinds),

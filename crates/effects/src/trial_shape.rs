@@ -10,8 +10,8 @@ use crate::motion::scale::Scale;
 use crate::place::{AtJoint, Place, TypedPlace};
 use crate::priors::Priors;
 
-/// An effect of no size at a joint, with a trial value of the parameter that its columns are not
-/// linear in: a Stribeck velocity, periods in a turn, a play.
+/// A trial value of the parameter in which the columns of an effect at a joint are not linear: a Stribeck velocity,
+/// periods in a turn, a gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Germ {
     /// The effect and its joint.
@@ -20,7 +20,7 @@ pub struct Germ {
     pub shape: f64,
 }
 
-/// Every germ that could be sown in this robot.
+/// Every trial shape of every effect that this robot could have.
 pub fn germs(robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<Germ> {
     let mut all = Vec::new();
     for (kind, effect) in shaped() {
@@ -38,8 +38,8 @@ fn shaped() -> impl Iterator<Item = (EffectKind, &'static dyn HasShape)> {
     MODELLED.into_iter().filter_map(|kind| Some((kind, model(kind).ok()?.shape()?)))
 }
 
-/// `robot` without the germs that stayed without size: there it is as `nominal` is. Where less friction was
-/// found than a drive was described to lose by warming up, it loses that.
+/// `robot` with the shapes of `nominal` wherever an effect stayed without size. A drive loses at most the friction that
+/// it has by warming up.
 pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
     for (j, link) in nominal.links().iter().enumerate() {
         let Some(changed) = robot.link_mut(j) else { continue };
@@ -51,7 +51,7 @@ pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
 }
 
 impl Germ {
-    /// The robot with the germ: it moves as it did.
+    /// Gives the robot the effect with this shape and no size, which leaves its efforts as they are.
     pub fn sow(self, robot: &mut Robot) {
         let Some((AtJoint(j), effect)) = self.effect() else { return };
         if let Some(link) = robot.link_mut(j) {
@@ -59,7 +59,7 @@ impl Germ {
         }
     }
 
-    /// The columns of the effect in a robot with the germ, along a motion of the robot without.
+    /// The columns of the effect with this shape, along a motion of the robot without it.
     pub fn columns(self, motion: &mut Motion) -> Vec<Column> {
         let Some((AtJoint(j), effect)) = self.effect() else { return Vec::new() };
         let before = motion.drives[j].clone();

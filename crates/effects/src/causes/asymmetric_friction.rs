@@ -116,7 +116,7 @@ impl IsRestricted<AtJoint> for AsymmetricFriction {
 }
 
 impl HasPlainer<AtJoint> for AsymmetricFriction {
-    /// Half the change of the difference: without it both levels have changed alike.
+    /// Half the change of the difference, without which both levels change alike.
     fn more_than_plain(
         &self,
         AtJoint(j): AtJoint,

@@ -17,19 +17,19 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 /// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
 /// of the gap (rad or m).
 ///
-/// How long the link takes from side to side goes with the third root of the gap, and what is late
-/// by a tenth of a second is none of what is not. The column of a robot without a gap is that of a
-/// trial gap, and the difference of two gaps in a robot with one.
+/// The time that the link takes from side to side grows with the third root of the gap, and signals delayed by a tenth
+/// of a second are uncorrelated with the undelayed ones. So a robot without a gap gets the column of a trial gap, and
+/// a robot with one gets the difference between two gaps.
 pub(crate) struct Backlash;
 
-/// Trial gaps (rad or m), each one and a half times the one before: those below the first are
-/// crossed as fast as it.
+/// Trial gaps (rad or m), each one and a half times the one before. Gaps below the first are crossed as fast as the
+/// first.
 const TRIALS: [f64; 9] = [0.002, 0.003, 0.0045, 0.007, 0.01, 0.015, 0.022, 0.033, 0.05];
 
-/// Gap for which the column is made where none was tried (rad or m).
+/// Gap of the column where no trial gap is set (rad or m).
 const SMALL: f64 = 0.005;
 
-/// Relative difference of the gaps whose motions are compared.
+/// Relative step of the gap in the central difference.
 const STEP: f64 = 0.1;
 
 impl Effect for Backlash {
@@ -126,7 +126,7 @@ impl BetweenEncoders for Backlash {
     }
 }
 
-/// What a unit of gap adds to `theta - q` at joint `j`.
+/// Change of `theta - q` at joint `j` per unit of gap.
 fn play_per_gap(motion: &Motion, j: usize, carried: LoadAlong<'_>) -> Vec<f64> {
     let drive = &motion.drives[j];
     let at = |gap: f64| play(carried, Gap::of(drive, gap), motion.period_s);

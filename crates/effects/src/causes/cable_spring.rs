@@ -16,19 +16,18 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `stiffness x + cubic x³ + h`, `x = q - rest`, with the loop `h`.
 ///
-/// In a robot without one weight a joint, the stiffness, about the middle of the recorded range. In a
-/// robot with a spring four, the changes of stiffness, cubic term, loop and rest position:
+/// A robot without a spring has one weight a joint: the stiffness, about the middle of the recorded range. A robot
+/// with a spring has four: the changes of stiffness, cubic term, loop and rest position:
 ///
 /// ```text
 /// x + dh / d stiffness,   x³,   dh / d hysteresis,   -(stiffness + 3 cubic x²)
 /// ```
 ///
-/// A rest position of a spring that does not stiffen is a torque offset. Where it may lie in the range
-/// of motion, the offset is not decided beside it, and the spring has it.
+/// For a spring without a cubic term the rest position is equivalent to a torque offset. Where the rest position
+/// may lie within the range of motion, the logs decide nothing between the two, and the spring is named.
 pub(crate) struct CableSpring;
 
-/// Way over which the loop is believed to be drawn out that a robot has not yet, over the range of
-/// motion.
+/// Displacement over which a loop builds up in a robot that has none yet, over the range of motion.
 const WAY: f64 = 1.0 / 16.0;
 
 /// Least and largest change of a loop in one step, over the loop.
@@ -79,7 +78,7 @@ impl Effect for CableSpring {
         };
         let dragged = Loop::new(drive.spring_stiffness, hysteresis, q);
         let x = || q.iter().map(|q| q - drive.spring_rest);
-        // Of a loop that is not there yet the shape is a guess, of one that is its size changes.
+        // A robot without a loop gets a column of an assumed shape, a robot with one the change of its size.
         let (stiffness, hysteresis): (Vec<f64>, Vec<f64>) = if drive.spring_hysteresis > 0.0 {
             let stiffness = x().zip(dragged.per_stiffness).map(|(x, h)| x + h);
             (stiffness.collect(), dragged.per_hysteresis)
@@ -180,14 +179,14 @@ impl Effect for CableSpring {
 }
 
 impl CanBeUnsound<AtJoint> for CableSpring {
-    /// Whether what slides is held by a spring.
+    /// Whether a loop has a spring.
     fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, _: &Priors) -> bool {
         let drive = &extended.links()[j].actuator;
         drive.spring_hysteresis == 0.0 || has_spring(drive)
     }
 }
 
-/// Whether there is a spring to which more can be said.
+/// Whether the robot has a spring.
 fn has_spring(drive: &Actuator) -> bool {
     drive.spring_stiffness > 0.0
 }

@@ -52,8 +52,8 @@ impl Effect for Counterbalance {
         None
     }
 
-    /// Joints that the robot says have one: of one that nobody told of, a log shows a spring, an offset and the
-    /// weight of a link, and taking two more columns of every joint for granted costs those their names.
+    /// Joints whose description has one. An undescribed one is found as a spring, an offset or the inertia of a link;
+    /// two more columns at every joint would make these ambiguous.
     fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| drive.counterbalance.is_some())
     }

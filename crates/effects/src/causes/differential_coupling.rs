@@ -13,18 +13,18 @@ use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
-/// Friction of two motors that a joint and the next one share: a dry level and a viscous factor of
-/// the motor that turns with the sum, the same of the one that turns with the difference; where
-/// there are any, a fifth weight for the change of the ratio.
+/// Friction of two motors that a joint and the next one share. Four weights: a dry level and a viscous factor of the
+/// motor that turns with the sum, and the same of the motor that turns with the difference. Where the friction is
+/// above zero, a fifth weight is the change of the ratio.
 pub(crate) struct DifferentialCoupling;
 
 /// Trial ratios: half to twice, a tenth to a fifth apart.
 const RATIOS: [f64; 11] = [0.5, 0.57, 0.66, 0.76, 0.87, 1.0, 1.15, 1.32, 1.52, 1.74, 2.0];
 
-/// Which way the other joint turns the motors of the sum and of the difference.
+/// Direction in which the other joint turns the motors of the sum and of the difference.
 const WAYS: [f64; 2] = [1.0, -1.0];
 
-/// Relative difference of the ratios whose friction is compared.
+/// Relative step of the ratio in the central difference.
 const STEP: f64 = 0.02;
 
 impl DifferentialCoupling {
@@ -88,7 +88,7 @@ impl Effect for DifferentialCoupling {
         drive.coupling.map(|_| "coupling")
     }
 
-    /// Joints with a coupling, or with the germ of one.
+    /// Joints with a coupling, or with the trial shape of one.
     fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| drive.coupling.is_some())
     }
@@ -198,8 +198,8 @@ impl HasShape for DifferentialCoupling {
 }
 
 impl IsRare<AtJoint> for DifferentialCoupling {
-    /// Few arms share motors, and of most of these it is known: friction of the sum and difference of two
-    /// speeds passes for what else goes with both joints.
+    /// Few arms share motors, and most of these are described so. Friction of the sum and difference of two speeds
+    /// imitates other effects at both joints.
     fn rarity(&self, AtJoint(j): AtJoint, robot: &Robot, priors: &Priors) -> f64 {
         let drive = robot.links().get(j).map(|link| &link.actuator);
         let coupling = drive.and_then(|drive| drive.coupling);

@@ -14,8 +14,8 @@ use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
-/// Friction that falls while the drive warms up: two weights a joint, the changes of the viscous and of
-/// the Coulomb friction that a warm drive has lost; where it has lost some, a third for the time constant.
+/// Friction that falls while the drive warms up. Two weights a joint: the changes of the viscous and of the Coulomb
+/// friction that a warm drive has lost. Where these are above zero, a third weight is the change of the time constant.
 ///
 /// ```text
 /// -warmth qd,   -warmth sign(qd),   warmth = 1 - exp(-t / time_constant)
@@ -32,7 +32,7 @@ const TRIALS_S: [f64; 4] = [300.0, 600.0, 1200.0, 2400.0];
 /// Least and largest change of a time constant in one step, over the time constant.
 const TIME_STEP: (f64, f64) = (-0.5, 1.0);
 
-/// Speed at which the share of friction that is lost is told (rad/s or m/s).
+/// Speed for which the lost share of friction is reported (rad/s or m/s).
 const SHARE_SPEED: f64 = 1.0;
 
 fn of(drive: &Actuator) -> Option<Warming> {
@@ -77,7 +77,7 @@ impl Effect for FrictionTemperatureDrift {
         None
     }
 
-    /// Joints whose friction falls, or that have the germ of it.
+    /// Joints whose friction falls, or that have the trial shape of it.
     fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| of(drive).is_some())
     }
@@ -123,7 +123,7 @@ impl Effect for FrictionTemperatureDrift {
         lost.concat().into_iter().chain(time).collect()
     }
 
-    /// No more is lost than the cold drive has.
+    /// The loss is at most the friction of the cold drive.
     fn extend(
         &self,
         AtJoint(j): AtJoint,

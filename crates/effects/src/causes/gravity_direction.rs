@@ -94,7 +94,7 @@ impl Effect for GravityDirection {
 }
 
 impl IsRestricted<AtBase> for GravityDirection {
-    /// A tilt at the limit of what the columns describe is no explanation.
+    /// A tilt at the limit of the linear columns is refused.
     fn admissible(&self, _: AtBase, _: &Robot, weights: &[f64], priors: &Priors) -> bool {
         weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * priors.tilt_limit_rad)
     }

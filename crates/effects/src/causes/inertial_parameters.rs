@@ -81,8 +81,8 @@ impl Effect for InertialParameters {
         sd
     }
 
-    /// The mass stays positive; that the whole inertia is physical is seen to where it is
-    /// written into a robot.
+    /// The mass stays positive. Whether the whole inertia is physical is checked by the fit that writes it into a
+    /// robot.
     fn bounds(&self, InLink(link): InLink, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let mut bounds = down_to_zero(robot.links()[link].inertia.mass);
         bounds.extend(unbounded(PARAMETERS_PER_LINK - 1));
@@ -115,7 +115,7 @@ impl Effect for InertialParameters {
 }
 
 impl HasCadError<InLink> for InertialParameters {
-    /// What CAD is wrong by: a tenth of the mass and of the inertia, a centimetre of the centre of mass.
+    /// Errors of CAD: a tenth of the mass and of the inertia, a centimetre of the centre of mass.
     ///
     /// ```text
     /// sd(m)   = cad_share m

@@ -22,13 +22,12 @@ fn compliance(drive: &Actuator) -> f64 {
     drive.elasticity.map_or(0.0, f64::recip)
 }
 
-/// Compliance by which the play of a spring is compared with that of a softer one (rad/(N m) or
-/// m/N): until a link has crossed, its play is linear in it.
+/// Step of the compliance in the difference of two plays (rad/(N m) or m/N). The play is linear in the compliance
+/// until the link has crossed.
 const STEP: f64 = 1e-7;
 
-/// What a unit of compliance adds to `theta - q` at joint `j`: the load, and that a link leaves an end
-/// of its play, under `play_load` that is `carried` there or beyond, as fast as the spring lets go (N·m
-/// or N).
+/// Change of `theta - q` at joint `j` per unit of compliance (N·m or N): the load, and the change of the play, since a
+/// softer spring releases the link faster. `carried` makes the load of the play from `play_load`.
 fn per_compliance(
     motion: &Motion,
     j: usize,

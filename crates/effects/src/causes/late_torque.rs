@@ -13,7 +13,7 @@ use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
 
-/// Torque that comes later than its command: one weight a joint, the change of a time (s).
+/// Torque that follows its command late: one weight a joint, the change of a time (s).
 ///
 /// ```text
 /// tau(t + delay) - tau(t)                 delay
@@ -76,7 +76,7 @@ impl Effect for LateTorque {
         (self.time(drive) > 0.0 && !is_measured(drive)).then_some(key)
     }
 
-    /// Joints whose log has a command, or may have: a measured torque has it behind it.
+    /// Joints whose log has, or may have, the command. A measured torque contains delay and lag already.
     fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| !is_measured(drive))
     }

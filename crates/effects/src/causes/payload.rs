@@ -17,8 +17,8 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 /// `Y_last pi_payload`: ten weights, the inertial parameters of a body held by a last
 /// link, about that link's origin.
 ///
-/// The columns are those of the link's own inertial parameters; a payload differs from a
-/// wrong link only in that it must be a body: it weighs something, and within reach.
+/// The columns are those of the link's own inertial parameters. A payload differs from an error of the link only in
+/// that it is a body: its mass is positive and its centre of mass within reach.
 pub(crate) struct Payload;
 
 impl Effect for Payload {
@@ -61,7 +61,7 @@ impl Effect for Payload {
         InertialParameters.prior(place, robot, scale, priors)
     }
 
-    /// As for the link's own parameters: what makes it a body is tested together.
+    /// Those of the link's own parameters. Whether it is a body is asked of all weights together.
     fn bounds(&self, place: InLink, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
         InertialParameters.bounds(place, robot, priors)
     }

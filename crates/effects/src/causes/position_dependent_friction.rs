@@ -16,8 +16,8 @@ use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
-/// Coulomb friction that varies with the position of the motor: two weights a joint, the change of
-/// the wave in phase and in quadrature (N·m or N); where there is one, a third for its periods.
+/// Coulomb friction that varies with the position of the motor. Two weights a joint: the change of the wave in phase
+/// and in quadrature (N·m or N). Where the wave is above zero, a third weight is the change of its periods.
 ///
 /// ```text
 /// z = level share exp(i phase),  friction = Re(z exp(i periods q)) sign(qd)
@@ -65,7 +65,7 @@ impl Effect for PositionDependentFriction {
         None
     }
 
-    /// Joints with a wave, or with the germ of one.
+    /// Joints with a wave, or with the trial shape of one.
     fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| drive.friction_wave.is_some())
     }
@@ -111,7 +111,7 @@ impl Effect for PositionDependentFriction {
         unbounded(2).into_iter().chain(periods).collect()
     }
 
-    /// The wave of a joint whose level is not known stays without size.
+    /// The wave of a joint without a Coulomb level stays zero.
     fn extend(
         &self,
         AtJoint(j): AtJoint,
@@ -189,7 +189,7 @@ impl HasShape for PositionDependentFriction {
 }
 
 impl CanBeUnsound<AtJoint> for PositionDependentFriction {
-    /// Whether friction is against the motion everywhere.
+    /// Whether friction opposes the motion everywhere.
     fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, priors: &Priors) -> bool {
         let wave = extended.links()[j].actuator.friction_wave;
         wave.is_some_and(|w| w.share > 0.0 && w.share < priors.wave_share_limit)
@@ -197,8 +197,7 @@ impl CanBeUnsound<AtJoint> for PositionDependentFriction {
 }
 
 impl CanHide<AtJoint> for PositionDependentFriction {
-    /// Of the longest wave, whose crest stands in the middle of what the joint has covered:
-    /// `1 - cos(reach)` of it is to be seen there.
+    /// For the longest wave with its crest in the middle of the range of motion, the logs show `1 - cos(reach)` of it.
     fn largest_unseen(
         &self,
         AtJoint(j): AtJoint,

@@ -14,9 +14,8 @@ use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
-/// Dry friction that builds up over a way. In a robot without, one weight a joint: the friction (N·m or
-/// N) that builds up over a small way instead of at once. In a robot with a way two: the changes of the
-/// way and of the damping, which has no sense until there is a way to damp.
+/// Dry friction that builds up over a way. A robot without it has one weight a joint: the friction (N·m or N) that
+/// builds up over a small way instead of at once. A robot with it has two: the changes of the way and of the damping.
 ///
 /// ```text
 /// s(way) - sign(qd)
@@ -24,10 +23,10 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Wei
 /// ```
 pub(crate) struct PreslidingFriction;
 
-/// Way for which the column of a robot without one is made (rad or m).
+/// Way of the column of a robot without one (rad or m).
 const SMALL: f64 = 0.002;
 
-/// Relative difference of the ways whose motions are compared.
+/// Relative step of the way in the central difference.
 const STEP: f64 = 0.1;
 
 /// Least and largest change of a way in one step, over the way.
@@ -129,7 +128,7 @@ impl Effect for PreslidingFriction {
         };
         let resolved = frame.resolution.get(j).map_or(0.0, |r| priors.presliding_resolved * r);
         if drive.presliding.is_some() || way > 0.0 {
-            // What is not resolved has no way, which is not sound.
+            // A way that is not resolved is made shorter than the shortest, which is not sound.
             drive.presliding =
                 Some(if way >= resolved { way } else { 0.5 * priors.presliding_shortest_way });
         }
@@ -154,8 +153,7 @@ impl Effect for PreslidingFriction {
 }
 
 impl CanBeUnsound<AtJoint> for PreslidingFriction {
-    /// Whether there is dry friction that builds up, and slowly enough to be told from one that is
-    /// there at once.
+    /// Whether the joint has dry friction, and a way that is long enough to be distinguished from none.
     fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, priors: &Priors) -> bool {
         let drive = &extended.links()[j].actuator;
         drive.presliding.is_some_and(|way| way >= priors.presliding_shortest_way)

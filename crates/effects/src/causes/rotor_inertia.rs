@@ -83,7 +83,7 @@ impl Effect for RotorInertia {
 }
 
 impl CanBeUnsound<AtJoint> for RotorInertia {
-    /// Whether a rotor is left: one that weighs nothing is what takes the place of another cause.
+    /// Whether the rotor inertia is above zero. A fit that removes it whole imitates another cause.
     fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, _: &Priors) -> bool {
         extended.links()[j].actuator.rotor_inertia > 0.0
     }

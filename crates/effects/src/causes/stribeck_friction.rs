@@ -13,8 +13,8 @@ use crate::priors::Priors;
 use crate::quantity::{Quantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
 
-/// Dry friction near rest beyond the Coulomb level: one weight a joint, the change of the excess;
-/// where there is some, a second one for the change of the velocity.
+/// Dry friction near rest beyond the Coulomb level. One weight a joint: the change of the excess. Where the excess is
+/// above zero, a second weight is the change of the velocity.
 ///
 /// ```text
 /// exp(-(qd / velocity)^2) sign(qd)
@@ -61,7 +61,7 @@ impl Effect for StribeckFriction {
         None
     }
 
-    /// Joints with an excess, or with the germ of one.
+    /// Joints with an excess, or with the trial shape of one.
     fn places(&self, robot: &Robot) -> Vec<AtJoint> {
         joints_where(robot, |drive| of(drive).is_some())
     }
@@ -176,7 +176,7 @@ impl HasShape for StribeckFriction {
 }
 
 impl CanBeUnsound<AtJoint> for StribeckFriction {
-    /// Whether a joint at rest needs notably more to come loose than it has while it moves.
+    /// Whether the friction near rest is notably larger than the Coulomb level.
     fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, priors: &Priors) -> bool {
         let drive = &extended.links()[j].actuator;
         let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
@@ -185,8 +185,7 @@ impl CanBeUnsound<AtJoint> for StribeckFriction {
 }
 
 impl HasPlainer<AtJoint> for StribeckFriction {
-    /// The change of the excess, and of the velocity beyond the least one, which has no larger size
-    /// unseen.
+    /// The change of the excess, and the velocity beyond the least one.
     fn more_than_plain(
         &self,
         AtJoint(j): AtJoint,
@@ -202,8 +201,8 @@ impl HasPlainer<AtJoint> for StribeckFriction {
 }
 
 impl CanHide<AtJoint> for StribeckFriction {
-    /// At the least velocity: the samples near rest, and with them what the logs say of the excess,
-    /// go with the velocity, and the smallest excess with the inverse of its root.
+    /// At the least velocity: the number of samples near rest grows with the velocity, and the smallest excess that
+    /// the logs show falls with its root.
     fn largest_unseen(
         &self,
         AtJoint(j): AtJoint,

@@ -14,8 +14,8 @@ use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
 
 /// `torque_gain tau`: one weight a joint, the change of the gain.
 ///
-/// The column is the torque of the nominal robot, so the model is linear in the change
-/// of the gain only about that robot: `d effort / d gain = torque`.
+/// The column is the torque of the nominal robot: `d effort / d gain = torque`. It is linear in the gain only about
+/// that robot.
 pub(crate) struct TorqueConstant;
 
 impl Effect for TorqueConstant {
@@ -85,7 +85,7 @@ impl Effect for TorqueConstant {
 }
 
 impl IsRestricted<AtJoint> for TorqueConstant {
-    /// A gain at the limit of what is believable is no explanation.
+    /// A gain at its limit is refused.
     fn admissible(
         &self,
         AtJoint(j): AtJoint,

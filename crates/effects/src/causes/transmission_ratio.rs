@@ -111,7 +111,7 @@ impl BetweenEncoders for TransmissionRatio {
 }
 
 impl IsRestricted<AtJoint> for TransmissionRatio {
-    /// A ratio at the limit of what is believable is no explanation.
+    /// A ratio at its limit is refused.
     fn admissible(
         &self,
         AtJoint(j): AtJoint,

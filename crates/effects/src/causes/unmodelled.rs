@@ -3,7 +3,7 @@
 /// An effect without a model.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Unmodelled {
-    /// What a model of columns `f(q, qd, qdd)` and constant weights cannot hold.
+    /// Reason that a model of columns `f(q, qd, qdd)` and constant weights cannot hold it.
     pub reason: &'static str,
     /// As [`Effect::remedy`](crate::effect::Effect::remedy).
     pub remedy: Result<&'static str, &'static str>,

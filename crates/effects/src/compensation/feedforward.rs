@@ -6,10 +6,10 @@ use crate::compensation::lead::{
 };
 use crate::motion::drive::{motor_torque, spring_torque};
 
-/// What is to be asked of the motors so that the links follow a motion, for a robot that is
-/// extended by named effects.
+/// Feedforward efforts of the motors with which the links follow a motion, for a robot that is extended by named
+/// effects.
 ///
-/// The links need `tau_link`, which passes through transmissions that give way:
+/// The links need `tau_link`, which passes through compliant transmissions with free play:
 ///
 /// ```text
 /// tau_link  = M(q) qdd + C(q, qd) qd + g(q) + spring_stiffness x + spring_cubic x³
@@ -34,8 +34,8 @@ use crate::motion::drive::{motor_torque, spring_torque};
 /// Friction stays within its levels, the lead within `backlash / 2` and the twist
 /// `|tau_link| / elasticity`, and both are smooth, so that no reversal makes them jump.
 ///
-/// Where an actuator is late, its `tau` is to be that of the motion
-/// [`delay_s`](Self::delay_s) ahead; leads are those of the present.
+/// An actuator with a delay needs the `tau` of the motion [`delay_s`](Self::delay_s) ahead. Leads are those of the
+/// present.
 ///
 /// # Source
 ///
@@ -49,14 +49,13 @@ pub struct Compensation {
     delay_s: Vec<f64>,
 }
 
-/// What [`Compensation::fill`] gives, one entry a joint.
+/// Result of [`Compensation::fill`], one entry a joint.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Compensated {
-    /// Effort to be asked for (N·m or N).
+    /// Commanded effort (N·m or N).
     pub tau: Vec<f64>,
-    /// What the position that is reported should be ahead of the reference (rad or m):
-    /// `q_seen - q`, where the link is measured with its position in place of the motor's. A
-    /// side that is not stated counts as the motor's.
+    /// Lead of the reported position over the reference, `q_seen - q` (rad or m). Where the encoder is at the link,
+    /// `q_seen` follows the link instead of the motor. An encoder whose side is not stated counts as the motor's.
     pub q_lead: Vec<f64>,
     /// The same for the velocity (rad/s or m/s).
     pub qd_lead: Vec<f64>,
@@ -75,7 +74,7 @@ pub struct CompensationWorkspace {
 }
 
 impl Compensated {
-    /// Nothing, for `joint_count` joints.
+    /// Zeros, for `joint_count` joints.
     pub fn zero(joint_count: usize) -> Self {
         let zero = vec![0.0; joint_count];
         Self { tau: zero.clone(), q_lead: zero.clone(), qd_lead: zero }
@@ -118,7 +117,7 @@ impl Compensation {
         !self.drives.iter().all(|drive| is_rigid(drive) && truly(drive))
     }
 
-    /// How far ahead of the present each joint's torque is to be asked for (s).
+    /// Time by which the torque of each joint has to be commanded ahead (s).
     pub fn delay_s(&self) -> &[f64] {
         &self.delay_s
     }
@@ -134,7 +133,7 @@ impl Compensation {
         }
     }
 
-    /// Works out what to ask for at one instant; allocates nothing.
+    /// Computes the efforts of one instant; allocates nothing.
     ///
     /// `states` are `[q, qd, qdd]` (rad, rad/s, rad/s² or m, m/s, m/s²) of the motion that the
     /// links should follow: as many as [`states_needed`](Self::states_needed) says,
@@ -206,7 +205,7 @@ impl Compensation {
         }
     }
 
-    /// What motor `j` has to give in its state `q, qd, qdd` while its link takes `tau_link`
+    /// Torque of motor `j` in its state `q, qd, qdd` while its link takes `tau_link`
     /// (N·m or N).
     fn motor_torque(&self, j: usize, [q, qd, qdd]: [f64; 3], tau_link: f64) -> f64 {
         let drive = &self.drives[j];

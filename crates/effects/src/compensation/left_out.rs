@@ -16,11 +16,11 @@ const FIRST: [EffectKind; 9] = [
     EffectKind::TimeSkew,
 ];
 
-/// What the robot says of its drives and a torque of one state alone leaves out, one sentence a
-/// joint: what needs the past, the motion of the other side of a transmission, or other times.
+/// Described effects that a torque from one state leaves out, one sentence a joint: those that need the past, the
+/// motion of the other side of a transmission, or other times.
 ///
-/// What they do to the effort counts as something that the robot does not say. An effort that
-/// was measured has delay and lag behind it.
+/// Their share in the effort counts as if the robot did not describe them. A measured effort contains delay and lag
+/// already.
 pub fn left_out(robot: &Robot) -> Vec<String> {
     let sentence = |(name, drive): (&str, &Actuator)| {
         let keys = keys(drive).join(" and ");
@@ -35,7 +35,7 @@ pub fn left_out(robot: &Robot) -> Vec<String> {
     drives.filter_map(sentence).collect()
 }
 
-/// The keys of `robot.toml` that describe what is left out of `drive`.
+/// Keys of `robot.toml` of the effects of `drive` that are left out.
 fn keys(drive: &Actuator) -> Vec<&'static str> {
     let others = MODELLED.into_iter().filter(|kind| !FIRST.contains(kind));
     let kinds = FIRST.into_iter().chain(others);

@@ -1,6 +1,6 @@
 use robot::Actuator;
 
-/// Torque of the loop of a cable along a motion, and what its size and its stiffness change in it:
+/// Torque of the hysteresis loop of a cable along a motion, and its derivatives by size and stiffness:
 ///
 /// ```text
 /// h' = clamp(h + stiffness dq, -hysteresis, hysteresis),  h = 0 at the start
@@ -15,12 +15,12 @@ pub(crate) struct Loop {
     pub per_stiffness: Vec<f64>,
     /// `dh / d hysteresis`.
     pub per_hysteresis: Vec<f64>,
-    /// Torque per unit of a way (N·m/rad or N/m): none where it slides.
+    /// Torque per unit of displacement (N·m/rad or N/m): zero where it slides.
     stiffness: Vec<f64>,
 }
 
 impl Loop {
-    /// The loop of a drive whose link follows `q`; none of a spring that does not slide.
+    /// The loop of a drive whose link follows `q`; `None` for a spring that does not slide.
     pub fn of(drive: &Actuator, q: &[f64]) -> Option<Self> {
         let slides = drive.spring_hysteresis > 0.0;
         slides.then(|| Self::new(drive.spring_stiffness, drive.spring_hysteresis, q))
@@ -50,7 +50,7 @@ impl Loop {
         Self { torque, per_stiffness, per_hysteresis, stiffness: sticks }
     }
 
-    /// What a small displacement of the motion changes in the torque:
+    /// Change of the torque by a small displacement of the motion:
     /// `dh' = dh + stiffness ds` while it sticks, 0 where it slides.
     pub fn change_under(&self, s: &[f64]) -> Vec<f64> {
         let mut before = s.first().copied().unwrap_or(0.0);

@@ -1,4 +1,4 @@
-/// How the transmission of one joint gives way under a torque while its motor is held to its motion.
+/// Twist of the transmission of one joint under a torque, while its motor keeps to its motion.
 ///
 /// With a compliance `c` the twist `s = theta - q` changes the load that makes it:
 ///
@@ -6,27 +6,27 @@
 /// D s = f,   D = 1 + c (dload/dq + dload/dqd d/dt) + E,   E = c dload/dqdd d²/dt²
 /// ```
 ///
-/// Far below the frequency at which the link rings on its spring that is `s = f`, close to it the
-/// twist grows without bounds, in a drive without damping. So it is the solution of least squares of
-/// `|D s - f|² + RESISTS² |E s|²`, which leaves slow twists as they are.
+/// Far below the resonance of the link on its spring `s = f`. Close to the resonance of a drive without damping the
+/// twist would grow without bounds, so `s` minimises `|D s - f|² + RESISTANCE² |E s|²`, which leaves slow twists as
+/// they are.
 #[derive(Debug, Clone)]
 pub(crate) struct Compliance {
-    /// `D`, row by row: what the twist before, here and after has in it.
+    /// `D`, row by row: factors of the twist one sample before, at the sample and one sample after.
     rows: Vec<[f64; 3]>,
-    /// `D'D + RESISTS² E'E`, diagonal and the two below, as `L diag(d) L'`.
+    /// `D'D + RESISTANCE² E'E`, diagonal and the two below, as `L diag(d) L'`.
     pivots: Vec<f64>,
     below: [Vec<f64>; 2],
 }
 
-/// Weight of what holds the twist: close to the frequency at which the link rings it grows to some half
-/// of the inverse of this, and there it is none.
+/// Weight that bounds the twist: close to the resonance of the link the twist grows to about half the inverse of this
+/// weight, and at the resonance it vanishes.
 const RESISTANCE: f64 = 0.2;
 
-/// Least pivot: a load that falls with the twist as fast as the spring grows holds nothing.
+/// Least pivot, for a load that falls with the twist as fast as the torque of the spring grows.
 const LEAST: f64 = 1e-6;
 
 impl Compliance {
-    /// Of the derivatives of the load by position, velocity and acceleration, every `period_s`.
+    /// From the derivatives of the load by position, velocity and acceleration, every `period_s`.
     pub fn new(compliance: f64, slopes: &[Vec<f64>; 3], period_s: f64) -> Self {
         let [dq, dqd, dqdd] = slopes;
         let samples = dq.len();
@@ -69,7 +69,7 @@ impl Compliance {
         Self { rows, pivots, below }
     }
 
-    /// The twist under `f`, what the torque alone would twist.
+    /// The twist, where the torque alone would twist by `f`.
     pub fn twist_under(&self, f: &[f64]) -> Vec<f64> {
         let samples = self.rows.len();
         let across = |t: usize| {
@@ -91,7 +91,7 @@ impl Compliance {
     }
 }
 
-/// The rate of a twist (1/s), by the differences that [`Compliance`] has; the twist is held beyond its ends.
+/// The rate of a twist (1/s), by the differences that [`Compliance`] has; the twist is constant beyond its ends.
 pub(crate) fn rate(x: &[f64], period_s: f64) -> Vec<f64> {
     let last = x.len().saturating_sub(1);
     let at = |t: usize| {

@@ -1,13 +1,12 @@
-/// Longest stand between two movements that is taken for a turn (s).
+/// Longest stand between two movements that counts as a reversal (s).
 const BRIEF_S: f64 = 0.2;
 
 /// Direction of a motion with speeds `qd`, in [-1, 1]: the sign of the speed, and below `rest`
 /// what is known of it there.
 ///
-/// A stand of at most 0.2 s turns evenly from the direction before it to the one after: the noise
-/// says when the motion is slow, but not when it turns, and friction is as large there as around
-/// it. A longer one, and one at either end of the run, is `qd / rest`: a joint at rest holds less
-/// than its friction.
+/// Over a stand of at most 0.2 s the direction changes linearly from the one before to the one after: noise hides the
+/// instant of the reversal, and friction is as large there as around it. In a longer stand, and in one at either end
+/// of the run, it is `qd / rest`: a joint at rest holds less than its friction.
 pub(crate) fn direction(qd: impl Iterator<Item = f64>, rest: f64, period_s: f64) -> Vec<f64> {
     let mut direction: Vec<f64> = qd.map(|v| (v / rest).clamp(-1.0, 1.0)).collect();
     let mut moved = None;
@@ -22,7 +21,7 @@ pub(crate) fn direction(qd: impl Iterator<Item = f64>, rest: f64, period_s: f64)
     direction
 }
 
-/// Turns evenly from the first to the last of a stretch that is brief.
+/// Interpolates linearly from the first to the last sample of a brief stretch.
 fn turn(stretch: &mut [f64], period_s: f64) {
     let steps = stretch.len() - 1;
     if steps as f64 * period_s > BRIEF_S {
@@ -34,8 +33,8 @@ fn turn(stretch: &mut [f64], period_s: f64) {
     }
 }
 
-/// Where a joint stands for longer than 0.2 s, or stands at either end of the run: what holds it
-/// there is anything up to its dry friction.
+/// Samples in which a joint stands for longer than 0.2 s or at either end of the run. The friction that holds it
+/// there may have any value up to its level.
 pub(crate) fn stands(qd: &[f64], rest: f64, period_s: f64) -> Vec<bool> {
     let mut stands: Vec<bool> = qd.iter().map(|v| v.abs() < rest).collect();
     let brief = |from: usize, to: usize| (to - from + 1) as f64 * period_s <= BRIEF_S;

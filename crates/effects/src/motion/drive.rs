@@ -16,13 +16,13 @@ pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f
     spring + motor_torque(drive, state, direction, tau_rb + spring, 1.0)
 }
 
-/// How far a drive has warmed up after `time` time constants: `1 - exp(-time)`.
+/// Warm-up of a drive after `time` time constants: `1 - exp(-time)`.
 pub(crate) fn warmth(time: f64) -> f64 {
     -(-time.max(0.0)).exp_m1()
 }
 
-/// The part of the drive's torque that is spent at the motor (N·m or N), under the `load` that
-/// its transmission carries, of a drive that has warmed up by the share `warmth`.
+/// The part of the drive's torque that acts at the motor (N·m or N), under the `load` of its transmission, with the
+/// warm-up `warmth` of the drive in [0, 1].
 pub(crate) fn motor_torque(
     drive: &Actuator,
     [q, qd, qdd]: [f64; 3],
@@ -67,7 +67,7 @@ pub(crate) fn spring_slope(drive: &Actuator, q: f64) -> f64 {
 /// ds = (dq - |dq| s) / way
 /// ```
 ///
-/// exact for a position that is linear between samples; slack at the start.
+/// It is exact for a position that is linear between samples, and starts without tension.
 pub(crate) fn bristles(q: &[f64], way: f64) -> Vec<f64> {
     let mut held = 0.0;
     let mut before = q.first().copied().unwrap_or(0.0);

@@ -4,7 +4,7 @@ pub(crate) type State = [Vec<Vec<f64>>; 3];
 /// Position, velocity and acceleration of one link, each `[sample]`.
 pub(crate) type Link = [Vec<f64>; 3];
 
-/// What the encoders of a run say.
+/// Signals of the encoders in one run.
 #[derive(Debug, Clone)]
 pub struct Encoders {
     /// Position, velocity and acceleration as reported, each `[joint][sample]` (rad or m, /s,

@@ -1,6 +1,6 @@
 use logs::{JointNoise, Prepared, rest_speeds};
 
-/// What all runs of a diagnosis share.
+/// Reference values of the joints that all runs of a diagnosis share.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Speed below which a joint counts as at rest (rad/s or m/s).
@@ -9,13 +9,13 @@ pub struct Frame {
     pub centre: Vec<f64>,
     /// Half that range (rad or m).
     pub reach: Vec<f64>,
-    /// Change of position that the logs resolve: the step of the encoder, or two standard deviations
-    /// of its noise behind four times the cut-off (rad or m).
+    /// Change of position that the logs resolve (rad or m): the step of the encoder, or two standard deviations of
+    /// its noise below four times the cut-off, whichever is larger.
     pub resolution: Vec<f64>,
 }
 
 impl Frame {
-    /// What the runs of some logs share.
+    /// The reference values of some logs.
     pub fn of_logs(logs: &Prepared) -> Self {
         let rest_speed = rest_speeds(logs);
         let spans = (0..rest_speed.len()).map(|j| logs.span(j));

@@ -1,4 +1,4 @@
-//! What the rigid bodies of a robot, and the springs at its joints, need along a motion of its links.
+//! Torques of the rigid bodies of a robot and of the springs at its joints along a motion of its links.
 
 use dynamics::{Dynamics, PARAMETERS_PER_LINK};
 use nalgebra::{UnitVector3, Vector3};
@@ -8,11 +8,11 @@ use crate::motion::cable_loop::Loop;
 use crate::motion::drive::spring_torque;
 use crate::motion::encoders::State;
 
-/// `[joint][parameter][sample]`: torque per unit of the ten parameters of a link; none where the joint does not
+/// `[joint][parameter][sample]`: torque per unit of the ten parameters of a link; empty where the joint does not
 /// carry it.
 pub(crate) type LinkRegressor = Vec<Vec<Vec<f64>>>;
 
-/// Samples that are evaluated before they are sorted into signals: what a core keeps at hand.
+/// Samples that are evaluated before they are sorted into signals; they fit into a core's cache.
 const BATCH: usize = 32;
 
 /// Torque of the links and springs of every joint, `[joint][sample]` (N·m or N).
@@ -104,7 +104,7 @@ pub(crate) fn samples(motion: &State) -> usize {
     motion[0].first().map_or(0, Vec::len)
 }
 
-/// What `of` makes of position, velocity and acceleration of all joints at every sample.
+/// Calls `of` with position, velocity and acceleration of all joints at every sample.
 pub(crate) fn along(motion: &State, mut of: impl FnMut(usize, [&[f64]; 3])) {
     let mut state = motion.each_ref().map(|signals| vec![0.0; signals.len()]);
     for t in 0..samples(motion) {

@@ -15,7 +15,7 @@ use crate::motion::slopes::Slopes;
 use crate::motion::timing::Timing;
 use crate::motion::transmission::{Deflection, Gap, LoadAlong, correct_reading, play};
 
-/// The motion of one run and what the nominal robot makes of it.
+/// The motion of one run and the efforts that the nominal robot expects along it.
 ///
 /// All signals are indexed `[joint][sample]`.
 #[derive(Debug, Clone)]
@@ -26,9 +26,9 @@ pub struct Motion {
     pub qd: Vec<Vec<f64>>,
     /// Acceleration of the motor, seen at the joint (rad/s² or m/s²).
     pub qdd: Vec<Vec<f64>>,
-    /// Direction of motion, in [-1, 1]: the sign of the velocity, below the rest speed turning
-    /// evenly in brief stands and in proportion to the velocity in others; with presliding, the
-    /// share of dry friction that the bristles hold.
+    /// Direction of motion, in [-1, 1]: the sign of the velocity. Below the rest speed it changes linearly over a
+    /// brief stand and is proportional to the velocity otherwise. With presliding it is the share of dry friction
+    /// that the bristles hold.
     pub direction: Vec<Vec<f64>>,
     /// Velocity as reported, whose sign is that of the motion (rad/s or m/s).
     qd_reported: Vec<Vec<f64>>,
@@ -50,17 +50,17 @@ pub struct Motion {
     since_cold_s: f64,
     /// Position, velocity and acceleration of the links.
     pub(crate) link: State,
-    /// What tilting the base changes, once it has been asked for.
+    /// Change of the load by a tilt of the base; filled at the first request.
     tilt: OnceLock<Vec<[Vec<f64>; 2]>>,
-    /// What moving the links changes, once it has been asked for.
+    /// Change of the load by a displacement of the links; filled at the first request.
     slopes: OnceLock<Slopes>,
     /// The nominal robot.
     robot: Robot,
     /// The drives of the nominal robot.
     pub(crate) drives: Vec<Actuator>,
-    /// Load of the links if they moved as was measured, where motor and link part.
+    /// Load of the links along the measured motion; `None` where motors and links move as one.
     rigid_load: Option<Vec<Vec<f64>>>,
-    /// How each joint gives that has a spring between its encoder and its link.
+    /// One for each joint; `None` without a spring between its encoder and its link.
     compliances: Vec<Option<Compliance>>,
 }
 
@@ -75,7 +75,7 @@ impl Motion {
     /// effort(t) = transmission_ratio torque_gain torque(t + delay - skew) + torque_offset
     /// ```
     ///
-    /// Motor and link part by twist and play: `theta - q = load / elasticity + x`,
+    /// Twist and play lie between motor and link: `theta - q = load / elasticity + x`,
     /// `|x| <= backlash / 2`.
     ///
     /// # Panics
@@ -87,8 +87,8 @@ impl Motion {
         Self::seen(robot, frame, encoders, period_s)
     }
 
-    /// The same where some links have an encoder of their own: there motor and link have parted
-    /// as was measured, whatever the robot says of twist and play.
+    /// The same for runs in which some links have an encoder of their own. There the twist is the measured one, and
+    /// the elasticity and backlash of the robot are ignored.
     ///
     /// # Panics
     ///
@@ -139,25 +139,24 @@ impl Motion {
         self.q.first().map_or(0, Vec::len)
     }
 
-    /// Where joint `j` stands for longer than 0.2 s or at either end, by the speed that is reported:
-    /// there its dry friction is anything up to the level, and the effort says nothing of it.
+    /// Samples in which joint `j` stands for longer than 0.2 s or at either end of the run, by the reported speed.
+    /// Its dry friction may have any value up to the level there, so the effort tells nothing of it.
     pub fn stands(&self, j: usize) -> Vec<bool> {
         stands(&self.qd_reported[j], self.rest_speed[j], self.period_s)
     }
 
-    /// Where joint `j` is at rest, however briefly, by the speed that is reported.
+    /// Samples in which joint `j` is at rest, however briefly, by the reported speed.
     pub fn rests(&self, j: usize) -> Vec<bool> {
         self.qd_reported[j].iter().map(|v| v.abs() < self.rest_speed[j]).collect()
     }
 
-    /// What moving the link of joint `j` changes in the load of every joint: its derivatives by position,
-    /// velocity and acceleration.
+    /// Derivatives of the load of every joint by position, velocity and acceleration of the link of joint `j`.
     pub(crate) fn slopes(&self, j: usize) -> &[[Vec<f64>; 3]] {
         self.slopes.get_or_init(|| Slopes::new(&self.robot, &self.link)).by(j)
     }
 
-    /// `[joint]`: the load per unit of the ten parameters of a link; none where the joint does not carry it. It is
-    /// evaluated at each call: of all links together it would be the most that a motion holds.
+    /// `[joint]`: the load per unit of the ten parameters of a link; empty where the joint does not carry it. It is
+    /// evaluated at each call: for all links together it would be the largest part of a motion in memory.
     pub(crate) fn link_regressor(&self, link: usize) -> LinkRegressor {
         link_regressor(&self.robot, &self.link, link)
     }
@@ -167,7 +166,7 @@ impl Motion {
         self.tilt.get_or_init(|| tilt(&self.robot, &self.link))
     }
 
-    /// Adds what the drives do, then gain, offset and time.
+    /// Adds the torques of the drives, then gain, offset and timing.
     fn add_drives(&mut self) {
         for (i, a) in self.drives.iter().enumerate() {
             let torque = |t: usize| {
@@ -186,7 +185,7 @@ impl Motion {
         }
     }
 
-    /// How far the drive of joint `i` has warmed up in sample `t`, 0 cold and 1 warm.
+    /// Warm-up of the drive of joint `i` in sample `t`: 0 cold, 1 warm.
     fn warmth(&self, i: usize, t: usize) -> f64 {
         let since_cold_s = self.since_cold_s + t as f64 * self.period_s;
         self.drives[i].warming.map_or(0.0, |w| warmth(since_cold_s / w.time_constant_s))
@@ -250,7 +249,7 @@ impl Motion {
         levels.zip(&self.direction[j]).map(move |(level, s)| self.gain[j] * level * s)
     }
 
-    /// What a change of the load of joint `j` changes in its effort.
+    /// Change of the effort of joint `j` by a change of its load.
     pub(crate) fn load_part(&self, j: usize, load: impl Iterator<Item = f64>) -> Part {
         let values = load.enumerate().map(|(t, load)| self.load_gain(j, t) * load);
         Part { joint: j, values: values.collect() }
@@ -261,8 +260,8 @@ impl Motion {
         self.rigid_load.as_ref().map_or(&self.load[j], |load| &load[j])
     }
 
-    /// Position that the robot has the encoder of joint `j` report minus that of the link, where
-    /// both are measured (rad or m).
+    /// Position that the robot expects from the motor encoder of joint `j` minus that of the link, where both are
+    /// measured (rad or m).
     ///
     /// ```text
     /// (q + load / elasticity + x) / transmission_ratio + encoder_offset - q,  |x| <= backlash / 2
@@ -280,8 +279,8 @@ impl Motion {
         signals.map(twist).collect()
     }
 
-    /// What changes in the efforts where motor and link of joint `j` part by `twist`, `theta - q`, and by
-    /// what its spring gives to that: the one that was not measured moves otherwise.
+    /// Change of the efforts by an additional `twist`, `theta - q`, of joint `j`, with the response of its spring.
+    /// The measured side keeps its motion, and the other side moves by the twist.
     pub(crate) fn twist_column(&self, j: usize, twist: &[f64]) -> Column {
         let given = self.compliances[j].as_ref().map(|compliance| compliance.twist_under(twist));
         let twist = given.as_deref().unwrap_or(twist);
@@ -298,8 +297,7 @@ impl Motion {
         column
     }
 
-    /// What changes in the effort of every joint where the link of joint `j` lies by `s`, with
-    /// `sd`, `sdd`, from where it is taken to be.
+    /// Change of the effort of every joint by a displacement `s` of the link of joint `j`, with rates `sd`, `sdd`.
     ///
     /// ```text
     /// d load / dq s + d load / dqd sd + d load / dqdd sdd

@@ -1,11 +1,11 @@
 use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::Robot;
 
-/// How large things are in a set of logs: what the priors of the weights are made from.
+/// Magnitudes in a set of logs, from which the priors of the weights are made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
-    /// RMS of the measured effort of each joint, or the larger friction that the robot is said to
-    /// have: that of a description in which it dwarfs all effort can be taken back whole (N·m or N).
+    /// RMS of the measured effort of each joint, or its described friction if that is larger (N·m or N). A described
+    /// friction that dwarfs all effort can so be removed whole.
     pub effort: Vec<f64>,
     /// Largest speed of each joint (rad/s or m/s).
     pub speed: Vec<f64>,
@@ -22,7 +22,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// How large things are in some logs.
+    /// The magnitudes in some logs.
     pub fn of_logs(robot: &Robot, logs: &Prepared) -> Self {
         let joints = 0..robot.joint_count();
         let all = |j: usize, pick: fn(&PreparedJoint) -> &Vec<f64>| {

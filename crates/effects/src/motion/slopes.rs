@@ -5,7 +5,7 @@ use crate::motion::drive::spring_slope;
 use crate::motion::encoders::State;
 use crate::motion::rigid_bodies::{along, samples};
 
-/// What moving the links changes in the loads of all joints.
+/// Derivatives of the loads of all joints by the motion of the links.
 #[derive(Debug, Clone)]
 pub(crate) struct Slopes {
     /// `[moved][joint]`: the load's derivatives by position, velocity and acceleration of the link that
@@ -14,8 +14,8 @@ pub(crate) struct Slopes {
 }
 
 impl Slopes {
-    /// The derivatives of rigid-body and spring torques along `link` by the state of every joint, but for
-    /// the loop of the spring, which has a past.
+    /// The derivatives of rigid-body and spring torques along `link` by the state of every joint, without
+    /// the loop of the spring, which depends on the past.
     pub fn new(robot: &Robot, link: &State) -> Self {
         let n = robot.joint_count();
         let mut of = vec![vec![[(); 3].map(|()| vec![0.0; samples(link)]); n]; n];
@@ -37,8 +37,7 @@ impl Slopes {
         Self { of }
     }
 
-    /// What moving the link of joint `j` changes: per joint, the load's derivatives by position, velocity
-    /// and acceleration of that link.
+    /// Derivatives of the load of each joint by position, velocity and acceleration of the link of joint `j`.
     pub fn by(&self, j: usize) -> &[[Vec<f64>; 3]] {
         &self.of[j]
     }

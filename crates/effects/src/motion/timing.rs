@@ -1,14 +1,14 @@
 use logs::differentiate;
 use robot::{Actuator, TorqueSource};
 
-/// How the effort that a log has at a joint is late or early.
+/// Time by which the logged effort of a joint is early or late.
 ///
 /// ```text
 /// effort(t) = x(t + delay - skew),  x = torque + lag d(torque)/dt
 /// ```
 ///
-/// A command comes before its torque by delay and lag; a torque that was measured has both
-/// behind it. The skew is the log's.
+/// A command precedes its torque by delay and lag. A measured torque contains both already. The skew belongs to the
+/// log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Timing {
     /// Time by which the effort is ahead of the motion (s).
@@ -25,7 +25,7 @@ impl Timing {
         Self { lead_s: delay_s - drive.effort_skew_s, lag_s }
     }
 
-    /// The torque, sampled every `period_s`, as the log has it.
+    /// The torque, sampled every `period_s`, with the timing of the log.
     pub fn as_logged(self, mut torque: Vec<f64>, period_s: f64) -> Vec<f64> {
         if self.lag_s > 0.0 {
             let rate = differentiate(&torque, period_s.recip());
@@ -35,7 +35,7 @@ impl Timing {
     }
 }
 
-/// Whether the log has the torque itself: delay and lag are behind it.
+/// Whether the log has the torque itself, which contains delay and lag already.
 pub(crate) fn is_measured(drive: &Actuator) -> bool {
     matches!(drive.torque_source, TorqueSource::Measured | TorqueSource::Current)
 }

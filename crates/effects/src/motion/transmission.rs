@@ -24,25 +24,25 @@ pub(crate) fn correct_reading(robot: &Robot, mut reading: State) -> State {
 /// theta - q = load / elasticity + x,  |x| <= backlash / 2
 /// ```
 ///
-/// with the load that the links need as they move, and play `x` under the one that they would need if
-/// they moved as was measured.
+/// `load` is what the links need along their own motion. The play `x` is worked out under the load that the links
+/// would need along the measured motion.
 #[derive(Debug)]
 pub(crate) struct Deflection {
     pub motor: State,
     pub link: State,
-    /// That load; none where motors and links move as one.
+    /// Load of the links along the measured motion; `None` where motors and links move as one.
     pub rigid_load: Option<Vec<Vec<f64>>>,
-    /// Of each joint that has a spring between its encoder and its link.
+    /// One for each joint; `None` without a spring between its encoder and its link.
     pub compliances: Vec<Option<Compliance>>,
 }
 
-/// Rounds in which the twist of springs and the load where it leaves the links come to agree: the first is
-/// all of it but for gravity's and other joints' share in the change.
+/// Rounds in which the twist of springs and the load of the twisted links are made consistent. The first round
+/// leaves only what gravity and the other joints change.
 const ROUNDS: usize = 3;
 
 impl Deflection {
-    /// Parts what was `measured` every `period_s`, but for the joints whose `links` were measured
-    /// too.
+    /// Motion of motors and links from what was `measured` every `period_s`. Joints whose `links` were measured too
+    /// keep both as measured.
     pub fn new(robot: &Robot, measured: State, links: Vec<Option<Link>>, period_s: f64) -> Self {
         let joints = robot.joint_count();
         let parts = |(i, l): (usize, &robot::Link)| {
@@ -90,10 +90,10 @@ impl Deflection {
     }
 }
 
-/// By how much motor and link of some joints part, `theta - q` along the motion (rad or m).
+/// Twist `theta - q` of some joints along the motion (rad or m).
 type Twists = Vec<(usize, Vec<f64>)>;
 
-/// Motion of the links behind motors with `play` that moved as `measured`, with the springs that give.
+/// Motion of the links behind motors that moved as `measured`, with the given `play` and compliances.
 fn links_behind(
     robot: &Robot,
     measured: State,
@@ -135,23 +135,22 @@ fn move_joint(state: &mut State, i: usize, change: &[f64], period_s: f64) {
     }
 }
 
-/// Periods for which a link stays where it has just met its motor: half the response of the low-pass
-/// behind which motions are evaluated, four cut-offs of a diagnosis at sixteen of them.
+/// Periods for which a link stays at an end of its gap after the impact there. It is half the response of the
+/// low-pass filter of a diagnosis, which samples at sixteen times its cut-off and filters at four times.
 const IMPACT_PERIODS: f64 = 2.0;
 
-/// Where the motor stands in a gap: `x = theta - q` with `|x| <= gap / 2`, at the side that
-/// carries the load. When the load changes sign the link is free until the other side meets it,
-/// and does not bounce:
+/// Position of the motor in a gap, sample by sample: `x = theta - q` with `|x| <= gap / 2`, at the side that carries
+/// the load. When the load changes sign the link is free until it meets the other side, where it stays:
 ///
 /// ```text
 /// inertia xdd = load - dload/dq x - dload/dqd xd
 /// xd = 0 at the ends,  xd = compliance d(load)/dt as it leaves one
 /// ```
 ///
-/// for a spring that was twisted at the end lets go as fast as its load falls. The load goes straight from sample to sample. A link crosses a gap in a few samples, and in the
-/// third root of the gap: in whole samples it would be crossed too soon, or look too wide. The blow with
-/// which it meets the other side moves its motor, and low-passed it lasts: a load that seems to turn
-/// within `IMPACT_PERIODS` periods of it moves nothing.
+/// A spring that was twisted at the end releases the link as fast as its load falls. The load is linear between
+/// samples. A link crosses a gap within a few samples, in a time that grows with the third root of the gap, so the
+/// crossing is solved between samples. The impact at the other side moves the motor, and the low-pass filter spreads
+/// it: a load that changes sign within `IMPACT_PERIODS` periods of an impact moves nothing.
 pub(crate) fn play(
     carried: LoadAlong<'_>,
     Gap { width, compliance }: Gap,
@@ -179,7 +178,7 @@ pub(crate) fn play(
 }
 
 /// The load of a link (N·m or N) and its derivatives by the link's position, velocity and
-/// acceleration, sample by sample; no samples of one that is none.
+/// acceleration, sample by sample. A derivative without samples is zero.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadAlong<'a> {
     load: &'a [f64],
@@ -187,13 +186,13 @@ pub(crate) struct LoadAlong<'a> {
 }
 
 impl LoadAlong<'_> {
-    /// The load that a link would need where its motor is: in a gap it lies beyond, and needs
-    /// another.
+    /// The load that a link would need at the position of its motor. In a gap the link is elsewhere, which the
+    /// derivatives correct.
     pub fn at_motor<'a>(load: &'a [f64], [q, qd, qdd]: &'a [Vec<f64>; 3]) -> LoadAlong<'a> {
         LoadAlong { load, slopes: [q, qd, qdd] }
     }
 
-    /// The load of a link where it is.
+    /// The load of a link at its own position.
     pub fn at_link<'a>(load: &'a [f64], [_, _, qdd]: &'a [Vec<f64>; 3]) -> LoadAlong<'a> {
         LoadAlong { load, slopes: [&[], &[], qdd] }
     }
@@ -209,23 +208,23 @@ pub(crate) struct Gap {
 }
 
 impl Gap {
-    /// That of a drive, of this width (rad or m).
+    /// The gap of a drive, with a width of its own (rad or m).
     pub fn of(drive: &Actuator, width: f64) -> Self {
         Self { width, compliance: drive.elasticity.map_or(0.0, f64::recip) }
     }
 }
 
-/// A motor in its play.
+/// State of a motor in its gap.
 struct GapState {
     half: f64,
     x: f64,
     xd: f64,
-    /// Time that it still stays at its end, and that it stays after a blow (s).
+    /// Time left for which it stays at its end, and time for which it stays after an impact (s).
     stays_s: f64,
     impact_s: f64,
 }
 
-/// What a link does to its own way through a gap.
+/// How the load of a link changes while the link crosses its gap.
 #[derive(Debug, Clone, Copy)]
 struct LinkSlopes {
     /// Fall of its acceleration per way (1/s²) and per speed (1/s).
@@ -236,13 +235,13 @@ struct LinkSlopes {
 }
 
 impl GapState {
-    /// Times within one period at which it may leave an end.
+    /// Largest number of departures from an end within one period.
     const DEPARTURES: usize = 2;
 
-    /// Halvings of the time at which an end is met: to 1e-15 of it.
+    /// Halvings of the interval in which an end is met: to 1e-15 of it.
     const HALVINGS: usize = 50;
 
-    /// Passes a time in which the load goes straight from one value to another, each over the inertia.
+    /// Moves on by a time in which the load is linear from one value to another, each over the inertia.
     fn pass(&mut self, [mut from, to]: [f64; 2], slopes: LinkSlopes, mut time_s: f64) {
         for _ in 0..Self::DEPARTURES {
             let rise = (to - from) / time_s;
@@ -260,7 +259,7 @@ impl GapState {
                     if (to - own) * side >= 0.0 {
                         return;
                     }
-                    // The load lets go where it is none.
+                    // The link leaves its end where the load is zero.
                     time_s -= (own - from) / rise;
                     (from, self.xd) = (own, slopes.departure * rise);
                 }
@@ -289,7 +288,7 @@ impl GapState {
         }
     }
 
-    /// The accelerations at the begin and the end of a time, the latter where the former leads.
+    /// The accelerations at the begin and at the end of a time; the latter at the position to which the former leads.
     fn accelerations(&self, [from, to]: [f64; 2], slopes: LinkSlopes, time_s: f64) -> [f64; 2] {
         let at = |load: f64, x: f64, xd: f64| {
             load - slopes.stiffness * x.clamp(-self.half, self.half) - slopes.damping * xd
