@@ -21,7 +21,7 @@ pub(crate) fn frozen(
     let rows = |s: f64| if usual > 0.0 { ((s / usual) as usize).max(10) } else { usize::MAX };
     let mut spoilt = Vec::new();
     let mut observations = Vec::new();
-    for rows in held(run, rows(t.held_s)) {
+    for rows in held(run, rows(t.moments.held_s)) {
         if (0..run.joints.len()).any(|j| breaks_off(run, j, &rows, t)) {
             let stretches = vec![Stretch::of_rows(run, index, &rows)];
             observations.push(Observation {
@@ -33,13 +33,13 @@ pub(crate) fn frozen(
         }
     }
     for j in 0..run.joints.len() {
-        for rows in still(&run.joints[j].position, rows(t.stuck_s)) {
+        for rows in still(&run.joints[j].position, rows(t.moments.stuck_s)) {
             let known =
                 spoilt.iter().any(|s: &Range<usize>| s.start <= rows.end && rows.start <= s.end);
             let rotates = robot.links().get(j).is_none_or(|link| link.joint.kind.is_rotation());
             let least = t.moves[usize::from(!rotates)];
-            let broken =
-                breaks_off(run, j, &rows, t) || has_speed(run, j, &rows, least, t.stuck_counts);
+            let broken = breaks_off(run, j, &rows, t)
+                || has_speed(run, j, &rows, least, t.moments.stuck_counts);
             if !known && range(&run.joints[j].position) > least && broken && goes_on(run, j, &rows)
             {
                 observations.push(Observation::of_seconds(
@@ -94,8 +94,10 @@ fn same(length: usize, least: usize, is_same: impl Fn(usize) -> bool) -> Vec<Ran
 /// steps before it rests.
 fn breaks_off(run: &Run, j: usize, rows: &Range<usize>, t: &InspectionThresholds) -> bool {
     let q = &run.joints[j].position;
-    let [stops, resumes] = t.freeze;
-    let beside = |k: usize| k + t.beside_freeze < rows.start || k > rows.end + t.beside_freeze;
+    let [stops, resumes] = t.moments.freeze;
+    let beside = |k: usize| {
+        k + t.moments.beside_freeze < rows.start || k > rows.end + t.moments.beside_freeze
+    };
     let usual = usual_step(&run.time);
     // Over a gap a step is as large as the gap is long; stamps with jitter say nothing of when a row was read.
     let step = |k: usize, span: usize| {

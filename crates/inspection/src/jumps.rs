@@ -25,7 +25,7 @@ pub(crate) fn jumps(
         before = *q;
         let full = (step / TAU).round();
         let even = run.time[k] - run.time[k - 1] < 1.5 * usual;
-        if full.abs() > 0.0 && (step - full * TAU).abs() < t.full_turn && even {
+        if full.abs() > 0.0 && (step - full * TAU).abs() < t.moments.full_turn && even {
             turns += full;
             largest = if full.abs() > largest.abs() { full } else { largest };
             rows.push(Stretch::of_rows(run, index, &(k - 1..k + 1)));

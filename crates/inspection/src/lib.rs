@@ -30,4 +30,4 @@ mod torque;
 pub use inspect::{inspect, inspect_with};
 pub use mend::{Mended, mend_with, mended};
 pub use observation::{Evidence, Observation, ObservationKind, Rival, Spoils, Stretch};
-pub use thresholds::InspectionThresholds;
+pub use thresholds::{InspectionThresholds, MomentThresholds};

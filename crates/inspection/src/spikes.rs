@@ -18,24 +18,29 @@ pub(crate) fn spikes(
 ) -> Option<Observation> {
     let usual = usual_step(&run.time);
     let n = position.len();
-    if n < t.rare_spike {
+    if n < t.moments.rare_spike {
         return None;
     }
     let off: Vec<f64> = (0..n).map(|k| off(&run.time, position, usual, k)).collect();
     // A spike makes its neighbours' half as large: the largest of all without the spikes and them is usual.
     let mut sorted = off.clone();
     sorted.sort_unstable_by(f64::total_cmp);
-    let bulk = sorted[n - 1 - n / t.bulk_of_rows];
+    let bulk = sorted[n - 1 - n / t.moments.bulk_of_rows];
     let steps = position.windows(2).map(|q| (q[1] - q[0]).abs()).filter(|step| *step > 0.0);
-    let floor = (t.spike_counts * steps.fold(f64::INFINITY, f64::min)).max(t.least_spike);
-    let is_spike = |k: &usize| off[*k] > t.spike * bulk && off[*k] > floor && alone(&off, *k);
+    let floor =
+        (t.moments.spike_counts * steps.fold(f64::INFINITY, f64::min)).max(t.moments.least_spike);
+    let is_spike =
+        |k: &usize| off[*k] > t.moments.spike * bulk && off[*k] > floor && alone(&off, *k);
     let found: Vec<usize> = (1..n - 1).filter(is_spike).collect();
     let usual_off = (0..n)
         .filter(|k| found.iter().all(|f| f.abs_diff(*k) > 1))
         .fold(0.0_f64, |most, k| most.max(off[k]));
     let height = found.iter().fold(0.0_f64, |most, &k| most.max(off[k]));
     let least = found.iter().fold(f64::INFINITY, |least, &k| least.min(off[k]));
-    if found.is_empty() || found.len() > n / t.rare_spike || least < 0.5 * t.spike * usual_off {
+    if found.is_empty()
+        || found.len() > n / t.moments.rare_spike
+        || least < 0.5 * t.moments.spike * usual_off
+    {
         return None;
     }
     for &k in &found {

@@ -39,15 +39,6 @@ pub struct InspectionThresholds {
     pub time_factor: f64,
     /// Rate below which no logger of an arm works (Hz).
     pub slowest_hz: f64,
-    /// Least time for which all signals stand still (s).
-    pub held_s: f64,
-    /// Least time for which one position stands still (s): drives rest for less in the middle of a motion.
-    pub stuck_s: f64,
-    /// Least step into a freeze over the largest change from one step to the next elsewhere, and least step out of it over
-    /// the largest step elsewhere (1): arms brake over several samples, a freeze breaks motion off.
-    pub freeze: [f64; 2],
-    /// Least height of a spike over the largest usual second difference (1).
-    pub spike: f64,
     /// Least share of samples at the limit of the effort (1).
     pub at_limit: f64,
     /// Least time that two overlapping runs share (s).
@@ -116,20 +107,6 @@ pub struct InspectionThresholds {
     pub fewest_contradicted: usize,
     /// Longest shift of the efforts against the motion that is looked for (s).
     pub longest_shift_s: f64,
-    /// Steps of the encoder that a velocity must exceed while a position stands still (1).
-    pub stuck_counts: f64,
-    /// Rows about a freeze that are not compared with it.
-    pub beside_freeze: usize,
-    /// A spike is no more than one row in so many: what is more frequent is noise.
-    pub rare_spike: usize,
-    /// Part of the rows that may be spikes or beside one: one in so many.
-    pub bulk_of_rows: usize,
-    /// Least height of a spike, in steps of the encoder (1).
-    pub spike_counts: f64,
-    /// Least height of a spike (rad or m): low-passes handle smaller ones.
-    pub least_spike: f64,
-    /// Difference of a jump from full turns (rad).
-    pub full_turn: f64,
     /// Difference from its limit up to which an effort is at it, as a share of the limit (1).
     pub near_limit: f64,
     /// Efforts that exceed their limit by this factor are not clipped there (1).
@@ -138,11 +115,14 @@ pub struct InspectionThresholds {
     pub fewest_values: usize,
     /// Share of the rows that two runs share that must differ from the row before (1): at rest all rows are alike.
     pub moving_rows: f64,
+    /// Errors at some moments of a run.
+    pub moments: MomentThresholds,
 }
 
 impl Default for InspectionThresholds {
     fn default() -> Self {
         Self {
+            moments: MomentThresholds::default(),
             drive_gain: [1.0 / 3.0, 3.0],
             misfit: [0.3, 0.1],
             mended: 0.3,
@@ -159,10 +139,6 @@ impl Default for InspectionThresholds {
             velocity_factor: 0.04,
             time_factor: 1.3,
             slowest_hz: 2.0,
-            held_s: 0.2,
-            stuck_s: 1.0,
-            freeze: [2.0, 6.0],
-            spike: 8.0,
             at_limit: 1.0 / 3.0,
             shared_s: 0.5,
             exact_gain: [0.8, 1.25],
@@ -195,17 +171,56 @@ impl Default for InspectionThresholds {
             agrees: 0.6,
             fewest_contradicted: 3,
             longest_shift_s: 1.5,
+            near_limit: 1e-3,
+            beyond_limit: 1.05,
+            fewest_values: 20,
+            moving_rows: 0.5,
+        }
+    }
+}
+
+/// When a signal counts as frozen, and a row as a spike or a jump.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentThresholds {
+    /// Least time for which all signals stand still (s).
+    pub held_s: f64,
+    /// Least time for which one position stands still (s): drives rest for less in the middle of a motion.
+    pub stuck_s: f64,
+    /// Least step into a freeze over the largest change from one step to the next elsewhere, and least step out of it over
+    /// the largest step elsewhere (1): arms brake over several samples, a freeze breaks motion off.
+    pub freeze: [f64; 2],
+    /// Steps of the encoder that a velocity must exceed while a position stands still (1).
+    pub stuck_counts: f64,
+    /// Rows about a freeze that are not compared with it.
+    pub beside_freeze: usize,
+    /// Least height of a spike over the largest usual second difference (1).
+    pub spike: f64,
+    /// A spike is no more than one row in so many: what is more frequent is noise.
+    pub rare_spike: usize,
+    /// Part of the rows that may be spikes or beside one: one in so many.
+    pub bulk_of_rows: usize,
+    /// Least height of a spike, in steps of the encoder (1).
+    pub spike_counts: f64,
+    /// Least height of a spike (rad or m): low-passes handle smaller ones.
+    pub least_spike: f64,
+    /// Difference of a jump from full turns (rad).
+    pub full_turn: f64,
+}
+
+impl Default for MomentThresholds {
+    fn default() -> Self {
+        Self {
+            held_s: 0.2,
+            stuck_s: 1.0,
+            freeze: [2.0, 6.0],
             stuck_counts: 20.0,
             beside_freeze: 8,
+            spike: 8.0,
             rare_spike: 100,
             bulk_of_rows: 20,
             spike_counts: 5.0,
             least_spike: 2e-3,
             full_turn: 0.5,
-            near_limit: 1e-3,
-            beyond_limit: 1.05,
-            fewest_values: 20,
-            moving_rows: 0.5,
         }
     }
 }
