@@ -15,6 +15,7 @@ mod rings;
 mod sealed;
 mod sources;
 mod supply;
+mod thresholds;
 mod tree;
 mod walls;
 mod workspace;

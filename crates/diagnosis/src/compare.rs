@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use effects::{Hypothesis, hypotheses};
 use logs::{Run, repeated};
 use robot::Robot;
@@ -8,32 +10,29 @@ use crate::error::DiagnosisError;
 use crate::outcome::effect_at::effect_at;
 use crate::progress::Progress;
 use crate::readiness::extent::inadequate;
-use crate::regression::fitted::Fitted;
+use crate::regression::linear_fit::LinearFit;
 use crate::regression::problem::Model;
 use crate::regression::uncertainty::Uncertainty;
 use crate::result::{EffectAt, Estimate, Finding};
-use crate::search::study::Study;
+use crate::search::inputs::Inputs;
 use crate::settings::Settings;
 use crate::signals::log::Log;
 
-/// What changed from one set of logs to another: of one arm before and after, early and late in a
-/// session, or of two arms that should be alike.
+/// Changes from one set of logs to another: of one arm before and after an event, early and late in a session, or of two
+/// arms that should be alike.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// What the first logs say of the robot.
+    /// The diagnosis of the first logs.
     pub before: Outcome,
-    /// What the others say of the robot with the findings of the first ones: its findings are
-    /// the changes, each `was` the first logs'.
+    /// The diagnosis of the other logs about the robot with the findings of the first ones: its findings are the changes.
     pub after: Outcome,
-    /// What the first logs say of the sizes of the findings, about that robot; of those whose
-    /// columns are linear in it.
+    /// Sizes of these findings in the first logs, about that robot, where the columns of an effect are linear.
     pub first: Vec<FirstSize>,
-    /// Findings about that robot which the first logs show to the same size: a gap that is left
-    /// in both, and no change.
+    /// Findings about that robot that the first logs show to the same size: an error that remains in both, and no change.
     pub alike: Vec<Finding>,
 }
 
-/// The parameters of an effect as the first logs have them.
+/// The parameters of an effect in the first logs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FirstSize {
     /// The effect and its place.
@@ -49,9 +48,9 @@ pub struct FirstSize {
 /// effort before - extended nominal effort = columns w_before + structure + noise
 /// ```
 ///
-/// with the robot that the first runs extend. What no finding explains is in both logs, and some
-/// hypothesis may stand for it: a change is one whose `w_after` differs from `w_before` by more
-/// than their 95 per cent intervals, added as squares.
+/// with the robot that the first runs extend. An error that no finding explains is in both logs, and a hypothesis may stand
+/// in for it. So a finding is a change only where `w_after` differs from `w_before` by more than their 95 per cent
+/// intervals, added as squares.
 ///
 /// # Errors
 ///
@@ -82,7 +81,7 @@ pub fn compare(
     Ok(Comparison { before, after, first, alike })
 }
 
-/// What the logs of an outcome say of some hypotheses about the robot that has its findings.
+/// Sizes of some hypotheses in the logs of a diagnosis, about the robot that has its findings.
 fn sizes(
     outcome: &Outcome,
     hypotheses: &[Hypothesis],
@@ -92,22 +91,23 @@ fn sizes(
         return Ok(Vec::new());
     }
     let (robot, prepared) = (&outcome.extended, &outcome.prepared);
-    let inadequate = inadequate(robot, prepared);
+    let t = &settings.thresholds;
+    let inadequate = inadequate(robot, prepared, &t.readiness);
     let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
-    let log = Log::new(prepared, &moved);
-    let asked: Vec<Hypothesis> = hypotheses.iter().copied().filter(|h| log.asks(*h)).collect();
+    let log = Log::new(prepared, &moved, t);
+    let asked: Vec<Hypothesis> = hypotheses.iter().copied().filter(|h| log.includes(*h)).collect();
     let hypotheses = asked.as_slice();
     let design = Design::of(robot, &log, hypotheses)?;
     let inadequate = &inadequate;
-    let study = Study { nominal: robot, robot, settings, log, design: &design, inadequate };
-    study.with_record(|record| {
-        let all: Vec<usize> = (0..record.blocks.len()).collect();
-        let problem = record.problem(&all);
+    let inputs = Inputs { nominal: robot, robot, settings, log, design: &design, inadequate };
+    inputs.with_dataset(|dataset| {
+        let all: Vec<usize> = (0..dataset.blocks.len()).collect();
+        let problem = dataset.problem(&all);
         let model: Model = (0..design.groups.len()).collect();
         let Some(fit) = problem.fit(&model) else { return Vec::new() };
         let weights = fit.expand(design.width);
-        let fitted = Fitted {
-            problem: &problem,
+        let fitted = LinearFit {
+            problem: Cow::Borrowed(&problem),
             model: &model,
             weights: &weights,
             about: robot,
@@ -137,7 +137,7 @@ mod tests {
 
     fn estimate(value: f64, half: f64) -> Estimate {
         let noise95 = [value - half, value + half];
-        // What effects without a name may change is in both logs.
+        // The part of effects without a name is in both logs.
         let ci95 = [value - 9.0, value + 9.0];
         Estimate {
             name: "level",

@@ -4,10 +4,10 @@
 //! effort - nominal effort = sum over hypotheses of columns weights + structure + noise
 //! ```
 //!
-//! [`diagnose`] decides which hypotheses earn their place, how large they are, what they
-//! cannot be told apart from and what is left over.
+//! [`diagnose`] decides which hypotheses the logs support, how large the effects are, which other effects would explain
+//! the logs as well, and what remains unexplained.
 //!
-//! A folder is a step, and imports none that comes later:
+//! A folder is a step, and imports none that comes later. [`Thresholds`] holds every number that decides.
 //!
 //! ```text
 //! signals -> columns -> regression -> search -> outcome
@@ -17,8 +17,9 @@
 mod columns;
 mod compare;
 mod diagnose;
-mod diagnosed;
 mod error;
+mod find_tones;
+mod how_found;
 mod oscillations;
 mod outcome;
 mod progress;
@@ -32,8 +33,8 @@ mod thresholds;
 
 pub use compare::{Comparison, FirstSize, compare};
 pub use diagnose::{Outcome, diagnose};
-pub use diagnosed::{Diagnosed, diagnosed};
 pub use error::DiagnosisError;
+pub use how_found::{Diagnosed, diagnosed};
 pub use outcome::held_out::{HeldOut, Span};
 pub use outcome::traces::{JointTraces, RunTraces};
 pub use progress::{Progress, Silent};
@@ -44,3 +45,12 @@ pub use result::{
 };
 pub use settings::Settings;
 pub use signals::left_over::{LeftOver, left_over};
+pub use thresholds::Thresholds;
+pub use thresholds::blocks::BlockThresholds;
+pub use thresholds::limits::LimitThresholds;
+pub use thresholds::readiness::ReadinessThresholds;
+pub use thresholds::search::SearchThresholds;
+pub use thresholds::signals::SignalThresholds;
+pub use thresholds::sizes::SizeThresholds;
+pub use thresholds::tones::ToneThresholds;
+pub use thresholds::verdict::VerdictThresholds;

@@ -1,13 +1,13 @@
-/// Who is told how far a diagnosis has come.
+/// Receives the progress of a diagnosis.
 pub trait Progress: Sync {
-    /// A new stage of so many steps begins.
+    /// A stage of so many steps begins.
     fn stage(&self, name: &str, steps: usize);
 
     /// One step of the stage is done.
     fn step(&self);
 }
 
-/// Nobody is told.
+/// Reports nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Silent;
 

@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 /// The schema that `diagnosis.json` follows.
 pub const SCHEMA: &str = "plumbline.diagnosis/1";
 
-/// What a log says about the model, per joint and overall.
+/// How well the model explains the logs, per joint and overall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -16,9 +16,9 @@ pub enum Verdict {
     Explained,
     /// Named effects, and structure that none of them reproduces.
     PartlyExplained,
-    /// Structure, but no named effect earns its place.
+    /// Structure, but the logs support no named effect.
     Unexplained,
-    /// This log cannot show it.
+    /// The logs cannot show it.
     DataInadequate,
 }
 
@@ -34,9 +34,9 @@ impl Verdict {
         }
     }
 
-    /// The verdict on logs that were not read as they stand: how they are to be read is for those to say who
-    /// recorded them, so that nothing is closed.
-    pub(crate) fn if_so_read(self) -> Self {
+    /// The verdict on logs that were corrected before they were read. Only those who recorded them can confirm the
+    /// correction, so that no joint is closed.
+    pub(crate) fn of_corrected_logs(self) -> Self {
         match self {
             Self::Consistent | Self::Explained => Self::PartlyExplained,
             open => open,
@@ -44,7 +44,7 @@ impl Verdict {
     }
 }
 
-/// The whole answer to one question: what does the model get wrong in these logs?
+/// The errors of a model in some logs, with their causes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Diagnosis {
     /// Always [`SCHEMA`].
@@ -59,15 +59,15 @@ pub struct Diagnosis {
     pub findings: Vec<Finding>,
     /// Causes that the logs show and that do not matter: below the practical size at every joint.
     pub negligible: Vec<Negligible>,
-    /// What no named cause reproduces.
+    /// Structure that no named cause reproduces.
     pub unexplained: Vec<Unexplained>,
     /// Effects that were tested and not found.
     pub ruled_out: Vec<RuledOut>,
-    /// What the findings buy on data that was not used for them.
+    /// The fall of the prediction error on data that took no part.
     pub gain: Gain,
     /// The logs and how they were prepared.
     pub data: DataSummary,
-    /// Doubts about the input that did not stop the work.
+    /// Doubts about the input, each in a sentence.
     pub warnings: Vec<String>,
 }
 
@@ -80,14 +80,14 @@ pub struct JointReport {
     pub verdict: Verdict,
     /// Why, in a sentence.
     pub because: String,
-    /// RMS of the measured effort in the band of the diagnosis, as the two below where the joint
-    /// moves: while it stands for long it is held by any part of its dry friction (N m or N).
+    /// RMS of the measured effort in the band of the diagnosis (N m or N). This and the next two are of the samples in which
+    /// the joint moves: while it stands for long, dry friction holds it with any part of its level.
     pub torque_rms_nm: f64,
     /// RMS of measured minus nominal effort.
     pub residual_rms_nm: f64,
     /// RMS of measured minus extended effort, on held-out data.
     pub remaining_rms_nm: f64,
-    /// RMS of the noise in the band of the diagnosis, from sources outside of what is left.
+    /// RMS of the noise in the band of the diagnosis, from sources other than the residual.
     pub noise_floor_rms_nm: f64,
     /// Where most of the noise comes from.
     pub noise_floor_from: NoiseFloorSource,
@@ -95,7 +95,7 @@ pub struct JointReport {
     pub spectrum: NoiseSpectrum,
     /// Integrated autocorrelation time of the remaining residual (s).
     pub autocorrelation_time_s: f64,
-    /// Number of independent samples that the record is worth.
+    /// Number of independent samples to which the logs amount.
     pub effective_samples: f64,
     /// Range of motion in the logs (rad or m).
     pub range: f64,
@@ -111,7 +111,7 @@ pub enum NoiseFloorSource {
     Effort,
     /// The noise of the encoders, carried to torque by the inertia of the arm.
     Encoders,
-    /// Nothing tells it.
+    /// No source of noise is known.
     Unknown,
 }
 
@@ -145,9 +145,9 @@ pub struct Estimate {
     pub name: &'static str,
     /// Best value.
     pub value: f64,
-    /// 95 per cent interval, with what effects without a name may change.
+    /// 95 per cent interval, including the uncertainty from effects without a name.
     pub ci95: [f64; 2],
-    /// The same of noise alone: of a change between two logs of one arm, whose effects without a name are in both.
+    /// The same of noise alone: for a change between two logs of one arm, which share the effects without a name.
     pub noise95: [f64; 2],
     /// Value in the nominal model.
     pub nominal: f64,
@@ -202,20 +202,20 @@ pub struct Finding {
     pub log_evidence: f64,
     /// Relative fall of the held-out residual's power when it is added to the other findings.
     pub held_out_gain: f64,
-    /// Effects that explain the held-out data as well in its stead.
+    /// Effects that explain the held-out data as well in its place.
     pub not_separable_from: Vec<EffectAt>,
     /// The motion that would separate them, if there are rivals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub told_apart_by: Option<&'static str>,
-    /// What speaks for it, in sentences.
+    /// Evidence for it, in sentences.
     pub evidence: Vec<String>,
     /// Combinations of its parameters that the logs leave open, in words.
     pub undetermined: Vec<String>,
 }
 
 impl Finding {
-    /// What it may as well be: other causes, and forms of the same dry friction that differ only where
-    /// the logs do not look, such as `FR04 Stribeck friction near rest`.
+    /// Its rivals in words: other causes, and forms of the same dry friction that differ only where the logs have no motion,
+    /// such as `FR04 Stribeck friction near rest`.
     pub fn rivals(&self) -> (Vec<String>, Vec<String>) {
         let shows = |r: &EffectAt| {
             let (of, shows) = effects::model(r.effect).ok()?.nature().form_of()?;
@@ -231,7 +231,7 @@ impl Finding {
         };
         let forms = [words(at_rest, "near rest"), words(elsewhere, "at other positions")];
         let (parts, others): (Vec<_>, Vec<_>) =
-            others.into_iter().partition(|r| self.is_the_work_of(r));
+            others.into_iter().partition(|r| self.is_part_of(r));
         let parts: Vec<String> = parts.into_iter().map(EffectAt::words).collect();
         let together = (!parts.is_empty()).then(|| parts.join(" with "));
         (
@@ -240,15 +240,15 @@ impl Finding {
         )
     }
 
-    /// Whether a rival does its work only together with another one: Coulomb friction with an offset
-    /// that of asymmetric friction.
-    fn is_the_work_of(&self, rival: &EffectAt) -> bool {
+    /// Whether a rival explains as much only together with another one, as Coulomb friction with an offset explains as much as
+    /// asymmetric friction.
+    fn is_part_of(&self, rival: &EffectAt) -> bool {
         let parts = effects::model(self.at.effect).map_or(&[] as &[_], |m| m.nature().together());
         parts.contains(&rival.effect) && rival.joint == self.at.joint
     }
 }
 
-/// A cause that is seen and too small to be a finding.
+/// A cause that the logs show and that is too small to be a finding.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Negligible {
     /// The effect and its place.
@@ -256,9 +256,9 @@ pub struct Negligible {
     pub at: EffectAt,
     /// The joint at which it matters most.
     pub most_at: String,
-    /// RMS of what it takes off the held-out error there (N m or N).
+    /// Root of the fall of the held-out mean square there (N m or N).
     pub rms_nm: f64,
-    /// RMS below which it would not matter there (N m or N).
+    /// The value below which that does not matter there (N m or N).
     pub least_nm: f64,
 }
 
@@ -269,7 +269,7 @@ pub struct Unexplained {
     pub joint: String,
     /// Share of the nominal residual's power that is structure without a name.
     pub share: f64,
-    /// What it depends on, the strongest first.
+    /// The signals that it follows, the strongest first.
     pub depends_on: Vec<Dependence>,
 }
 
@@ -290,8 +290,8 @@ pub struct RuledOut {
     pub at: EffectAt,
     /// The parameter that `smallest_detectable` speaks of.
     pub parameter: &'static str,
-    /// The smallest size that would have been found, of a stiffness the largest, of a breakaway
-    /// level what it is beyond the Coulomb level; none when these logs could not show any.
+    /// The smallest size that would have been found; of a stiffness the largest, of a breakaway level its excess over the
+    /// Coulomb level. `None` when these logs cannot show any.
     pub smallest_detectable: Option<f64>,
     /// Its unit.
     pub unit: &'static str,
@@ -299,7 +299,7 @@ pub struct RuledOut {
     pub because: String,
 }
 
-/// What the extended model buys.
+/// How much better the extended model predicts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gain {
     /// In predicting torque.
@@ -341,7 +341,7 @@ pub struct FoldGain {
 pub struct DataSummary {
     /// One entry a run.
     pub runs: Vec<RunSummary>,
-    /// Whether the logs were not read as they stand; a warning says how.
+    /// Whether the logs were corrected before they were read; a warning says how.
     pub put_right: bool,
     /// Cut-off of the low-pass filter (Hz).
     pub cutoff_hz: f64,

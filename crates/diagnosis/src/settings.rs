@@ -1,6 +1,7 @@
 use catalogue::EffectKind;
 
-use crate::DiagnosisError;
+use crate::error::DiagnosisError;
+use crate::thresholds::Thresholds;
 
 /// How a diagnosis is made.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,10 +12,12 @@ pub struct Settings {
     pub control_rate_hz: Option<f64>,
     /// Least held-out fall of a joint's RMS error that counts, as a share of its effort RMS.
     pub practical_share: f64,
-    /// Share of a joint's effort RMS below which what is left beyond the noise is not open.
+    /// Share of a joint's effort RMS below which a remaining error beyond the noise does not leave the joint open.
     pub open_share: f64,
-    /// Effects that are not looked for, and named neither as a cause nor as its rival.
+    /// Effects that are not looked for: they are neither findings nor rivals of findings.
     pub without: Vec<EffectKind>,
+    /// Every other number that decides.
+    pub thresholds: Thresholds,
 }
 
 impl Default for Settings {
@@ -25,6 +28,7 @@ impl Default for Settings {
             practical_share: 0.005,
             open_share: 0.02,
             without: Vec::new(),
+            thresholds: Thresholds::default(),
         }
     }
 }

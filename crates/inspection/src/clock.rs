@@ -1,18 +1,9 @@
 use robot::Robot;
 
 use crate::judge::Judge;
+use crate::observation::{Observation, ObservationKind, Rival, Spoils};
 use crate::reading::Reading;
 use crate::samples::Samples;
-use crate::{Observation, ObservationKind, Rival, Spoils};
-
-/// Correlation of a velocity column with the derivative of the position from which on it says something.
-const ALIKE: f64 = 0.95;
-
-/// The same where it says that the column is off by less than a third.
-const CLOSELY_ALIKE: f64 = 0.995;
-
-/// Factors of all joints are the same to this share.
-const SAME: f64 = 0.02;
 
 /// A velocity column against the derivative of its position.
 #[derive(Debug, Clone, Copy)]
@@ -23,24 +14,25 @@ struct Slope {
     correlation: f64,
 }
 
-fn slopes(samples: &Samples) -> Vec<Slope> {
+fn slopes(samples: &Samples, least: f64) -> Vec<Slope> {
     let of = |joint: usize| {
         let v = samples.column(&samples.velocity, joint);
         let d = samples.column(&samples.motion[1], joint);
         let pairs: Vec<(f64, f64)> = v.into_iter().zip(d).filter(|(v, _)| v.is_finite()).collect();
         let sum = |f: fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>();
         let (vv, vd, dd) = (sum(|p| p.0 * p.0), sum(|p| p.0 * p.1), sum(|p| p.1 * p.1));
-        let alike = vd.abs() > ALIKE * (vv * dd).sqrt() && dd > 0.0 && pairs.len() > 30;
+        let alike = vd.abs() > least * (vv * dd).sqrt() && dd > 0.0 && pairs.len() > 30;
         alike.then_some(Slope { joint, factor: vd / dd, correlation: vd.abs() / (vv * dd).sqrt() })
     };
     (0..samples.joints).filter_map(of).collect()
 }
 
-/// Velocity columns of the other sign, and the factor by which all of them are off: another clock, or another
-/// unit of velocity. A clock that is off is taken for true in what follows.
+/// Velocity columns of the other sign, and a factor by which all of them are off: another clock, or another unit of
+/// velocity. A wrong clock is corrected for the tests that follow.
 pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observation> {
-    let slopes = slopes(&judge.samples);
-    let told = |kind, joints, spoils, or| Observation {
+    let t = judge.thresholds;
+    let slopes = slopes(&judge.samples, t.velocity_correlation);
+    let observation = |kind, joints, spoils, or| Observation {
         kind,
         or,
         joints,
@@ -52,20 +44,25 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
     let mut all = Vec::new();
     let turned: Vec<usize> = slopes.iter().filter(|s| s.factor < 0.0).map(|s| s.joint).collect();
     if !turned.is_empty() {
-        all.push(told(ObservationKind::VelocitySign, turned, Spoils::Nothing, Vec::new()));
+        all.push(observation(ObservationKind::VelocitySign, turned, Spoils::Nothing, Vec::new()));
     }
     let mut sizes: Vec<f64> = slopes.iter().map(|s| s.factor.abs()).collect();
     sizes.sort_unstable_by(f64::total_cmp);
     let Some(&factor) = sizes.get(sizes.len() / 2) else {
-        all.extend(slow(judge).map(|factor| {
-            judge.take(&Reading::Time(factor));
+        all.extend(slow_clock(judge).map(|factor| {
+            judge.adopt(&Reading::Time(factor));
             let joints = (0..robot.joint_count()).collect();
-            told(ObservationKind::TimeUnit { factor }, joints, Spoils::Everything, Vec::new())
+            observation(
+                ObservationKind::TimeUnit { factor },
+                joints,
+                Spoils::Everything,
+                Vec::new(),
+            )
         }));
         return all;
     };
-    let same = sizes.iter().all(|s| (s / factor - 1.0).abs() < SAME);
-    let closely = slopes.iter().all(|s| s.correlation > CLOSELY_ALIKE);
+    let same = sizes.iter().all(|s| (s / factor - 1.0).abs() < t.same_velocity_factor);
+    let closely = slopes.iter().all(|s| s.correlation > t.close_velocity_correlation);
     let is_close = factor > 0.75 && factor < 1.33;
     if is_close && !closely {
         return all;
@@ -75,13 +72,13 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
     }
     let as_is = judge.as_is();
     let reading = Reading::Time(factor);
-    let gain = judge.judged(reading.clone(), &as_is).gain;
+    let gain = judge.judge_reading(reading.clone(), &as_is).gain;
     let joints: Vec<usize> = (0..robot.joint_count()).collect();
     let margin = judge.thresholds.margin;
     let velocity = ObservationKind::VelocityUnit { factor };
     let time = ObservationKind::TimeUnit { factor };
     if gain < -margin {
-        all.push(told(velocity, joints, Spoils::Nothing, Vec::new()));
+        all.push(observation(velocity, joints, Spoils::Nothing, Vec::new()));
         return all;
     }
     let or = if gain > margin {
@@ -89,25 +86,22 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
     } else {
         vec![Rival { kind: velocity, joints: joints.clone() }]
     };
-    all.push(told(time, joints, Spoils::Everything, or));
-    judge.take(&reading);
+    all.push(observation(time, joints, Spoils::Everything, or));
+    judge.adopt(&reading);
     all
 }
 
 /// Logged time per second of a log without velocities whose rows are too far apart for any controller: a power
-/// of a thousand that gives a rate that loggers have. `None` for one of a usual rate, or where the efforts speak
-/// against it.
-fn slow(judge: &mut Judge) -> Option<f64> {
+/// of a thousand that gives a rate that loggers have. `None` for a log of a usual rate, or where the efforts contradict it.
+fn slow_clock(judge: &mut Judge) -> Option<f64> {
     let step_s = judge.samples.step_s;
     let slowest = judge.thresholds.slowest_hz;
     if step_s * slowest < 1.0 {
         return None;
     }
-    let factor = (1..=3).map(|k| 1e3_f64.powi(k)).find(|f| f / step_s > LEAST_RATE_HZ)?;
+    let factor =
+        (1..=3).map(|k| 1e3_f64.powi(k)).find(|f| f / step_s > judge.thresholds.least_rate_hz)?;
     let as_is = judge.as_is();
-    let found = judge.judged(Reading::Time(factor), &as_is);
+    let found = judge.judge_reading(Reading::Time(factor), &as_is);
     (found.gain > -judge.thresholds.margin).then_some(factor)
 }
-
-/// Rate of the slowest usual logger (Hz).
-const LEAST_RATE_HZ: f64 = 10.0;

@@ -3,7 +3,7 @@ use nalgebra::{DMatrix, DVector};
 /// Columns beside the constant: nominal torque, direction, velocity, acceleration.
 pub(crate) const COLUMNS: usize = 4;
 
-/// What a joint's drive may do, besides what the model says, without being told here.
+/// Parameters of a drive beside the model, which are fitted here and are no error of the logs.
 ///
 /// ```text
 /// effort = c tau + f sign(qd) + b qd + i qdd + offset,   gain[0] <= c <= gain[1],  f, b, i >= 0
@@ -14,10 +14,10 @@ pub(crate) struct Drive {
     pub gain: [f64; 2],
 }
 
-/// The best that a drive can do.
+/// The least squares fit of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fitted {
-    /// What is left over what there was: squares about the mean.
+    /// Squares of the residual over those of the effort about its mean.
     pub share: f64,
     /// `c`, `f`, `b`, `i` above, in units of the columns.
     pub coefficients: [f64; COLUMNS],

@@ -3,56 +3,55 @@ use std::ops::Range;
 use logs::Run;
 use robot::Robot;
 
-use crate::moments::{at, stretch};
+use crate::observation::{Observation, ObservationKind, Stretch};
 use crate::pieces::usual_step;
-use crate::{Observation, ObservationKind, Thresholds};
-
-/// Steps of the encoder that a velocity must tell of.
-const COUNTS: f64 = 20.0;
-
-/// Rows about a freeze that are not compared with it.
-const REACH: usize = 8;
+use crate::thresholds::InspectionThresholds;
 
 /// Signals that stand still while time goes on, and the rows that they spoil.
 ///
-/// A joint that comes to rest is no such signal: its steps become small before they end. A freeze breaks the
-/// motion off, or the motion goes on elsewhere when it ends.
+/// A joint that comes to rest has small steps before it stands. A freeze breaks the motion off, or the motion goes on
+/// elsewhere when the freeze ends.
 pub(crate) fn frozen(
     robot: &Robot,
     run: &Run,
     index: usize,
-    t: &Thresholds,
+    t: &InspectionThresholds,
 ) -> (Vec<Observation>, Vec<Range<usize>>) {
     let usual = usual_step(&run.time);
     let rows = |s: f64| if usual > 0.0 { ((s / usual) as usize).max(10) } else { usize::MAX };
     let mut spoilt = Vec::new();
-    let mut told = Vec::new();
-    for rows in held(run, rows(t.held_s)) {
+    let mut observations = Vec::new();
+    for rows in held(run, rows(t.moments.held_s)) {
         if (0..run.joints.len()).any(|j| breaks_off(run, j, &rows, t)) {
-            let stretches = vec![stretch(run, index, &rows)];
-            told.push(Observation {
+            let stretches = vec![Stretch::of_rows(run, index, &rows)];
+            observations.push(Observation {
                 kind: ObservationKind::Held,
                 joints: (0..run.joints.len()).collect(),
-                ..at(ObservationKind::Held, 0, stretches)
+                ..Observation::of_seconds(ObservationKind::Held, 0, stretches)
             });
             spoilt.push(rows);
         }
     }
     for j in 0..run.joints.len() {
-        for rows in still(&run.joints[j].position, rows(t.stuck_s)) {
+        for rows in still(&run.joints[j].position, rows(t.moments.stuck_s)) {
             let known =
                 spoilt.iter().any(|s: &Range<usize>| s.start <= rows.end && rows.start <= s.end);
             let rotates = robot.links().get(j).is_none_or(|link| link.joint.kind.is_rotation());
             let least = t.moves[usize::from(!rotates)];
-            let broken = breaks_off(run, j, &rows, t) || has_speed(run, j, &rows, least);
+            let broken = breaks_off(run, j, &rows, t)
+                || has_speed(run, j, &rows, least, t.moments.stuck_counts);
             if !known && range(&run.joints[j].position) > least && broken && goes_on(run, j, &rows)
             {
-                told.push(at(ObservationKind::StuckEncoder, j, vec![stretch(run, index, &rows)]));
+                observations.push(Observation::of_seconds(
+                    ObservationKind::StuckEncoder,
+                    j,
+                    vec![Stretch::of_rows(run, index, &rows)],
+                ));
                 spoilt.push(rows);
             }
         }
     }
-    (told, spoilt)
+    (observations, spoilt)
 }
 
 /// Runs of rows in which a signal has exactly one value, `least` or more.
@@ -93,10 +92,12 @@ fn same(length: usize, least: usize, is_same: impl Fn(usize) -> bool) -> Vec<Ran
 ///
 /// with steps over one row, or the mean of three for an encoder of coarse steps. A joint that brakes has small
 /// steps before it rests.
-fn breaks_off(run: &Run, j: usize, rows: &Range<usize>, t: &Thresholds) -> bool {
+fn breaks_off(run: &Run, j: usize, rows: &Range<usize>, t: &InspectionThresholds) -> bool {
     let q = &run.joints[j].position;
-    let [stops, resumes] = t.freeze;
-    let beside = |k: usize| k + REACH < rows.start || k > rows.end + REACH;
+    let [stops, resumes] = t.moments.freeze;
+    let beside = |k: usize| {
+        k + t.moments.beside_freeze < rows.start || k > rows.end + t.moments.beside_freeze
+    };
     let usual = usual_step(&run.time);
     // Over a gap a step is as large as the gap is long; stamps with jitter say nothing of when a row was read.
     let step = |k: usize, span: usize| {
@@ -117,15 +118,15 @@ fn breaks_off(run: &Run, j: usize, rows: &Range<usize>, t: &Thresholds) -> bool 
     [1, 3].into_iter().any(breaks)
 }
 
-/// Whether the velocity column of a joint tells of a way while its position stands still: longer than some steps of
-/// the encoder, within which a slow joint stays.
+/// Whether the velocity column of a joint shows motion while its position stands still, over more than the steps of the
+/// encoder that a slow joint may stay within.
 ///
 /// ```text
 /// way = sum |qd| over the freeze * sum |dq| elsewhere / sum |qd| elsewhere
 /// ```
 ///
 /// which holds for any unit of time.
-fn has_speed(run: &Run, j: usize, rows: &Range<usize>, least: f64) -> bool {
+fn has_speed(run: &Run, j: usize, rows: &Range<usize>, least: f64, counts: f64) -> bool {
     let joint = &run.joints[j];
     let Some(velocity) = joint.velocity.as_deref() else { return false };
     let steps: Vec<f64> = joint.position.windows(2).map(|q| (q[1] - q[0]).abs()).collect();
@@ -133,7 +134,7 @@ fn has_speed(run: &Run, j: usize, rows: &Range<usize>, least: f64) -> bool {
     let speed = |v: &[f64]| v.iter().map(|v| v.abs()).sum::<f64>();
     let here = speed(&velocity[rows.clone()]);
     let way = here * steps.iter().sum::<f64>() / (speed(velocity) - here);
-    way.is_finite() && way > (COUNTS * count).max(least) && way > 0.2 * range(&joint.position)
+    way.is_finite() && way > (counts * count).max(least) && way > 0.2 * range(&joint.position)
 }
 
 /// Whether another signal shows that the arm moves on: another position, or the effort of the joint.
@@ -153,21 +154,21 @@ mod tests {
     use super::*;
     use crate::testing::{pendulum, swing};
 
-    fn told(run: &Run) -> Vec<ObservationKind> {
-        let (told, _) = frozen(&pendulum(), run, 0, &Thresholds::default());
-        told.iter().map(|o| o.kind).collect()
+    fn observe(run: &Run) -> Vec<ObservationKind> {
+        let (observations, _) = frozen(&pendulum(), run, 0, &InspectionThresholds::default());
+        observations.iter().map(|o| o.kind).collect()
     }
 
     /// At row 1000 the pendulum swings at half a radian per second or more.
     #[test]
     fn an_encoder_that_stops_in_motion_is_stuck() {
         let mut run = swing(0.3);
-        assert_eq!(told(&run), []);
+        assert_eq!(observe(&run), []);
         let q = &mut run.joints[0].position;
         let still = q[1000];
         q[1000..].fill(still);
         run.joints[0].velocity = None;
-        assert_eq!(told(&run), [ObservationKind::StuckEncoder]);
+        assert_eq!(observe(&run), [ObservationKind::StuckEncoder]);
     }
 
     #[test]
@@ -179,7 +180,7 @@ mod tests {
         let still = q[rest];
         q[rest..].fill(still);
         run.joints[0].velocity = None;
-        assert_eq!(told(&run), []);
+        assert_eq!(observe(&run), []);
     }
 
     #[test]
@@ -190,6 +191,6 @@ mod tests {
             let still = signal[1000];
             signal[1000..1500].fill(still);
         }
-        assert_eq!(told(&run), [ObservationKind::Held]);
+        assert_eq!(observe(&run), [ObservationKind::Held]);
     }
 }

@@ -1,61 +1,63 @@
 use logs::Run;
 use robot::Robot;
 
+use crate::another_robot::another_robot;
 use crate::clock::clock;
+use crate::effort_shift::effort_shift;
 use crate::judge::Judge;
 use crate::limits::at_limits;
 use crate::moments::moments;
+use crate::observation::Observation;
 use crate::overlaps::overlaps;
 use crate::pieces::pieces;
 use crate::readings::readings;
 use crate::samples::Thinned;
-use crate::shift::shift;
-use crate::stranger::another_robot;
-use crate::{Observation, Thresholds};
+use crate::thresholds::InspectionThresholds;
 
-/// Fewest samples of which a reading can be told.
-const LEAST_ROWS: usize = 40;
-
-/// What is wrong with logs as a whole, before causes are sought.
+/// Looks for errors of logs as a whole, before causes are sought.
 ///
 /// Joints of the runs are in the order of the robot, as [`logs::read_run`] gives them. Runs whose signals have
-/// not all the length of their time, or that have other joints, are not looked at: [`logs::prepare`] refuses
-/// them.
+/// not all the length of their time, or that have other joints, are skipped: [`logs::prepare`] refuses them.
 pub fn inspect(robot: &Robot, runs: &[Run]) -> Vec<Observation> {
-    inspect_with(robot, runs, &Thresholds::default())
+    inspect_with(robot, runs, &InspectionThresholds::default())
 }
 
 /// [`inspect`] with other thresholds.
-pub fn inspect_with(robot: &Robot, runs: &[Run], thresholds: &Thresholds) -> Vec<Observation> {
+pub fn inspect_with(
+    robot: &Robot,
+    runs: &[Run],
+    thresholds: &InspectionThresholds,
+) -> Vec<Observation> {
     if runs.is_empty() || !runs.iter().all(|run| is_whole(robot, run)) {
         return Vec::new();
     }
-    let mut found = moments(robot, runs, thresholds);
-    let mut told = found.told;
-    found.mended.iter_mut().for_each(|run| as_described(robot, run));
-    told.extend(overlaps(runs, thresholds));
-    told.extend(at_limits(robot, runs, thresholds));
-    let all = found.mended.iter().zip(&found.left_out);
-    let pieces: Vec<_> = all.flat_map(|(run, left_out)| pieces(run, left_out)).collect();
-    let Some(thinned) = Thinned::of(runs, &pieces) else { return told };
+    let mut moments = moments(robot, runs, thresholds);
+    let mut observations = moments.found;
+    moments.corrected.iter_mut().for_each(|run| remove_described(robot, run));
+    observations.extend(overlaps(runs, thresholds));
+    observations.extend(at_limits(robot, runs, thresholds));
+    let all = moments.corrected.iter().zip(&moments.left_out);
+    let pieces: Vec<_> =
+        all.flat_map(|(run, left_out)| pieces(run, left_out, thresholds)).collect();
+    let Some(thinned) = Thinned::of(runs, &pieces, thresholds) else { return observations };
     let samples = thinned.samples(0, 0);
-    if samples.rows() < LEAST_ROWS {
-        return told;
+    if samples.rows() < thresholds.least_rows {
+        return observations;
     }
     let mut judge = Judge::new(robot, thresholds, samples);
-    told.extend(clock(robot, &mut judge, runs.len()));
-    let read = readings(&mut judge, runs.len());
-    // Of another arm, a reading may mend a joint by chance; one that is true leaves no contradiction.
-    let read = another_robot(&judge, runs.len()).map_or(read, |stranger| vec![stranger]);
-    let gain = read.first().and_then(|o| o.evidence).map(|e| e.gain);
+    observations.extend(clock(robot, &mut judge, runs.len()));
+    let errors = readings(&mut judge, runs.len());
+    // With the description of another arm, a reading may improve a joint by chance; a true one leaves no contradiction.
+    let errors = another_robot(&judge, runs.len()).map_or(errors, |other| vec![other]);
+    let gain = errors.first().and_then(|o| o.evidence).map(|e| e.gain);
     if let Some(gain) = gain
-        && let Some(shifted) = shift(robot, &thinned, thresholds, gain, runs.len())
+        && let Some(shift) = effort_shift(robot, &thinned, thresholds, gain, runs.len())
     {
-        told.push(shifted);
-        return told;
+        observations.push(shift);
+        return observations;
     }
-    told.extend(read);
-    told
+    observations.extend(errors);
+    observations
 }
 
 fn is_whole(robot: &Robot, run: &Run) -> bool {
@@ -72,12 +74,12 @@ fn is_whole(robot: &Robot, run: &Run) -> bool {
         && run.time.windows(2).all(|t| t[1] > t[0])
 }
 
-/// Takes off what the description knows of gears, zeros and torque constants:
+/// Removes the described gear ratios, zeros and torque constants from the signals:
 ///
 /// ```text
 /// q = ratio (q_log - offset),   qd = ratio qd_log,   tau = effort_log / (ratio gain)
 /// ```
-fn as_described(robot: &Robot, run: &mut Run) {
+fn remove_described(robot: &Robot, run: &mut Run) {
     for (link, joint) in robot.links().iter().zip(&mut run.joints) {
         let drive = &link.actuator;
         let (ratio, effort) =
@@ -93,10 +95,10 @@ fn as_described(robot: &Robot, run: &mut Run) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observation::{ObservationKind, Spoils};
     use crate::testing::{pendulum, swing};
-    use crate::{ObservationKind, Spoils};
 
-    fn told(change: fn(&mut Run)) -> Vec<Observation> {
+    fn observe(change: fn(&mut Run)) -> Vec<Observation> {
         let mut runs = vec![swing(0.3), swing(1.1)];
         runs.iter_mut().for_each(change);
         inspect(&pendulum(), &runs)
@@ -104,13 +106,13 @@ mod tests {
 
     #[test]
     fn nothing_is_told_of_a_pendulum_as_it_is() {
-        assert_eq!(told(|_| {}), []);
+        assert_eq!(observe(|_| {}), []);
     }
 
     /// A turned effort and a turned position are the same for a pendulum.
     #[test]
     fn a_turned_sign_is_told() {
-        let found = told(|run| run.joints[0].effort.iter_mut().for_each(|e| *e = -*e));
+        let found = observe(|run| run.joints[0].effort.iter_mut().for_each(|e| *e = -*e));
         let kinds =
             |o: &Observation| [o.kind].into_iter().chain(o.or.iter().map(|r| r.kind)).collect();
         let kinds: Vec<ObservationKind> = found.first().map(kinds).unwrap_or_default();
@@ -120,20 +122,20 @@ mod tests {
 
     #[test]
     fn time_in_milliseconds_is_told_with_its_factor() {
-        let found = told(|run| run.time.iter_mut().for_each(|t| *t *= 1e3));
+        let found = observe(|run| run.time.iter_mut().for_each(|t| *t *= 1e3));
         let ObservationKind::TimeUnit { factor } = found[0].kind else { panic!("{found:?}") };
         assert!((factor / 1e3 - 1.0).abs() < 0.01 && found[0].spoils == Spoils::Everything);
     }
 
     #[test]
     fn a_torque_constant_that_is_off_by_a_third_is_no_unit() {
-        assert_eq!(told(|run| run.joints[0].effort.iter_mut().for_each(|e| *e *= 1.33)), []);
+        assert_eq!(observe(|run| run.joints[0].effort.iter_mut().for_each(|e| *e *= 1.33)), []);
     }
 
     #[test]
     fn runs_that_do_not_fit_the_robot_are_not_looked_at() {
-        assert_eq!(told(|run| run.joints[0].effort.truncate(10)), []);
-        assert_eq!(told(|run| run.joints.clear()), []);
+        assert_eq!(observe(|run| run.joints[0].effort.truncate(10)), []);
+        assert_eq!(observe(|run| run.joints.clear()), []);
         assert_eq!(inspect(&pendulum(), &[]), []);
     }
 

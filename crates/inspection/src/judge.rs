@@ -1,19 +1,16 @@
 use robot::Robot;
 
-use crate::Thresholds;
 use crate::fit::{Drive, Fitted, Sums};
-use crate::pooled::pooled;
+use crate::pooled::fit_pooled;
 use crate::reading::Reading;
 use crate::samples::Samples;
+use crate::thresholds::InspectionThresholds;
 use crate::torque::Torque;
 
-/// A drive of nearly the right torque constant.
-pub(crate) const EXACT: Drive = Drive { gain: [0.8, 1.25] };
-
-/// Holds readings of samples against the nominal torque.
+/// Compares readings of samples with the nominal torque.
 pub(crate) struct Judge<'a> {
     pub robot: &'a Robot,
-    pub thresholds: &'a Thresholds,
+    pub thresholds: &'a InspectionThresholds,
     torque: Torque,
     pub samples: Samples,
     /// Nominal torque as the samples stand: rigid bodies without gravity, gravity per unit, and all.
@@ -24,19 +21,19 @@ pub(crate) struct Judge<'a> {
     pub floors: Vec<f64>,
 }
 
-/// A reading, and what it leaves.
+/// A reading, and the residual that it leaves.
 #[derive(Debug, Clone)]
-pub(crate) struct Judged {
+pub(crate) struct ReadingFit {
     pub reading: Reading,
     /// Share of the effort left at each joint as the log stands, and when it is read so.
     pub before: Vec<f64>,
     pub shares: Vec<f64>,
-    /// Logarithm of the factor by which less is left than as the log stands.
+    /// Logarithm of the factor by which the residual is smaller than that of the log as it stands.
     pub gain: f64,
 }
 
 impl<'a> Judge<'a> {
-    pub fn new(robot: &'a Robot, thresholds: &'a Thresholds, samples: Samples) -> Self {
+    pub fn new(robot: &'a Robot, thresholds: &'a InspectionThresholds, samples: Samples) -> Self {
         let mut torque = Torque::new(robot);
         let inertial = torque.inertial(&samples);
         let gravity = torque.gravity(&samples);
@@ -45,16 +42,21 @@ impl<'a> Judge<'a> {
         Self { robot, thresholds, torque, samples, inertial, gravity, whole, floors }
     }
 
+    /// The bounds of a drive of nearly the right torque constant.
+    pub fn exact_drive(&self) -> Drive {
+        Drive { gain: self.thresholds.exact_gain }
+    }
+
     /// The usual bounds of a drive.
     fn drive(&self) -> Drive {
         Drive { gain: self.thresholds.drive_gain }
     }
 
-    /// What each joint's drive leaves, the samples as they stand.
-    pub fn as_is(&self) -> Judged {
+    /// The residual of each joint with the samples as they stand.
+    pub fn as_is(&self) -> ReadingFit {
         let fits = self.fits(&self.samples, &self.whole, self.drive());
         let shares: Vec<f64> = fits.iter().map(|fit| fit.share).collect();
-        Judged { reading: Reading::AsIs, before: shares.clone(), shares, gain: 0.0 }
+        ReadingFit { reading: Reading::AsIs, before: shares.clone(), shares, gain: 0.0 }
     }
 
     /// The fit of every joint for samples and their nominal torque.
@@ -71,44 +73,44 @@ impl<'a> Judge<'a> {
         Sums::of(columns.each_ref().map(Vec::as_slice), &column(&samples.effort))
     }
 
-    /// What a reading leaves.
-    pub fn judged(&mut self, reading: Reading, as_is: &Judged) -> Judged {
-        let read = reading.applied(&self.samples);
+    /// The residual with a reading.
+    pub fn judge_reading(&mut self, reading: Reading, as_is: &ReadingFit) -> ReadingFit {
+        let read = reading.apply(&self.samples);
         let tau = match &reading {
-            _ if reading.of_efforts() => self.whole.clone(),
+            _ if reading.is_of_efforts() => self.whole.clone(),
             Reading::WithoutGravity => self.inertial.clone(),
-            Reading::Gravity(g) => self.pulled([g.x, g.y, g.z]),
+            Reading::Gravity(g) => self.torque_under([g.x, g.y, g.z]),
             _ => self.torque.whole(read.joints, &read.motion),
         };
-        let narrow = Drive { gain: [2.0 / 3.0, 1.5] };
+        let narrow = Drive { gain: self.thresholds.unit_gain };
         let drive = if matches!(reading, Reading::Unit(_)) { narrow } else { self.drive() };
         let shares: Vec<f64> = self.fits(&read, &tau, drive).iter().map(|f| f.share).collect();
         let gain = self.gain(&as_is.shares, &shares);
-        Judged { reading, before: as_is.shares.clone(), shares, gain }
+        ReadingFit { reading, before: as_is.shares.clone(), shares, gain }
     }
 
-    /// Efforts without the torque of gravity: with and without it the drives may make no factor, which could
-    /// take gravity away as well. `None` where the efforts hold some of it.
-    pub fn without_gravity(&self) -> Option<Judged> {
+    /// Efforts without the torque of gravity. Drives have nearly the right constant here, since another one could take
+    /// gravity away as well. `None` where the efforts contain some of it.
+    pub fn without_gravity(&self) -> Option<ReadingFit> {
         let pull = self.robot.gravity_in_base();
         let mut held = vec![0.0; self.inertial.len()];
         for (unit, g) in self.gravity.iter().zip(pull.iter()) {
             held.iter_mut().zip(unit).for_each(|(held, unit)| *held += g * unit);
         }
-        let part = *self.pooled(&self.inertial, &[&held])?.first()?;
+        let part = *self.fit_pooled(&self.inertial, &[&held])?.first()?;
         if part.abs() > self.thresholds.held_gravity {
             return None;
         }
         let shares = |tau: &[f64]| -> Vec<f64> {
-            self.fits(&self.samples, tau, EXACT).iter().map(|fit| fit.share).collect()
+            self.fits(&self.samples, tau, self.exact_drive()).iter().map(|fit| fit.share).collect()
         };
         let (before, shares) = (shares(&self.whole), shares(&self.inertial));
         let gain = self.gain(&before, &shares);
-        Some(Judged { reading: Reading::WithoutGravity, before, shares, gain })
+        Some(ReadingFit { reading: Reading::WithoutGravity, before, shares, gain })
     }
 
     /// Nominal torque with another acceleration of free fall.
-    pub fn pulled(&self, g: [f64; 3]) -> Vec<f64> {
+    pub fn torque_under(&self, g: [f64; 3]) -> Vec<f64> {
         let mut tau = self.inertial.clone();
         for (unit, g) in self.gravity.iter().zip(g) {
             tau.iter_mut().zip(unit).for_each(|(tau, unit)| *tau += g * unit);
@@ -122,7 +124,7 @@ impl<'a> Judge<'a> {
         gains.map(|((b, a), floor)| ((b + floor) / (a + floor)).ln()).sum()
     }
 
-    /// Squares of what the nominal torque of a joint errs by over those of the effort about its mean.
+    /// Squares of the error of a joint's nominal torque over those of the effort about its mean.
     pub fn model_floor(&self, j: usize) -> f64 {
         let tau = self.samples.column(&self.whole, j);
         let all = tau.iter().map(|t| t * t).sum::<f64>();
@@ -130,20 +132,20 @@ impl<'a> Judge<'a> {
         self.thresholds.model_error.powi(2) * all / about.max(f64::MIN_POSITIVE)
     }
 
-    /// Common factors of columns that all joints share, beyond a torque that is taken for granted.
-    pub fn pooled(&self, granted: &[f64], columns: &[&[f64]]) -> Option<Vec<f64>> {
-        pooled(&self.samples, granted, columns)
+    /// Common factors of columns that all joints share, beside a torque of factor one.
+    pub fn fit_pooled(&self, granted: &[f64], columns: &[&[f64]]) -> Option<Vec<f64>> {
+        fit_pooled(&self.samples, granted, columns, self.thresholds.pooled_share)
     }
 
-    /// Takes a reading for true: what follows is judged beside it.
-    pub fn take(&mut self, reading: &Reading) {
-        self.samples = reading.applied(&self.samples);
+    /// Reads the samples so from now on.
+    pub fn adopt(&mut self, reading: &Reading) {
+        self.samples = reading.apply(&self.samples);
         match reading {
             Reading::WithoutGravity => {
                 self.gravity.iter_mut().flatten().for_each(|unit| *unit = 0.0);
                 self.whole = self.inertial.clone();
             }
-            Reading::Gravity(g) => self.whole = self.pulled([g.x, g.y, g.z]),
+            Reading::Gravity(g) => self.whole = self.torque_under([g.x, g.y, g.z]),
             _ => {
                 self.inertial = self.torque.inertial(&self.samples);
                 self.gravity = self.torque.gravity(&self.samples);
@@ -154,9 +156,9 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Squares of what models err by, over those of the effort about its mean: a share of the effort, and of its
-/// mean too, which an offset takes off.
-fn floors(samples: &Samples, t: &Thresholds) -> Vec<f64> {
+/// Squares of the error of models over those of the effort about its mean. The error is a share of the whole effort, also of
+/// the mean, which an offset takes off.
+fn floors(samples: &Samples, t: &InspectionThresholds) -> Vec<f64> {
     let floor = |j: usize| {
         let effort = samples.column(&samples.effort, j);
         let mean = effort.iter().sum::<f64>() / effort.len().max(1) as f64;
@@ -165,8 +167,8 @@ fn floors(samples: &Samples, t: &Thresholds) -> Vec<f64> {
         if about > 0.0 { (t.model_error.powi(2) * all / about).max(t.floor) } else { f64::INFINITY }
     };
     let all: Vec<f64> = (0..samples.joints).map(floor).collect();
-    all.into_iter().map(|f| if f.is_finite() { f } else { UNHEARD }).collect()
+    all.into_iter().map(|f| if f.is_finite() { f } else { NO_EFFORT }).collect()
 }
 
 /// Floor of a joint that has no effort: nothing counts there.
-const UNHEARD: f64 = 1e12;
+const NO_EFFORT: f64 = 1e12;

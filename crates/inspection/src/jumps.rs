@@ -2,12 +2,9 @@ use std::f64::consts::TAU;
 
 use logs::Run;
 
-use crate::moments::{at, stretch};
+use crate::observation::{Observation, ObservationKind, Stretch};
 use crate::pieces::usual_step;
-use crate::{Observation, ObservationKind};
-
-/// How near to full turns a jump is (rad).
-const NEAR: f64 = 0.5;
+use crate::thresholds::InspectionThresholds;
 
 /// Jumps by full turns between two rows of a position, which are taken back.
 ///
@@ -17,6 +14,7 @@ pub(crate) fn jumps(
     index: usize,
     joint: usize,
     position: &mut [f64],
+    t: &InspectionThresholds,
 ) -> Option<Observation> {
     let usual = usual_step(&run.time);
     let mut turns = 0.0;
@@ -27,17 +25,19 @@ pub(crate) fn jumps(
         before = *q;
         let full = (step / TAU).round();
         let even = run.time[k] - run.time[k - 1] < 1.5 * usual;
-        if full.abs() > 0.0 && (step - full * TAU).abs() < NEAR && even {
+        if full.abs() > 0.0 && (step - full * TAU).abs() < t.moments.full_turn && even {
             turns += full;
             largest = if full.abs() > largest.abs() { full } else { largest };
-            rows.push(stretch(run, index, &(k - 1..k + 1)));
+            rows.push(Stretch::of_rows(run, index, &(k - 1..k + 1)));
         } else {
             fast = fast.max(step.abs());
         }
         *q -= turns * TAU;
     }
-    let told = !rows.is_empty() && fast < 0.25 * TAU;
-    told.then(|| at(ObservationKind::TurnJump { turns: largest as i32 }, joint, rows))
+    let is_jump = !rows.is_empty() && fast < 0.25 * TAU;
+    is_jump.then(|| {
+        Observation::of_seconds(ObservationKind::TurnJump { turns: largest as i32 }, joint, rows)
+    })
 }
 
 #[cfg(test)]
@@ -49,10 +49,10 @@ mod tests {
     fn a_jump_by_a_turn_is_told_and_taken_back() {
         let run = swing(0.3);
         let mut q = run.joints[0].position.clone();
-        assert_eq!(jumps(&run, 0, 0, &mut q), None);
+        assert_eq!(jumps(&run, 0, 0, &mut q, &InspectionThresholds::default()), None);
         q[2000..].iter_mut().for_each(|q| *q -= TAU);
-        let told = jumps(&run, 0, 0, &mut q).unwrap();
-        assert_eq!(told.kind, ObservationKind::TurnJump { turns: -1 });
+        let jump = jumps(&run, 0, 0, &mut q, &InspectionThresholds::default()).unwrap();
+        assert_eq!(jump.kind, ObservationKind::TurnJump { turns: -1 });
         assert!(q.iter().zip(&run.joints[0].position).all(|(a, b)| (a - b).abs() < 1e-9));
     }
 }

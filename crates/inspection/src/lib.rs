@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
+mod another_robot;
 mod clock;
+mod effort_shift;
 mod fit;
 mod frozen;
 mod inspect;
@@ -19,15 +21,13 @@ mod readings;
 mod samples;
 mod scale;
 mod sentence;
-mod shift;
 mod spikes;
-mod stranger;
 #[cfg(test)]
 mod testing;
 mod thresholds;
 mod torque;
 
 pub use inspect::{inspect, inspect_with};
-pub use mend::{Mended, mended};
+pub use mend::{Mended, mend_with, mended};
 pub use observation::{Evidence, Observation, ObservationKind, Rival, Spoils, Stretch};
-pub use thresholds::Thresholds;
+pub use thresholds::{InspectionThresholds, MomentThresholds};

@@ -3,42 +3,43 @@ use std::f64::consts::PI;
 use logs::{Channels, Run};
 use robot::Robot;
 
-use crate::inspect::inspect;
-use crate::{Observation, ObservationKind, Rival, Spoils};
+use crate::inspect::inspect_with;
+use crate::observation::{Observation, ObservationKind, Rival, Spoils};
+use crate::thresholds::InspectionThresholds;
 
-/// Factors by which a measured unit may be off the power of ten that it is: a clock is told from velocities to some
-/// per mille, a unit of efforts from a model and a torque constant that may both be wrong.
-const OF_TIME: f64 = 1.05;
-const OF_EFFORT: f64 = 2.0;
-
-/// What is wrong with logs as a whole, after what is sure was put right.
+/// Logs with the errors corrected that have one possible correction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mended {
-    /// The runs as they are to be read, where that is not as they stand.
+    /// The corrected runs, where anything is corrected.
     pub runs: Option<Vec<Run>>,
-    /// What was put right.
+    /// The errors that are corrected.
     pub mended: Vec<Observation>,
-    /// What is wrong with the runs as they are read now.
+    /// The errors that the runs still have.
     pub left: Vec<Observation>,
 }
 
-/// Puts right what spoils whole logs and has one reading only: a turned sign, exchanged columns, a unit that is a
-/// power of ten off, degrees.
+/// Corrects errors that spoil whole logs and have one possible correction: a turned sign, exchanged columns, a unit that is
+/// a power of ten off, degrees.
 ///
-/// Logs that a reading does not free of what spoils them are left as they are: it was not the cause then.
+/// Logs that are still spoilt after the corrections stay as they are: these errors were not the cause then.
 pub fn mended(robot: &Robot, runs: &[Run]) -> Mended {
-    let seen = inspect(robot, runs);
+    mend_with(robot, runs, &InspectionThresholds::default())
+}
+
+/// [`mended`] with other thresholds.
+pub fn mend_with(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -> Mended {
+    let seen = inspect_with(robot, runs, t);
     let as_they_stand = |seen| Mended { runs: None, mended: Vec::new(), left: seen };
     if !seen.iter().any(Observation::spoils_whole_logs) {
         return as_they_stand(seen);
     }
     let mut read = runs.to_vec();
-    let is_mended = |o: &&Observation| o.spoils_whole_logs() && o.mend(&mut read);
+    let is_mended = |o: &&Observation| o.spoils_whole_logs() && o.mend(&mut read, t);
     let mended: Vec<Observation> = seen.iter().filter(is_mended).cloned().collect();
     if mended.is_empty() {
         return as_they_stand(seen);
     }
-    let left = inspect(robot, &read);
+    let left = inspect_with(robot, &read, t);
     if left.iter().any(Observation::spoils_whole_logs) {
         return as_they_stand(seen);
     }
@@ -51,19 +52,20 @@ impl Observation {
         is_of_the_arm && matches!(self.spoils, Spoils::Joints | Spoils::Everything)
     }
 
-    /// Whether a rival is the same joints in the same unit, from another estimate of its factor.
-    fn is_same_unit(&self, rival: &Rival) -> bool {
+    /// Whether a rival is the same unit at the same joints, from another estimate of its factor.
+    fn is_same_unit(&self, rival: &Rival, t: &InspectionThresholds) -> bool {
         use ObservationKind::EffortUnit;
         let (EffortUnit { factor: a }, EffortUnit { factor: b }) = (self.kind, rival.kind) else {
             return false;
         };
-        self.joints == rival.joints && power_of_ten(a, OF_EFFORT) == power_of_ten(b, OF_EFFORT)
+        self.joints == rival.joints
+            && power_of_ten(a, t.effort_unit) == power_of_ten(b, t.effort_unit)
     }
 
-    /// Reads the runs as this has them; whether there is one such way.
-    fn mend(&self, runs: &mut [Run]) -> bool {
+    /// Corrects the runs, if there is one possible correction; whether there is.
+    fn mend(&self, runs: &mut [Run], t: &InspectionThresholds) -> bool {
         use ObservationKind as K;
-        if !self.or.iter().all(|rival| self.is_same_unit(rival)) {
+        if !self.or.iter().all(|rival| self.is_same_unit(rival, t)) {
             return false;
         }
         match (self.kind, self.joints.as_slice()) {
@@ -71,11 +73,11 @@ impl Observation {
             (K::PositionSign, joints) => at(runs, joints, |joint| scale_motion(joint, -1.0)),
             (K::Degrees, joints) => at(runs, joints, |joint| scale_motion(joint, PI / 180.0)),
             (K::EffortUnit { factor }, joints) => {
-                let Some(unit) = power_of_ten(factor, OF_EFFORT) else { return false };
+                let Some(unit) = power_of_ten(factor, t.effort_unit) else { return false };
                 at(runs, joints, |joint| scale(&mut joint.effort, 1.0 / unit));
             }
             (K::TimeUnit { factor }, _) => {
-                let Some(unit) = power_of_ten(factor, OF_TIME) else { return false };
+                let Some(unit) = power_of_ten(factor, t.time_unit) else { return false };
                 runs.iter_mut().flat_map(|run| &mut run.time).for_each(|t| *t /= unit);
             }
             (K::JointsExchanged, &[a, b]) => runs.iter_mut().for_each(|run| exchange(run, a, b)),
@@ -107,7 +109,7 @@ fn scale(signal: &mut [f64], by: f64) {
     signal.iter_mut().for_each(|x| *x *= by);
 }
 
-/// Scales the positions of a joint, and those of its velocities and accelerations that are theirs.
+/// Scales the positions of a joint, and its velocities and accelerations where they follow the positions.
 fn scale_motion(joint: &mut Channels, by: f64) {
     let of_the_positions = follows(joint);
     scale(&mut joint.position, by);
@@ -117,7 +119,7 @@ fn scale_motion(joint: &mut Channels, by: f64) {
     }
 }
 
-/// Whether a velocity column goes the way the positions do, sample by sample; so where there is none.
+/// Whether a velocity column has the sign of the change of the positions; true where there is none.
 fn follows(joint: &Channels) -> bool {
     let Some(velocity) = &joint.velocity else { return true };
     let steps = joint.position.windows(2).map(|q| q[1] - q[0]);
@@ -189,12 +191,12 @@ mod tests {
 
     #[test]
     fn units_are_powers_of_ten() {
-        assert_eq!(power_of_ten(1400.0, OF_EFFORT), Some(1e3));
-        assert_eq!(power_of_ten(1.0 / 0.7e3, OF_EFFORT), Some(1e-3));
-        assert_eq!(power_of_ten(400.0, OF_EFFORT), None);
-        assert_eq!(power_of_ten(1.3, OF_EFFORT), None);
-        assert_eq!(power_of_ten(1001.0, OF_TIME), Some(1e3));
-        assert_eq!(power_of_ten(1100.0, OF_TIME), None);
+        assert_eq!(power_of_ten(1400.0, 2.0), Some(1e3));
+        assert_eq!(power_of_ten(1.0 / 0.7e3, 2.0), Some(1e-3));
+        assert_eq!(power_of_ten(400.0, 2.0), None);
+        assert_eq!(power_of_ten(1.3, 2.0), None);
+        assert_eq!(power_of_ten(1001.0, 1.05), Some(1e3));
+        assert_eq!(power_of_ten(1100.0, 1.05), None);
     }
 
     #[test]

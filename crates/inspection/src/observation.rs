@@ -1,11 +1,14 @@
+use std::ops::Range;
+
+use logs::Run;
 use nalgebra::Vector3;
 
-/// Something that is wrong with logs as a whole, or with a stretch of them.
+/// An error of logs as a whole, or of a stretch of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observation {
-    /// What it is.
+    /// The error.
     pub kind: ObservationKind,
-    /// Other readings that mend the logs as well: nothing in these logs tells them apart.
+    /// Other errors that explain the logs as well: nothing in these logs tells them apart.
     pub or: Vec<Rival>,
     /// Joints that it concerns, by index; all of the robot's where it concerns the whole arm.
     pub joints: Vec<usize>,
@@ -13,25 +16,35 @@ pub struct Observation {
     pub runs: Vec<usize>,
     /// The seconds that it concerns, where it does not concern whole runs.
     pub stretches: Vec<Stretch>,
-    /// What cannot be used while it is not mended.
+    /// The part of the logs that cannot be used until the error is corrected.
     pub spoils: Spoils,
-    /// How well the nominal torque fits before and after, where that is what tells it.
+    /// How well the nominal torque fits before and after a correction, where this shows the error.
     pub evidence: Option<Evidence>,
+}
+
+impl Observation {
+    /// An observation of some seconds of a joint, which cannot be used.
+    pub(crate) fn of_seconds(kind: ObservationKind, joint: usize, stretches: Vec<Stretch>) -> Self {
+        let runs = stretches.first().map(|s| s.run).into_iter().collect();
+        let spoils = Spoils::Stretches;
+        let (or, joints) = (Vec::new(), vec![joint]);
+        Self { kind, or, joints, runs, stretches, spoils, evidence: None }
+    }
 }
 
 /// A reading that explains the logs as well as another one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rival {
-    /// What it is.
+    /// The error.
     pub kind: ObservationKind,
     /// Joints that it concerns.
     pub joints: Vec<usize>,
 }
 
-/// What cannot be used of logs.
+/// The part of logs that cannot be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Spoils {
-    /// Nothing: all can be used.
+    /// None of it.
     Nothing,
     /// The seconds of [`Observation::stretches`].
     Stretches,
@@ -52,6 +65,15 @@ pub struct Stretch {
     pub to_s: f64,
 }
 
+impl Stretch {
+    /// The stretch of some rows of a run.
+    pub(crate) fn of_rows(run: &Run, index: usize, rows: &Range<usize>) -> Self {
+        let last = run.time.len().saturating_sub(1);
+        let at = |k: usize| run.time.get(k.min(last)).copied().unwrap_or(0.0);
+        Self { run: index, from_s: at(rows.start), to_s: at(rows.end.saturating_sub(1)) }
+    }
+}
+
 /// Shares of the effort that the nominal torque leaves, over all joints concerned.
 ///
 /// ```text
@@ -59,17 +81,17 @@ pub struct Stretch {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evidence {
-    /// Joint at which the reading mends most.
+    /// Joint at which the correction improves the fit most.
     pub joint: usize,
     /// Share left at that joint with the log as it stands; above 1 worse than no model.
     pub before: f64,
-    /// Share left there with the reading.
+    /// Share left there with the correction.
     pub after: f64,
-    /// Natural logarithm of the factor by which the reading shortens what is left, all joints.
+    /// Natural logarithm of the factor by which the correction reduces the residual, over all joints.
     pub gain: f64,
 }
 
-/// What may be wrong with logs.
+/// Errors that logs may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ObservationKind {
     /// The effort of the joints has the other sign.
@@ -87,18 +109,18 @@ pub enum ObservationKind {
         /// Logged effort per N m (or N).
         factor: f64,
     },
-    /// The effort lacks the torque that gravity asks for.
+    /// The effort lacks the torque that holds the arm against gravity.
     EffortWithoutGravity,
-    /// Gravity points elsewhere than the robot's description says.
+    /// Gravity has another direction than in the robot's description.
     GravityDirection {
-        /// Acceleration of free fall that the efforts ask for, in the base frame (m/s²).
+        /// Acceleration of free fall that fits the efforts, in the base frame (m/s²).
         gravity_in_base: Vector3<f64>,
         /// Angle to the direction of the description (rad).
         angle: f64,
     },
-    /// Gravity is stronger or weaker than the robot's description says.
+    /// Gravity has another size than in the robot's description.
     GravityValue {
-        /// Size that the efforts ask for (m/s²).
+        /// Size that fits the efforts (m/s²).
         value: f64,
     },
     /// The position of a joint is off by a quarter or half a turn.
@@ -108,12 +130,12 @@ pub enum ObservationKind {
     },
     /// Positions are degrees.
     Degrees,
-    /// Effort and motion disagree about what a second is.
+    /// Effort and motion disagree about the unit of time.
     TimeUnit {
         /// Logged time per second.
         factor: f64,
     },
-    /// Efforts are of another time than the motion.
+    /// Efforts are shifted in time against the motion.
     EffortShifted {
         /// How much later the efforts are in the log (s).
         shift_s: f64,
@@ -153,6 +175,6 @@ pub enum ObservationKind {
         /// Length of what they share (s).
         length_s: f64,
     },
-    /// Nothing of the nominal torque is in the efforts.
+    /// The efforts contradict the nominal torque.
     AnotherRobot,
 }

@@ -3,32 +3,29 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use logs::{Run, repeated};
 
-use crate::moments::stretch;
+use crate::observation::{Observation, ObservationKind, Spoils, Stretch};
 use crate::pieces::usual_step;
-use crate::{Observation, ObservationKind, Spoils, Thresholds};
-
-/// Share of the shared rows that must be unlike the row before them: at rest all rows are alike.
-const MOVING: f64 = 0.5;
+use crate::thresholds::InspectionThresholds;
 
 /// Runs that hold the same rows at another time; exact repeats are left to [`logs::duplicate_of`].
-pub(crate) fn overlaps(runs: &[Run], t: &Thresholds) -> Vec<Observation> {
+pub(crate) fn overlaps(runs: &[Run], t: &InspectionThresholds) -> Vec<Observation> {
     let marks: Vec<Vec<u64>> = runs.iter().map(marks).collect();
-    let mut told = Vec::new();
+    let mut observations = Vec::new();
     for b in 1..runs.len() {
         for a in 0..b {
             if !repeated(&runs[a], &runs[b]) {
-                told.extend(overlap(runs, &marks, [a, b], t));
+                observations.extend(overlap(runs, &marks, [a, b], t));
             }
         }
     }
-    told
+    observations
 }
 
 fn overlap(
     runs: &[Run],
     marks: &[Vec<u64>],
     [a, b]: [usize; 2],
-    t: &Thresholds,
+    t: &InspectionThresholds,
 ) -> Option<Observation> {
     let mut first: HashMap<u64, usize> = HashMap::new();
     for (k, mark) in marks[a].iter().enumerate() {
@@ -52,7 +49,10 @@ fn overlap(
     let own = marks[b].get(longest.clone())?;
     let unlike = own.windows(2).filter(|m| m[0] != m[1]).count();
     let length_s = usual * longest.len() as f64;
-    if length_s < t.shared_s || longest.len() < 50 || (unlike as f64) < MOVING * own.len() as f64 {
+    if length_s < t.shared_s
+        || longest.len() < 50
+        || (unlike as f64) < t.moving_rows * own.len() as f64
+    {
         return None;
     }
     let in_a = *first.get(own.first()?)?;
@@ -63,7 +63,10 @@ fn overlap(
         or: Vec::new(),
         joints: (0..runs[a].joints.len()).collect(),
         runs: vec![a, b],
-        stretches: vec![stretch(&runs[a], a, &rows), stretch(&runs[b], b, &longest)],
+        stretches: vec![
+            Stretch::of_rows(&runs[a], a, &rows),
+            Stretch::of_rows(&runs[b], b, &longest),
+        ],
         spoils: Spoils::Nothing,
         evidence: None,
     })
@@ -89,15 +92,15 @@ mod tests {
 
     #[test]
     fn two_runs_cut_from_one_overlap_and_two_of_their_own_do_not() {
-        let t = Thresholds::default();
+        let t = InspectionThresholds::default();
         assert_eq!(overlaps(&[swing(0.3), swing(0.8)], &t), []);
         let (first, mut last) = (swing(0.3), swing(0.3));
         last.time.truncate(4000);
         last.joints[0].position.drain(..1000);
         last.joints[0].effort.drain(..1000);
-        let told = overlaps(&[first, last], &t);
-        let ObservationKind::Overlap { shift_s, length_s } = told[0].kind else {
-            panic!("{told:?}")
+        let observations = overlaps(&[first, last], &t);
+        let ObservationKind::Overlap { shift_s, length_s } = observations[0].kind else {
+            panic!("{observations:?}")
         };
         assert!(
             (shift_s + 1000.0 / RATE_HZ).abs() < 1e-9 && (length_s - 4000.0 / RATE_HZ).abs() < 1e-6
@@ -106,6 +109,6 @@ mod tests {
 
     #[test]
     fn a_run_that_was_recorded_twice_is_left_to_another_test() {
-        assert_eq!(overlaps(&[swing(0.3), swing(0.3)], &Thresholds::default()), []);
+        assert_eq!(overlaps(&[swing(0.3), swing(0.3)], &InspectionThresholds::default()), []);
     }
 }

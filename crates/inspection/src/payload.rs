@@ -3,14 +3,8 @@ use dynamics::{Dynamics, PARAMETERS_PER_LINK};
 use crate::fit::Drive;
 use crate::judge::Judge;
 
-/// Largest mass of a tool over that of the arm that carries it.
-const HEAVIEST: f64 = 1.0;
-
-/// Farthest that a tool's centre of mass lies from the origin of the last link (m).
-const FARTHEST_M: f64 = 1.0;
-
 /// Shares of the effort that the nominal torque leaves with an unknown tool at the last link: mass and centre
-/// of mass as fit best, within what an arm carries. `None` where that is no tool.
+/// of mass that fit best. `None` where no arm carries such a tool.
 ///
 /// ```text
 /// tau = tau_nominal + Y_last (m, m c)
@@ -18,12 +12,15 @@ const FARTHEST_M: f64 = 1.0;
 pub(crate) fn shares_with_a_tool(judge: &Judge, drive: Drive) -> Option<Vec<f64>> {
     let columns = tool_columns(judge);
     let borrowed: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let found = judge.pooled(&judge.whole, &borrowed)?;
+    let found = judge.fit_pooled(&judge.whole, &borrowed)?;
     let arm: f64 = judge.robot.links().iter().map(|link| link.inertia.mass).sum();
     let moment = found[1..].iter().map(|h| h * h).sum::<f64>().sqrt();
-    let heaviest = HEAVIEST * arm;
+    let heaviest = judge.thresholds.heaviest_tool * arm;
     let last = judge.robot.links().last()?.inertia.mass;
-    if found[0] > heaviest || found[0] < -last || moment > FARTHEST_M * heaviest {
+    if found[0] > heaviest
+        || found[0] < -last
+        || moment > judge.thresholds.farthest_tool_m * heaviest
+    {
         return None;
     }
     let mut tau = judge.whole.clone();

@@ -2,13 +2,9 @@ use std::ops::Range;
 
 use logs::Run;
 
-/// A step of time that is longer than so many usual ones ends a piece: more is not interpolated.
-const LONGEST_STEP: f64 = 5.5;
+use crate::thresholds::InspectionThresholds;
 
-/// Steps of time that differ from the usual one by less than this share count as even.
-const EVEN: f64 = 0.02;
-
-/// A stretch of a run on an even clock, without what was found wrong with it before.
+/// A stretch of a run on an even clock, without the rows that are left out.
 #[derive(Debug, Clone)]
 pub(crate) struct Piece {
     /// Time between two samples, on the clock of the file (s).
@@ -35,7 +31,7 @@ impl Piece {
 /// The pieces of a run between its gaps and the rows that are left out.
 ///
 /// A clock with jitter or lost rows is made even by linear interpolation.
-pub(crate) fn pieces(run: &Run, left_out: &[Range<usize>]) -> Vec<Piece> {
+pub(crate) fn pieces(run: &Run, left_out: &[Range<usize>], t: &InspectionThresholds) -> Vec<Piece> {
     let usual = usual_step(&run.time);
     if usual <= 0.0 {
         return Vec::new();
@@ -45,10 +41,10 @@ pub(crate) fn pieces(run: &Run, left_out: &[Range<usize>]) -> Vec<Piece> {
     let mut start = 0;
     for k in 0..=run.time.len() {
         let gap =
-            k > 0 && k < run.time.len() && run.time[k] - run.time[k - 1] > LONGEST_STEP * usual;
+            k > 0 && k < run.time.len() && run.time[k] - run.time[k - 1] > t.longest_step * usual;
         if k == run.time.len() || gap || out(k) {
             if k > start + 1 {
-                all.push(piece(run, start..k, usual));
+                all.push(piece(run, start..k, usual, t.even_step));
             }
             start = if k < run.time.len() && out(k) { k + 1 } else { k };
         }
@@ -66,14 +62,14 @@ pub(crate) fn usual_step(time: &[f64]) -> f64 {
     *steps.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-fn piece(run: &Run, rows: Range<usize>, usual: f64) -> Piece {
+fn piece(run: &Run, rows: Range<usize>, usual: f64, even_step: f64) -> Piece {
     let time = &run.time[rows.clone()];
-    let even = time.windows(2).all(|t| (t[1] - t[0] - usual).abs() <= EVEN * usual);
+    let even = time.windows(2).all(|t| (t[1] - t[0] - usual).abs() <= even_step * usual);
     let length = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
     let step_s = if even { length / (time.len() - 1).max(1) as f64 } else { usual };
     let read = |x: &[f64]| {
         let own = &x[rows.clone()];
-        if even { own.to_vec() } else { resampled(time, own, step_s) }
+        if even { own.to_vec() } else { resample(time, own, step_s) }
     };
     let joint = |joint: &logs::Channels| Signals {
         position: read(&joint.position),
@@ -83,7 +79,7 @@ fn piece(run: &Run, rows: Range<usize>, usual: f64) -> Piece {
     Piece { step_s, joints: run.joints.iter().map(joint).collect() }
 }
 
-fn resampled(time: &[f64], x: &[f64], step: f64) -> Vec<f64> {
+fn resample(time: &[f64], x: &[f64], step: f64) -> Vec<f64> {
     let (first, last) = (time[0], time[time.len() - 1]);
     let count = ((last - first) / step + 1e-6).floor() as usize + 1;
     let mut k = 0;

@@ -2,21 +2,23 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::samples::Samples;
 
-/// Rounds of weighting: joints that are understood count by what is left there.
+/// Rounds of weighting: every joint is weighted by one over its residual.
 const ROUNDS: usize = 4;
-
-/// Least share of the effort of a joint that counts as its deviation: models err by as much.
-const LEAST_SHARE: f64 = 0.01;
 
 /// Factors of columns that all joints share, by weighted least squares over all joints:
 ///
 /// ```text
 /// effort_j - granted_j = sum_k x_k column_kj + offset_j + f_j direction + b_j qd + i_j qdd
-/// weight_j = 1 / what is left at joint j, at least a hundredth of its effort
+/// weight_j = 1 / residual of joint j, which is at least a share of its effort
 /// ```
 ///
 /// Signals are row-major, `rows x joints`. `None` where the columns cannot be told apart.
-pub(crate) fn pooled(samples: &Samples, granted: &[f64], columns: &[&[f64]]) -> Option<Vec<f64>> {
+pub(crate) fn fit_pooled(
+    samples: &Samples,
+    granted: &[f64],
+    columns: &[&[f64]],
+    least_share: f64,
+) -> Option<Vec<f64>> {
     let joints: Vec<Projected> =
         (0..samples.joints).filter_map(|j| Projected::of(samples, granted, columns, j)).collect();
     let mut weights: Vec<f64> = joints.iter().map(|j| 1.0 / j.total).collect();
@@ -35,14 +37,14 @@ pub(crate) fn pooled(samples: &Samples, granted: &[f64], columns: &[&[f64]]) -> 
         let x = solution.component_div(&scale);
         for (joint, weight) in joints.iter().zip(&mut weights) {
             let left = joint.target - 2.0 * x.dot(&joint.right) + (&joint.gram * &x).dot(&x);
-            *weight = 1.0 / left.max(LEAST_SHARE * joint.total);
+            *weight = 1.0 / left.max(least_share * joint.total);
         }
         found = Some(x.iter().copied().collect());
     }
     found
 }
 
-/// Sums of a joint after what its drive may do is taken off.
+/// Sums of a joint, orthogonal to the columns of its drive.
 struct Projected {
     gram: DMatrix<f64>,
     right: DVector<f64>,
@@ -58,7 +60,7 @@ impl Projected {
         let mut effort = column(&samples.effort);
         let rows = effort.len();
         let mut own = vec![vec![1.0; rows], samples.direction(j), column(qd), column(qdd)];
-        orthogonal(&mut own);
+        make_orthonormal(&mut own);
         let mean = effort.iter().sum::<f64>() / rows.max(1) as f64;
         let target = effort.iter().zip(column(granted)).map(|(e, g)| e - g).collect();
         effort.iter_mut().for_each(|e| *e -= mean);
@@ -76,7 +78,7 @@ impl Projected {
 }
 
 /// Makes columns orthonormal (Gram-Schmidt); what depends on earlier ones becomes zero.
-fn orthogonal(columns: &mut [Vec<f64>]) {
+fn make_orthonormal(columns: &mut [Vec<f64>]) {
     for k in 0..columns.len() {
         let (before, rest) = columns.split_at_mut(k);
         let Some(column) = rest.first_mut() else { return };

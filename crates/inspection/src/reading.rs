@@ -2,8 +2,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use crate::observation::{ObservationKind, Rival};
 use crate::samples::Samples;
-use crate::{ObservationKind, Rival};
 
 /// A way to read logs other than as they stand.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,8 +33,8 @@ pub(crate) enum Reading {
 }
 
 impl Reading {
-    /// The samples as this reading has them; torques of gravity are no part of samples.
-    pub fn applied(&self, samples: &Samples) -> Samples {
+    /// The samples as this reading has them; the torque of gravity is no part of samples.
+    pub fn apply(&self, samples: &Samples) -> Samples {
         let mut read = samples.clone();
         let n = read.joints;
         let scale = |signal: &mut [f64], joint: Option<usize>, by: f64| match joint {
@@ -72,12 +72,12 @@ impl Reading {
     }
 
     /// Whether it changes efforts alone, so that the nominal torque stays.
-    pub fn of_efforts(&self) -> bool {
+    pub fn is_of_efforts(&self) -> bool {
         matches!(self, Self::EffortSign(_) | Self::EffortsExchanged(..) | Self::Unit(_))
     }
 
     /// The joints that it exchanges.
-    pub fn exchanged(&self) -> Vec<usize> {
+    pub fn exchanged_joints(&self) -> Vec<usize> {
         match self {
             Self::Exchanged(a, b) | Self::EffortsExchanged(a, b) => vec![*a, *b],
             _ => Vec::new(),
@@ -89,8 +89,8 @@ impl Reading {
         matches!(self, Self::EffortSign(_) | Self::PositionSign(_))
     }
 
-    /// Whether it concerns every joint, of which more than one must bear witness then.
-    pub fn of_the_whole_arm(&self) -> bool {
+    /// Whether it concerns every joint; more than one of them must confirm it then.
+    pub fn is_of_whole_arm(&self) -> bool {
         match self {
             Self::EffortSign(joint) | Self::PositionSign(joint) | Self::Degrees(joint) => {
                 joint.is_none()
@@ -101,8 +101,9 @@ impl Reading {
         }
     }
 
-    /// What is told of it; `None` for logs as they stand.
-    pub fn rival(&self, joints: usize, nominal: Vector3<f64>) -> Option<Rival> {
+    /// The error that it corrects; `None` for logs as they stand. Gravity within `aligned` (rad) of the nominal direction
+    /// differs in size.
+    pub fn rival(&self, joints: usize, nominal: Vector3<f64>, aligned: f64) -> Option<Rival> {
         use ObservationKind as K;
         let own = |joint: &Option<usize>| joint.map_or_else(|| (0..joints).collect(), |j| vec![j]);
         let all = || (0..joints).collect();
@@ -127,16 +128,13 @@ impl Reading {
                 let angle = g.angle(&nominal);
                 let turned = K::GravityDirection { gravity_in_base: *g, angle };
                 let other = K::GravityValue { value: g.norm() };
-                (if angle > ALIGNED { turned } else { other }, all())
+                (if angle > aligned { turned } else { other }, all())
             }
             Self::Time(factor) => (K::TimeUnit { factor: *factor }, all()),
         };
         Some(Rival { kind, joints })
     }
 }
-
-/// Angle up to which gravity has the direction of the description (rad).
-const ALIGNED: f64 = 0.3;
 
 fn exchange(signal: &mut [f64], joints: usize, a: usize, b: usize) {
     for row in signal.chunks_exact_mut(joints) {

@@ -3,44 +3,35 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector3;
 
 use crate::fit::Drive;
-use crate::judge::{Judge, Judged};
+use crate::judge::{Judge, ReadingFit};
+use crate::observation::{Evidence, Observation, Rival, Spoils};
 use crate::payload::shares_with_a_tool;
 use crate::reading::Reading;
-use crate::{Evidence, Observation, Rival, Spoils};
 
-/// Readings that are told of a set of logs, one beside the other.
-const MOST: usize = 4;
-
-/// Rivals from which on logs say too little to name any.
-const MOST_RIVALS: usize = 6;
-
-/// Range of a rotation from which on its position may be degrees (rad).
-const WIDE: f64 = 10.0;
-
-/// What is wrong with logs by the nominal torque: readings that mend it, the best first.
+/// Errors that the nominal torque shows: readings that improve its fit, the best first.
 pub(crate) fn readings(judge: &mut Judge, runs: usize) -> Vec<Observation> {
-    let mut told = Vec::new();
-    while told.len() < MOST {
+    let mut observations = Vec::new();
+    while observations.len() < judge.thresholds.most_readings {
         let as_is = judge.as_is();
         let Some((best, rivals)) = best(judge, &as_is) else { break };
         let Some(found) = observation(judge, &best, &rivals, runs) else { break };
-        told.push(found);
-        judge.take(&best.reading);
+        observations.push(found);
+        judge.adopt(&best.reading);
     }
-    told
+    observations
 }
 
-/// The reading that mends most, and those that do so as well; `None` where none does, or a tool does too.
-fn best(judge: &mut Judge, as_is: &Judged) -> Option<(Judged, Vec<Judged>)> {
+/// The reading that improves the fit most, and those that improve it as much; `None` where none does, or a tool does so too.
+fn best(judge: &mut Judge, as_is: &ReadingFit) -> Option<(ReadingFit, Vec<ReadingFit>)> {
     let t = judge.thresholds;
     let candidates = candidates(judge, as_is);
-    let mut judged: Vec<Judged> =
-        candidates.into_iter().map(|reading| judge.judged(reading, as_is)).collect();
+    let mut judged: Vec<ReadingFit> =
+        candidates.into_iter().map(|reading| judge.judge_reading(reading, as_is)).collect();
     let without = judge.without_gravity();
-    judged.extend(without.filter(|without| mends(judge, without)));
+    judged.extend(without.filter(|without| improves(judge, without)));
     judged.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let best = judged.first()?.clone();
-    if !mends(judge, &best) {
+    if !improves(judge, &best) {
         return None;
     }
     if let Some(tool) = shares_with_a_tool(judge, Drive { gain: t.drive_gain })
@@ -48,17 +39,14 @@ fn best(judge: &mut Judge, as_is: &Judged) -> Option<(Judged, Vec<Judged>)> {
     {
         return None;
     }
-    let near = |j: &&Judged| j.gain > best.gain - t.margin;
-    let rivals: Vec<Judged> = judged.iter().skip(1).filter(near).cloned().collect();
-    (rivals.len() < MOST_RIVALS).then_some((best, rivals))
+    let near = |j: &&ReadingFit| j.gain > best.gain - t.margin;
+    let rivals: Vec<ReadingFit> = judged.iter().skip(1).filter(near).cloned().collect();
+    (rivals.len() < t.most_rivals).then_some((best, rivals))
 }
 
-/// Factor by which less is left at a joint that witnesses for a reading.
-const WITNESS: f64 = 2.0;
-
-/// Whether a joint that the log as it stands contradicts is understood by the reading.
-fn mends(judge: &Judge, read: &Judged) -> bool {
-    let joint = most_mended(judge, read);
+/// Whether a reading improves the fit of a joint that the log as it stands contradicts.
+fn improves(judge: &Judge, read: &ReadingFit) -> bool {
+    let joint = most_improved(judge, read);
     let at = |x: &[f64]| x.get(joint).copied().unwrap_or(0.0);
     let t = judge.thresholds;
     let ratio = |j: usize| {
@@ -66,13 +54,13 @@ fn mends(judge: &Judge, read: &Judged) -> bool {
         (before + floor) / (after + floor)
     };
     let n = read.shares.len();
-    let witnesses = (0..n).filter(|j| ratio(*j) > WITNESS).count();
-    if read.reading.of_the_whole_arm() && witnesses < n.div_ceil(3).min(2) {
+    let confirming = (0..n).filter(|j| ratio(*j) > t.confirms).count();
+    if read.reading.is_of_whole_arm() && confirming < n.div_ceil(3).min(2) {
         return false;
     }
-    // Of two columns exchanged, each must be at home where it is put.
+    // Each of two exchanged columns must fit at its new joint.
     let not_worse = |j: &usize| ratio(*j) > 1.0 - t.alike || read.shares[*j] < judge.floors[*j];
-    if !read.reading.exchanged().iter().all(not_worse) {
+    if !read.reading.exchanged_joints().iter().all(not_worse) {
         return false;
     }
     let least = match read.gain {
@@ -84,7 +72,7 @@ fn mends(judge: &Judge, read: &Judged) -> bool {
     at(&read.before) >= least.max(4.0 * at(&judge.floors)) && at(&read.shares) <= t.mended
 }
 
-fn most_mended(judge: &Judge, read: &Judged) -> usize {
+fn most_improved(judge: &Judge, read: &ReadingFit) -> usize {
     let of = |j: usize| {
         let [before, after, floor] = [read.before[j], read.shares[j], judge.floors[j]];
         (before + floor) / (after + floor)
@@ -94,20 +82,22 @@ fn most_mended(judge: &Judge, read: &Judged) -> usize {
 
 fn observation(
     judge: &Judge,
-    best: &Judged,
-    rivals: &[Judged],
+    best: &ReadingFit,
+    rivals: &[ReadingFit],
     runs: usize,
 ) -> Option<Observation> {
     let nominal = judge.robot.gravity_in_base();
-    let rival = |judged: &Judged| judged.reading.rival(judge.samples.joints, nominal);
+    let (joints, aligned) = (judge.samples.joints, judge.thresholds.aligned_gravity);
+    let rival = |judged: &ReadingFit| judged.reading.rival(joints, nominal, aligned);
     let Rival { kind, joints } = rival(best)?;
-    let joint = most_mended(judge, best);
+    let joint = most_improved(judge, best);
     let at = |x: &[f64]| x.get(joint).copied().unwrap_or(0.0);
     let evidence =
         Evidence { joint, before: at(&best.before), after: at(&best.shares), gain: best.gain };
     let whole = joints.len() == judge.samples.joints && joints.len() > 1;
     let or: Vec<Rival> = rivals.iter().filter_map(rival).collect();
-    let of_efforts = best.reading.of_efforts() && rivals.iter().all(|r| r.reading.of_efforts());
+    let of_efforts =
+        best.reading.is_of_efforts() && rivals.iter().all(|r| r.reading.is_of_efforts());
     let spoils = if of_efforts && !whole { Spoils::Joints } else { Spoils::Everything };
     Some(Observation {
         kind,
@@ -121,7 +111,7 @@ fn observation(
 }
 
 /// Readings that may be true of these logs.
-fn candidates(judge: &Judge, as_is: &Judged) -> Vec<Reading> {
+fn candidates(judge: &Judge, as_is: &ReadingFit) -> Vec<Reading> {
     let t = judge.thresholds;
     if as_is.shares.iter().all(|share| *share < t.misfit[1]) {
         return Vec::new();
@@ -136,7 +126,7 @@ fn candidates(judge: &Judge, as_is: &Judged) -> Vec<Reading> {
         all.extend([Reading::EffortSign(Some(j)), Reading::PositionSign(Some(j))]);
         if link.joint.kind.is_rotation() {
             all.extend([FRAC_PI_2, -FRAC_PI_2, PI].map(|offset| Reading::Offset(j, offset)));
-            if span(judge, j) > WIDE {
+            if span(judge, j) > t.degrees_range {
                 all.push(Reading::Degrees(Some(j)));
             }
         }
@@ -148,7 +138,7 @@ fn candidates(judge: &Judge, as_is: &Judged) -> Vec<Reading> {
         }
     }
     let turn = links.iter().all(|link| link.joint.kind.is_rotation());
-    if n > 1 && turn && (0..n).any(|j| span(judge, j) > WIDE) {
+    if n > 1 && turn && (0..n).any(|j| span(judge, j) > t.degrees_range) {
         all.push(Reading::Degrees(None));
     }
     all.extend(gravity(judge));
@@ -163,18 +153,15 @@ fn span(judge: &Judge, j: usize) -> f64 {
     q.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
 }
 
-/// Least and largest gravity of a place where arms work (m/s²): that of the moon, and twice that of the earth.
-const PULLS: [f64; 2] = [1.0, 20.0];
-
-/// Gravity as the efforts ask for it, where it is another one than that of the description.
+/// The gravity that fits the efforts, where it differs from that of the description.
 fn gravity(judge: &Judge) -> Option<Reading> {
     let t = judge.thresholds;
     let columns = judge.gravity.each_ref().map(Vec::as_slice);
-    let found = judge.pooled(&judge.inertial, &columns)?;
+    let found = judge.fit_pooled(&judge.inertial, &columns)?;
     let found = Vector3::new(*found.first()?, *found.get(1)?, *found.get(2)?);
     let nominal = judge.robot.gravity_in_base();
     let factor = found.norm() / nominal.norm().max(f64::MIN_POSITIVE);
-    let is_somewhere = found.norm() > PULLS[0] && found.norm() < PULLS[1];
+    let is_somewhere = found.norm() > t.gravity_sizes[0] && found.norm() < t.gravity_sizes[1];
     let other_size = factor > t.gravity_factor || factor < 1.0 / t.gravity_factor;
     // Of a direction, the size says whether the efforts are torques at all.
     let turned = found.angle(&nominal) > t.gravity_angle && !other_size;
@@ -182,7 +169,7 @@ fn gravity(judge: &Judge) -> Option<Reading> {
     (is_somewhere && (turned || aligned)).then_some(Reading::Gravity(found))
 }
 
-/// Time as the efforts ask for it.
+/// The unit of time that fits the efforts.
 ///
 /// ```text
 /// effort = g(q) + factor² (M qdd + C qd)_logged
@@ -190,20 +177,20 @@ fn gravity(judge: &Judge) -> Option<Reading> {
 fn time(judge: &Judge) -> Option<Reading> {
     let granted: Vec<f64> =
         judge.whole.iter().zip(&judge.inertial).map(|(w, inertial)| w - inertial).collect();
-    let squared = *judge.pooled(&granted, &[&judge.inertial])?.first()?;
+    let squared = *judge.fit_pooled(&granted, &[&judge.inertial])?.first()?;
     let least = judge.thresholds.time_factor;
     let factor = squared.max(0.0).sqrt();
     (factor > least || (factor > 0.0 && factor < 1.0 / least)).then_some(Reading::Time(factor))
 }
 
-/// Units of the efforts: factors that no drive's error makes, or the same one everywhere.
+/// Units of the efforts: factors that no error of a drive makes, for each joint or the same everywhere.
 fn unit(judge: &Judge) -> Vec<Reading> {
     let t = judge.thresholds;
     let free = Drive { gain: [0.0, f64::INFINITY] };
     let fits = judge.fits(&judge.samples, &judge.whole, free);
     let none = judge.fits(&judge.samples, &judge.whole, Drive { gain: [0.0, 0.0] });
     let needed = |j: usize| {
-        fits[j].share < t.mended && none[j].share > NEEDED * (fits[j].share + judge.floors[j])
+        fits[j].share < t.mended && none[j].share > t.shows_unit * (fits[j].share + judge.floors[j])
     };
     let known: Vec<f64> =
         (0..fits.len()).filter(|j| needed(*j)).map(|j| fits[j].coefficients[0]).collect();
@@ -219,7 +206,7 @@ fn unit(judge: &Judge) -> Vec<Reading> {
     }
     let mut units: Vec<f64> = known.iter().copied().filter(|c| is_unit(*c)).collect();
     units.sort_unstable_by(f64::total_cmp);
-    // What says nothing of its own unit has that of most others.
+    // A joint that does not show its unit has that of most others.
     let usual = units.get(units.len() / 2).copied().filter(|_| 2 * units.len() > known.len());
     let own = |j: usize| match fits[j].coefficients[0] {
         c if needed(j) => {
@@ -237,6 +224,3 @@ fn unit(judge: &Judge) -> Vec<Reading> {
     }
     all
 }
-
-/// Factor by which friction alone leaves more than with the nominal torque where that is needed.
-const NEEDED: f64 = 4.0;

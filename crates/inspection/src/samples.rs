@@ -2,6 +2,7 @@ use logs::{LowPass, Run};
 
 use crate::pieces::Piece;
 use crate::scale::scale_s;
+use crate::thresholds::InspectionThresholds;
 
 /// Motion and effort of all joints at some hundred moments, low-passed alike.
 ///
@@ -18,25 +19,25 @@ pub(crate) struct Samples {
     pub step_s: f64,
     /// Velocity column, NaN where the log has none.
     pub velocity: Vec<f64>,
+    /// Share of the largest speed of a joint from which on it moves.
+    moving_speed: f64,
+    /// Rows of a joint's own motion that are enough to judge it by.
+    enough_rows: usize,
 }
 
 /// Rows that are looked at, over all runs.
 const ROWS: usize = 480;
 
-/// Rows of a joint's own motion that are enough to judge it by.
-const ENOUGH: usize = 30;
-
 /// Time over which the filter settles, in scales of the motion.
 const SETTLING: usize = 3;
-
-/// Share of the largest speed of a joint from which on it moves.
-const MOVING: f64 = 0.03;
 
 /// Pieces of runs after the low-pass of their motion: what samples are taken from.
 pub(crate) struct Thinned {
     joints: usize,
     pieces: Vec<Smooth>,
     rows: Vec<Row>,
+    moving_speed: f64,
+    enough_rows: usize,
 }
 
 /// A piece, and one of its rows.
@@ -51,22 +52,23 @@ impl Thinned {
     ///
     /// The low-pass is that of the motion: `cutoff = rate / (2 scale)` with the scale of the piece in samples. Rows
     /// are those in which some joint moves.
-    pub fn of(runs: &[Run], pieces: &[Piece]) -> Option<Self> {
+    pub fn of(runs: &[Run], pieces: &[Piece], t: &InspectionThresholds) -> Option<Self> {
         let joints = runs.first()?.joints.len();
-        let scale_s = scale_s(pieces)?;
+        let scale_s = scale_s(pieces, t)?;
         let pieces: Vec<Smooth> = pieces.iter().filter_map(|p| Smooth::of(p, scale_s)).collect();
         let fastest: Vec<f64> = (0..joints)
             .map(|j| pieces.iter().flat_map(|s| &s.joints[j][1]).fold(0.0, |m, v| v.abs().max(m)))
             .collect();
         let moves = |row: &Row| {
             let speed = |j: usize| pieces[row.piece].joints[j][1][row.k].abs();
-            (0..joints).any(|j| speed(j) > MOVING * fastest[j])
+            (0..joints).any(|j| speed(j) > t.moving_speed * fastest[j])
         };
         let of_piece = |(piece, s): (usize, &Smooth)| (0..s.len()).map(move |k| Row { piece, k });
         let all: Vec<Row> = pieces.iter().enumerate().flat_map(of_piece).filter(moves).collect();
         let step = all.len().div_ceil(ROWS).max(1);
         let rows = all.into_iter().step_by(step).collect();
-        Some(Self { joints, pieces, rows })
+        let (moving_speed, enough_rows) = (t.moving_speed, t.enough_rows);
+        Some(Self { joints, pieces, rows, moving_speed, enough_rows })
     }
 
     /// The samples, with the efforts of `later` rows behind those of the motion.
@@ -88,6 +90,8 @@ impl Thinned {
             effort: read(3, later),
             velocity: read(4, 0),
             step_s: self.pieces.iter().map(|p| p.log_step_s).fold(0.0, f64::max),
+            moving_speed: self.moving_speed,
+            enough_rows: self.enough_rows,
         }
     }
 
@@ -104,26 +108,25 @@ impl Samples {
         self.effort.len() / self.joints.max(1)
     }
 
-    /// The values of joint `j` in the rows that speak of it.
+    /// The values of joint `j` in its informative rows.
     pub fn column(&self, signal: &[f64], j: usize) -> Vec<f64> {
         let all = signal.iter().skip(j).step_by(self.joints.max(1));
-        all.zip(&self.speaking(j)).filter(|(_, speaks)| **speaks).map(|(x, _)| *x).collect()
+        all.zip(&self.informative(j)).filter(|(_, is)| **is).map(|(x, _)| *x).collect()
     }
 
-    /// Direction of motion of joint `j` in the rows that speak of it, smooth about rest.
+    /// Direction of motion of joint `j` in its informative rows, smooth about rest.
     pub fn direction(&self, j: usize) -> Vec<f64> {
         let qd = self.column(&self.motion[1], j);
         let fastest = qd.iter().fold(f64::MIN_POSITIVE, |most, v| v.abs().max(most));
-        qd.iter().map(|v| (v / (MOVING * fastest)).tanh()).collect()
+        qd.iter().map(|v| (v / (self.moving_speed * fastest)).tanh()).collect()
     }
 
-    /// Rows in which joint `j` moves: at rest dry friction holds any effort within its level. All of them where it
-    /// hardly does.
-    fn speaking(&self, j: usize) -> Vec<bool> {
+    /// Rows in which joint `j` moves: at rest dry friction holds any effort within its level. All rows where it hardly moves.
+    fn informative(&self, j: usize) -> Vec<bool> {
         let speeds = || self.motion[1].iter().skip(j).step_by(self.joints.max(1)).map(|v| v.abs());
-        let least = MOVING * speeds().fold(0.0, f64::max);
+        let least = self.moving_speed * speeds().fold(0.0, f64::max);
         let moves: Vec<bool> = speeds().map(|v| v > least).collect();
-        let enough = moves.iter().filter(|m| **m).count() >= ENOUGH;
+        let enough = moves.iter().filter(|m| **m).count() >= self.enough_rows;
         if enough { moves } else { vec![true; self.rows()] }
     }
 }

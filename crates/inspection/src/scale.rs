@@ -1,12 +1,5 @@
 use crate::pieces::Piece;
-
-/// Ratio of second differences over two spans, one twice the other, from which on a signal is smooth
-/// at the shorter: 4 for a parabola, `4 cos²(w s / 2)` for a sine, about 1 for noise.
-const SMOOTH: f64 = 3.4;
-
-/// Second difference over the one of neighbouring samples, which is all that noise can have, from which on
-/// motion prevails.
-const ABOVE_NOISE: f64 = 12.0;
+use crate::thresholds::InspectionThresholds;
 
 /// Least scale in samples: derivatives over a quarter of it either way are then those of the motion.
 const LEAST: f64 = 3.0;
@@ -18,7 +11,7 @@ const LOOKED_AT: usize = 1000;
 /// and that at which it is smooth. `None` without motion.
 ///
 /// All joints and pieces count together, those that move most count most.
-pub(crate) fn scale_s(pieces: &[Piece]) -> Option<f64> {
+pub(crate) fn scale_s(pieces: &[Piece], t: &InspectionThresholds) -> Option<f64> {
     let step_s = pieces.iter().map(|p| p.step_s).fold(f64::INFINITY, f64::min);
     let longest_s = pieces.iter().map(|p| p.step_s * p.len() as f64).fold(0.0, f64::max);
     let most = (longest_s / step_s / 24.0) as usize;
@@ -38,8 +31,8 @@ pub(crate) fn scale_s(pieces: &[Piece]) -> Option<f64> {
     };
     let neighbours = bend(1).sqrt();
     let sizes: Vec<(usize, f64)> = spans.iter().map(|&s| (s, bend(s).sqrt())).collect();
-    let above = sizes.iter().find(|(_, size)| *size >= ABOVE_NOISE * neighbours)?.0;
-    let is_smooth = |s: &usize| bend(2 * s).sqrt() >= SMOOTH * bend(*s).sqrt();
+    let above = sizes.iter().find(|(_, size)| *size >= t.above_noise * neighbours)?.0;
+    let is_smooth = |s: &usize| bend(2 * s).sqrt() >= t.smooth * bend(*s).sqrt();
     let smooth = spans.iter().copied().rev().take_while(|s| *s >= above).find(is_smooth);
     let scale = (above as f64 * smooth.unwrap_or(above) as f64).sqrt();
     Some(scale.max(LEAST) * step_s)

@@ -3,12 +3,12 @@ use std::f64::consts::PI;
 use logs::{Run, of_run};
 use robot::Robot;
 
-use crate::{Observation, ObservationKind, Rival, Stretch};
+use crate::observation::{Observation, ObservationKind, Rival, Stretch};
 
 const FOREIGN: &str = "Nothing of the nominal torque is in the efforts, whatever sign, order, unit, gravity or clock \
                        they are read with";
 
-/// Stretches that are told one by one.
+/// Stretches that are listed one by one.
 const MOST_STRETCHES: usize = 3;
 
 impl Observation {

@@ -1,18 +1,8 @@
 use logs::Run;
 
-use crate::moments::{at, stretch};
+use crate::observation::{Observation, ObservationKind, Stretch};
 use crate::pieces::usual_step;
-use crate::{Observation, ObservationKind, Thresholds};
-
-/// Spikes are no more than one row in so many: what is more frequent is noise.
-const RARE: usize = 100;
-
-/// Part of the rows that may be spikes or beside one.
-const BULK: usize = 20;
-
-/// Least height of a spike: steps of the encoder, and a size (rad or m) below which low-passes do what is needed.
-const COUNTS: f64 = 5.0;
-const LEAST: f64 = 2e-3;
+use crate::thresholds::InspectionThresholds;
 
 /// Single rows of a position that are off, which are bridged.
 ///
@@ -24,35 +14,44 @@ pub(crate) fn spikes(
     index: usize,
     joint: usize,
     position: &mut [f64],
-    t: &Thresholds,
+    t: &InspectionThresholds,
 ) -> Option<Observation> {
     let usual = usual_step(&run.time);
     let n = position.len();
-    if n < RARE {
+    if n < t.moments.rare_spike {
         return None;
     }
     let off: Vec<f64> = (0..n).map(|k| off(&run.time, position, usual, k)).collect();
     // A spike makes its neighbours' half as large: the largest of all without the spikes and them is usual.
     let mut sorted = off.clone();
     sorted.sort_unstable_by(f64::total_cmp);
-    let bulk = sorted[n - 1 - n / BULK];
+    let bulk = sorted[n - 1 - n / t.moments.bulk_of_rows];
     let steps = position.windows(2).map(|q| (q[1] - q[0]).abs()).filter(|step| *step > 0.0);
-    let floor = (COUNTS * steps.fold(f64::INFINITY, f64::min)).max(LEAST);
-    let is_spike = |k: &usize| off[*k] > t.spike * bulk && off[*k] > floor && alone(&off, *k);
+    let floor =
+        (t.moments.spike_counts * steps.fold(f64::INFINITY, f64::min)).max(t.moments.least_spike);
+    let is_spike =
+        |k: &usize| off[*k] > t.moments.spike * bulk && off[*k] > floor && alone(&off, *k);
     let found: Vec<usize> = (1..n - 1).filter(is_spike).collect();
     let usual_off = (0..n)
         .filter(|k| found.iter().all(|f| f.abs_diff(*k) > 1))
         .fold(0.0_f64, |most, k| most.max(off[k]));
     let height = found.iter().fold(0.0_f64, |most, &k| most.max(off[k]));
     let least = found.iter().fold(f64::INFINITY, |least, &k| least.min(off[k]));
-    if found.is_empty() || found.len() > n / RARE || least < 0.5 * t.spike * usual_off {
+    if found.is_empty()
+        || found.len() > n / t.moments.rare_spike
+        || least < 0.5 * t.moments.spike * usual_off
+    {
         return None;
     }
     for &k in &found {
         position[k] = 0.5 * (position[k - 1] + position[k + 1]);
     }
-    let rows = found.iter().map(|&k| stretch(run, index, &(k..k + 1))).collect();
-    Some(at(ObservationKind::Spikes { count: found.len(), height }, joint, rows))
+    let rows = found.iter().map(|&k| Stretch::of_rows(run, index, &(k..k + 1))).collect();
+    Some(Observation::of_seconds(
+        ObservationKind::Spikes { count: found.len(), height },
+        joint,
+        rows,
+    ))
 }
 
 /// Distance of a row from the line through its neighbours; 0 beside a gap.
@@ -81,14 +80,14 @@ mod tests {
 
     #[test]
     fn single_rows_are_told_and_bridged_and_a_swing_is_left_alone() {
-        let (mut run, t) = (swing(0.3), Thresholds::default());
+        let (mut run, t) = (swing(0.3), InspectionThresholds::default());
         let clean = run.joints[0].position.clone();
         let mut q = clean.clone();
         assert_eq!(spikes(&run, 0, 0, &mut q, &t), None);
         [700, 1900, 4000].iter().for_each(|&k| q[k] += 0.05);
         run.joints[0].position.clone_from(&q);
-        let told = spikes(&run, 0, 0, &mut q, &t).unwrap();
-        assert!(matches!(told.kind, ObservationKind::Spikes { count: 3, .. }), "{told:?}");
+        let found = spikes(&run, 0, 0, &mut q, &t).unwrap();
+        assert!(matches!(found.kind, ObservationKind::Spikes { count: 3, .. }), "{found:?}");
         assert!(q.iter().zip(&clean).all(|(a, b)| (a - b).abs() < 1e-3));
     }
 }

@@ -1,63 +1,128 @@
-/// From where on something is told, and why there.
+/// The numbers that decide whether logs have an error, with their units and reasons.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Thresholds {
-    /// Torque constants that a drive's error may make, least and largest: a factor 3 either way. What lies
-    /// within is a cause that a diagnosis finds.
+pub struct InspectionThresholds {
+    /// Torque constants that an error of a drive may make, least and largest (1): a factor 3 either way. A diagnosis finds
+    /// those within as a cause.
     pub drive_gain: [f64; 2],
-    /// Share of the effort of the joint mended most that the log as it stands must leave: models that err by some
-    /// per cent leave a twentieth, friction and rotors are taken off before. The second is for readings of the
-    /// second gain.
+    /// Least share of the effort that the log as it stands must leave at the joint that a reading improves most (power, 1):
+    /// models that err by some per cent leave a twentieth, friction and rotors are taken off before. The second is for
+    /// readings of the second gain.
     pub misfit: [f64; 2],
-    /// Share that a reading may leave at the joint that it mends most.
+    /// Largest share that a reading may leave at the joint that it improves most (power, 1).
     pub mended: f64,
-    /// Share that counts as nothing: what is left below it is model error, and no reading is better for it.
+    /// Share below which a residual is model error (power, 1): no reading is preferred for less.
     pub floor: f64,
-    /// Error of a model as a share of the whole effort of a joint: some per cent in mass, some mm in centre of
-    /// mass.
+    /// Error of a model as a share of the whole effort of a joint (RMS, 1): some per cent in mass, some mm in centre of mass.
     pub model_error: f64,
-    /// Least logarithm of the factor by which a reading shortens what is left, summed over joints, and the one
-    /// from which on a smaller misfit does.
+    /// Least logarithm of the factor by which a reading reduces the residual, summed over joints (nats), and the one from
+    /// which on the smaller misfit is enough.
     pub gain: [f64; 2],
-    /// The same for a turned sign where the nominal torque leaves more than all of the effort of the joint mended most: it is then
-    /// contradicted, not only inexact.
+    /// The same for a turned sign where the nominal torque leaves more than all of the effort of the joint that is improved
+    /// most (nats): it is contradicted then, and more than inexact.
     pub contradicted_gain: f64,
-    /// Least difference of that logarithm by which one reading is preferred to another one.
+    /// Least difference of that logarithm by which one reading is preferred to another one (nats).
     pub margin: f64,
     /// Least angle between the gravity of the efforts and of the description (rad): bases that stand on a floor
     /// are tilted by less.
     pub gravity_angle: f64,
-    /// Least factor between the sizes of gravity.
+    /// Least factor between the sizes of gravity (1).
     pub gravity_factor: f64,
-    /// Largest part of the nominal torque of gravity in efforts that lack it.
+    /// Largest part of the nominal torque of gravity in efforts that lack it (1).
     pub held_gravity: f64,
     /// Least range of a joint that moves (rad, and m at a sliding joint).
     pub moves: [f64; 2],
-    /// Factors that are the same at all joints, to that share, have one reason.
+    /// Difference between factors of all joints, as a share, up to which they have one reason (1).
     pub alike: f64,
-    /// Least relative difference between a velocity column and the derivative of the position.
+    /// Least relative difference between a velocity column and the derivative of the position (1).
     pub velocity_factor: f64,
-    /// Least factor by which time is off, as efforts alone show it: unknown rotors do less.
+    /// Least factor by which time is off, as efforts alone show it (1): unknown rotors do less.
     pub time_factor: f64,
     /// Rate below which no logger of an arm works (Hz).
     pub slowest_hz: f64,
-    /// Least time for which all signals stand still (s).
-    pub held_s: f64,
-    /// Least time for which one position stands still (s): drives rest for less in the middle of a motion.
-    pub stuck_s: f64,
-    /// A freeze breaks motion off: the step into it over the largest change from one step to the next that is
-    /// usual, and the step out of it over the largest step that is usual. Arms brake over several samples.
-    pub freeze: [f64; 2],
-    /// Height of a spike over the largest usual second difference.
-    pub spike: f64,
-    /// Share of samples at the limit of the effort.
+    /// Least share of samples at the limit of the effort (1).
     pub at_limit: f64,
-    /// Least time that two runs share (s).
+    /// Least time that two overlapping runs share (s).
     pub shared_s: f64,
+    /// Torque constants of a drive that is nearly right, least and largest (1): for tests in which a free constant could
+    /// take away the error that is looked for.
+    pub exact_gain: [f64; 2],
+    /// Torque constants that are tried beside another unit of the efforts (1): between a unit and a constant the
+    /// constant is the smaller change.
+    pub unit_gain: [f64; 2],
+    /// Least number of rows by which logs can be judged.
+    pub least_rows: usize,
+    /// Share of the largest speed of a joint from which on it moves (1): at rest dry friction holds any effort.
+    pub moving_speed: f64,
+    /// Rows of a joint's own motion that are enough to judge it by.
+    pub enough_rows: usize,
+    /// A step of time longer than so many usual ones ends a piece (1): more is not interpolated.
+    pub longest_step: f64,
+    /// Difference of steps of time from the usual one, as a share of it, up to which a clock is even (1).
+    pub even_step: f64,
+    /// Ratio of second differences over two spans, one twice the other, from which on a signal is smooth at the shorter
+    /// (1): 4 for a parabola, `4 cos²(w s / 2)` for a sine, about 1 for noise.
+    pub smooth: f64,
+    /// Second difference over that of neighbouring samples, which is all that noise can have, from which on motion
+    /// prevails (1).
+    pub above_noise: f64,
+    /// Correlation of a velocity column with the derivative of the position from which on it can be compared (1).
+    pub velocity_correlation: f64,
+    /// The same where the column is off by less than a third (1).
+    pub close_velocity_correlation: f64,
+    /// Factors of the velocity columns of all joints that are the same, to this share (1).
+    pub same_velocity_factor: f64,
+    /// Rate of the slowest usual logger (Hz).
+    pub least_rate_hz: f64,
+    /// Factor by which a unit of time may be off the power of ten that it is (1): velocities show it to some per mille.
+    pub time_unit: f64,
+    /// The same of a unit of efforts (1): model and torque constant may both be wrong.
+    pub effort_unit: f64,
+    /// Angle up to which gravity has the direction of the description (rad).
+    pub aligned_gravity: f64,
+    /// Least and largest gravity of a place where arms work (m/s²): that of the moon, and twice that of the earth.
+    pub gravity_sizes: [f64; 2],
+    /// Least share of the effort of a joint that counts as its deviation in a fit over all joints (1).
+    pub pooled_share: f64,
+    /// Largest mass of a tool over that of the arm that carries it (1).
+    pub heaviest_tool: f64,
+    /// Farthest that a tool's centre of mass lies from the origin of the last link (m).
+    pub farthest_tool_m: f64,
+    /// Most errors that are reported of one set of logs.
+    pub most_readings: usize,
+    /// Number of rivals from which on none of them is reported.
+    pub most_rivals: usize,
+    /// Range of a rotation from which on its position may be in degrees (rad).
+    pub degrees_range: f64,
+    /// Factor by which the residual of a joint falls that confirms a reading (1).
+    pub confirms: f64,
+    /// Factor by which friction alone leaves more than with the nominal torque, where a joint shows its unit (1).
+    pub shows_unit: f64,
+    /// Share left from which on a nominal torque is contradicted (1).
+    pub contradicted: f64,
+    /// Factor by which a drive alone leaves less where the nominal torque is contradicted (1).
+    pub contradicted_by: f64,
+    /// Part of the residual of a drive alone that is left where a joint agrees with its nominal torque (1).
+    pub agrees: f64,
+    /// Fewest joints that contradict the description of the robot.
+    pub fewest_contradicted: usize,
+    /// Longest shift of the efforts against the motion that is looked for (s).
+    pub longest_shift_s: f64,
+    /// Difference from its limit up to which an effort is at it, as a share of the limit (1).
+    pub near_limit: f64,
+    /// Efforts that exceed their limit by this factor are not clipped there (1).
+    pub beyond_limit: f64,
+    /// Fewest values of an effort that is not coarsely quantised.
+    pub fewest_values: usize,
+    /// Share of the rows that two runs share that must differ from the row before (1): at rest all rows are alike.
+    pub moving_rows: f64,
+    /// Errors at some moments of a run.
+    pub moments: MomentThresholds,
 }
 
-impl Default for Thresholds {
+impl Default for InspectionThresholds {
     fn default() -> Self {
         Self {
+            moments: MomentThresholds::default(),
             drive_gain: [1.0 / 3.0, 3.0],
             misfit: [0.3, 0.1],
             mended: 0.3,
@@ -74,12 +139,88 @@ impl Default for Thresholds {
             velocity_factor: 0.04,
             time_factor: 1.3,
             slowest_hz: 2.0,
+            at_limit: 1.0 / 3.0,
+            shared_s: 0.5,
+            exact_gain: [0.8, 1.25],
+            unit_gain: [2.0 / 3.0, 1.5],
+            least_rows: 40,
+            moving_speed: 0.03,
+            enough_rows: 30,
+            longest_step: 5.5,
+            even_step: 0.02,
+            smooth: 3.4,
+            above_noise: 12.0,
+            velocity_correlation: 0.95,
+            close_velocity_correlation: 0.995,
+            same_velocity_factor: 0.02,
+            least_rate_hz: 10.0,
+            time_unit: 1.05,
+            effort_unit: 2.0,
+            aligned_gravity: 0.3,
+            gravity_sizes: [1.0, 20.0],
+            pooled_share: 0.01,
+            heaviest_tool: 1.0,
+            farthest_tool_m: 1.0,
+            most_readings: 4,
+            most_rivals: 6,
+            degrees_range: 10.0,
+            confirms: 2.0,
+            shows_unit: 4.0,
+            contradicted: 0.5,
+            contradicted_by: 1.3,
+            agrees: 0.6,
+            fewest_contradicted: 3,
+            longest_shift_s: 1.5,
+            near_limit: 1e-3,
+            beyond_limit: 1.05,
+            fewest_values: 20,
+            moving_rows: 0.5,
+        }
+    }
+}
+
+/// When a signal counts as frozen, and a row as a spike or a jump.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentThresholds {
+    /// Least time for which all signals stand still (s).
+    pub held_s: f64,
+    /// Least time for which one position stands still (s): drives rest for less in the middle of a motion.
+    pub stuck_s: f64,
+    /// Least step into a freeze over the largest change from one step to the next elsewhere, and least step out of it over
+    /// the largest step elsewhere (1): arms brake over several samples, a freeze breaks motion off.
+    pub freeze: [f64; 2],
+    /// Steps of the encoder that a velocity must exceed while a position stands still (1).
+    pub stuck_counts: f64,
+    /// Rows about a freeze that are not compared with it.
+    pub beside_freeze: usize,
+    /// Least height of a spike over the largest usual second difference (1).
+    pub spike: f64,
+    /// A spike is no more than one row in so many: what is more frequent is noise.
+    pub rare_spike: usize,
+    /// Part of the rows that may be spikes or beside one: one in so many.
+    pub bulk_of_rows: usize,
+    /// Least height of a spike, in steps of the encoder (1).
+    pub spike_counts: f64,
+    /// Least height of a spike (rad or m): low-passes handle smaller ones.
+    pub least_spike: f64,
+    /// Difference of a jump from full turns (rad).
+    pub full_turn: f64,
+}
+
+impl Default for MomentThresholds {
+    fn default() -> Self {
+        Self {
             held_s: 0.2,
             stuck_s: 1.0,
             freeze: [2.0, 6.0],
+            stuck_counts: 20.0,
+            beside_freeze: 8,
             spike: 8.0,
-            at_limit: 1.0 / 3.0,
-            shared_s: 0.5,
+            rare_spike: 100,
+            bulk_of_rows: 20,
+            spike_counts: 5.0,
+            least_spike: 2e-3,
+            full_turn: 0.5,
         }
     }
 }

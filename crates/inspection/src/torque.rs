@@ -14,12 +14,12 @@ pub(crate) struct Torque {
 
 impl Torque {
     pub fn new(robot: &Robot) -> Self {
-        let pulled = |g: Vector3<f64>| Dynamics::new(&robot.clone().with_gravity(g));
+        let torque_under = |g: Vector3<f64>| Dynamics::new(&robot.clone().with_gravity(g));
         let whole = Dynamics::new(robot);
         Self {
             workspace: whole.workspace(),
-            still: pulled(Vector3::zeros()),
-            unit: [Vector3::x(), Vector3::y(), Vector3::z()].map(pulled),
+            still: torque_under(Vector3::zeros()),
+            unit: [Vector3::x(), Vector3::y(), Vector3::z()].map(torque_under),
             whole,
         }
     }

@@ -6,14 +6,15 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 use robot::Robot;
 
-use crate::columns::beliefs::Beliefs;
 use crate::columns::evaluated::Evaluated;
+use crate::columns::prior::Prior;
 use crate::columns::readings::Readings;
 use crate::columns::repeats::{Runs, motions};
 use crate::columns::run_design::RunDesign;
 use crate::signals::along::Along;
 use crate::signals::log::Log;
-use crate::signals::look::Look;
+use crate::signals::response::Response;
+use crate::thresholds::signals::SignalThresholds;
 
 /// A hypothesis and its columns in the design.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +44,7 @@ pub(crate) struct Design {
     pub runs: Vec<RunDesign>,
     /// Rate of the samples (Hz).
     pub rate_hz: f64,
-    /// What the columns were made in.
+    /// The frame in which the columns were evaluated.
     pub frame: Frame,
     /// Joints that moved; the rows of others take no part.
     pub moved: Vec<bool>,
@@ -51,32 +52,46 @@ pub(crate) struct Design {
     pub moves: Vec<Vec<bool>>,
     /// Number of the motion of each run: runs that repeat a motion share it.
     pub motion: Vec<usize>,
-    /// What it explains.
-    pub look: Look,
+    /// The signal that it explains.
+    pub response: Response,
+}
+
+/// A robot along all runs, and what the logs have of these.
+struct MotionAndReadings<'a> {
+    frame: Frame,
+    along: &'a [Along<'a>],
+    readings: Vec<Readings>,
 }
 
 impl Design {
     /// Evaluates every hypothesis about `robot` along the prepared runs.
     pub fn new(robot: &Robot, log: &Log) -> Result<Self, LogError> {
-        let all: Vec<_> = hypotheses(robot).into_iter().filter(|h| log.asks(*h)).collect();
+        let all: Vec<_> = hypotheses(robot).into_iter().filter(|h| log.includes(*h)).collect();
         Self::of(robot, log, &all)
     }
 
-    /// Evaluates some hypotheses about `robot` along the prepared runs.
+    /// Evaluates the given hypotheses about `robot` along the prepared runs.
     pub fn of(robot: &Robot, log: &Log, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
         let frame = Frame::of_logs(log.prepared);
         let along = log.along(robot, &frame)?;
         let readings: Vec<Readings> = along
             .par_iter()
-            .map(|along| Readings::new(along, log.look))
+            .map(|along| Readings::new(along, log.response))
             .collect::<Result<_, LogError>>()?;
-        let mut design = Self::evaluated(robot, log, hypotheses, (frame, &along, readings))?;
-        design.moves = design.runs.iter().map(RunDesign::moves).collect();
-        design.motion = motions(design.repeated());
+        let mut design = Self::assemble(
+            robot,
+            log,
+            hypotheses,
+            MotionAndReadings { frame, along: &along, readings },
+        )?;
+        let thresholds = &log.thresholds.signals;
+        let moves = |run: &RunDesign| run.moves(thresholds.moving_share);
+        design.moves = design.runs.iter().map(moves).collect();
+        design.motion = motions(design.repeated(thresholds));
         Ok(design)
     }
 
-    /// Evaluates some hypotheses about another `robot` along the same runs.
+    /// Evaluates the given hypotheses about another `robot` along the same runs.
     pub fn about(
         &self,
         robot: &Robot,
@@ -85,20 +100,21 @@ impl Design {
     ) -> Result<Self, LogError> {
         let along = log.along(robot, &self.frame)?;
         let readings = self.runs.iter().map(RunDesign::readings).collect();
-        let evaluated = (self.frame.clone(), along.as_slice(), readings);
-        let design = Self::evaluated(robot, log, hypotheses, evaluated)?;
+        let evaluated = MotionAndReadings { frame: self.frame.clone(), along: &along, readings };
+        let design = Self::assemble(robot, log, hypotheses, evaluated)?;
         Ok(Self { moves: self.moves.clone(), motion: self.motion.clone(), ..design })
     }
 
-    /// The same of runs along which the robot was evaluated, with what the logs say of them.
-    fn evaluated(
+    /// The design of runs along which the robot was evaluated, with the readings of the logs.
+    fn assemble(
         robot: &Robot,
         log: &Log,
         hypotheses: &[Hypothesis],
-        (frame, along, readings): (Frame, &[Along], Vec<Readings>),
+        MotionAndReadings { frame, along, readings }: MotionAndReadings,
     ) -> Result<Self, LogError> {
         let scale = Scale::of_logs(robot, log.prepared);
-        let evaluated = |(along, readings)| Evaluated::new(along, readings, hypotheses, log.look);
+        let evaluated =
+            |(along, readings)| Evaluated::new(along, readings, hypotheses, log.response);
         let mut evaluated: Vec<Evaluated> =
             along.par_iter().zip(readings).map(evaluated).collect::<Result<_, LogError>>()?;
         if let Some(described) = log.described {
@@ -115,7 +131,7 @@ impl Design {
             rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
             frame,
             moved: log.rows(),
-            look: log.look,
+            response: log.response,
             moves: Vec::new(),
             motion: Vec::new(),
         };
@@ -156,7 +172,7 @@ impl Design {
             }
             group.joints.sort_unstable();
             group.joints.dedup();
-            // What reaches no joint that moved, or has no prior spread, cannot be tested.
+            // A hypothesis that reaches no joint that moved, or has no prior spread, cannot be tested.
             if !group.joints.is_empty() && prior.iter().all(|&sd| sd > 0.0) {
                 self.groups.push(group);
             }
@@ -165,14 +181,14 @@ impl Design {
         origins
     }
 
-    /// What is believed of every weight before any data.
-    pub fn beliefs(&self) -> Beliefs<'_> {
-        Beliefs { prior: &self.prior, bounds: &self.bounds }
+    /// What is assumed of every weight before any data.
+    pub fn weight_prior(&self) -> Prior<'_> {
+        Prior { sd: &self.prior, bounds: &self.bounds }
     }
 
-    /// The runs, to be asked which of them repeat a motion.
-    pub fn repeated(&self) -> Runs<'_> {
-        Runs { runs: &self.runs, rate_hz: self.rate_hz, moved: &self.moved }
+    /// The runs, for the comparison of their motions.
+    pub fn repeated<'a>(&'a self, thresholds: &'a SignalThresholds) -> Runs<'a> {
+        Runs { runs: &self.runs, rate_hz: self.rate_hz, moved: &self.moved, thresholds }
     }
 
     /// The columns of some groups, in increasing order.

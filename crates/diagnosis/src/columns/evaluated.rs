@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use crate::columns::readings::Readings;
 use crate::columns::run_design::{JointDesign, RunDesign};
-use crate::signals::along::{Along, less};
-use crate::signals::look::Look;
+use crate::signals::along::{Along, minus};
+use crate::signals::response::Response;
 
 /// All columns of one run and the effort, low-passed alike and at the rate of the regression.
 pub(crate) struct Evaluated {
@@ -31,21 +31,21 @@ impl Evaluated {
         along: &Along,
         readings: Readings,
         hypotheses: &[Hypothesis],
-        look: Look,
+        response: Response,
     ) -> Result<Self, LogError> {
         let motion = &along.motion;
         let joints = motion.effort.len();
-        let columns = |h: &Hypothesis| match look {
-            Look::Effort => along.finished(h.columns(motion)),
-            Look::Twist => along.finished(h.twist(motion)),
+        let columns = |h: &Hypothesis| match response {
+            Response::Effort => along.finish_columns(h.columns(motion)),
+            Response::Twist => along.finish_columns(h.twist(motion)),
         };
-        let nominal: Vec<Vec<f64>> = match look {
-            Look::Effort => along.expected(),
-            Look::Twist => (0..joints).map(|j| along.finish(j, motion.twist(j))).collect(),
+        let nominal: Vec<Vec<f64>> = match response {
+            Response::Effort => along.expected_effort(),
+            Response::Twist => (0..joints).map(|j| along.finish(j, motion.twist(j))).collect(),
         };
-        let known = match look {
-            Look::Effort => along.known(&less(&readings.measured, &nominal))?,
-            Look::Twist => vec![Vec::new(); joints],
+        let known = match response {
+            Response::Effort => along.known_effort(&minus(&readings.measured, &nominal))?,
+            Response::Twist => vec![Vec::new(); joints],
         };
         Ok(Self {
             columns: hypotheses.par_iter().map(columns).collect(),
@@ -59,8 +59,8 @@ impl Evaluated {
         })
     }
 
-    /// Counts the efforts from those of the robot as it was `described`: by how much the robot
-    /// itself differs is known.
+    /// Compares the efforts with those of the robot as it was `described`; the difference of the evaluated robot from it
+    /// is a part that is explained already.
     pub fn measure_from(&mut self, described: &Along) {
         for (j, effort) in described.motion.effort.iter().enumerate() {
             let effort = described.finish(j, effort.clone());
@@ -84,16 +84,25 @@ impl Evaluated {
             }
             x
         };
-        let Readings { measured, tells, slides } = readings;
+        let Readings { measured, is_informative, slides } = readings;
         let [q, qd, qdd] = state;
         let states = q.into_iter().zip(qd).zip(qdd);
-        let told = tells.into_iter().zip(slides);
+        let marks = is_informative.into_iter().zip(slides);
         let efforts = measured.into_iter().zip(known).zip(nominal);
-        let joint = |(j, ((((measured, known), nominal), ((q, qd), qdd)), (tells, slides)))| {
-            let state = [q, qd, qdd];
-            JointDesign { x: matrix(j), measured, known, nominal, state, tells, slides }
-        };
-        let joints = efforts.zip(states).zip(told).enumerate().map(joint).collect();
+        let joint =
+            |(j, ((((measured, known), nominal), ((q, qd), qdd)), (is_informative, slides)))| {
+                let state = [q, qd, qdd];
+                JointDesign {
+                    x: matrix(j),
+                    measured,
+                    known,
+                    nominal,
+                    state,
+                    is_informative,
+                    slides,
+                }
+            };
+        let joints = efforts.zip(states).zip(marks).enumerate().map(joint).collect();
         RunDesign { name, time, joints }
     }
 }

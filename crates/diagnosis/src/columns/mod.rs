@@ -5,9 +5,9 @@
 //! effort - nominal effort = sum over hypotheses of columns weights + noise
 //! ```
 
-pub(crate) mod beliefs;
 pub(crate) mod design;
 pub(crate) mod evaluated;
+pub(crate) mod prior;
 pub(crate) mod readings;
 pub(crate) mod repeats;
 pub(crate) mod run_design;

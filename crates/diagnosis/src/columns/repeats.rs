@@ -1,10 +1,5 @@
 use crate::columns::run_design::RunDesign;
-
-/// Largest difference in position between two runs of one motion, as a share of the range.
-const REPEAT_SHARE: f64 = 0.01;
-
-/// Largest shift in time between two runs of one motion (s).
-const REPEAT_SHIFT_S: f64 = 1.0;
+use crate::thresholds::signals::SignalThresholds;
 
 /// Runs of which some may repeat a motion.
 #[derive(Debug, Clone, Copy)]
@@ -14,6 +9,7 @@ pub(crate) struct Runs<'a> {
     pub rate_hz: f64,
     /// Joints that moved.
     pub moved: &'a [bool],
+    pub thresholds: &'a SignalThresholds,
 }
 
 /// Numbers the motions: a run that repeats an earlier one gets that one's number.
@@ -26,10 +22,10 @@ pub(crate) fn motions(design: Runs) -> Vec<usize> {
     motion
 }
 
-/// `sqrt(mean((r_a - r_b)^2) / 2)` over all pairs of runs that repeat a motion, `r` the
-/// residual of the nominal model where it tells in both, so that small differences of the motion
-/// cancel.
-pub(crate) fn repeats(design: Runs) -> Option<Vec<f64>> {
+/// Noise of every joint from runs that repeat a motion: `sqrt(mean((r_a - r_b)^2) / 2)` over all pairs of these, with
+/// `r` the residual of the nominal model, so that small differences of the motion cancel, over the samples that are
+/// informative in both.
+pub(crate) fn noise_of_repeats(design: Runs) -> Option<Vec<f64>> {
     let joints = design.moved.len();
     let (mut sum, mut count) = (vec![0.0; joints], vec![0_usize; joints]);
     let mut repeat = false;
@@ -41,10 +37,10 @@ pub(crate) fn repeats(design: Runs) -> Option<Vec<f64>> {
             for j in 0..joints {
                 let of = |run: &RunDesign| run.joints[j].residual().collect::<Vec<_>>();
                 let (x, y) = (of(first), of(second));
-                let tell = |(s, t): &&(usize, usize)| {
-                    first.joints[j].tells[*s] && second.joints[j].tells[*t]
+                let both = |(s, t): &&(usize, usize)| {
+                    first.joints[j].is_informative[*s] && second.joints[j].is_informative[*t]
                 };
-                for &(s, t) in pairs.iter().filter(tell) {
+                for &(s, t) in pairs.iter().filter(both) {
                     sum[j] += (x[s] - y[t]).powi(2);
                     count[j] += 1;
                 }
@@ -57,7 +53,7 @@ pub(crate) fn repeats(design: Runs) -> Option<Vec<f64>> {
 
 /// The shift (samples) at which the second run repeats the first, if it does.
 fn repeat_shift(design: Runs, first: &RunDesign, second: &RunDesign) -> Option<isize> {
-    let reach = (REPEAT_SHIFT_S * design.rate_hz).round() as isize;
+    let reach = (design.thresholds.repeat_shift_s * design.rate_hz).round() as isize;
     let moved = || (0..design.moved.len()).filter(|&j| design.moved[j]);
     let mismatch = |shift: isize| {
         let pairs = overlap(first.time.len(), second.time.len(), shift);
@@ -75,7 +71,7 @@ fn repeat_shift(design: Runs, first: &RunDesign, second: &RunDesign) -> Option<i
         moved().map(of_joint).fold(0.0, f64::max)
     };
     let best = (-reach..=reach).map(|s| (mismatch(s), s)).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (best.0 < REPEAT_SHARE).then_some(best.1)
+    (best.0 < design.thresholds.repeat_difference).then_some(best.1)
 }
 
 /// Pairs of samples of two runs that coincide when the second starts `shift` samples late.

@@ -13,61 +13,58 @@ pub(crate) struct RunDesign {
     pub joints: Vec<JointDesign>,
 }
 
-/// One joint of a [`RunDesign`], all signals low-passed alike; efforts, columns and what is known of
-/// efforts are those of the joint while it moves, and none while it stands.
+/// One joint of a [`RunDesign`], all signals low-passed alike. Efforts, their known part and columns are zero while the
+/// joint stands.
 #[derive(Debug, Clone)]
 pub(crate) struct JointDesign {
     /// Samples by local columns.
     pub x: DMatrix<f64>,
-    /// Measured effort (N·m or N); or what the first encoder reports beyond the position of the
-    /// link (rad or m), in a design of that.
+    /// Measured effort (N·m or N); in a design of the twist, the position that the first encoder reports minus that of
+    /// the link (rad or m).
     pub measured: Vec<f64>,
-    /// What tones may have in it, what became no torque and what second encoders have shown of it
-    /// (N·m or N); empty where there is none of these.
+    /// Part of the effort that is explained already: by tones, by a torque limit, by second encoders (N·m or N); empty
+    /// where nothing is.
     pub known: Vec<f64>,
-    /// The same as the nominal robot has it.
+    /// The same signal of the nominal robot.
     pub nominal: Vec<f64>,
     /// Position, velocity and acceleration.
     pub state: [Vec<f64>; 3],
-    /// Whether a sample tells of the effort: two thirds of what the low-pass takes into it, or more, are of
-    /// the joint while it moves. One that stands is held by any part of its dry friction.
-    pub tells: Vec<bool>,
-    /// Whether the joint slides: where it turns, dry friction is anything up to its level, and what is
-    /// left there is nobody's fault.
+    /// Whether a sample is informative about the effort: most of what the low-pass takes into it is of the joint while it
+    /// moves. While it stands, dry friction holds it with any part of its level.
+    pub is_informative: Vec<bool>,
+    /// Whether the joint slides. Where its direction changes, dry friction is anything up to its level, which no model can
+    /// predict.
     pub slides: Vec<bool>,
 }
 
-/// Least share of a run's samples in which a joint moves that moves in it.
-const MOVES: f64 = 0.05;
-
 impl RunDesign {
-    /// What the logs say of it.
+    /// The readings of the run.
     pub fn readings(&self) -> Readings {
         let joints = || self.joints.iter();
         Readings {
             measured: joints().map(|joint| joint.measured.clone()).collect(),
-            tells: joints().map(|joint| joint.tells.clone()).collect(),
+            is_informative: joints().map(|joint| joint.is_informative.clone()).collect(),
             slides: joints().map(|joint| joint.slides.clone()).collect(),
         }
     }
 
-    /// Which joints move.
-    pub fn moves(&self) -> Vec<bool> {
+    /// Which joints move in more than a share `least` of the samples.
+    pub fn moves(&self, least: f64) -> Vec<bool> {
         let moves = |joint: &JointDesign| {
-            let tells = joint.tells.iter().filter(|t| **t).count();
-            tells as f64 > MOVES * joint.tells.len() as f64
+            let informative = joint.is_informative.iter().filter(|t| **t).count();
+            informative as f64 > least * joint.is_informative.len() as f64
         };
         self.joints.iter().map(moves).collect()
     }
 }
 
 impl JointDesign {
-    /// Of a signal of the joint, the samples that tell of its effort.
-    pub fn told<'a, T: Copy>(
+    /// The informative samples of a signal of the joint.
+    pub fn informative<'a, T: Copy>(
         &'a self,
         signal: impl IntoIterator<Item = T> + 'a,
     ) -> impl Iterator<Item = T> + 'a {
-        signal.into_iter().zip(&self.tells).filter(|(_, tells)| **tells).map(|(value, _)| value)
+        signal.into_iter().zip(&self.is_informative).filter(|(_, is)| **is).map(|(value, _)| value)
     }
 
     /// Measured minus nominal effort (N·m or N).
@@ -75,7 +72,7 @@ impl JointDesign {
         self.measured.iter().zip(&self.nominal).map(|(m, n)| m - n)
     }
 
-    /// The same without the tones and without what became no torque.
+    /// The same minus the part that is explained already.
     pub fn residual(&self) -> impl Iterator<Item = f64> + '_ {
         let known = self.known.iter().copied().chain(std::iter::repeat(0.0));
         self.gap().zip(known).map(|(gap, known)| gap - known)

@@ -11,68 +11,68 @@ use crate::columns::design::Design;
 use crate::signals::along::Along;
 use crate::signals::log::Log;
 
-/// Germs whose columns are there at once: before they are thinned they are as long as the motion.
+/// Trial shapes that are evaluated at once: before they are thinned their columns are as long as the motion.
 const AT_ONCE: usize = 8;
 
-/// The robot with the germ of every effect whose columns are not linear in one of its
-/// parameters, of the trial value that explains most of what all effects without germs leave.
+/// The robot with the best trial shape of every effect whose columns are not linear in one of its parameters: the trial
+/// value that explains most of what the linear effects leave.
 ///
-/// With `X` the columns of those effects, `C` those of the germ and `r = y - X w`,
+/// With `X` the columns of the linear effects, `C` those of a trial shape and `r = y - X w`,
 ///
 /// ```text
 /// explained = r' C (C' C - C' X (X' X + 1 / prior^2)^-1 X' C)^-1 C' r
 /// ```
 ///
-/// over the joints that it reaches, each weighted by the power of its `r`.
-pub(crate) fn sown(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
+/// over the joints that the shape reaches, each weighted by one over the power of its `r`.
+pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
     let (prepared, moved) = (log.prepared, log.moved);
     let relevant = |g: &Germ| {
         let looked_for = !log.without.contains(&g.hypothesis.kind);
         looked_for && g.hypothesis.joint().is_some_and(|j| moved[j])
     };
-    let germs: Vec<Germ> =
+    let shapes: Vec<Germ> =
         germs(robot, &Scale::of_logs(robot, prepared)).into_iter().filter(relevant).collect();
-    let kinds = germs.iter().map(|germ| germ.hypothesis.kind).chain(log.without.iter().copied());
+    let kinds = shapes.iter().map(|shape| shape.hypothesis.kind).chain(log.without.iter().copied());
     let without: Vec<EffectKind> = kinds.collect::<BTreeSet<_>>().into_iter().collect();
     let design = Design::new(robot, &Log { without: &without, ..*log })?;
     let frame = Frame::of_logs(prepared);
     let mut runs = log.along(robot, &frame)?;
-    let left: Vec<Option<Left>> = (0..design.joints())
+    let left: Vec<Option<LinearRest>> = (0..design.joints())
         .into_par_iter()
-        .map(|j| moved[j].then(|| Left::new(&design, j))?)
+        .map(|j| moved[j].then(|| LinearRest::new(&design, j))?)
         .collect();
-    let mut explained = Vec::with_capacity(germs.len());
-    for some in germs.chunks(AT_ONCE) {
+    let mut explained = Vec::with_capacity(shapes.len());
+    for some in shapes.chunks(AT_ONCE) {
         let columns = columns(some, &mut runs);
         let of_each =
-            columns.into_par_iter().map(|runs| self::explained(&left, &runs).unwrap_or(0.0));
+            columns.into_par_iter().map(|runs| explained_power(&left, &runs).unwrap_or(0.0));
         explained.extend(of_each.collect::<Vec<f64>>());
     }
     let mut best: BTreeMap<Hypothesis, (f64, Germ)> = BTreeMap::new();
-    for (germ, explained) in germs.into_iter().zip(explained) {
-        let known = best.entry(germ.hypothesis).or_insert((explained, germ));
+    for (shape, explained) in shapes.into_iter().zip(explained) {
+        let known = best.entry(shape.hypothesis).or_insert((explained, shape));
         if explained > known.0 {
-            *known = (explained, germ);
+            *known = (explained, shape);
         }
     }
-    let mut sown = robot.clone();
-    best.into_values().for_each(|(_, germ)| germ.sow(&mut sown));
-    Ok(sown)
+    let mut shaped = robot.clone();
+    best.into_values().for_each(|(_, shape)| shape.sow(&mut shaped));
+    Ok(shaped)
 }
 
-/// The columns of some germs, `[germ][run][weight]`.
-fn columns(germs: &[Germ], runs: &mut [Along]) -> Vec<Vec<Vec<Column>>> {
-    let mut all = vec![Vec::new(); germs.len()];
+/// The columns of some trial shapes, `[shape][run][weight]`.
+fn columns(shapes: &[Germ], runs: &mut [Along]) -> Vec<Vec<Vec<Column>>> {
+    let mut all = vec![Vec::new(); shapes.len()];
     for along in runs {
-        let raw: Vec<Vec<Column>> = germs.iter().map(|g| g.columns(&mut along.motion)).collect();
-        let finished = raw.into_par_iter().map(|c| along.finished(c)).collect::<Vec<_>>();
+        let raw: Vec<Vec<Column>> = shapes.iter().map(|g| g.columns(&mut along.motion)).collect();
+        let finished = raw.into_par_iter().map(|c| along.finish_columns(c)).collect::<Vec<_>>();
         all.iter_mut().zip(finished).for_each(|(of, columns)| of.push(columns));
     }
     all
 }
 
-/// What all effects that are linear leave at one joint.
-pub(crate) struct Left {
+/// The linear effects at one joint, and the effort that they leave.
+pub(crate) struct LinearRest {
     /// Columns of those effects over all runs.
     pub x: DMatrix<f64>,
     /// Normal matrix with the priors.
@@ -84,11 +84,11 @@ pub(crate) struct Left {
     pub residual: DVector<f64>,
     /// One over the mean square of the residual.
     weight: f64,
-    /// One where a sample tells of the effort, else zero: rows of all the others are none.
-    pub tells: DVector<f64>,
+    /// One where a sample is informative, else zero; rows of the others are zero too.
+    pub is_informative: DVector<f64>,
 }
 
-impl Left {
+impl LinearRest {
     pub fn new(design: &Design, j: usize) -> Option<Self> {
         let runs = || design.runs.iter().map(|r| &r.joints[j]);
         let samples = runs().map(|run| run.measured.len()).sum();
@@ -98,24 +98,33 @@ impl Left {
             x.rows_mut(first, run.x.nrows()).copy_from(&run.x);
             first += run.x.nrows();
         }
-        let tells = runs().flat_map(|run| &run.tells).map(|tells| f64::from(u8::from(*tells)));
-        let tells = DVector::from_iterator(samples, tells);
-        x.column_iter_mut().for_each(|mut column| column.component_mul_assign(&tells));
+        let is_informative =
+            runs().flat_map(|run| &run.is_informative).map(|is| f64::from(u8::from(*is)));
+        let is_informative = DVector::from_iterator(samples, is_informative);
+        x.column_iter_mut().for_each(|mut column| column.component_mul_assign(&is_informative));
         let y = DVector::from_iterator(samples, runs().flat_map(|run| run.residual()));
-        let y = y.component_mul(&tells);
+        let y = y.component_mul(&is_informative);
         let power = y.norm_squared() / samples.max(1) as f64;
         let ridge = design.local[j].iter().map(|&column| power / design.prior[column].powi(2));
         let ridge = DVector::from_iterator(x.ncols(), ridge);
         let normal = (x.tr_mul(&x) + DMatrix::from_diagonal(&ridge)).cholesky()?;
         let residual = &y - &x * normal.solve(&x.tr_mul(&y));
         let mean = residual.norm_squared() / samples.max(1) as f64;
-        (mean > 0.0).then(|| Self { x, normal, y, ridge, residual, weight: mean.recip(), tells })
+        (mean > 0.0).then(|| Self {
+            x,
+            normal,
+            y,
+            ridge,
+            residual,
+            weight: mean.recip(),
+            is_informative,
+        })
     }
 }
 
-/// What the columns of one germ, `[run][weight]`, explain of what is left, in units of its mean
-/// square.
-fn explained(left: &[Option<Left>], runs: &[Vec<Column>]) -> Option<f64> {
+/// Power of the remaining efforts that the columns of one trial shape, `[run][weight]`, explain, in units of their mean
+/// squares.
+fn explained_power(left: &[Option<LinearRest>], runs: &[Vec<Column>]) -> Option<f64> {
     let width = runs.first()?.len();
     let (mut normal, mut score) = (DMatrix::zeros(width, width), DVector::zeros(width));
     for (j, left) in left.iter().enumerate() {
@@ -124,7 +133,7 @@ fn explained(left: &[Option<Left>], runs: &[Vec<Column>]) -> Option<f64> {
             let part =
                 |run: &Vec<Column>| run[k].iter().find(|p| p.joint == j).map(|p| p.values.clone());
             let parts: Option<Vec<Vec<f64>>> = runs.iter().map(part).collect();
-            Some(DVector::from_vec(parts?.concat()).component_mul(&left.tells))
+            Some(DVector::from_vec(parts?.concat()).component_mul(&left.is_informative))
         };
         let Some(columns) = (0..width).map(column).collect::<Option<Vec<_>>>() else { continue };
         let c = DMatrix::from_columns(&columns);
@@ -132,10 +141,10 @@ fn explained(left: &[Option<Left>], runs: &[Vec<Column>]) -> Option<f64> {
         normal += (c.tr_mul(&c) - across.tr_mul(&left.normal.solve(&across))) * left.weight;
         score += c.tr_mul(&left.residual) * left.weight;
     }
-    // A direction that the other effects have already explains nothing.
+    // A direction that the linear effects have already explains nothing more.
     for k in 0..width {
         normal[(k, k)] *= 1.0 + 1e-9;
     }
-    let solved = normal.cholesky()?.solve(&score);
-    Some(score.dot(&solved))
+    let weights = normal.cholesky()?.solve(&score);
+    Some(score.dot(&weights))
 }

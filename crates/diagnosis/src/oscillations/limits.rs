@@ -6,33 +6,24 @@ use rayon::prelude::*;
 use robot::{Robot, TorqueSource};
 
 use crate::columns::design::Design;
-use crate::columns::shapes::Left;
+use crate::columns::shapes::LinearRest;
 use crate::regression::noise::integrated_time;
 use crate::signals::along::Along;
 use crate::signals::limit::Limit;
 use crate::signals::log::Log;
-use crate::thresholds::{MOST, STANDS_OUT};
+use crate::thresholds::limits::LimitThresholds;
 
-/// Trial limits: so many quantiles of the absolute effort.
+/// Number of trial limits, which are quantiles of the absolute effort.
 const TRIALS: usize = 24;
 
-/// The least of those quantiles.
-const LOWEST_QUANTILE: f64 = 0.6;
-
-/// Share of the largest effort beyond a limit from which on a sample is above it.
-const TOUCHED: f64 = 0.01;
-
-/// Rise of the deviance at the ends of a 95 per cent interval.
-const CHI_SQUARE: f64 = 3.84;
-
-/// The joints whose effort beyond some limit moves nothing, where the effort is a command: one
-/// that was measured is never beyond.
+/// Torque limits: joints whose effort beyond some limit moves nothing. Only commands can exceed a limit, measured efforts
+/// are torque.
 ///
 /// ```text
 /// clamp(effort, -limit, limit) - nominal = columns w + noise
 /// ```
 ///
-/// with the limit that leaves least.
+/// with the limit that leaves the smallest sum of squares.
 pub(crate) fn limits(robot: &Robot, log: &Log) -> Result<Vec<Limit>, LogError> {
     if log.without.contains(&EffectKind::TorqueSaturation) {
         return Ok(Vec::new());
@@ -44,46 +35,48 @@ pub(crate) fn limits(robot: &Robot, log: &Log) -> Result<Vec<Limit>, LogError> {
         let source = robot.links()[*j].actuator.torque_source;
         log.moved[*j] && source == TorqueSource::Commanded
     };
+    let t = &log.thresholds.limits;
     let joints = (0..design.joints()).into_par_iter().filter(commanded);
     let found: Vec<Option<Limit>> = joints
-        .map(|j| Left::new(&design, j).map_or(Ok(None), |left| at_joint(&runs, &left, j)))
+        .map(|j| LinearRest::new(&design, j).map_or(Ok(None), |left| at_joint(&runs, &left, j, t)))
         .collect::<Result<_, LogError>>()?;
     Ok(found.into_iter().flatten().collect())
 }
 
-/// What is left where the effort of the log is clamped.
+/// The fit of all effects to the clamped effort.
 struct Trial {
     /// Sum of squares over all samples.
     deviance: f64,
-    /// `[run][sample]`, of the samples that tell.
+    /// Residual of the informative samples, `[run][sample]`.
     rest: Vec<Vec<f64>>,
-    /// The effort beyond the limit, low-passed; none where a sample does not tell.
+    /// The effort beyond the limit, low-passed; zero where a sample is not informative.
     beyond: DVector<f64>,
 }
 
-fn trial(runs: &[Along], left: &Left, limit: &Limit) -> Result<Trial, LogError> {
+fn trial(runs: &[Along], left: &LinearRest, limit: &Limit) -> Result<Trial, LogError> {
     let beyond: Vec<Vec<f64>> =
         runs.iter().map(|run| run.beyond(limit)).collect::<Result<_, _>>()?;
     let lengths: Vec<usize> = beyond.iter().map(Vec::len).collect();
-    let beyond = DVector::from_vec(beyond.concat()).component_mul(&left.tells);
+    let beyond = DVector::from_vec(beyond.concat()).component_mul(&left.is_informative);
     let clamped = &left.y - &beyond;
     let rest = &clamped - &left.x * left.normal.solve(&left.x.tr_mul(&clamped));
     let deviance = rest.norm_squared();
-    let mut samples = rest.iter().zip(&left.tells);
-    let mut told = |n: usize| {
+    let mut samples = rest.iter().zip(&left.is_informative);
+    let mut informative = |n: usize| {
         let of_run = samples.by_ref().take(n);
-        of_run.filter(|(_, tells)| **tells > 0.0).map(|(rest, _)| *rest).collect()
+        of_run.filter(|(_, is)| **is > 0.0).map(|(rest, _)| *rest).collect()
     };
-    let rest = lengths.iter().map(|&n| told(n)).collect();
+    let rest = lengths.iter().map(|&n| informative(n)).collect();
     Ok(Trial { deviance, rest, beyond })
 }
 
-/// Whether effort beyond the limit moves nothing: what the samples below it say of all other
-/// effects predicts the clamped effort above it, and not the effort.
-fn moves_nothing(left: &Left, beyond: &DVector<f64>) -> bool {
-    let touched = TOUCHED * beyond.amax();
-    let told = (0..beyond.len()).filter(|&t| left.tells[t] > 0.0);
-    let (above, below): (Vec<usize>, Vec<usize>) = told.partition(|&t| beyond[t].abs() > touched);
+/// Whether effort beyond the limit moves nothing: the other effects, fitted to the samples below the limit, predict the
+/// clamped effort above it and fail to predict the whole one.
+fn moves_nothing(left: &LinearRest, beyond: &DVector<f64>, t: &LimitThresholds) -> bool {
+    let touched = t.touched * beyond.amax();
+    let informative = (0..beyond.len()).filter(|&k| left.is_informative[k] > 0.0);
+    let (above, below): (Vec<usize>, Vec<usize>) =
+        informative.partition(|&k| beyond[k].abs() > touched);
     let (x, y) = (left.x.select_rows(&below), left.y.select_rows(&below));
     let normal = x.tr_mul(&x) + DMatrix::from_diagonal(&left.ridge);
     let Some(normal) = normal.cholesky() else { return false };
@@ -92,19 +85,26 @@ fn moves_nothing(left: &Left, beyond: &DVector<f64>) -> bool {
     let gap = left.y.select_rows(&above) - left.x.select_rows(&above) * weights;
     let clamped = &gap - beyond.select_rows(&above);
     let power = gap.norm_squared() / above.len().max(1) as f64;
-    power > STANDS_OUT * noise && gap.norm_squared() > STANDS_OUT * clamped.norm_squared()
+    power > t.above_noise * noise && gap.norm_squared() > t.above_clamped * clamped.norm_squared()
 }
 
-fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogError> {
+/// The limit of joint `j`, if effort beyond it moves nothing.
+fn at_joint(
+    runs: &[Along],
+    left: &LinearRest,
+    j: usize,
+    t: &LimitThresholds,
+) -> Result<Option<Limit>, LogError> {
     let mut efforts: Vec<f64> = runs.iter().flat_map(|run| run.effort(j)).map(f64::abs).collect();
     efforts.sort_by(f64::total_cmp);
     let quantile = |k: usize| {
-        let share = LOWEST_QUANTILE + (1.0 - LOWEST_QUANTILE) * k as f64 / TRIALS as f64;
+        let lowest = t.lowest_quantile;
+        let share = lowest + (1.0 - lowest) * k as f64 / TRIALS as f64;
         efforts.get((share * efforts.len() as f64) as usize).copied().unwrap_or(0.0)
     };
     let at =
         |limit: f64| Limit { joint: j, limit, ci95: [limit; 2], share: 0.0, log_evidence: 0.0 };
-    let deviance = |limit: f64| trial(runs, left, &at(limit)).map(|t| t.deviance);
+    let deviance = |limit: f64| trial(runs, left, &at(limit)).map(|trial| trial.deviance);
     let mut curve: Vec<(f64, f64)> = Vec::new();
     for k in 0..TRIALS {
         curve.push((quantile(k), deviance(quantile(k))?));
@@ -113,8 +113,8 @@ fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogE
         return Ok(None);
     };
     let unlimited = left.residual.norm_squared();
-    // Where the least limit does best, less effort is better: it is not the limit that explains it.
-    if best == 0 || curve[best].1 > (1.0 - MOST) * unlimited {
+    // Where the smallest limit does best, a smaller effort would do better still: no limit explains that.
+    if best == 0 || curve[best].1 > (1.0 - t.explained) * unlimited {
         return Ok(None);
     }
     // The trials next to the best bracket it: thirds of that are dropped until nothing is left.
@@ -130,12 +130,12 @@ fn at_joint(runs: &[Along], left: &Left, j: usize) -> Result<Option<Limit>, LogE
     }
     let limit = at(0.5 * (low + high));
     let found = trial(runs, left, &limit)?;
-    if !moves_nothing(left, &found.beyond) {
+    if !moves_nothing(left, &found.beyond, t) {
         return Ok(None);
     }
     let samples = found.rest.iter().map(Vec::len).sum::<usize>() as f64;
     let independent = samples / integrated_time(&found.rest);
-    let rise = CHI_SQUARE * found.deviance / independent;
+    let rise = t.interval_rise * found.deviance / independent;
     let mut ci95 = [limit.limit; 2];
     for (end, way) in ci95.iter_mut().zip([-1.0, 1.0]) {
         let mut step = 1e-4 * limit.limit;

@@ -1,7 +1,6 @@
-//! What is found beside the regression: lines of the spectrum over time and over position, and
-//! limits of the efforts.
+//! Findings outside the regression: lines of the spectrum over time and over position, and limits of the efforts.
 
-pub(crate) mod heard;
 pub(crate) mod limits;
+pub(crate) mod lines;
 pub(crate) mod tone_fit;
 pub(crate) mod tones;

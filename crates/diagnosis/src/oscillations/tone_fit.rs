@@ -2,18 +2,17 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::signals::along::Wave;
 
-/// Rounds of Gauss-Newton: the first finds the sizes, the others the beat too.
+/// Rounds of Gauss-Newton: the first one fits the amplitudes, the others the beat too.
 const ROUNDS: usize = 5;
 
-/// A sine of one beat in what is left at a joint, by least squares in every run.
+/// A sine of one beat in the residual of a joint, by least squares in every run.
 ///
 /// ```text
 /// left_r = Re(z_r L exp(i at (beat - origin_r))),   L the low-pass of the logs
 /// ```
 ///
-/// by Gauss-Newton in `at` and all `z`. A projection onto `exp(i at beat)` alone is some per cent off
-/// over position: where a joint turns or stands its phase stands too, and the sum of `exp(2 i at beat)`
-/// is not none.
+/// by Gauss-Newton in `at` and all `z`. Over position, a projection onto `exp(i at beat)` would be some per cent off: the
+/// phase stands still where a joint turns or stands, and the sum of `exp(2 i at beat)` does not vanish.
 #[derive(Debug, Clone)]
 pub(crate) struct ToneFit {
     /// Phase per unit of beat (rad/s; 1 or rad/m).
@@ -25,18 +24,18 @@ pub(crate) struct ToneFit {
     pub variances: [f64; 3],
 }
 
-/// One run of what a sine is fitted to.
+/// The residual of one run, to which a sine is fitted.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sampled<'a> {
-    /// What is left (N·m or N).
+    /// Residual (N·m or N).
     pub left: &'a [f64],
     /// Whether a sample counts.
     pub counts: &'a [bool],
-    /// Mean beat of those that do.
+    /// Mean beat of the samples that count.
     pub origin: f64,
 }
 
-/// For what one `z` stands.
+/// The runs that share one `z`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Coherence {
     AllRuns,
@@ -44,8 +43,8 @@ pub(crate) enum Coherence {
 }
 
 impl ToneFit {
-    /// From a phase per unit of beat on, of which it goes no further than `step` away in a round; `wave`
-    /// is the sine of a run. None where the runs do not determine it.
+    /// Starts from a phase per unit of beat, which changes by no more than `step` in a round; `wave` is the sine of a run.
+    /// `None` where the runs do not determine it.
     pub fn new(
         runs: &[Sampled],
         coherence: Coherence,
@@ -73,17 +72,17 @@ impl ToneFit {
                     }
                 }
             }
-            // Of a sine of no size any beat is as good.
+            // For a sine of amplitude zero the beat is arbitrary.
             if normal[(width - 1, width - 1)] <= 0.0 {
                 normal[(width - 1, width - 1)] = 1.0;
             }
-            let solved = normal.cholesky()?;
-            let change = solved.solve(&score);
+            let factor = normal.cholesky()?;
+            let change = factor.solve(&score);
             z.iter_mut().enumerate().for_each(|(s, z)| {
                 *z += Complex::new(change[2 * s], change[2 * s + 1]);
             });
             at += change[width - 1].clamp(-step, step);
-            covariance = solved.inverse();
+            covariance = factor.inverse();
         }
         let origins = runs.iter().map(|run| run.origin);
         let origin = origins.sum::<f64>() / runs.len().max(1) as f64;
@@ -94,8 +93,7 @@ impl ToneFit {
     }
 }
 
-/// The samples that count: what real and imaginary part of `z` and the beat change there, and what is
-/// left of them.
+/// The samples that count: derivatives by real and imaginary part of `z` and by the beat, and the residual.
 fn rows<'a>(
     run: &'a Sampled,
     wave: &'a Wave,
@@ -108,7 +106,7 @@ fn rows<'a>(
     })
 }
 
-/// Of the mean amplitude, the beat and the phase at beat zero.
+/// Variances of the mean amplitude, the beat and the phase at beat zero.
 fn variances(z: &[Complex<f64>], covariance: &DMatrix<f64>, origin: f64) -> [f64; 3] {
     let last = 2 * z.len();
     let (mut amplitude, mut phase) = (DVector::zeros(last + 1), DVector::zeros(last + 1));

@@ -7,43 +7,16 @@ use nalgebra::Complex;
 use rayon::prelude::*;
 use robot::Robot;
 
-use crate::oscillations::heard::Heard;
+use crate::oscillations::lines::Oscillations;
 use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
 use crate::signals::along::Along;
 use crate::signals::log::Log;
 use crate::signals::rest::Rest;
 use crate::signals::tone::{Beat, Tone};
-use crate::thresholds::{MOST, STANDS_OUT};
+use crate::thresholds::tones::ToneThresholds;
 
-/// Cut-off of the band in which tones are looked for, as a share of the sampling rate.
-pub(crate) const BAND: f64 = 0.1;
-
-/// The highest frequency looked at, as a share of that cut-off.
-const HIGHEST: f64 = 0.6;
-
-/// The lowest frequency looked at (Hz).
-const LOWEST_HZ: f64 = 0.3;
-
-/// Fewest waves over the range of motion: fewer may be anything that depends on position.
-const FEWEST_WAVES: f64 = 8.0;
-
-/// Most waves over the range of motion.
-const MOST_WAVES: f64 = 1000.0;
-
-/// Cut-off of what such a tone is compared with, in bandwidths of the motion.
-const SLOW_BAND: f64 = 2.0;
-
-/// Order of that low-pass.
+/// Order of the low-pass of a band in which a tone is compared with the rest.
 const ORDER: usize = 4;
-
-/// Length of a window in which that is asked (s): some turns of the slowest line that is looked for.
-const WINDOW_S: f64 = 5.0;
-
-/// Fewest windows in which no joint has that share.
-const FEWEST_STILL: usize = 2;
-
-/// Most tones of one joint.
-const MOST_TONES: usize = 3;
 
 /// Zeros that are added to a run before its spectrum is taken, in lengths of the longest.
 const PADDED: usize = 4;
@@ -54,51 +27,78 @@ const BESIDE: usize = 32;
 /// Frequencies whose median is the power around them.
 const AROUND: usize = 200;
 
-/// The oscillations in what `robot` leaves of the logs in a wide band, at the joints that moved:
-/// lines of the spectrum over time and over position that stand out in every run, whose fall of the error
-/// counts at their joint (`practical`, N·m or N), and which are more than `open_share` of what is left.
+/// Which tones of a log are asked for.
+pub(crate) struct Asked<'a> {
+    /// Frequency below which a line may be the motion's (Hz).
+    pub slowest_hz: f64,
+    /// Least fall of the RMS error of each joint that counts (N·m or N).
+    pub practical: &'a [f64],
+    /// Least share of the remaining error of a joint.
+    pub open_share: f64,
+}
+
+/// The oscillations in the remaining efforts of `robot` in a wide band, at the joints that moved: lines of the spectrum
+/// over time and over position that stand out in every run and lower the error by enough.
 ///
-/// A line below `slowest_hz` may be the motion's, unless it is most of what is left all the time, and
-/// some of the time no joint moves much at its frequency.
+/// A line that is as slow as the motion counts where it is most of the remaining effort at all times, and at some of these
+/// no joint moves much at its frequency.
 pub(crate) fn tones(
     robot: &Robot,
     wide: &Prepared,
     frame: &Frame,
-    (log, slowest_hz): (&Log, f64),
-    (practical, open_share): (&[f64], f64),
-) -> Result<Heard, LogError> {
-    let rest = |run| Rest::new(Along::new(robot, frame, run, wide.cutoff_hz, log.limits)?);
+    log: &Log,
+    asked: &Asked,
+) -> Result<Oscillations, LogError> {
+    let (cutoff_hz, t) = (wide.cutoff_hz, &log.thresholds.tones);
+    let along = |run| Along::new(robot, frame, run, cutoff_hz, log.limits, &log.thresholds.signals);
+    let rest = |run| Rest::new(along(run)?);
     let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
-    let bands_hz = [wide.cutoff_hz, log.prepared.cutoff_hz, slowest_hz];
+    let bands = Bands { cutoff_hz, band_hz: log.prepared.cutoff_hz, slowest_hz: asked.slowest_hz };
     let at = |j: usize| {
         if log.moved[j] {
-            at_joint(&runs, (j, [practical[j], open_share]), bands_hz)
+            let least = Least { rms: asked.practical[j], share: asked.open_share };
+            at_joint(&runs, j, least, bands, t)
         } else {
             Vec::new()
         }
     };
     let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
     let lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
-    let mut heard = Heard::default();
+    let mut found = Oscillations::default();
     for lines in lines {
-        heard.take(lines);
+        found.add(lines, t);
     }
-    heard.tones.retain(looked_for);
-    Ok(heard)
+    found.tones.retain(looked_for);
+    Ok(found)
 }
 
-/// What the tones of a joint may keep time with.
+/// Least fall of the RMS error that counts (N·m or N), and least share of the remaining power.
+#[derive(Debug, Clone, Copy)]
+struct Least {
+    rms: f64,
+    share: f64,
+}
+
+/// Cut-offs of the wide band and of the diagnosis, and the frequency below which a line may be the motion's (Hz).
+#[derive(Debug, Clone, Copy)]
+struct Bands {
+    cutoff_hz: f64,
+    band_hz: f64,
+    slowest_hz: f64,
+}
+
+/// The variable that the phase of a tone may follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Follows {
     Position,
     Clock,
 }
 
-/// One joint: its residual in every run, and what keeps time with it.
+/// One joint: its residual in every run, and the variable that a tone in it may follow.
 struct Joint<'a> {
     index: usize,
-    /// Least fall of the RMS error that counts (N·m or N), and least share of what is left.
-    least: [f64; 2],
+    least: Least,
+    thresholds: &'a ToneThresholds,
     follows: Follows,
     runs: &'a [Rest<'a>],
     /// `[run][sample]`.
@@ -107,14 +107,12 @@ struct Joint<'a> {
     highest: &'a [Vec<f64>],
 }
 
-fn at_joint(
-    runs: &[Rest],
-    (j, least): (usize, [f64; 2]),
-    [cutoff_hz, band_hz, slowest_hz]: [f64; 3],
-) -> Vec<Tone> {
+/// The tones of joint `j`, the strongest first.
+fn at_joint(runs: &[Rest], j: usize, least: Least, bands: Bands, t: &ToneThresholds) -> Vec<Tone> {
+    let Bands { cutoff_hz, band_hz, slowest_hz } = bands;
     let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
-    let highest = TAU * HIGHEST * cutoff_hz;
-    // What holds a standing joint is a constant of any size, and with it a sine over position.
+    let highest = TAU * t.highest * cutoff_hz;
+    // While a joint stands, dry friction is a constant of any size, which would pass for a sine over position.
     let by_speed = |run: &Rest| {
         let at =
             |(v, stands): (&f64, &bool)| if *stands { 0.0 } else { highest / v.abs().max(1e-9) };
@@ -122,17 +120,25 @@ fn at_joint(
     };
     let by_speed: Vec<Vec<f64>> = runs.iter().map(by_speed).collect();
     let anywhere: Vec<Vec<f64>> = runs.iter().map(|r| vec![highest; r.time.len()]).collect();
-    let slowest_hz = slowest_hz.max(LOWEST_HZ);
+    let slowest_hz = slowest_hz.max(t.lowest_hz);
     let mut tones: Vec<Tone> = Vec::new();
-    while tones.len() < MOST_TONES {
-        let of = |follows, highest| Joint { index: j, least, follows, runs, left: &left, highest };
+    while tones.len() < t.most_tones {
+        let of = |follows, highest| Joint {
+            index: j,
+            least,
+            thresholds: t,
+            follows,
+            runs,
+            left: &left,
+            highest,
+        };
         let (clock, position) = (of(Follows::Clock, &anywhere), of(Follows::Position, &by_speed));
-        let line = |band_hz: [f64; 2]| clock.found(|clock| clock.lines(band_hz));
+        let line = |band_hz: [f64; 2]| clock.strongest_tone(|clock| clock.lines(band_hz));
         let found = [
-            position.found(|position| position.waves()),
-            line([slowest_hz, HIGHEST * cutoff_hz])
+            position.strongest_tone(|position| position.waves()),
+            line([slowest_hz, t.highest * cutoff_hz])
                 .filter(|tone| is_much_of_its_band(tone, &clock, band_hz)),
-            line([LOWEST_HZ, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, slowest_hz)),
+            line([t.lowest_hz, slowest_hz]).filter(|tone| is_no_motion(tone, &clock, slowest_hz)),
         ];
         let strongest = found.into_iter().flatten().max_by(|a, b| a.share.total_cmp(&b.share));
         let Some(tone) = strongest else { break };
@@ -142,65 +148,70 @@ fn at_joint(
     tones
 }
 
-/// Whether a tone is faster than the band of the diagnosis, or half of what is left in it (RMS): what the motion
-/// makes of an effect that is not found has lines there too.
+/// Whether a tone is faster than the band of the diagnosis, or half of the remaining effort in it (RMS). In that band an
+/// effect that was not found has lines too, which the motion makes.
 fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
     let power = |left: &[Vec<f64>]| -> f64 {
-        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, band_hz);
+        let of = |(x, run): (&Vec<f64>, &Rest)| low_pass(x, &run.time, band_hz);
         left.iter().zip(clock.runs).flat_map(of).map(|x| x * x).sum()
     };
-    frequency_hz > band_hz || power(&clock.without(tone)) < (1.0 - MOST.powi(2)) * power(clock.left)
+    frequency_hz > band_hz || {
+        let share = clock.thresholds.share_in_band;
+        power(&clock.without(tone)) < (1.0 - share.powi(2)) * power(clock.left)
+    }
 }
 
-/// Whether a tone is most of what is left wherever one looks, and no motion: some of the time no joint
-/// has much of its speed at its frequency.
+/// Whether a slow tone is most of the remaining effort in every window, and in some windows no joint has much of its
+/// velocity at the frequency of the tone.
 fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
-    let runs = clock.runs;
+    let (runs, t) = (clock.runs, clock.thresholds);
     let slow = |left: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        let of = |(x, run): (&Vec<f64>, &Rest)| low_passed(x, &run.time, SLOW_BAND * slowest_hz);
+        let of = |(x, run): (&Vec<f64>, &Rest)| low_pass(x, &run.time, t.slow_band * slowest_hz);
         left.iter().zip(runs).map(of).collect()
     };
     let (with, without) = (slow(clock.left), slow(&clock.without(tone)));
     let windows = || {
-        let of = |(r, run): (usize, &Rest)| windows(&run.time).into_iter().map(move |w| (r, w));
+        let of = |(r, run): (usize, &Rest)| {
+            windows(&run.time, t.window_s).into_iter().map(move |w| (r, w))
+        };
         runs.iter().enumerate().flat_map(of)
     };
     let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
     let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
     let is_most = |(r, w): (usize, Range<usize>)| {
-        in_window(&without[r], &w) < (1.0 - MOST) * in_window(&with[r], &w)
+        in_window(&without[r], &w) < (1.0 - t.share_of_slow) * in_window(&with[r], &w)
     };
     let is_still = |(r, w): &(usize, Range<usize>)| {
         let moves = |qd: &Vec<f64>| {
             let samples = qd.iter().zip(&runs[*r].time).take(w.end).skip(w.start);
-            let turning = samples.map(|(v, t)| Complex::cis(-TAU * frequency_hz * t) * v);
+            let turning = samples.map(|(v, time)| Complex::cis(-TAU * frequency_hz * time) * v);
             // Of a sine alone the sum is n / 2 times its amplitude, the power n / 2 times its square.
             2.0 * turning.sum::<Complex<f64>>().norm_sqr() / w.len().max(1) as f64
-                > MOST * in_window(qd, w)
+                > t.share_of_motion * in_window(qd, w)
         };
         !runs[*r].qd.iter().any(moves)
     };
-    windows().all(is_most) && windows().filter(is_still).count() >= FEWEST_STILL
+    windows().all(is_most) && windows().filter(is_still).count() >= t.fewest_still
 }
 
-/// What of a signal is slower than a cut-off.
-fn low_passed(x: &[f64], time: &[f64], cutoff_hz: f64) -> Vec<f64> {
+/// The part of a signal below a cut-off.
+fn low_pass(x: &[f64], time: &[f64], cutoff_hz: f64) -> Vec<f64> {
     let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
     let rate_hz = time.len().saturating_sub(1) as f64 / span;
     let mut slow = x.to_vec();
-    // A rate that leaves no room for it has nothing faster.
-    if let Ok(low_pass) = LowPass::new(ORDER, cutoff_hz, rate_hz) {
-        low_pass.apply(&mut slow);
+    // At a rate that is too low for the filter the signal has nothing above the cut-off.
+    if let Ok(filter) = LowPass::new(ORDER, cutoff_hz, rate_hz) {
+        filter.apply(&mut slow);
     }
     slow
 }
 
-/// Parts of a run of some `WINDOW_S`.
-fn windows(time: &[f64]) -> Vec<Range<usize>> {
+/// Parts of a run of about `window_s`.
+fn windows(time: &[f64], window_s: f64) -> Vec<Range<usize>> {
     let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
-    let count = ((span / WINDOW_S) as usize).max(1);
+    let count = ((span / window_s) as usize).max(1);
     (0..count).map(|i| i * time.len() / count..(i + 1) * time.len() / count).collect()
 }
 
@@ -228,7 +239,7 @@ struct Line {
 }
 
 impl Joint<'_> {
-    /// What keeps time in run `r` (s; or rad or m).
+    /// The variable that the phase follows in run `r` (s; or rad or m).
     fn beat(&self, r: usize) -> &[f64] {
         match self.follows {
             Follows::Position => &self.runs[r].q[self.index],
@@ -236,9 +247,9 @@ impl Joint<'_> {
         }
     }
 
-    /// The tone of the strongest line of a spectrum, where it stands out in every run from what
-    /// is left without it: the line itself is wide, over position above all.
-    fn found(&self, spectrum: impl Fn(&Joint) -> Option<Spectrum>) -> Option<Tone> {
+    /// The tone of the strongest line of a spectrum, where it stands out in every run from the spectrum without it: the line
+    /// itself is wide, especially over position.
+    fn strongest_tone(&self, spectrum: impl Fn(&Joint) -> Option<Spectrum>) -> Option<Tone> {
         let line = spectrum(self)?.line()?;
         let mut tone = self.tone(&line)?;
         let left = self.without(&tone);
@@ -247,10 +258,10 @@ impl Joint<'_> {
         let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
         tone.stands_out = ratios.fold(f64::INFINITY, f64::min);
         tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
-        (tone.stands_out > STANDS_OUT).then_some(tone)
+        (tone.stands_out > self.thresholds.above_spectrum).then_some(tone)
     }
 
-    /// What is left without a tone, `[run][sample]`.
+    /// The residual without a tone, `[run][sample]`.
     fn without(&self, tone: &Tone) -> Vec<Vec<f64>> {
         let of = |(r, left): (usize, &Vec<f64>)| {
             let wave = self.runs[r].along.wave(self.index, tone.beat, 0.0);
@@ -269,8 +280,9 @@ impl Joint<'_> {
             return None;
         }
         let step = 0.25 * wave;
-        let first = FEWEST_WAVES * wave;
-        let count = (4.0 * (MOST_WAVES - FEWEST_WAVES)) as usize;
+        let (fewest, most) = (self.thresholds.fewest_waves, self.thresholds.most_waves);
+        let first = fewest * wave;
+        let count = (4.0 * (most - fewest)) as usize;
         let powers: Vec<Vec<f64>> = (0..self.left.len())
             .into_par_iter()
             .map(|r| self.scan(r, first, step, count))
@@ -326,8 +338,8 @@ impl Joint<'_> {
         Some(Spectrum { powers, first: TAU * first as f64 * step, step: TAU * step })
     }
 
-    /// The tone of a line, if it is one: fitted, even over the runs, and large enough; its errors are
-    /// those of noise of variance one.
+    /// The tone of a line, where it has the same amplitude in all runs and is large enough; its errors are those of noise of
+    /// variance one.
     fn tone(&self, line: &Line) -> Option<Tone> {
         let runs = 0..self.left.len();
         let power = |at: f64| -> f64 {
@@ -348,20 +360,20 @@ impl Joint<'_> {
             sums.map(|(z, n)| (2.0 * z.norm() / n.max(1) as f64, n)).collect();
         let (least, most) =
             sizes.iter().fold((f64::INFINITY, 0.0), |(l, m), (z, _)| (z.min(l), z.max(m)));
-        if least < MOST * most {
+        if least < self.thresholds.same_in_runs * most {
             return None;
         }
-        let mut tone = self.fitted(at, step)?;
-        // A tone of one phase that differs from run to run keeps time with something else.
-        let even = tone.amplitude() > MOST * least;
+        let mut tone = self.fit_tone(at, step)?;
+        // A tone whose phase differs from run to run follows another variable.
+        let even = tone.amplitude() > self.thresholds.same_phase * least;
         tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
-        let [practical, share] = self.least;
-        let pays = tone.share * self.power_of(self.left) > practical.powi(2) * self.counted();
+        let Least { rms, share } = self.least;
+        let pays = tone.share * self.power_of(self.left) > rms.powi(2) * self.counted();
         (even && pays && tone.share > share).then_some(tone)
     }
 
     /// The tone near a value of the beat (rad per unit), by least squares.
-    fn fitted(&self, at: f64, step: f64) -> Option<Tone> {
+    fn fit_tone(&self, at: f64, step: f64) -> Option<Tone> {
         let highest = self.highest.iter();
         let counts: Vec<Vec<bool>> =
             highest.map(|run| run.iter().map(|highest| *highest >= at).collect()).collect();
@@ -426,7 +438,7 @@ impl Spectrum {
         self.powers.iter().map(Vec::len).min().unwrap_or(0)
     }
 
-    /// The line that stands out most from the powers around it, in the run where it does least.
+    /// The line that stands out most from the powers around it, in the run where it stands out least.
     fn line(&self) -> Option<Line> {
         let length = self.len();
         let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
@@ -438,8 +450,8 @@ impl Spectrum {
         Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
     }
 
-    /// Variance of the white noise that has the power just beside a value, or around it if that is more:
-    /// what of a strong tone is no sine lies there.
+    /// Variance of white noise with the power just beside a value, or around it if that is more. The part of a strong tone
+    /// that is no sine lies there.
     fn beside(&self, index: usize, around: &[f64]) -> f64 {
         let of = |(power, around): (&Vec<f64>, &f64)| {
             let near = &power[index.saturating_sub(BESIDE)..(index + BESIDE + 1).min(power.len())];

@@ -1,234 +1,25 @@
-use std::collections::BTreeSet;
+use crate::outcome::finding_builder::{FindingBuilder, FindingWithFall};
+use crate::result::RuledOut;
+use crate::search::causes::Causes;
+use crate::search::dataset::Dataset;
+use crate::search::inputs::Inputs;
 
-use effects::Hypothesis;
-
-use crate::outcome::effect_at::effect_at;
-use crate::outcome::size::size;
-use crate::outcome::unnamed::Unnamed;
-use crate::regression::fitted::Fitted;
-use crate::regression::problem::{HeldOut, Model};
-use crate::regression::uncertainty::Uncertainty;
-use crate::result::Finding;
-use crate::search::contest::Apart;
-use crate::search::failed::Failed;
-use crate::search::rivals::rivals;
-use crate::search::select::Selection;
-use crate::search::settled::Withheld;
-use crate::signals::look::Look;
-
-/// A finding together with what the verdict of each joint needs to know of it.
-#[derive(Debug, Clone)]
-pub(crate) struct Found {
-    pub finding: Finding,
-    /// Fall of the held-out mean square of every joint when it is added to the others.
-    pub fall: Vec<f64>,
+/// Causes as findings, and the hypotheses that are none.
+pub(crate) struct Findings {
+    pub found: Vec<FindingWithFall>,
+    pub ruled_out: Vec<RuledOut>,
+    /// The smallest level of dry friction that would have been found at every joint (N·m or N).
+    pub unseen_friction: Vec<f64>,
 }
 
-/// What the findings are made from.
-#[derive(Debug)]
-pub(crate) struct Evidence<'a> {
-    pub selection: &'a Selection<'a>,
-    pub model: &'a Model,
-    /// Findings and those that do worse in their place once the robot has either.
-    pub apart: &'a Apart,
-    /// What has no name because its size would have to vary, and how.
-    pub withheld: &'a Withheld,
-    /// What predicts worse than the description.
-    pub failed: &'a Failed,
-}
-
-impl Evidence<'_> {
-    /// Every hypothesis of the model as a finding, with its size as it was last `fitted`; the
-    /// largest share first.
-    pub fn findings(&self, fitted: &Fitted) -> Vec<Found> {
-        let problem = self.selection.problem;
-        let Some(fit) = problem.fit(self.model) else { return Vec::new() };
-        let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
-        let unnamed = Unnamed::new(self.selection, self.model, &fit);
-        let uncertainty =
-            uncertainty.with_unnamed(|columns| unnamed.about(fitted.problem.design, columns));
-        let with = problem.held_out(self.model);
-        let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
-        let nominal = problem.held_out(&Model::new());
-        let mut found: Vec<Found> = self
-            .model
-            .iter()
-            .copied()
-            .filter(|g| self.bearer(*g).is_none())
-            .map(|g| {
-                let mut without = self.model.clone();
-                without.remove(&g);
-                without.retain(|&level| self.bearer(level) != Some(g));
-                let bare = problem.held_out(&without);
-                let with = last.as_ref().filter(|(only, _)| *only == g).map_or(&with, |(_, l)| l);
-                let fall: Vec<f64> =
-                    bare.mean_square.iter().zip(&with.mean_square).map(|(b, w)| b - w).collect();
-                let mut finding = self.finding(g, (&uncertainty, fitted), [&nominal, &bare, with]);
-                finding.log_evidence =
-                    problem.fit(&without).map_or(0.0, |f| fit.evidence - f.evidence);
-                finding.evidence = self.evidence(g, finding.log_evidence, &bare, with);
-                Found { finding, fall }
-            })
-            .collect();
-        found.sort_by(|a, b| b.finding.share_explained.total_cmp(&a.finding.share_explained));
-        found
+impl Inputs<'_> {
+    /// Builds the findings of `causes`.
+    pub fn findings(&self, dataset: &Dataset, causes: &Causes) -> Findings {
+        let Causes { problem, model, fitted, separated, inconstant, kept_nominal } = causes;
+        let selection = &dataset.selection(problem);
+        let builder = FindingBuilder { selection, model, separated, inconstant, kept_nominal };
+        let found = builder.findings(&fitted.last_fit(self.first_fit(problem, model, fitted)));
+        let unseen_friction = builder.unseen_friction();
+        Findings { found, ruled_out: builder.ruled_out(), unseen_friction }
     }
-
-    /// The one finding whose columns are those of a small change only: what the last fit, about the
-    /// robot that has it, explains beyond them is its doing.
-    fn only_tangent(&self) -> Option<usize> {
-        let groups = &self.selection.problem.design.groups;
-        let mut tangents =
-            self.model.iter().copied().filter(|g| groups[*g].hypothesis.is_tangent());
-        tangents.next().filter(|_| tangents.next().is_none())
-    }
-
-    /// The finding that speaks for `g` as well: the first one of the model that says how the
-    /// level of Coulomb friction of the same joint varies.
-    fn bearer(&self, g: usize) -> Option<usize> {
-        let hypothesis = |g: usize| self.selection.problem.design.groups[g].hypothesis;
-        let bears = |m: &usize| hypothesis(*m).varies() == Some(hypothesis(g));
-        self.model.iter().copied().find(bears)
-    }
-
-    /// Forms of dry friction that these logs could not show beside Coulomb friction `g`, were
-    /// they half as large as its level: near rest, or over positions that they have not seen.
-    fn hidden_beside(&self, g: usize, fitted: &Fitted) -> Vec<usize> {
-        let problem = self.selection.problem;
-        let design = problem.design;
-        let own = design.groups[g].hypothesis;
-        let is_form = |h: &usize| design.groups[*h].hypothesis.varies() == Some(own);
-        let forms: Vec<usize> = (0..design.groups.len()).filter(is_form).collect();
-        let Some(j) = own.joint().filter(|_| !forms.is_empty()) else { return Vec::new() };
-        let Some(fit) = problem.fit(self.model) else { return Vec::new() };
-        let extended = fitted.robot();
-        let drive = &extended.links()[j].actuator;
-        let least = 0.5 * drive.coulomb_forward.min(drive.coulomb_backward);
-        let too_small = |h: &usize| self.smallest(*h, &fit).is_none_or(|smallest| smallest > least);
-        forms.into_iter().filter(|h| !self.model.contains(h)).filter(too_small).collect()
-    }
-
-    /// Effects that finding `g` and others of the model may together as well be, such as asymmetric
-    /// friction for Coulomb friction and an offset of the same joint.
-    fn one_for_several(&self, g: usize) -> Vec<usize> {
-        let design = self.selection.problem.design;
-        let own = design.groups[g].hypothesis;
-        let may_be = |one: &usize| {
-            let parts = design.groups[*one].hypothesis.together();
-            let others = || parts.iter().filter(|part| **part != own);
-            let is_disputed = |part: &Hypothesis| {
-                let part = design.find(*part).filter(|part| self.model.contains(part));
-                part.is_some_and(|part| rivals(self.selection, self.model, part).contains(one))
-            };
-            parts.contains(&own) && others().count() > 0 && others().all(is_disputed)
-        };
-        (0..design.groups.len()).filter(may_be).collect()
-    }
-
-    /// The plainer parts of which finding `g` may with one of its `rivals` be put together, such as
-    /// Coulomb friction beside an offset for asymmetric friction.
-    fn plain_parts(&self, g: usize, rivals: &[usize]) -> Vec<usize> {
-        let design = self.selection.problem.design;
-        let group = &design.groups[g];
-        let plainer = group.hypothesis.plainer(&group.joints);
-        let parts = group.hypothesis.together();
-        let (plain, others): (Vec<_>, Vec<_>) =
-            parts.into_iter().partition(|p| plainer.contains(p));
-        let is_rival = |h: &Hypothesis| design.find(*h).is_some_and(|h| rivals.contains(&h));
-        if !others.iter().any(is_rival) {
-            return Vec::new();
-        }
-        plain.iter().filter_map(|h| design.find(*h)).collect()
-    }
-
-    /// What finding `g` may as well be, each once.
-    fn not_separable_from(&self, g: usize, fitted: &Fitted) -> Vec<usize> {
-        let mut rivals = rivals(self.selection, self.model, g);
-        rivals.retain(|&h| !self.apart.contains(&(g, h)));
-        rivals.extend(self.one_for_several(g));
-        rivals.extend(self.plain_parts(g, &rivals));
-        rivals.extend(self.hidden_beside(g, fitted));
-        let mut seen = BTreeSet::new();
-        rivals.retain(|&h| seen.insert(h));
-        rivals
-    }
-
-    fn finding(
-        &self,
-        g: usize,
-        (uncertainty, fitted): (&Uncertainty, &Fitted),
-        [nominal, bare, with]: [&HeldOut; 3],
-    ) -> Finding {
-        let (problem, robot) = (self.selection.problem, self.selection.robot);
-        let group = &problem.design.groups[g];
-        let over = |of: &HeldOut| group.joints.iter().map(|&j| of.mean_square[j]).sum::<f64>();
-        let (before, without, after) = (over(nominal), over(bare), over(with));
-        let share = |whole: f64| {
-            if whole > 0.0 { ((without - after) / whole).clamp(0.0, 1.0) } else { 0.0 }
-        };
-        let rivals = self.not_separable_from(g, fitted);
-        let hypothesis = |m: &usize| problem.design.groups[*m].hypothesis;
-        let level: Vec<Hypothesis> =
-            self.model.iter().filter(|m| self.bearer(**m) == Some(g)).map(hypothesis).collect();
-        let (wide, all) = uncertainty.undetermined(fitted.problem, group.hypothesis);
-        let kind = |h: &usize| problem.design.groups[*h].hypothesis.kind;
-        let open = match problem.design.look {
-            Look::Effort => None,
-            Look::Twist => kind(&g).left_open_by_two_encoders(),
-        };
-        Finding {
-            at: effect_at(robot, group.hypothesis),
-            parameters: uncertainty.estimates(fitted, group.hypothesis, &level),
-            share_explained: share(before),
-            held_out_gain: share(without),
-            log_evidence: 0.0,
-            told_apart_by: kind(&g).told_apart_from(rivals.iter().map(kind)),
-            not_separable_from: rivals
-                .iter()
-                .map(|&h| effect_at(robot, problem.design.groups[h].hypothesis))
-                .collect(),
-            evidence: Vec::new(),
-            undetermined: open.map_or_else(
-                || undetermined(group.hypothesis, wide, all),
-                |words| vec![words.to_owned()],
-            ),
-        }
-    }
-
-    fn evidence(&self, g: usize, loss: f64, bare: &HeldOut, with: &HeldOut) -> Vec<String> {
-        let (problem, robot) = (self.selection.problem, self.selection.robot);
-        let joints = &problem.design.groups[g].joints;
-        let fall = |j: usize| bare.mean_square[j] - with.mean_square[j];
-        let largest = joints.iter().copied().max_by(|&a, &b| {
-            let relative = |j: usize| fall(j) / bare.mean_square[j].max(f64::MIN_POSITIVE);
-            relative(a).total_cmp(&relative(b))
-        });
-        let mut evidence = Vec::new();
-        if let Some(j) = largest {
-            let [before, after] = [bare, with].map(|of| of.mean_square[j].sqrt());
-            let link = &robot.links()[j];
-            let (name, unit) =
-                (&link.joint.name, if link.joint.kind.is_rotation() { "rad" } else { "m" });
-            evidence.push(match problem.design.look {
-                Look::Effort => format!(
-                    "without it the held-out error at {name} is {} instead of {} N m RMS",
-                    size(before), size(after)
-                ),
-                Look::Twist => format!(
-                    "without it the held-out error between the two encoders of {name} is {before:.1e} instead of {after:.1e} {unit} RMS"
-                ),
-            });
-        }
-        evidence.push(format!("log evidence {loss:.0} higher with it than without"));
-        evidence
-    }
-}
-
-fn undetermined(hypothesis: Hypothesis, wide: usize, all: usize) -> Vec<String> {
-    if wide == 0 || hypothesis.link().is_none() {
-        return Vec::new();
-    }
-    vec![format!(
-        "{wide} of {all} directions of its inertial parameters are not determined by these logs and stay at the nominal values"
-    )]
 }

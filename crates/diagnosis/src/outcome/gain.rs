@@ -1,44 +1,43 @@
 use crate::columns::run_design::JointDesign;
 use crate::regression::blocks::{Block, Fold};
+use crate::regression::fitted_model::FittedModel;
 use crate::regression::problem::Problem;
-use crate::regression::solved::Solved;
 use crate::result::{FoldGain, InverseGain};
-use crate::search::record::Record;
+use crate::search::dataset::Dataset;
 
-/// Torque prediction on parts of the record that took no part in selection or fit.
+/// Torque prediction on parts of the logs that took no part in selection or fit.
 #[derive(Debug)]
 pub(crate) struct HeldOutGain {
     /// For the user.
     pub inverse: InverseGain,
-    /// What a search without each fold of the whole record's problem came to.
-    pub folds: Vec<Solved>,
+    /// The model that is found without each fold.
+    pub folds: Vec<FittedModel>,
 }
 
 impl HeldOutGain {
-    /// What the fits without each fold of `whole` predict of it.
-    pub fn new(record: &Record, whole: &Problem, folds: Vec<Solved>) -> Self {
-        Self { inverse: inverse(record, whole, &folds), folds }
+    /// From the models that are found without each fold of `whole`.
+    pub fn new(dataset: &Dataset, whole: &Problem, folds: Vec<FittedModel>) -> Self {
+        Self { inverse: inverse(dataset, whole, &folds), folds }
     }
 
-    /// What is left of the efforts of every fold of `whole` by what was found without it,
-    /// `[joint][run][sample]` (N·m or N).
+    /// Residuals in every fold of `whole` of the model found without it, `[joint][run][sample]` (N·m or N).
     pub fn left(&self, whole: &Problem) -> Vec<Vec<Vec<f64>>> {
         whole.held_out_residuals(|f, run, j| self.folds[f].remaining(whole.design, run, j))
     }
 }
 
-fn inverse(record: &Record, whole: &Problem, solved: &[Solved]) -> InverseGain {
-    let joints = record.design.joints();
+fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> InverseGain {
+    let joints = dataset.design.joints();
     let before =
-        |blocks: &[usize]| -> Vec<f64> { (0..joints).map(|j| gap(record, blocks, j)).collect() };
+        |blocks: &[usize]| -> Vec<f64> { (0..joints).map(|j| gap(dataset, blocks, j)).collect() };
     let rms = |(sum, n): (f64, usize)| (sum / n.max(1) as f64).sqrt();
-    let left = |(fold, solved): (&Fold, &Solved)| -> Vec<(f64, usize)> {
-        (0..joints).map(|j| squares(whole, fold, solved, j)).collect()
+    let left = |(fold, fitted): (&Fold, &FittedModel)| -> Vec<(f64, usize)> {
+        (0..joints).map(|j| squares(whole, fold, fitted, j)).collect()
     };
-    let left: Vec<Vec<(f64, usize)>> = whole.folds.iter().zip(solved).map(left).collect();
+    let left: Vec<Vec<(f64, usize)>> = whole.folds.iter().zip(fitted).map(left).collect();
     let fold = |(f, fold): (usize, &Fold)| FoldGain {
         name: name(whole, f),
-        torque_rms_nm: (0..joints).map(|j| measured(record, &fold.test, j).0).collect(),
+        torque_rms_nm: (0..joints).map(|j| measured(dataset, &fold.test, j).0).collect(),
         rms_before_nm: before(&fold.test),
         rms_after_nm: left[f].iter().copied().map(rms).collect(),
     };
@@ -48,7 +47,7 @@ fn inverse(record: &Record, whole: &Problem, solved: &[Solved]) -> InverseGain {
     let rms_before = before(&whole.of);
     let nmse = |rms: &[f64]| {
         let of = |j: usize| {
-            let variance = measured(record, &whole.of, j).1;
+            let variance = measured(dataset, &whole.of, j).1;
             if variance > 0.0 { rms[j].powi(2) / variance } else { 0.0 }
         };
         (0..joints).map(of).collect()
@@ -63,19 +62,18 @@ fn inverse(record: &Record, whole: &Problem, solved: &[Solved]) -> InverseGain {
     }
 }
 
-/// Sum of squares, and number, of what is left of the effort of joint `j` in the test of a fold, where
-/// that tells.
-fn squares(whole: &Problem, fold: &Fold, solved: &Solved, j: usize) -> (f64, usize) {
+/// Sum of squares and number of the informative residuals of joint `j` in the test of a fold.
+fn squares(whole: &Problem, fold: &Fold, fitted: &FittedModel, j: usize) -> (f64, usize) {
     let in_run = |run: usize| {
         let blocks = fold.test.iter().map(|&b| &whole.blocks[b]).filter(move |b| b.run == run);
         let mut blocks = blocks.peekable();
         blocks.peek()?;
-        let left = solved.remaining(whole.design, run, j);
-        let tells = &whole.design.runs[run].joints[j].tells;
+        let left = fitted.remaining(whole.design, run, j);
+        let is_informative = &whole.design.runs[run].joints[j].is_informative;
         let sum = |(sum, n): (f64, usize), block: &Block| {
-            let of = left[block.samples.clone()].iter().zip(&tells[block.samples.clone()]);
-            let told = of.filter(|(_, tells)| **tells);
-            told.fold((sum, n), |(sum, n), (x, _)| (sum + x * x, n + 1))
+            let of = left[block.samples.clone()].iter().zip(&is_informative[block.samples.clone()]);
+            let informative = of.filter(|(_, is)| **is);
+            informative.fold((sum, n), |(sum, n), (x, _)| (sum + x * x, n + 1))
         };
         Some(blocks.fold((0.0, 0), sum))
     };
@@ -117,37 +115,37 @@ fn held_out(whole: &Problem) -> String {
     }
 }
 
-/// RMS of measured minus nominal effort of joint `j` over some blocks, where that tells.
-fn gap(record: &Record, blocks: &[usize], j: usize) -> f64 {
-    let gaps = told(record, blocks, j, |joint| joint.gap().collect());
+/// RMS of the informative samples of measured minus nominal effort of joint `j` over some blocks.
+fn gap(dataset: &Dataset, blocks: &[usize], j: usize) -> f64 {
+    let gaps = informative(dataset, blocks, j, |joint| joint.gap().collect());
     let (n, sum) = gaps.iter().fold((0_usize, 0.0), |(n, sum), gap| (n + 1, sum + gap * gap));
     (sum / n.max(1) as f64).sqrt()
 }
 
-/// RMS and variance of the measured effort of joint `j` over some blocks, where that tells.
-pub(crate) fn measured(record: &Record, blocks: &[usize], j: usize) -> (f64, f64) {
-    let efforts = told(record, blocks, j, |joint| joint.measured.clone());
+/// RMS and variance of the informative samples of the measured effort of joint `j` over some blocks.
+pub(crate) fn measured(dataset: &Dataset, blocks: &[usize], j: usize) -> (f64, f64) {
+    let efforts = informative(dataset, blocks, j, |joint| joint.measured.clone());
     let count = efforts.len().max(1) as f64;
     let mean = efforts.iter().sum::<f64>() / count;
     let square = efforts.iter().map(|v| v * v).sum::<f64>() / count;
     (square.sqrt(), (square - mean * mean).max(0.0))
 }
 
-/// A signal of joint `j` over some blocks, where that tells of its effort.
-fn told(
-    record: &Record,
+/// The informative samples of a signal of joint `j` over some blocks.
+fn informative(
+    dataset: &Dataset,
     blocks: &[usize],
     j: usize,
     signal: impl Fn(&JointDesign) -> Vec<f64>,
 ) -> Vec<f64> {
-    let joints = record.design.runs.iter().map(|run| &run.joints[j]);
+    let joints = dataset.design.runs.iter().map(|run| &run.joints[j]);
     let signals: Vec<(Vec<f64>, &[bool])> =
-        joints.map(|joint| (signal(joint), joint.tells.as_slice())).collect();
+        joints.map(|joint| (signal(joint), joint.is_informative.as_slice())).collect();
     let of_block = |b: &usize| {
-        let Block { run, samples } = &record.blocks[*b];
-        let (signal, tells) = &signals[*run];
-        let all = signal[samples.clone()].iter().zip(&tells[samples.clone()]);
-        all.filter(|(_, tells)| **tells).map(|(value, _)| *value)
+        let Block { run, samples } = &dataset.blocks[*b];
+        let (signal, is_informative) = &signals[*run];
+        let all = signal[samples.clone()].iter().zip(&is_informative[samples.clone()]);
+        all.filter(|(_, is)| **is).map(|(value, _)| *value)
     };
     blocks.iter().flat_map(of_block).collect()
 }

@@ -1,10 +1,10 @@
 use robot::{Robot, TorqueSource};
 
-/// What a robot does not say of its commands, where the skew of the log is what that makes.
+/// Warns that the time skew found equals the hold of an undeclared zero-order hold.
 ///
-/// A command that is held for `T` from its sample on is late by `T / 2`, and the log has it early by that: a skew of
-/// `-T / 2`. What is said to be a command is taken to be held for a row `I` where no rate is given
-/// ([`logs::centre_commands`]), which leaves `(I - T) / 2`.
+/// A command that is held for `T` from its sample on acts `T / 2` later, so that the log is early: a skew of `-T / 2`. A
+/// described command without a rate is taken to be held for a row `I` ([`logs::centre_commands`]), which leaves
+/// `(I - T) / 2`.
 pub(crate) fn words_for_hold(robot: &Robot, extended: &Robot, row_s: f64) -> Option<String> {
     let (first, found) = robot.links().first().zip(extended.links().first())?;
     let skew_s = found.actuator.effort_skew_s - first.actuator.effort_skew_s;

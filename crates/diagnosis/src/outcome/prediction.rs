@@ -8,100 +8,111 @@ use crate::error::DiagnosisError;
 use crate::outcome::gain::HeldOutGain;
 use crate::progress::Progress;
 use crate::regression::blocks::Fold;
+use crate::regression::fitted_model::{FittedModel, fit_model};
 use crate::regression::problem::{Model, Problem};
-use crate::regression::solved::{Solved, solved};
-use crate::search::conclusion::Conclusion;
-use crate::search::failed::{Failed, worse};
-use crate::search::record::Record;
-use crate::search::searched::Searched;
-use crate::search::settled::Withheld;
-use crate::search::study::Study;
+use crate::search::accept::Inconstant;
+use crate::search::causes::Causes;
+use crate::search::dataset::Dataset;
+use crate::search::inputs::Inputs;
+use crate::search::kept_nominal::{KeptNominal, joints_predicted_worse};
+use crate::search::search_result::SearchResult;
 
-impl Study<'_> {
-    /// What predicts held-out efforts better than the description does of a conclusion, and by how
-    /// much. A joint of which nothing does keeps its description.
-    pub fn that_predicts<'b>(
+impl Inputs<'_> {
+    /// Keeps the causes that predict held-out efforts better than the description, and measures by how much. A joint where
+    /// none does keeps its description.
+    pub fn keep_what_predicts<'b>(
         &self,
-        record: &Record<'b>,
+        dataset: &Dataset<'b>,
         by_run: &Problem<'b>,
-        mut conclusion: Conclusion<'b>,
+        mut causes: Causes<'b>,
         progress: &dyn Progress,
-    ) -> Result<(Conclusion<'b>, HeldOutGain), DiagnosisError> {
+    ) -> Result<(Causes<'b>, HeldOutGain), DiagnosisError> {
         progress.stage("testing on held-out data", by_run.folds.len());
         let search = |fold: &Fold| {
-            let searched = self.searched(record, &fold.train);
+            let found = self.search(dataset, &fold.train);
             progress.step();
-            searched
+            found
         };
-        let searched: Vec<Searched> =
+        let by_fold: Vec<SearchResult> =
             by_run.folds.par_iter().map(search).collect::<Result<_, LogError>>()?;
-        let withheld = &conclusion.withheld;
-        let gain = |failed: &Failed, doubted: &BTreeSet<usize>| -> Result<HeldOutGain, LogError> {
-            let left_out = LeftOut { withheld, failed, doubted };
-            let named = |searched: &Searched| self.named(record, searched, left_out);
-            let folds = searched.par_iter().map(named).collect::<Result<_, LogError>>()?;
-            Ok(HeldOutGain::new(record, by_run, folds))
+        let gain = |kept_nominal: &KeptNominal, doubted: &BTreeSet<usize>| {
+            let exclusions = Exclusions { inconstant: &causes.inconstant, kept_nominal, doubted };
+            self.gain_without(exclusions, dataset, by_run, &by_fold)
         };
-        let mut failed = Failed::default();
-        let mut best = gain(&failed, &BTreeSet::new())?;
-        let doubted: BTreeSet<usize> = worse(&best.inverse).collect();
+        let mut kept_nominal = KeptNominal::default();
+        let mut best = gain(&kept_nominal, &BTreeSet::new())?;
+        let doubted: BTreeSet<usize> = joints_predicted_worse(&best.inverse).collect();
         if !doubted.is_empty() {
-            best = gain(&failed, &doubted)?;
+            best = gain(&kept_nominal, &doubted)?;
         }
-        while let Some(more) = failed.with_worse_joints(&best.inverse) {
-            (best, failed) = (gain(&more, &doubted)?, more);
+        while let Some(more) = kept_nominal.with_worse_joints(&best.inverse) {
+            (best, kept_nominal) = (gain(&more, &doubted)?, more);
         }
-        let model = failed.kept(&conclusion.problem, &conclusion.model);
-        failed.dropped = conclusion.model.difference(&model).copied().collect();
-        if model != conclusion.model {
-            let problem = &conclusion.problem;
-            conclusion.solution = solved(self.robot, &self.log, problem, &model)?;
+        let model = kept_nominal.remaining(&causes.problem, &causes.model);
+        kept_nominal.dropped = causes.model.difference(&model).copied().collect();
+        if model != causes.model {
+            let problem = &causes.problem;
+            causes.fitted = fit_model(self.robot, &self.log, problem, &model)?;
         }
-        Ok((Conclusion { model, failed, ..conclusion }, best))
+        Ok((Causes { model, kept_nominal, ..causes }, best))
     }
 
-    /// What a search came to, without what is left out; that leaves its place to what says less.
-    fn named(
+    /// The gain of the searches without each fold, with some of their effects excluded.
+    fn gain_without(
         &self,
-        record: &Record,
-        searched: &Searched,
-        left_out: LeftOut,
-    ) -> Result<Solved, LogError> {
-        let Searched { problem, model, solution } = searched;
-        let mut named = left_out.kept(problem, model);
-        let mut solution = if named == *model {
-            solution.clone()
+        exclusions: Exclusions,
+        dataset: &Dataset,
+        by_run: &Problem,
+        by_fold: &[SearchResult],
+    ) -> Result<HeldOutGain, LogError> {
+        let fit = |found: &SearchResult| self.fit_without(exclusions, dataset, found);
+        let folds = by_fold.par_iter().map(fit).collect::<Result<_, LogError>>()?;
+        Ok(HeldOutGain::new(dataset, by_run, folds))
+    }
+
+    /// Fits the model of a search without the excluded effects, each replaced by a special case where one qualifies.
+    fn fit_without(
+        &self,
+        exclusions: Exclusions,
+        dataset: &Dataset,
+        SearchResult { problem, model, fitted }: &SearchResult,
+    ) -> Result<FittedModel, LogError> {
+        let mut remaining = exclusions.remaining(problem, model);
+        let mut fitted = if remaining == *model {
+            fitted.clone()
         } else {
-            solved(self.robot, &self.log, problem, &named)?
+            fit_model(self.robot, &self.log, problem, &remaining)?
         };
-        while let Some(g) = left_out.nothing(problem, &named, &solution.robot) {
-            named = left_out.kept(problem, &record.selection(problem).without(&named, g));
-            solution = solved(self.robot, &self.log, problem, &named)?;
+        while let Some(g) = exclusions.unsound(problem, &remaining, &fitted.robot) {
+            let smaller = dataset.selection(problem).without(&remaining, g);
+            remaining = exclusions.remaining(problem, &smaller);
+            fitted = fit_model(self.robot, &self.log, problem, &remaining)?;
         }
-        Ok(solution)
+        Ok(fitted)
     }
 }
 
-/// What a fold may have found and is not predicted with.
+/// Effects that a fold may find and that take no part in its prediction.
 #[derive(Clone, Copy)]
-struct LeftOut<'a> {
-    /// What has no name over the whole record.
-    withheld: &'a Withheld,
-    failed: &'a Failed,
-    /// Joints that are predicted worse than the description by all that their folds found.
+struct Exclusions<'a> {
+    /// Effects whose sizes would have to vary over all blocks.
+    inconstant: &'a Inconstant,
+    kept_nominal: &'a KeptNominal,
+    /// Joints that the unrestricted searches predict worse than the description does.
     doubted: &'a BTreeSet<usize>,
 }
 
-impl LeftOut<'_> {
-    fn kept(self, problem: &Problem, model: &Model) -> Model {
-        let mut kept = self.failed.kept(problem, model);
-        kept.retain(|g| !self.withheld.contains_key(g));
-        kept
+impl Exclusions<'_> {
+    /// A model without the excluded effects.
+    fn remaining(self, problem: &Problem, model: &Model) -> Model {
+        let mut remaining = self.kept_nominal.remaining(problem, model);
+        remaining.retain(|g| !self.inconstant.contains_key(g));
+        remaining
     }
 
-    /// What is nothing about the robot that was fitted, at a joint that is doubted: bristles with a way that is not
-    /// resolved have a damping of any size.
-    fn nothing(self, problem: &Problem, model: &Model, robot: &Robot) -> Option<usize> {
+    /// An effect at a doubted joint that is not sound about the fitted robot, such as bristles whose way the encoder does
+    /// not resolve, which have a damping of any size.
+    fn unsound(self, problem: &Problem, model: &Model, robot: &Robot) -> Option<usize> {
         model.iter().copied().find(|&g| {
             let group = &problem.design.groups[g];
             group.joints.iter().any(|j| self.doubted.contains(j))

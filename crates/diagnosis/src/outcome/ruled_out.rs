@@ -3,30 +3,29 @@ use effects::{Hypothesis, Place, Weights};
 use nalgebra::DMatrix;
 
 use crate::outcome::effect_at::effect_at;
-use crate::outcome::findings::Evidence;
+use crate::outcome::finding_builder::FindingBuilder;
 use crate::regression::fit::{Complement, Fit};
 use crate::regression::problem::Problem;
 use crate::result::RuledOut;
 use crate::search::constancy::Variation;
-use crate::thresholds::{DETECTED_AT, MOST};
 
-impl Evidence<'_> {
-    /// Every hypothesis that is no finding, with the smallest size that would have been one.
+impl FindingBuilder<'_> {
+    /// Every hypothesis that is no finding, with the smallest size that would have been found.
     pub fn ruled_out(&self) -> Vec<RuledOut> {
         let problem = self.selection.problem;
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let outside = (0..problem.design.groups.len()).filter(|g| !self.model.contains(g));
-        outside.map(|g| self.one(g, &fit)).collect()
+        outside.map(|g| self.rule_out(g, &fit)).collect()
     }
 
-    fn one(&self, g: usize, fit: &Fit) -> RuledOut {
+    fn rule_out(&self, g: usize, fit: &Fit) -> RuledOut {
         let (problem, robot) = (self.selection.problem, self.selection.robot);
         let group = &problem.design.groups[g];
         let rotation =
             group.hypothesis.joint().is_none_or(|j| robot.links()[j].joint.kind.is_rotation());
         let (sharpest, because) = self.judge(g, fit);
         let (weight, size) = sharpest.map_or((0, None), |(weight, size)| (weight, Some(size)));
-        let (index, smallest_detectable) = read(group.hypothesis.kind, weight, size);
+        let (index, smallest_detectable) = parameter_of(group.hypothesis.kind, weight, size);
         let parameter = &group.hypothesis.kind.entry().parameters[index];
         RuledOut {
             at: effect_at(robot, group.hypothesis),
@@ -37,8 +36,8 @@ impl Evidence<'_> {
         }
     }
 
-    /// The smallest level of dry friction that would have been found at every joint where none is (N·m or N);
-    /// zero where some form of it is a finding, or none is looked for.
+    /// The smallest level of dry friction that would have been found at every joint where none was (N·m or N); zero where a
+    /// form of it is a finding, or none is looked for.
     pub fn unseen_friction(&self) -> Vec<f64> {
         let problem = self.selection.problem;
         let fit = problem.fit(self.model);
@@ -51,8 +50,8 @@ impl Evidence<'_> {
         (0..problem.design.joints()).map(|j| unseen(j).unwrap_or(0.0)).collect()
     }
 
-    /// The smallest weight that would have been found of `g`, whatever its shape, in the first column
-    /// or, of a wave, whatever its phase; none where the log shows no such column.
+    /// The smallest weight of the first column of `g` that would have been found, whatever its shape, and of a wave whatever
+    /// its phase; `None` where the logs do not show the column.
     pub fn smallest(&self, g: usize, fit: &Fit) -> Option<f64> {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
@@ -62,7 +61,7 @@ impl Evidence<'_> {
         let has_phases = nature.is_some_and(|n| n.weights == Weights::Phases);
         let errors = errors.get(..if has_phases { 2 } else { 1 })?;
         let error = errors.iter().copied().fold(0.0, f64::max);
-        Some(DETECTED_AT * error * self.largest_unseen(g))
+        Some(problem.thresholds.sizes.detected * error * self.largest_unseen(g))
     }
 
     fn largest_unseen(&self, g: usize) -> f64 {
@@ -70,8 +69,8 @@ impl Evidence<'_> {
         design.groups[g].hypothesis.largest_unseen(self.selection.robot, &design.frame)
     }
 
-    /// The parameter that the logs show best with the smallest size of it that would have
-    /// been found, and why the hypothesis is no finding.
+    /// The parameter that the logs show best, with the smallest size of it that would have been found, and the reason why the
+    /// hypothesis is no finding.
     fn judge(&self, g: usize, fit: &Fit) -> (Option<(usize, f64)>, String) {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
@@ -87,16 +86,15 @@ impl Evidence<'_> {
         (Some(sharpest), self.reason(g, fit))
     }
 
-    /// Why a hypothesis whose size the logs would show is no finding: the first of the tests of the search that
-    /// it fails, or what it was replaced by.
+    /// Why a hypothesis whose size the logs would show is no finding: the first test of the search that it fails.
     fn reason(&self, g: usize, fit: &Fit) -> String {
         let (selection, problem) = (self.selection, self.selection.problem);
         let gain = selection.evidence_gain(self.model, fit, g);
         let least = selection.least_evidence(g);
-        let larger = selection.joined(self.model, g);
-        if let Some(variation) = self.withheld.get(&g) {
-            self.words(variation)
-        } else if self.failed.drops(problem.design, g) && gain > 0.0 {
+        let larger = selection.with(self.model, g);
+        if let Some(variation) = self.inconstant.get(&g) {
+            self.words_for_variation(variation)
+        } else if self.kept_nominal.drops(problem.design, g) && gain > 0.0 {
             "what was fitted here predicts efforts that took no part worse than the description"
                 .to_owned()
         } else if selection.is_excluded(self.model, g) {
@@ -112,8 +110,8 @@ impl Evidence<'_> {
         }
     }
 
-    /// Why an effect whose size would have to vary is no finding.
-    fn words(&self, Variation { rms, with, joint }: &Variation) -> String {
+    /// The reason against an effect whose size would have to vary.
+    fn words_for_variation(&self, Variation { rms, with, joint }: &Variation) -> String {
         let name = &self.selection.robot.links()[*joint].joint.name;
         let with = with
             .map_or_else(|| format!("at {name}"), |signal| format!("with the {signal} of {name}"));
@@ -123,8 +121,8 @@ impl Evidence<'_> {
         )
     }
 
-    /// Index and smallest detectable size of the parameter whose standard error is the
-    /// smallest share of its prior; none if all are near the prior.
+    /// Index and smallest detectable size of the parameter whose standard error is the smallest share of its prior; `None`
+    /// if all are near the prior.
     fn sharpest(&self, g: usize, columns: &[usize], errors: &[f64]) -> Option<(usize, f64)> {
         let design = self.selection.problem.design;
         let hypothesis = design.groups[g].hypothesis;
@@ -132,18 +130,18 @@ impl Evidence<'_> {
         let share = |k: usize| errors[k] / design.prior[columns[k]];
         let best =
             (0..errors.len().min(parameters)).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
-        let size = DETECTED_AT * errors[best] * self.largest_unseen(g);
+        let t = &self.selection.problem.thresholds.sizes;
+        let size = t.detected * errors[best] * self.largest_unseen(g);
         // The weights behind a centre of mass are first moments: m c.
         let mass = hypothesis.link().map(|l| self.selection.robot.links()[l].inertia.mass);
         let unit = if best > 0 { mass.filter(|m| *m > 0.0).unwrap_or(1.0) } else { 1.0 };
-        (share(best) <= MOST).then_some((best, size / unit))
+        (share(best) <= t.determined).then_some((best, size / unit))
     }
 }
 
-/// The parameter that weight `weight` of an effect stands for, and its value at a size of it: a
-/// spring's weight is its compliance, and what is beyond the level of Coulomb friction is that of
-/// breaking away, or all that is springy.
-fn read(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
+/// The parameter that the weight with index `weight` stands for, and its value for a size of the weight. The weight of a
+/// spring is its compliance; friction beyond the Coulomb level is that of breaking away, or the elastic part.
+fn parameter_of(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
     match effects::model(kind).map(|model| model.nature().weights) {
         Ok(Weights::Reciprocal) => (weight, size.map(f64::recip)),
         Ok(Weights::SeenBy(parameter)) => (parameter, size),
@@ -151,8 +149,8 @@ fn read(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f6
     }
 }
 
-/// Standard errors of the weights of a group that is not in the model: the larger of what
-/// the likelihood and what the scatter of the blocks' scores say.
+/// Standard errors of the weights of a group that is not in the model: the larger of those by the likelihood and by the
+/// scatter of the blocks' scores.
 fn standard_errors(problem: &Problem, fit: &Fit, complement: &Complement) -> Vec<f64> {
     let count = complement.b.nrows();
     let Some(inverse) = complement.b.clone().try_inverse() else {
@@ -179,13 +177,13 @@ mod tests {
             kind.entry().parameters[index].name
         };
         let (kind, found) = (EffectKind::JointElasticity, Some(1e-4));
-        let (index, size) = read(kind, 0, found);
+        let (index, size) = parameter_of(kind, 0, found);
         assert_eq!(name(kind, (index, size)), "stiffness");
         assert!((size.unwrap() / 1e4 - 1.0).abs() < 1e-12);
-        let named = |kind| name(kind, read(kind, 0, found));
+        let named = |kind| name(kind, parameter_of(kind, 0, found));
         assert_eq!(named(EffectKind::StribeckFriction), "breakaway");
         assert_eq!(named(EffectKind::PreslidingFriction), "level");
-        assert_eq!(read(EffectKind::Payload, 2, found), (2, found));
-        assert_eq!(read(EffectKind::JointElasticity, 0, None), (0, None));
+        assert_eq!(parameter_of(EffectKind::Payload, 2, found), (2, found));
+        assert_eq!(parameter_of(EffectKind::JointElasticity, 0, None), (0, None));
     }
 }

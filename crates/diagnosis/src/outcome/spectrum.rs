@@ -2,10 +2,7 @@ use std::f64::consts::TAU;
 
 use logs::Fourier;
 
-/// Share of the power of a rest that must be above a frequency for all of it to be said to be there.
-const ABOVE: f64 = 0.9;
-
-/// Power of what is left of an effort over frequency.
+/// Power of a residual over frequency.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Spectrum {
     /// Frequency (Hz) and power of each bin of every run ((N·m)² or N²).
@@ -15,7 +12,7 @@ pub(crate) struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of what is left, `[run][sample]`, at one rate: periodograms under a Hann window, without the mean.
+    /// Of a residual, `[run][sample]`, at one rate: periodograms under a Hann window, without the mean.
     pub fn of(left: &[Vec<f64>], rate_hz: f64) -> Self {
         let mut fourier = Fourier::default();
         let mut bins = Vec::new();
@@ -53,13 +50,13 @@ impl Spectrum {
         (0..at_hz.len()).map(density).collect()
     }
 
-    /// The frequency above which nine tenths of the power lie (Hz); none without power.
-    pub fn above_hz(&self) -> Option<f64> {
+    /// The frequency above which a `share` of the power lies (Hz); `None` without power.
+    pub fn above_hz(&self, share: f64) -> Option<f64> {
         let total: f64 = self.bins.iter().map(|(_, p)| p).sum();
         let mut above = total;
         let bin = self.bins.iter().find(|(_, p)| {
             above -= p;
-            above < ABOVE * total
+            above < share * total
         });
         bin.map(|(hz, _)| *hz).filter(|_| total > 0.0 && self.samples > 0)
     }
@@ -74,7 +71,7 @@ mod tests {
     fn oracle_a_sine_is_above_what_is_just_below_it_and_has_half_its_square_as_power() {
         let x = (0..2000).map(|t| 2.0 * (TAU * 5.0 * f64::from(t) / 100.0).sin()).collect();
         let spectrum = Spectrum::of(&[x], 100.0);
-        let above = spectrum.above_hz().unwrap();
+        let above = spectrum.above_hz(0.9).unwrap();
         assert!((above - 5.0).abs() < 0.11, "{above}");
         // Bins of .05 Hz: the density times the band between the edges is the power.
         let at = [1.0, 5.0, 25.0];

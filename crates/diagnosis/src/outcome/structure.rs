@@ -18,7 +18,7 @@ const SPREADS: [f64; 3] = [0.1, 0.4, 1.5];
 /// Number of signals named.
 const LISTED: usize = 3;
 
-/// What a flexible predictor finds in a residual.
+/// Structure that a flexible predictor finds in a residual.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Structure {
     /// Share of the residual's power that is predicted on held-out data; zero if none.
@@ -57,7 +57,7 @@ impl Signal {
     }
 }
 
-/// What multiplies the functions of a signal.
+/// The factor of the functions of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Factor {
     One,
@@ -86,8 +86,8 @@ pub(crate) struct Probe<'a> {
     blocks: &'a [Block],
     folds: &'a [Fold],
     families: Vec<Family>,
-    /// Which samples of every run tell of the effort.
-    tells: Vec<&'a [bool]>,
+    /// Which samples of every run are informative.
+    is_informative: Vec<&'a [bool]>,
     /// Features of every block, samples by columns.
     features: Vec<DMatrix<f64>>,
 }
@@ -108,8 +108,8 @@ impl<'a> Probe<'a> {
             let mut x = DMatrix::zeros(block.samples.len(), width);
             for (family, &(low, high)) in families.iter().zip(&spans) {
                 let (values, qd) = (family.signal.values(run), &run.joints[joint].state[1]);
-                let tells = |&(_, t): &(usize, usize)| run.joints[joint].tells[t];
-                for (row, t) in block.samples.clone().enumerate().filter(tells) {
+                let counts = |&(_, t): &(usize, usize)| run.joints[joint].is_informative[t];
+                for (row, t) in block.samples.clone().enumerate().filter(counts) {
                     let factor = match family.factor {
                         Factor::One => 1.0,
                         Factor::Direction => qd[t].signum(),
@@ -124,19 +124,20 @@ impl<'a> Probe<'a> {
             x
         };
         let features = blocks.iter().map(features).collect();
-        let tells = design.runs.iter().map(|run| run.joints[joint].tells.as_slice()).collect();
-        Self { robot, blocks, folds, families, tells, features }
+        let is_informative =
+            design.runs.iter().map(|run| run.joints[joint].is_informative.as_slice()).collect();
+        Self { robot, blocks, folds, families, is_informative, features }
     }
 
     /// The structure in a residual, given `[run][sample]`, with the signals that predict at least `share` of it.
     pub fn structure(&self, residual: &[Vec<f64>], share: f64) -> Structure {
         let part = |b: &Block| {
-            let told = residual[b.run][b.samples.clone()]
+            let samples = residual[b.run][b.samples.clone()]
                 .iter()
-                .zip(&self.tells[b.run][b.samples.clone()]);
+                .zip(&self.is_informative[b.run][b.samples.clone()]);
             DVector::from_iterator(
                 b.samples.len(),
-                told.map(|(left, tells)| if *tells { *left } else { 0.0 }),
+                samples.map(|(left, is)| if *is { *left } else { 0.0 }),
             )
         };
         let parts: Vec<DVector<f64>> = self.blocks.iter().map(part).collect();
@@ -144,7 +145,7 @@ impl<'a> Probe<'a> {
         let all = 0..self.families.last().map_or(0, |f| f.columns.end);
         let mut depends_on: Vec<(Signal, f64)> = Vec::new();
         for family in &self.families {
-            let share = self.predicted(&parts, time, family.columns.clone());
+            let share = self.predicted_share(&parts, time, family.columns.clone());
             // A signal may come with and without the direction: the stronger is kept.
             match depends_on.iter_mut().find(|(signal, _)| *signal == family.signal) {
                 Some((_, known)) => *known = known.max(share),
@@ -157,14 +158,14 @@ impl<'a> Probe<'a> {
         let named =
             |(signal, share): (Signal, f64)| Dependence { signal: signal.words(self.robot), share };
         Structure {
-            share: self.predicted(&parts, time, all),
+            share: self.predicted_share(&parts, time, all),
             depends_on: depends_on.into_iter().map(named).collect(),
         }
     }
 
     /// Share of the residual's power that the features in `columns` predict when held out,
     /// with the best of the spreads.
-    fn predicted(&self, y: &[DVector<f64>], time: f64, columns: Range<usize>) -> f64 {
+    fn predicted_share(&self, y: &[DVector<f64>], time: f64, columns: Range<usize>) -> f64 {
         let power: f64 = y.iter().map(DVector::norm_squared).sum();
         if power <= 0.0 {
             return 0.0;

@@ -8,8 +8,8 @@ use crate::signals::tone::{Beat, Tone};
 /// Half width of a 95 per cent interval in standard errors.
 const HALF_WIDTH: f64 = 1.96;
 
-/// A tone as a finding. Its share is that of what the other findings leave, over the whole band.
-pub(crate) fn tone_finding(robot: &Robot, tone: &Tone) -> Finding {
+/// A tone as a finding. Its share is that of the residual of the other findings, over the whole band.
+pub(crate) fn tone_finding(robot: &Robot, tone: &Tone, common_phase: f64) -> Finding {
     let hypothesis = tone.hypothesis();
     let (beat, unit, what) = match tone.beat {
         Beat::Position(periods) => (periods, "periods in a turn", "the position of the joint"),
@@ -24,7 +24,7 @@ pub(crate) fn tone_finding(robot: &Robot, tone: &Tone) -> Finding {
         "it keeps time with {what}, and is {:.0} % of what the other findings leave at the joint in the wide band",
         100.0 * tone.share
     ));
-    let undetermined = match (tone.beat, tone.sine_phase()) {
+    let undetermined = match (tone.beat, tone.sine_phase(common_phase)) {
         (Beat::Clock(_), Some(_)) => {
             vec!["it is no part of the robot: the extended model leaves it out".to_owned()]
         }
@@ -36,9 +36,9 @@ pub(crate) fn tone_finding(robot: &Robot, tone: &Tone) -> Finding {
     };
     Finding {
         at: effect_at(robot, hypothesis),
-        parameters: parameters(robot, tone),
+        parameters: parameters(robot, tone, common_phase),
         share_explained: tone.share,
-        // One false line in exp(ratio) looked at, in every run.
+        // In noise, one of exp(ratio) frequencies of a run exceeds it.
         log_evidence: tone.stands_out,
         held_out_gain: tone.share,
         not_separable_from: Vec::new(),
@@ -48,7 +48,7 @@ pub(crate) fn tone_finding(robot: &Robot, tone: &Tone) -> Finding {
     }
 }
 
-fn parameters(robot: &Robot, tone: &Tone) -> Vec<Estimate> {
+fn parameters(robot: &Robot, tone: &Tone, common_phase: f64) -> Vec<Estimate> {
     let kind = tone.hypothesis().kind;
     let rotation = robot.links()[tone.joint].joint.kind.is_rotation();
     let ripple = robot.links()[tone.joint].actuator.ripple;
@@ -68,7 +68,9 @@ fn parameters(robot: &Robot, tone: &Tone) -> Vec<Estimate> {
         of(&all[0], tone.amplitude(), of_amplitude, ripple.map_or(0.0, |r| r.amplitude)),
         of(&all[1], beat, of_beat, f64::INFINITY),
     ];
-    estimates
-        .extend(tone.sine_phase().map(|(phase, error)| of(&all[2], phase, error, f64::INFINITY)));
+    estimates.extend(
+        tone.sine_phase(common_phase)
+            .map(|(phase, error)| of(&all[2], phase, error, f64::INFINITY)),
+    );
     estimates
 }

@@ -4,8 +4,9 @@ use nalgebra::DMatrix;
 use robot::Robot;
 
 use crate::columns::design::Design;
-use crate::columns::repeats::repeats;
+use crate::columns::repeats::noise_of_repeats;
 use crate::result::NoiseFloorSource;
+use crate::thresholds::signals::SignalThresholds;
 
 /// Postures at which the inertia is averaged.
 const POSTURES: usize = 100;
@@ -16,7 +17,7 @@ const POINTS: usize = 24;
 /// Lowest frequency of a spectrum, in cut-offs.
 const LOWEST: f64 = 0.02;
 
-/// Noise of the efforts with a source outside of what any model leaves.
+/// Noise of the efforts, from sources other than the residuals of a model.
 ///
 /// ```text
 /// S_i(f) = S_effort,i + gain_i^2 sum_j mean(M_ij^2) S_qdd,j(f)
@@ -24,15 +25,15 @@ const LOWEST: f64 = 0.02;
 /// ```
 ///
 /// with `M` the inertia of bodies and rotors, its squares averaged over the postures of the logs,
-/// `S_effort` the effort's own noise, and `S_qdd` what the noise of the encoders becomes in the
-/// acceleration. Where runs repeat a motion, what they differ by says more, and counts.
+/// `S_effort` the effort's own noise, and `S_qdd` the noise of the encoders in the acceleration. Where runs repeat a motion,
+/// their difference says more and is used instead.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TorqueNoise {
     joints: Vec<Sources>,
     repeats: Option<Vec<f64>>,
 }
 
-/// What the noise of one joint comes from, as RMS in the band (N·m or N), and over frequency.
+/// Sources of the noise of one joint, as RMS in the band (N·m or N), and over frequency.
 #[derive(Debug, Clone, PartialEq)]
 struct Sources {
     effort: f64,
@@ -43,8 +44,13 @@ struct Sources {
 
 impl TorqueNoise {
     /// The noise of the efforts of some logs, of which `design` is made.
-    pub fn new(robot: &Robot, design: &Design, prepared: &Prepared) -> Self {
-        let carried = carried(robot, prepared);
+    pub fn new(
+        robot: &Robot,
+        design: &Design,
+        prepared: &Prepared,
+        thresholds: &SignalThresholds,
+    ) -> Self {
+        let carried = inertia_squares(robot, prepared);
         let cutoff_hz = prepared.cutoff_hz;
         let sources = |i: usize| {
             let effort = prepared.noise[i].effort.density;
@@ -66,11 +72,11 @@ impl TorqueNoise {
             }
         };
         let joints = (0..robot.joint_count()).map(sources).collect();
-        Self { joints, repeats: repeats(design.repeated()) }
+        let repeats = noise_of_repeats(design.repeated(thresholds));
+        Self { joints, repeats }
     }
 
-    /// RMS of the noise of joint `j` in the band (N·m or N), and where it comes from; zero where the
-    /// logs do not tell.
+    /// RMS of the noise of joint `j` in the band (N·m or N), and its source; zero where the logs have none.
     pub fn rms(&self, j: usize) -> (f64, NoiseFloorSource) {
         if let Some(rms) = self.repeats.as_ref().map(|rms| rms[j]) {
             return (rms, NoiseFloorSource::Repeats);
@@ -100,7 +106,7 @@ pub(crate) fn frequencies(cutoff_hz: f64) -> impl Iterator<Item = f64> {
 }
 
 /// `gain_i^2 mean(M_ij^2)`, over postures of the logs.
-fn carried(robot: &Robot, prepared: &Prepared) -> DMatrix<f64> {
+fn inertia_squares(robot: &Robot, prepared: &Prepared) -> DMatrix<f64> {
     let joints = robot.joint_count();
     let dynamics = Dynamics::new(robot);
     let total: usize = prepared.runs.iter().map(|run| run.time.len()).sum();

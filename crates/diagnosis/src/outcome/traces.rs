@@ -2,9 +2,9 @@ use logs::LogError;
 use rayon::prelude::*;
 use robot::Robot;
 
-use crate::outcome::answer::Answer;
-use crate::search::study::Study;
-use crate::signals::along::{Along, less};
+use crate::outcome::tested_findings::TestedFindings;
+use crate::search::inputs::Inputs;
+use crate::signals::along::{Along, minus};
 
 /// Signals behind a diagnosis, for figures: one run, on the regression's clock.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,33 +32,33 @@ pub struct JointTraces {
     pub extended: Vec<f64>,
 }
 
-/// The signals of every run, whole: also where joints stand, of which the fit knows nothing.
+/// The signals of every run, also those while joints stand, which take no part in a fit.
 ///
 /// ```text
-/// extended = effort of the robot that was found without the part + tones + what became no torque
+/// extended = effort of the robot that was found without the part + tones + clipped effort
 /// ```
-pub(crate) fn traces(study: &Study, answer: &Answer) -> Result<Vec<RunTraces>, LogError> {
+pub(crate) fn traces(inputs: &Inputs, tested: &TestedFindings) -> Result<Vec<RunTraces>, LogError> {
     let expected = |robot: &Robot| -> Result<Vec<Vec<Vec<f64>>>, LogError> {
-        let along = study.log.along_all(robot, &study.design.frame)?;
-        Ok(along.iter().map(Along::expected).collect())
+        let along = inputs.log.along_all(robot, &inputs.design.frame)?;
+        Ok(along.iter().map(Along::expected_effort).collect())
     };
-    let about = study.log.along_all(study.robot, &study.design.frame)?;
-    let nominal = expected(study.log.described.unwrap_or(study.robot))?;
-    let found: Vec<Vec<Vec<Vec<f64>>>> = answer
+    let about = inputs.log.along_all(inputs.robot, &inputs.design.frame)?;
+    let nominal = expected(inputs.log.described.unwrap_or(inputs.robot))?;
+    let found: Vec<Vec<Vec<Vec<f64>>>> = tested
         .gain
         .folds
         .par_iter()
-        .map(|solved| expected(&solved.robot))
+        .map(|fitted| expected(&fitted.robot))
         .collect::<Result<_, LogError>>()?;
     let run = |(r, along): (usize, &Along)| {
-        let design = &study.design.runs[r];
-        let measured = along.measured()?;
-        let known = along.known(&less(&measured, &along.expected()))?;
+        let design = &inputs.design.runs[r];
+        let measured = along.measured_effort()?;
+        let known = along.known_effort(&minus(&measured, &along.expected_effort()))?;
         let joint = |(j, measured): (usize, Vec<f64>)| {
             let [position, velocity, _] = design.joints[j].state.clone();
             let folds: Vec<&[f64]> = found.iter().map(|of| of[r][j].as_slice()).collect();
             let known = known[j].iter().copied().chain(std::iter::repeat(0.0));
-            let extended = answer.by_run.put_together(r, &folds);
+            let extended = tested.by_run.join_folds(r, &folds);
             let extended = extended.into_iter().zip(known).map(|(x, known)| x + known).collect();
             JointTraces { position, velocity, measured, nominal: nominal[r][j].clone(), extended }
         };

@@ -6,11 +6,11 @@ use crate::regression::fit::Fit;
 use crate::regression::problem::Model;
 use crate::search::select::Selection;
 
-/// What effects without a name may change in the sizes of those with one.
+/// Uncertainty that effects outside the model add to the sizes of the findings.
 ///
-/// Small errors are everywhere, and each that has no name leaves its torque to those that have. With `w_S` the
-/// weights of a model and `w_K = B^-1 u` those that an effect outside of it would have, which change them by
-/// `-share w_K` (see [`Fit::beyond`]), the model averaged over one such effect at a time has
+/// Small errors are everywhere, and the findings take the torque of those that are none. `w_S` are the weights of a model,
+/// `w_K = B^-1 u` those of an effect outside of it, which change them by `-share w_K` (see [`Fit::beyond`]). The model
+/// averaged over one such effect at a time has
 ///
 /// ```text
 /// covariance  C = sum over effects of p share (B^-1 + w_K w_K') share'
@@ -18,12 +18,11 @@ use crate::search::select::Selection;
 /// gain        (z² - k - k ln(z² / k)) / 2,  z² = u' B^-1 u > k weights, else 0
 /// ```
 ///
-/// beside that of its own. `gain` is the log evidence of the effect at the size that the logs like best, since how
-/// small an error is nobody knows, and `least` what a name needs (Hoeting et al. 1999).
+/// beside its own. `gain` is the log evidence of the effect at its most likely size, since the size of a small error is
+/// unknown, and `least` the evidence that a finding needs (Hoeting et al. 1999).
 ///
-/// The priors in `B` are those of the search but for links, whose errors are those of CAD
-/// ([`effects::Explain::everyday`]): logs often show the mass of two neighbours together alone, and by the priors of
-/// the search either could have all of it.
+/// The priors in `B` are those of the search. Links have those of CAD errors instead ([`effects::Explain::everyday`]): logs
+/// often show only the sum of the masses of two neighbours, and by the priors of the search either could have all of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Unnamed<'a> {
     design: &'a Design,
@@ -33,11 +32,11 @@ pub(crate) struct Unnamed<'a> {
 }
 
 impl<'a> Unnamed<'a> {
-    /// What effects outside of `model` may change in `fit`, which is that of the model.
+    /// The covariance from effects outside of `model`, of which `fit` is the fit.
     pub fn new(selection: &Selection<'a>, model: &Model, fit: &Fit) -> Self {
         let problem = selection.problem;
         let (design, info) = (problem.design, &problem.info);
-        let prior = everyday(design, selection.robot);
+        let prior = prior_of_small_errors(design, selection.robot);
         let mut covariance = DMatrix::zeros(fit.columns.len(), fit.columns.len());
         for h in 0..design.groups.len() {
             let columns = problem.new_columns(model, h);
@@ -55,7 +54,7 @@ impl<'a> Unnamed<'a> {
         Self { design, columns: fit.columns.clone(), covariance }
     }
 
-    /// The same of the columns of a fit about another robot, zero for what only that has.
+    /// The covariance of the columns of a fit about another robot; zero for columns that only that one has.
     pub fn about(&self, design: &Design, columns: &[usize]) -> DMatrix<f64> {
         let place: Vec<Option<usize>> =
             columns.iter().map(|&column| self.place(design, column)).collect();
@@ -65,7 +64,7 @@ impl<'a> Unnamed<'a> {
         })
     }
 
-    /// Where the weight of a column of another design stands.
+    /// Index of the weight of a column of another design.
     fn place(&self, design: &Design, column: usize) -> Option<usize> {
         let same = |g: &Group| {
             let weight = g.columns.iter().position(|c| *c == column)?;
@@ -77,8 +76,8 @@ impl<'a> Unnamed<'a> {
     }
 }
 
-/// Standard deviations of the weights of errors that are in every description.
-fn everyday(design: &Design, robot: &Robot) -> Vec<f64> {
+/// Standard deviations of all weights, those of links from errors of CAD.
+fn prior_of_small_errors(design: &Design, robot: &Robot) -> Vec<f64> {
     let mut prior = design.prior.clone();
     for group in &design.groups {
         let Some(small) = group.hypothesis.everyday(robot) else { continue };

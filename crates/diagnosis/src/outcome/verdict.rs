@@ -1,15 +1,15 @@
 use crate::outcome::size::size;
 use crate::result::{NoiseFloorSource, Verdict};
-use crate::thresholds::{DROWNED, ERRORS, OF_COMMANDED_NOISE, OF_NOISE, UNSEEN};
+use crate::thresholds::verdict::VerdictThresholds;
 
-/// Whether dry friction that goes unseen may matter: the logs say nothing of a joint then, however little is left.
-pub(crate) fn hides(unseen: f64, torque_rms: f64) -> bool {
-    unseen > UNSEEN * torque_rms
+/// Whether dry friction that goes unseen may matter: then the logs say nothing of a joint, however small its residual.
+pub(crate) fn hides_friction(unseen: f64, torque_rms: f64, t: &VerdictThresholds) -> bool {
+    unseen > t.unseen * torque_rms
 }
 
-/// What is known of one joint when its verdict is due.
+/// Everything that the verdict of one joint depends on.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Situation {
+pub(crate) struct Situation<'a> {
     /// Why the logs say nothing of the joint.
     pub inadequate: Option<String>,
     /// Number of findings that lower its held-out error.
@@ -17,9 +17,9 @@ pub(crate) struct Situation {
     /// Number of those that are causes of the joint alone.
     pub own: usize,
     /// Number of findings between its two encoders.
-    pub between: usize,
-    /// Whether what was fitted predicts worse than the description.
-    pub failed: bool,
+    pub between_encoders: usize,
+    /// Whether the joint keeps its description because a fit predicts worse.
+    pub keeps_nominal: bool,
     /// The smallest level of dry friction that would have been found, where none was (N·m or N).
     pub unseen: f64,
     /// RMS of the effort (N·m or N).
@@ -33,61 +33,63 @@ pub(crate) struct Situation {
     pub noise: (f64, NoiseFloorSource),
     /// Whether the effort is what a controller asked for.
     pub is_command: bool,
-    /// RMS of dry friction that nobody knows while the joint turns (N·m or N).
+    /// RMS of the described dry friction near changes of direction, which no model can predict (N·m or N).
     pub near_rest: f64,
-    /// Share of the effort below which what is left does not matter.
+    /// Share of the effort below which a residual does not matter.
     pub practical: f64,
     /// Share of the remaining residual's power that is predictable.
     pub structure: f64,
-    /// Frequency above which most of what is left lies, and that of the motion (Hz).
+    /// Frequency above which most of the residual lies, and that of the motion (Hz).
     pub above_hz: Option<f64>,
     pub motion_hz: f64,
+    pub thresholds: &'a VerdictThresholds,
 }
 
-impl Situation {
+impl Situation<'_> {
     /// Share of the remaining residual's power that is beyond the noise.
     pub fn unexplained(&self) -> f64 {
         let noise = self.floor() / self.remaining_rms.max(f64::MIN_POSITIVE);
         (1.0 - noise.powi(2)).clamp(0.0, 1.0)
     }
 
-    /// RMS of what no model can know (N·m or N).
+    /// RMS that no model can predict (N·m or N).
     fn floor(&self) -> f64 {
         self.noise.0.hypot(self.near_rest)
     }
 
-    /// Whether what is left is within so many times a floor, but for the error of an RMS.
+    /// Whether the residual is at most so many times a floor, apart from the standard error of an RMS.
     fn is_within(&self, most: f64, floor: f64) -> bool {
         let error = (2.0 * self.samples.max(1.0)).sqrt().recip();
-        self.remaining_rms <= (most + ERRORS * error) * floor
+        self.remaining_rms <= (most + self.thresholds.rms_errors * error) * floor
     }
 
-    /// Whether what is left may be noise.
+    /// Whether the residual may be noise.
     fn is_noise(&self) -> bool {
-        let most = if self.is_command { OF_COMMANDED_NOISE } else { OF_NOISE };
+        let t = self.thresholds;
+        let most = if self.is_command { t.commanded_noise_factor } else { t.noise_factor };
         self.is_within(most, self.floor())
     }
 
-    /// Whether it may be noise and is so large that what matters fits in. Without a cause of the joint's
-    /// own, which these logs alone would have to show, for no better reason than that a command or a
-    /// turning joint is given more room.
+    /// Whether the residual may be noise, but is so large that an effect that matters may be part of it.
+    ///
+    /// For a joint with a cause of its own this holds whatever the noise. Otherwise it holds only where the residual exceeds
+    /// the effort's own noise, so that it passes for noise because commands and changes of direction are given more room.
     fn is_drowned(&self) -> bool {
         self.is_noise()
-            && self.remaining_rms > DROWNED * self.torque_rms
-            && (self.own > 0 || !self.is_within(OF_NOISE, self.noise.0))
+            && self.remaining_rms > self.thresholds.drowned * self.torque_rms
+            && (self.own > 0 || !self.is_within(self.thresholds.noise_factor, self.noise.0))
     }
 
-    /// Whether what is left beyond the noise does not matter.
+    /// Whether the residual beyond the noise is too small to matter.
     fn is_small(&self) -> bool {
         self.unexplained().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
     }
 
     /// The verdict and why.
     ///
-    /// Nothing is open where what is left is within noise that has a source, or a share of the effort
-    /// that does not matter. Nothing is explained where the error did not fall, or is as large as the
-    /// effort. Above [`DROWNED`] of the effort noise is the effort's own alone, beside no cause of the joint's own. Where a fit failed nothing is
-    /// consistent.
+    /// A joint is closed where the residual is within the noise, or a share of the effort that does not matter, unless the
+    /// noise is so large that causes may hide in it. It is explained only where the error fell and is smaller than the
+    /// effort. A joint that keeps its description against a fit is never consistent.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
             return (Verdict::DataInadequate, reason.clone());
@@ -95,13 +97,13 @@ impl Situation {
         let closed = !self.is_drowned() && (self.is_noise() || self.is_small());
         let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
         let is_sane = fell && self.remaining_rms < self.torque_rms;
-        let blind = hides(self.unseen, self.torque_rms);
-        let verdict = match (self.findings + self.between > 0, closed) {
-            // Something was there to fit, though no two parts of the logs agree on it.
-            (false, true) if self.failed || blind => Verdict::DataInadequate,
+        let blind = hides_friction(self.unseen, self.torque_rms, self.thresholds);
+        let verdict = match (self.findings + self.between_encoders > 0, closed) {
+            // There was an error to fit, but the parts of the logs disagree about it.
+            (false, true) if self.keeps_nominal || blind => Verdict::DataInadequate,
             (false, true) => Verdict::Consistent,
             (true, true) if is_sane && !blind => Verdict::Explained,
-            // The description predicts it as well, whatever a cause of the whole arm does there.
+            // The description predicts the joint as well as the findings, which are causes of the whole arm.
             (true, true) if !fell && self.remaining_rms < self.torque_rms && !blind => {
                 Verdict::Consistent
             }
@@ -128,9 +130,9 @@ impl Situation {
     }
 
     fn because(&self, verdict: Verdict) -> String {
-        let subject = match (self.findings, self.between) {
+        let subject = match (self.findings, self.between_encoders) {
             (0, 1..) => "its two encoders show the cause; the effort is left with",
-            (0, 0) if self.failed => {
+            (0, 0) if self.keeps_nominal => {
                 "what was fitted predicts worse than the description, which is kept and leaves"
             }
             (0, 0) if verdict == Verdict::Unexplained => {
@@ -178,7 +180,7 @@ impl Situation {
         noise
     }
 
-    /// What can be said of a rest that no function of the motion predicts.
+    /// Words for a residual that no function of the motion predicts.
     fn origin(&self) -> String {
         let fast =
             self.above_hz.filter(|hz| *hz > self.motion_hz && self.structure < self.practical);
@@ -190,8 +192,8 @@ impl Situation {
     }
 }
 
-/// The verdict over all joints of which the logs show enough. Nothing is closed where any of them moves and
-/// hides what friction it may have.
+/// The verdict over all joints of which the logs show enough; `hiding` joints move and may hide friction, which leaves the
+/// whole arm open.
 pub(crate) fn overall(joints: &[Verdict], hiding: usize) -> Verdict {
     use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
     let adequate: Vec<Verdict> = joints.iter().copied().filter(|v| *v != DataInadequate).collect();
@@ -211,16 +213,20 @@ pub(crate) fn overall(joints: &[Verdict], hiding: usize) -> Verdict {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::LazyLock;
+
     use super::*;
 
+    static DEFAULT: LazyLock<VerdictThresholds> = LazyLock::new(VerdictThresholds::default);
+
     /// A joint of 10 N m with a gap of 2 N m.
-    fn joint(findings: usize, remaining_rms: f64, noise: f64) -> Situation {
+    fn joint(findings: usize, remaining_rms: f64, noise: f64) -> Situation<'static> {
         Situation {
             inadequate: None,
             findings,
             own: findings,
-            between: 0,
-            failed: false,
+            between_encoders: 0,
+            keeps_nominal: false,
             unseen: 0.0,
             torque_rms: 10.0,
             nominal_rms: 2.0,
@@ -233,6 +239,7 @@ mod tests {
             structure: 0.0,
             above_hz: Some(8.0),
             motion_hz: 1.0,
+            thresholds: &DEFAULT,
         }
     }
 
@@ -284,7 +291,7 @@ mod tests {
 
     #[test]
     fn a_joint_whose_fit_failed_is_not_called_consistent() {
-        let failed = |noise| Situation { failed: true, ..joint(0, 1.0, noise) }.verdict();
+        let failed = |noise| Situation { keeps_nominal: true, ..joint(0, 1.0, noise) }.verdict();
         assert_eq!(failed(0.95).0, Verdict::DataInadequate);
         assert!(failed(0.95).1.contains("predicts worse than the description"));
         assert_eq!(failed(0.1).0, Verdict::Unexplained);

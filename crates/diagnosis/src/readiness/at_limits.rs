@@ -1,22 +1,22 @@
 use logs::Prepared;
 use robot::Robot;
 
-/// Share of a limit from which on an effort counts as at it: noise takes it to either side.
-const NEAR: f64 = 0.95;
+use crate::thresholds::readiness::ReadinessThresholds;
 
-/// Least share of the samples that is worth a word.
-const SHARE: f64 = 0.01;
-
-/// What there is to say of joints whose effort is at the limit that the robot states for much of
-/// the logs: there an arm does not follow its motion, and often vibrates.
-pub(crate) fn at_limits(robot: &Robot, prepared: &Prepared) -> Vec<String> {
+/// Warnings about joints whose effort is at the described limit for much of the logs: there an arm does not follow its
+/// motion, and often vibrates.
+pub(crate) fn at_limits(
+    robot: &Robot,
+    prepared: &Prepared,
+    t: &ReadinessThresholds,
+) -> Vec<String> {
     let warning = |(j, link): (usize, &robot::Link)| {
         let limit = link.joint.limits.effort.filter(|limit| *limit > 0.0)?;
         let efforts = || prepared.runs.iter().flat_map(|run| &run.joints[j].effort);
-        let near = efforts().filter(|effort| effort.abs() >= NEAR * limit).count();
+        let near = efforts().filter(|effort| effort.abs() >= t.at_limit_from * limit).count();
         let share = near as f64 / efforts().count().max(1) as f64;
         let unit = if link.joint.kind.is_rotation() { "N·m" } else { "N" };
-        (share >= SHARE).then(|| {
+        (share >= t.at_limit_share).then(|| {
             format!(
                 "{}: its effort is at the limit of {limit} {unit} in {:.0} % of the samples: the \
                  motion asks for more than the drive has",
@@ -56,7 +56,7 @@ mod tests {
             session_start_s: 0.0,
             joints,
         };
-        at_limits(&robot, &Prepared::exact(vec![run], 0.1))
+        at_limits(&robot, &Prepared::exact(vec![run], 0.1), &ReadinessThresholds::default())
     }
 
     #[test]

@@ -1,14 +1,16 @@
 use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::{Joint, Robot};
 
-/// Range of motion below which a joint counts as unmoved, as a share of its limits' span
-/// or of a full turn.
-const UNMOVED_SHARE: f64 = 0.02;
+use crate::thresholds::readiness::ReadinessThresholds;
 
-/// Why the logs can say nothing of a joint, for every joint of which that is so.
-pub(crate) fn inadequate(robot: &Robot, prepared: &Prepared) -> Vec<Option<String>> {
+/// For every joint, the reason why the logs can say nothing of it, if there is one.
+pub(crate) fn inadequate(
+    robot: &Robot,
+    prepared: &Prepared,
+    t: &ReadinessThresholds,
+) -> Vec<Option<String>> {
     let reason = |(j, link): (usize, &robot::Link)| {
-        let (range, least) = (range(prepared, j), least(link));
+        let (range, least) = (range(prepared, j), least(link, t));
         if range <= least {
             let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
             return Some(format!(
@@ -23,9 +25,13 @@ pub(crate) fn inadequate(robot: &Robot, prepared: &Prepared) -> Vec<Option<Strin
 
 /// Leaves out runs in which the effort of a joint never changes while it moves, with a warning each, where
 /// these are less than half of the samples.
-pub(crate) fn without_unrecorded(robot: &Robot, prepared: &mut Prepared) -> Vec<String> {
+pub(crate) fn without_unrecorded(
+    robot: &Robot,
+    prepared: &mut Prepared,
+    t: &ReadinessThresholds,
+) -> Vec<String> {
     let joints: Vec<(&str, f64)> =
-        robot.links().iter().map(|link| (link.joint.name.as_str(), least(link))).collect();
+        robot.links().iter().map(|link| (link.joint.name.as_str(), least(link, t))).collect();
     let unrecorded = |run: &PreparedRun| -> Vec<&str> {
         let those =
             joints.iter().enumerate().filter(|(j, (_, least))| is_unrecorded(run, *j, *least));
@@ -64,8 +70,8 @@ fn is_unrecorded(run: &PreparedRun, j: usize, least: f64) -> bool {
 }
 
 /// Range above which a joint moves (rad or m).
-fn least(link: &robot::Link) -> f64 {
-    UNMOVED_SHARE * full_range(&link.joint)
+fn least(link: &robot::Link, t: &ReadinessThresholds) -> f64 {
+    t.unmoved_range * full_range(&link.joint)
 }
 
 /// Range of motion of joint `j` over all runs (rad or m).
@@ -112,7 +118,7 @@ mod tests {
     fn a_joint_moves_that_turns_over_a_fiftieth_of_a_turn() {
         let reason = |range| {
             let prepared = Prepared::exact(vec![run("a", 1000, range, 2.0)], 5.0);
-            inadequate(&pendulum(), &prepared).remove(0)
+            inadequate(&pendulum(), &prepared, &ReadinessThresholds::default()).remove(0)
         };
         assert_eq!(reason(0.13), None);
         let expected = "the joint moves over 0.1200 rad in these logs, at least 0.126 are needed";
@@ -121,17 +127,22 @@ mod tests {
 
     #[test]
     fn a_short_run_without_effort_is_left_out_and_a_long_one_spoils_the_joint() {
-        let told = |samples| {
+        let observe = |samples| {
             let runs = vec![run("a", 1000, 1.0, 2.0), run("b", samples, 1.0, 0.0)];
             let mut prepared = Prepared::exact(runs, 5.0);
-            let warnings = without_unrecorded(&pendulum(), &mut prepared);
-            (warnings, prepared.runs.len(), inadequate(&pendulum(), &prepared).remove(0))
+            let warnings =
+                without_unrecorded(&pendulum(), &mut prepared, &ReadinessThresholds::default());
+            (
+                warnings,
+                prepared.runs.len(),
+                inadequate(&pendulum(), &prepared, &ReadinessThresholds::default()).remove(0),
+            )
         };
         let expected =
             "b was left out: the effort of hinge never changes in it, though the arm moves"
                 .to_owned();
-        assert_eq!(told(900), (vec![expected], 1, None));
+        assert_eq!(observe(900), (vec![expected], 1, None));
         let expected = "its effort never changes in b: it was not recorded there".to_owned();
-        assert_eq!(told(1100), (Vec::new(), 2, Some(expected)));
+        assert_eq!(observe(1100), (Vec::new(), 2, Some(expected)));
     }
 }

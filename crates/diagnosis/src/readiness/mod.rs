@@ -1,7 +1,6 @@
-//! What the logs can be asked for: joints that move, readings that can be, second encoders that
-//! follow.
+//! What the logs can be used for: joints that move, corrected readings, second encoders that follow their motors.
 
 pub(crate) mod at_limits;
 pub(crate) mod extent;
-pub(crate) mod inspected;
+pub(crate) mod inspected_logs;
 pub(crate) mod second_encoders;

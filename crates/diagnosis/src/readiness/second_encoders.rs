@@ -1,13 +1,18 @@
 use logs::{Prepared, PreparedJoint};
 use robot::{Robot, SensingSide};
 
-/// Largest difference from one of the motion of a link over that of its motor: far more than a
-/// gear ratio is off.
-const OUT_OF_STEP: f64 = 0.2;
+use crate::thresholds::readiness::ReadinessThresholds;
 
-/// Leaves out second encoders that cannot be at the link of a motor that the first one shows, with
-/// a warning a joint.
-pub(crate) fn without_idle_encoders(robot: &Robot, prepared: &mut Prepared) -> Vec<String> {
+/// Motion of an encoder (rad² or m², summed over all samples) that its noise alone makes.
+const NOISE_OF_REST: f64 = 1e-6;
+
+/// Leaves out second encoders that do not follow their motor, or whose robot has its encoders at the links already, with a
+/// warning a joint.
+pub(crate) fn without_idle_encoders(
+    robot: &Robot,
+    prepared: &mut Prepared,
+    t: &ReadinessThresholds,
+) -> Vec<String> {
     let mut warnings = Vec::new();
     for (j, link) in robot.links().iter().enumerate() {
         let joints = || prepared.runs.iter().map(|run| &run.joints[j]);
@@ -18,7 +23,7 @@ pub(crate) fn without_idle_encoders(robot: &Robot, prepared: &mut Prepared) -> V
         let slope = slope(joints()) / drive.transmission_ratio;
         let reason = if drive.sensing == SensingSide::Link {
             "the robot has its position measured at the link already".to_owned()
-        } else if (slope - 1.0).abs() > OUT_OF_STEP {
+        } else if (slope - 1.0).abs() > t.second_encoder_mismatch {
             format!("it moves {slope:.2} times as far as its motor, about once was expected")
         } else {
             continue;
@@ -42,7 +47,5 @@ fn slope<'a>(runs: impl Iterator<Item = &'a PreparedJoint>) -> f64 {
             own += (q - a).powi(2);
         }
     }
-    // Below this it is the noise of the encoders that moves.
-    const AT_REST: f64 = 1e-6;
-    if own > AT_REST { across / own } else { 1.0 }
+    if own > NOISE_OF_REST { across / own } else { 1.0 }
 }

@@ -2,28 +2,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::columns::design::Design;
-
-/// Fewest blocks of a record: three for each of the folds, and one more; scores of as many give the errors
-/// of sizes.
-pub(crate) const FEWEST_BLOCKS: usize = 16;
-
-/// Fewest samples of a block.
-const FEWEST_SAMPLES: f64 = 2.0;
-
-/// Number of blocks in which each joint moves that is aimed at where the record allows.
-const WANTED_BLOCKS: f64 = 24.0;
-
-/// Most blocks of a record: each costs the memory of a matrix for every joint.
-const MOST_BLOCKS: f64 = 240.0;
-
-/// Least length of a block, in autocorrelation times.
-const BLOCK_TIMES: f64 = 5.0;
-
-/// Largest number of folds.
-const FOLDS: usize = 5;
-
-/// Fewest motions of every joint that are held out in turn: with two, each fit would know only one.
-const FEWEST_MOTIONS: usize = 3;
+use crate::thresholds::blocks::BlockThresholds;
 
 /// A stretch of one run: the unit of replication.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +13,7 @@ pub(crate) struct Block {
     pub samples: Range<usize>,
 }
 
-/// A part of the record that is held out together.
+/// A part of the logs that is held out together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fold {
     /// Blocks to predict.
@@ -45,17 +24,16 @@ pub(crate) struct Fold {
 
 /// Cuts every run into blocks of at least five autocorrelation times.
 ///
-/// They are so short that every joint has about 24 of them in which it moves, in motions that differ:
-/// what a joint does in one log of six, or in three repeats of one motion, is cut as finely as one log
-/// of that alone would be. Where a joint moves too briefly for that, blocks are shortened until it has
-/// sixteen.
-pub(crate) fn blocks(design: &Design, autocorrelation: f64) -> Vec<Block> {
+/// Blocks are so short that every joint has about 24 of them in which it moves, in motions that differ. A joint that moves
+/// in one log of six, or in three repeats of one motion, is thus cut as finely as in a single log. Where a joint moves too
+/// briefly for that, blocks are shortened until it has sixteen.
+pub(crate) fn blocks(design: &Design, autocorrelation: f64, t: &BlockThresholds) -> Vec<Block> {
     let lengths: Vec<usize> = design.runs.iter().map(|r| r.time.len()).collect();
     let total = lengths.iter().sum::<usize>() as f64;
-    let least = least_told(design).unwrap_or(total);
-    let wanted = (least / WANTED_BLOCKS).max(BLOCK_TIMES * autocorrelation);
-    let length = wanted.min(least / FEWEST_BLOCKS as f64).max(FEWEST_SAMPLES);
-    let length = length.max(total / MOST_BLOCKS);
+    let least = fewest_informative(design).unwrap_or(total);
+    let wanted = (least / t.wanted).max(t.autocorrelation_times * autocorrelation);
+    let length = wanted.min(least / t.fewest as f64).max(t.fewest_samples);
+    let length = length.max(total / t.most);
     let cut = |(run, &n): (usize, &usize)| {
         let count = ((n as f64 / length).round() as usize).max(1);
         let edge = move |k: usize| k * n / count;
@@ -64,37 +42,39 @@ pub(crate) fn blocks(design: &Design, autocorrelation: f64) -> Vec<Block> {
     lengths.iter().enumerate().flat_map(cut).filter(|b| !b.samples.is_empty()).collect()
 }
 
-/// The fewest samples that tell of the effort of a joint that moved, in motions that differ.
-fn least_told(design: &Design) -> Option<f64> {
+/// The fewest informative samples of a joint that moved, in motions that differ.
+fn fewest_informative(design: &Design) -> Option<f64> {
     let is_first = |r: &usize| !design.motion[..*r].contains(&design.motion[*r]);
     let firsts: Vec<usize> = (0..design.runs.len()).filter(is_first).collect();
-    let told = |j: usize| {
-        let of_run = |r: &usize| design.runs[*r].joints[j].tells.iter().filter(|t| **t).count();
+    let informative = |j: usize| {
+        let of_run =
+            |r: &usize| design.runs[*r].joints[j].is_informative.iter().filter(|t| **t).count();
         firsts.iter().map(of_run).sum::<usize>()
     };
     let moved = (0..design.joints()).filter(|j| design.moved[*j]);
-    moved.map(told).filter(|told| *told > 0).min().map(|told| told as f64)
+    moved.map(informative).filter(|samples| *samples > 0).min().map(|samples| samples as f64)
 }
 
-/// What is held out together.
+/// How runs are held out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Folding {
-    /// A run, even if another run repeats its motion: how well is the next run predicted?
+    /// Each run by itself, even if another run repeats its motion: how well is the next run predicted?
     ByRun,
-    /// All runs of one motion: does what was found carry over to another motion?
+    /// All runs of one motion together: do the findings hold for another motion?
     ByMotion,
 }
 
 /// Folds over the blocks `of`.
 ///
-/// Runs, or motions, are held out in turn where every joint moves in three of them or more. Otherwise
-/// each run is cut into stretches, the same stretches of every run are held out together, and the
-/// blocks next to them are left out: every motion of a joint is then on both sides.
+/// Runs, or motions, are held out in turn where every joint moves in three of them or more. Otherwise each run is cut into
+/// stretches, and the same stretches of every run are held out together, so that every motion of a joint is on both sides.
+/// The blocks next to a stretch take part on neither side.
 pub(crate) fn folds(
     design: &Design,
     blocks: &[Block],
     of: &[usize],
     folding: Folding,
+    t: &BlockThresholds,
 ) -> Vec<Fold> {
     let key = |run: usize| match folding {
         Folding::ByRun => run,
@@ -107,11 +87,11 @@ pub(crate) fn folds(
     let moves_in =
         |j: usize| keys_of(&mut runs.iter().copied().filter(|r| design.moves[*r][j])).len();
     let mut moved = (0..design.joints()).filter(|j| design.moved[*j]);
-    if moved.any(|j| moves_in(j) < FEWEST_MOTIONS) {
-        return parts(design, blocks, of);
+    if moved.any(|j| moves_in(j) < t.fewest_motions) {
+        return parts(design, blocks, of, t);
     }
     let keys: Vec<usize> = keys_of(&mut runs.iter().copied()).into_iter().collect();
-    let count = keys.len().min(2 * FOLDS);
+    let count = keys.len().min(2 * t.folds);
     let part = |run: usize| keys.binary_search(&key(run)).unwrap_or(0) * count / keys.len();
     (0..count)
         .map(|p| {
@@ -121,20 +101,12 @@ pub(crate) fn folds(
         .collect()
 }
 
-/// Largest share of what a joint tells while it turns one way that a fold may keep from its fit.
-const MOST_HELD_OUT: f64 = 0.5;
-
-/// Least share of what a joint tells that it tells while it turns one way, for that way to count.
-const A_WAY: f64 = 0.1;
-
-/// Fewest blocks of a stretch that is held out: the two beside it are lost to its gap.
-const FEWEST_IN_STRETCH: usize = 3;
-
-/// The same stretches of every run held out together, in as few stretches of the run as leave half of what
-/// every joint tells, turning either way, to the fit: 5, and where a joint moves but briefly 10, 20, ..., dealt
-/// in turn. Where none do, those that keep the least from it, joint by joint: one that is always kept whole
-/// decides nothing for the others.
-fn parts(design: &Design, blocks: &[Block], of: &[usize]) -> Vec<Fold> {
+/// Folds of stretches, the same of every run.
+///
+/// The number of stretches is the smallest of 5, 10, 20, ... that leaves to every fit half of each joint's informative
+/// samples in either direction. Where none does, it is the number that keeps the least from the fits, summed over the
+/// joints: a joint that moves in one stretch alone then decides nothing for the others.
+fn parts(design: &Design, blocks: &[Block], of: &[usize], t: &BlockThresholds) -> Vec<Fold> {
     let mut runs: Vec<usize> = of.iter().map(|&b| blocks[b].run).collect();
     runs.dedup();
     let within: Vec<Vec<usize>> = runs
@@ -142,20 +114,20 @@ fn parts(design: &Design, blocks: &[Block], of: &[usize]) -> Vec<Fold> {
         .map(|&r| of.iter().copied().filter(|&b| blocks[b].run == r).collect())
         .collect();
     let longest = within.iter().map(Vec::len).max().unwrap_or(0);
-    let count = FOLDS.min(longest).max(2);
-    let told = Told::new(design, blocks, of);
+    let count = t.folds.min(longest).max(2);
+    let samples = InformativeSamples::new(design, blocks, of, t.least_direction);
     let mut best: Option<(f64, Vec<Fold>)> = None;
     let mut rounds = 1;
     loop {
-        let folds = dealt(&within, count, rounds);
-        let kept = told.held_out(&folds);
+        let folds = deal(&within, count, rounds);
+        let kept = samples.held_out(&folds);
         let most = kept.iter().copied().fold(0.0, f64::max);
-        let beyond = kept.iter().map(|kept| (kept - MOST_HELD_OUT).max(0.0)).sum();
+        let beyond = kept.iter().map(|kept| (kept - t.most_held_out).max(0.0)).sum();
         if best.as_ref().is_none_or(|(least, _)| beyond < *least) {
             best = Some((beyond, folds));
         }
         rounds *= 2;
-        if most <= MOST_HELD_OUT || rounds * count * FEWEST_IN_STRETCH > longest {
+        if most <= t.most_held_out || rounds * count * t.fewest_in_stretch > longest {
             break;
         }
     }
@@ -163,7 +135,7 @@ fn parts(design: &Design, blocks: &[Block], of: &[usize]) -> Vec<Fold> {
 }
 
 /// Stretches of the runs `within`, `rounds` for each of `count` folds, dealt in turn.
-fn dealt(within: &[Vec<usize>], count: usize, rounds: usize) -> Vec<Fold> {
+fn deal(within: &[Vec<usize>], count: usize, rounds: usize) -> Vec<Fold> {
     let fold = |p: usize| {
         let (mut test, mut train) = (Vec::new(), Vec::new());
         for run in within {
@@ -178,21 +150,22 @@ fn dealt(within: &[Vec<usize>], count: usize, rounds: usize) -> Vec<Fold> {
     (0..count).map(fold).collect()
 }
 
-/// How many samples every joint tells of in every block, by the way it turns.
-struct Told {
-    /// `[joint and way][block]`
+/// Number of informative samples of every joint in every block, by the direction of its motion.
+struct InformativeSamples {
+    /// `[joint and direction][block]`
     samples: Vec<Vec<usize>>,
     /// The same of all blocks.
     all: Vec<usize>,
 }
 
-impl Told {
-    fn new(design: &Design, blocks: &[Block], of: &[usize]) -> Self {
+impl InformativeSamples {
+    fn new(design: &Design, blocks: &[Block], of: &[usize], least_direction: f64) -> Self {
         let moved: Vec<usize> = (0..design.joints()).filter(|j| design.moved[*j]).collect();
         let in_block = |j: usize, forward: bool, block: &Block| {
             let joint = &design.runs[block.run].joints[j];
-            let tells = |t: &usize| joint.tells[*t] && (joint.state[1][*t] > 0.0) == forward;
-            block.samples.clone().filter(tells).count()
+            let counts =
+                |t: &usize| joint.is_informative[*t] && (joint.state[1][*t] > 0.0) == forward;
+            block.samples.clone().filter(counts).count()
         };
         let (mut samples, mut all) = (Vec::new(), Vec::new());
         for j in moved {
@@ -201,7 +174,7 @@ impl Told {
             let sums = ways.each_ref().map(|way| of.iter().map(|&b| way[b]).sum::<usize>());
             let whole = (sums[0] + sums[1]) as f64;
             for (way, sum) in ways.into_iter().zip(sums) {
-                if sum > 0 && sum as f64 >= A_WAY * whole {
+                if sum > 0 && sum as f64 >= least_direction * whole {
                     samples.push(way);
                     all.push(sum);
                 }
@@ -210,7 +183,7 @@ impl Told {
         Self { samples, all }
     }
 
-    /// The largest share of what each joint tells each way that a fold keeps from its fit.
+    /// The largest share of each joint's informative samples in each direction that a fold keeps from its fit.
     fn held_out(&self, folds: &[Fold]) -> Vec<f64> {
         let of = |(way, all): (&Vec<usize>, &usize)| {
             let share = |fold: &Fold| {
@@ -234,7 +207,7 @@ mod tests {
     #[test]
     fn stretches_are_held_out_once_and_next_to_none_that_is_fitted() {
         for rounds in [1, 2, 4] {
-            let folds = dealt(&within(), FOLDS, rounds);
+            let folds = deal(&within(), 5, rounds);
             let mut held_out: Vec<usize> = folds.iter().flat_map(|f| f.test.clone()).collect();
             held_out.sort_unstable();
             assert_eq!(held_out, (0..90).collect::<Vec<_>>());
@@ -246,7 +219,7 @@ mod tests {
             }
         }
         // A fifth of every run, as one stretch, and the block next to it.
-        let first = &dealt(&within(), FOLDS, 1)[0];
+        let first = &deal(&within(), 5, 1)[0];
         assert_eq!(first.test, (0..12).chain(60..66).collect::<Vec<_>>());
         assert_eq!(first.train, (13..60).chain(67..90).collect::<Vec<_>>());
     }
@@ -257,10 +230,10 @@ mod tests {
     fn a_brief_motion_is_on_both_sides_when_more_stretches_are_dealt() {
         let brief: Vec<usize> =
             (0..60).map(|b| if (12..24).contains(&b) { 10 } else { 0 }).collect();
-        let told = Told { all: vec![brief.iter().sum()], samples: vec![brief] };
+        let samples = InformativeSamples { all: vec![brief.iter().sum()], samples: vec![brief] };
         let within = vec![(0..60).collect::<Vec<usize>>()];
-        let kept = |rounds| told.held_out(&dealt(&within, FOLDS, rounds))[0];
+        let kept = |rounds| samples.held_out(&deal(&within, 5, rounds))[0];
         assert!((kept(1) - 1.0).abs() < 1e-12);
-        assert!(kept(2) > MOST_HELD_OUT && kept(4) <= MOST_HELD_OUT, "{} {}", kept(2), kept(4));
+        assert!(kept(2) > 0.5 && kept(4) <= 0.5, "{} {}", kept(2), kept(4));
     }
 }

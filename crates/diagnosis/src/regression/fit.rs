@@ -1,6 +1,6 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::columns::beliefs::Beliefs;
+use crate::columns::prior::Prior;
 use crate::regression::gram::Information;
 
 /// A ridge regression on some of the columns, within bounds.
@@ -21,7 +21,7 @@ pub(crate) struct Fit {
     /// Columns held at a bound, with the bound.
     pub held: Vec<(usize, f64)>,
     factor: Cholesky<f64, Dyn>,
-    /// `g - H w` of the held columns: what the free ones answer.
+    /// `g - H w` of the held columns: the right-hand side of the free ones.
     answered: DVector<f64>,
     /// Logarithm of the marginal likelihood, up to a constant of the data.
     pub evidence: f64,
@@ -29,19 +29,19 @@ pub(crate) struct Fit {
 
 impl Fit {
     /// The fit of `columns` to `info`; none when the normal equations are not positive definite.
-    pub fn new(info: &Information, mut columns: Vec<usize>, beliefs: Beliefs) -> Option<Self> {
+    pub fn new(info: &Information, mut columns: Vec<usize>, prior: Prior) -> Option<Self> {
         let mut held: Vec<(usize, f64)> = Vec::new();
         let mut answered = info.g.clone();
         loop {
-            let factor = Cholesky::new(regularised(info, &columns, beliefs.prior))?;
+            let factor = Cholesky::new(regularised(info, &columns, prior.sd))?;
             let weights = factor.solve(&pick(&answered, &columns));
             let outside = |(&k, &w): (&usize, &f64)| {
-                let (low, high) = beliefs.bounds[k];
+                let (low, high) = prior.bounds[k];
                 (w < low || w > high).then(|| (k, w.clamp(low, high)))
             };
             let leaving: Vec<_> = columns.iter().zip(weights.iter()).filter_map(outside).collect();
             if leaving.is_empty() {
-                let evidence = evidence(info, &columns, (&weights, &held), &factor, beliefs.prior);
+                let evidence = evidence(info, &columns, (&weights, &held), &factor, prior.sd);
                 return Some(Self { columns, weights, held, factor, answered, evidence });
             }
             for &(k, bound) in &leaving {
@@ -60,8 +60,7 @@ impl Fit {
         all
     }
 
-    /// How a score on the columns of the fit and on `others` looks to `others` once the
-    /// fit's own columns have been given their share:
+    /// The part of `others`, and of a score on them, that the columns of the fit cannot explain:
     ///
     /// ```text
     /// project = [-A_KS A_SS^-1, 1],  b = A_KK - A_KS A_SS^-1 A_SK
@@ -75,7 +74,7 @@ impl Fit {
         Complement { own: self.columns.clone(), others: others.to_vec(), share, b }
     }
 
-    /// What the data say of `others` beyond the fit: `b` and the projected score.
+    /// Information and score of `others` beyond the fit: `b` and the projected score.
     pub fn beyond(
         &self,
         info: &Information,

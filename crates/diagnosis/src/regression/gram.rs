@@ -68,7 +68,7 @@ pub(crate) struct Information {
 }
 
 impl Information {
-    /// What the weights `w` leave: `yy - 2 w' g + w' H w`.
+    /// Weighted sum of squares that the weights `w` leave: `yy - 2 w' g + w' H w`.
     pub fn deviance(&self, w: &[f64]) -> f64 {
         let w = DVector::from_column_slice(w);
         self.yy - 2.0 * w.dot(&self.g) + w.dot(&(&self.h * &w))
@@ -80,12 +80,15 @@ impl Grams {
     pub fn new(design: &Design, blocks: &[Block]) -> Self {
         let joint = |block: &Block, j: usize| {
             let signals = &design.runs[block.run].joints[j];
-            let told: Vec<usize> =
-                block.samples.clone().filter(|t| signals.tells.get(*t) == Some(&true)).collect();
+            let informative: Vec<usize> = block
+                .samples
+                .clone()
+                .filter(|t| signals.is_informative.get(*t) == Some(&true))
+                .collect();
             let y = signals.residual().skip(block.samples.start).take(block.samples.len());
-            let y = y.zip(&signals.tells[block.samples.clone()]).filter(|(_, tells)| **tells);
-            let y = DVector::from_iterator(told.len(), y.map(|(y, _)| y));
-            let x = signals.x.select_rows(&told);
+            let y = y.zip(&signals.is_informative[block.samples.clone()]).filter(|(_, is)| **is);
+            let y = DVector::from_iterator(informative.len(), y.map(|(y, _)| y));
+            let x = signals.x.select_rows(&informative);
             let xt = x.transpose();
             JointGram { xx: &xt * &x, xy: &xt * &y, yy: y.norm_squared(), count: y.len() }
         };
@@ -137,7 +140,7 @@ impl Grams {
         score
     }
 
-    /// The weights at joint `j` that are not zero, with their places: few of its columns are in a model.
+    /// The non-zero weights at joint `j`, with their places: few of its columns are in a model.
     pub fn local(&self, j: usize, w: &[f64]) -> Vec<(usize, f64)> {
         let all = self.local[j].iter().map(|&k| w[k]).enumerate();
         all.filter(|(_, w)| w.abs() > 0.0).collect()

@@ -1,13 +1,13 @@
-//! Weights of a model from normal equations by block: their evidence, what they predict of held-out
-//! blocks, physically possible sizes about the robot that has them, and how well these are known.
+//! Weights of a model from normal equations by block: their evidence, their prediction of held-out blocks, physically
+//! possible sizes about the robot that has them, and the uncertainty of these.
 
 pub(crate) mod blocks;
-pub(crate) mod extended;
+pub(crate) mod extend_robot;
 pub(crate) mod fit;
-pub(crate) mod fitted;
+pub(crate) mod fitted_model;
 pub(crate) mod gram;
+pub(crate) mod linear_fit;
 pub(crate) mod noise;
+pub(crate) mod physical_inertias;
 pub(crate) mod problem;
-pub(crate) mod settle;
-pub(crate) mod solved;
 pub(crate) mod uncertainty;

@@ -1,4 +1,4 @@
-/// How noisy each joint is, and how long its noise remembers.
+/// Variance and memory of the noise of each joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Noise {
     /// Variance of the residual ((N·m)² or N²).

@@ -7,12 +7,13 @@ use crate::regression::blocks::{Block, Fold, Folding, folds};
 use crate::regression::fit::Fit;
 use crate::regression::gram::{Grams, Information, JointGram};
 use crate::regression::noise::Noise;
-use crate::signals::look::Look;
+use crate::signals::response::Response;
+use crate::thresholds::Thresholds;
 
 /// A set of hypotheses, by index of their groups.
 pub(crate) type Model = BTreeSet<usize>;
 
-/// The regression problem on a part of the record: what selection, tests and fits work on.
+/// The regression problem on a part of the logs: selection, tests and fits work on it.
 #[derive(Debug, Clone)]
 pub(crate) struct Problem<'a> {
     pub design: &'a Design,
@@ -24,11 +25,12 @@ pub(crate) struct Problem<'a> {
     pub folds: Vec<Fold>,
     /// Weight of each joint's squared residuals.
     pub weight: Vec<f64>,
+    pub thresholds: &'a Thresholds,
     /// Normal equations of all blocks.
     pub info: Information,
     /// Normal equations of each fold's training blocks.
     pub training: Vec<Information>,
-    /// What each fold holds out, `[fold][joint]`.
+    /// Statistics of the blocks that each fold holds out, `[fold][joint]`.
     tests: Vec<Vec<JointGram>>,
 }
 
@@ -49,30 +51,33 @@ impl<'a> Problem<'a> {
         grams: &'a Grams,
         of: &[usize],
         weight: Vec<f64>,
+        thresholds: &'a Thresholds,
     ) -> Self {
-        let folds = folds(design, blocks, of, Folding::ByMotion);
+        let folds = folds(design, blocks, of, Folding::ByMotion, &thresholds.blocks);
         let info = grams.information(of, &weight);
         let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
         let tests = tests(grams, &folds);
-        Self { design, blocks, grams, of: of.to_vec(), folds, weight, info, training, tests }
+        let of = of.to_vec();
+        Self { design, blocks, grams, of, folds, weight, thresholds, info, training, tests }
     }
 
     /// The same problem with other weights.
-    pub fn reweighted(&self, weight: Vec<f64>) -> Self {
-        Self::new(self.design, self.blocks, self.grams, &self.of, weight)
+    pub fn with_weights(&self, weight: Vec<f64>) -> Self {
+        Self::new(self.design, self.blocks, self.grams, &self.of, weight, self.thresholds)
     }
 
     /// The same problem held out in another way.
-    pub fn refolded(&self, folding: Folding) -> Self {
-        let folds = folds(self.design, self.blocks, &self.of, folding);
+    pub fn with_folding(&self, folding: Folding) -> Self {
+        let t = &self.thresholds.blocks;
+        let folds = folds(self.design, self.blocks, &self.of, folding, t);
         let information = |f: &Fold| self.grams.information(&f.train, &self.weight);
         let training = folds.iter().map(information).collect();
         let tests = tests(self.grams, &folds);
         Self { folds, training, tests, ..self.clone() }
     }
 
-    /// The blocks in groups that are independent of each other: where runs repeat a motion,
-    /// what is left of them repeats too, and the same stretch of each belongs together.
+    /// The blocks in groups that are independent of each other. Where runs repeat a motion their residuals repeat too, so
+    /// that the same stretch of each belongs to one group.
     pub fn independent(&self) -> Vec<Vec<usize>> {
         let mut groups: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
         for &b in &self.of {
@@ -104,16 +109,16 @@ impl<'a> Problem<'a> {
 
     /// The fit of a model to all blocks.
     pub fn fit(&self, model: &Model) -> Option<Fit> {
-        Fit::new(&self.info, self.columns(model), self.design.beliefs())
+        Fit::new(&self.info, self.columns(model), self.design.weight_prior())
     }
 
     /// All weights of a model fitted to the training blocks of fold `fold`.
     pub fn fold_weights(&self, model: &Model, fold: usize) -> Vec<f64> {
-        let fit = Fit::new(&self.training[fold], self.columns(model), self.design.beliefs());
+        let fit = Fit::new(&self.training[fold], self.columns(model), self.design.weight_prior());
         fit.map_or_else(|| vec![0.0; self.design.width], |f| f.expand(self.design.width))
     }
 
-    /// What a model leaves on the blocks that its weights have not seen.
+    /// Squared residuals of a model on the blocks that its weights have not seen.
     pub fn held_out(&self, model: &Model) -> HeldOut {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
@@ -143,9 +148,9 @@ impl<'a> Problem<'a> {
         deviance
     }
 
-    /// A signal of run `run` of which each block is taken from what its fold has; a block of no fold, from
-    /// the first.
-    pub fn put_together(&self, run: usize, folds: &[&[f64]]) -> Vec<f64> {
+    /// A signal of run `run`, given for every fold: each block is taken from the fold that holds it out, a block of no
+    /// fold from the first.
+    pub fn join_folds(&self, run: usize, folds: &[&[f64]]) -> Vec<f64> {
         let of_run = self.blocks.iter().enumerate().filter(|(_, block)| block.run == run);
         let part = |(b, block): (usize, &Block)| {
             let fold = self.folds.iter().position(|f| f.test.contains(&b)).unwrap_or(0);
@@ -154,8 +159,8 @@ impl<'a> Problem<'a> {
         of_run.flat_map(part).collect()
     }
 
-    /// Held-out residuals, `[joint][run][sample]`, of what `left` says that each fold, by its
-    /// index, leaves of a run at a joint; runs that take no part are left out.
+    /// Held-out residuals, `[joint][run][sample]`. `left` gives the residual of a fold, by its index, in a run at a joint;
+    /// runs that take no part are left out.
     pub fn held_out_residuals(
         &self,
         left: impl Fn(usize, usize, usize) -> Vec<f64>,
@@ -163,17 +168,17 @@ impl<'a> Problem<'a> {
         self.residuals(left, |_, left| left.to_vec())
     }
 
-    /// The same of the samples that tell of the efforts.
-    pub fn told_residuals(
+    /// Held-out residuals of the informative samples.
+    pub fn informative_residuals(
         &self,
         left: impl Fn(usize, usize, usize) -> Vec<f64>,
     ) -> Vec<Vec<Vec<f64>>> {
-        self.residuals(left, |tells, left| {
-            left.iter().zip(tells).filter(|(_, tells)| **tells).map(|(left, _)| *left).collect()
+        self.residuals(left, |is_informative, left| {
+            left.iter().zip(is_informative).filter(|(_, is)| **is).map(|(left, _)| *left).collect()
         })
     }
 
-    /// Held-out residuals, of which `taken` takes its part of what a block tells and leaves.
+    /// Held-out residuals; `taken` chooses from a block's informative samples and residual.
     fn residuals(
         &self,
         left: impl Fn(usize, usize, usize) -> Vec<f64>,
@@ -194,9 +199,9 @@ impl<'a> Problem<'a> {
                     if used { left(f, run, j) } else { Vec::new() }
                 };
                 let left: Vec<Vec<f64>> = (0..self.folds.len()).map(of_fold).collect();
-                let tells = &self.design.runs[run].joints[j].tells;
+                let is_informative = &self.design.runs[run].joints[j].is_informative;
                 let part = |(block, f): &(&Block, usize)| {
-                    taken(&tells[block.samples.clone()], &left[*f][block.samples.clone()])
+                    taken(&is_informative[block.samples.clone()], &left[*f][block.samples.clone()])
                 };
                 residual.push(own.iter().flat_map(part).collect());
             }
@@ -209,25 +214,26 @@ impl<'a> Problem<'a> {
         let weights: Vec<Vec<f64>> =
             (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
         let left = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
-        Noise::of(&self.told_residuals(left))
+        Noise::of(&self.informative_residuals(left))
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.
-    pub fn fitted_noise(&self, model: &Model) -> Noise {
+    pub fn training_noise(&self, model: &Model) -> Noise {
         let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
-        Noise::of(&self.told_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
+        Noise::of(&self.informative_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
     }
 
-    /// The model of every hypothesis at once, but those that may pass for others in an effort.
+    /// The model of every hypothesis at once. Of efforts it leaves out effects that an error elsewhere may pass for.
     pub fn everything(&self) -> Model {
         let groups = &self.design.groups;
-        let firm =
-            |g: &usize| self.design.look == Look::Twist || !groups[*g].hypothesis.is_doubtful();
-        (0..groups.len()).filter(firm).collect()
+        let is_distinct = |g: &usize| {
+            self.design.response == Response::Twist || !groups[*g].hypothesis.is_doubtful()
+        };
+        (0..groups.len()).filter(is_distinct).collect()
     }
 }
 
-/// What each fold holds out, `[fold][joint]`.
+/// Statistics of the blocks that each fold holds out, `[fold][joint]`.
 fn tests(grams: &Grams, folds: &[Fold]) -> Vec<Vec<JointGram>> {
     let of = |fold: &Fold| (0..grams.joints()).map(|j| grams.joint(j, &fold.test)).collect();
     folds.iter().map(of).collect()

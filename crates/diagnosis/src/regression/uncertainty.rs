@@ -3,14 +3,14 @@ use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
-use crate::regression::extended::extended;
+use crate::regression::extend_robot::extend_robot;
 use crate::regression::fit::{Fit, covariance, pick};
-use crate::regression::fitted::Fitted;
+use crate::regression::linear_fit::LinearFit;
 use crate::regression::problem::{Model, Problem};
 use crate::result::Estimate;
-use crate::thresholds::MOST;
+use crate::thresholds::sizes::SizeThresholds;
 
-/// Share of the largest eigenvalue of a correlation below which one is rounding.
+/// Share of the largest eigenvalue of a correlation below which an eigenvalue is rounding.
 const ROUNDING: f64 = 1e-10;
 
 /// The uncertainty of a model's weights.
@@ -22,26 +22,27 @@ const ROUNDING: f64 = 1e-10;
 /// blocks      A^-1 (sum_b s_b s_b') A^-1 B / (B - 1),  s_b the score of block b
 /// ```
 ///
-/// These are of the noise. What effects without a name may change comes besides, where it is known.
+/// Both are of the noise. The changes that unnamed effects may make are added where they are known.
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
     columns: Vec<usize>,
     likelihood: DMatrix<f64>,
     blocks: DMatrix<f64>,
-    /// What effects without a name may change.
+    /// Covariance from effects without a name.
     unnamed: DMatrix<f64>,
+    thresholds: SizeThresholds,
     /// Half width of a 95 per cent interval in standard deviations.
     t: f64,
 }
 
 impl Uncertainty {
-    /// The uncertainty of what was fitted.
-    pub fn of(fitted: &Fitted) -> Option<Self> {
+    /// The uncertainty of the weights of a linear fit.
+    pub fn of(fitted: &LinearFit) -> Option<Self> {
         let fit = fitted.problem.fit(fitted.model)?;
-        Some(Self::new(fitted.problem, &fit, fitted.weights))
+        Some(Self::new(&fitted.problem, &fit, fitted.weights))
     }
 
-    /// The same with the covariance of its columns that effects without a name bring.
+    /// The same with the covariance that effects without a name add to its columns.
     pub fn with_unnamed(mut self, of: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
         self.unnamed = of(&self.columns);
         self
@@ -62,23 +63,25 @@ impl Uncertainty {
             meat.ger(1.0, &own, &own, 1.0);
         }
         let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
-        let t =
-            StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0)).map_or(2.0, |d| d.inverse_cdf(0.975));
+        let thresholds = problem.thresholds.sizes.clone();
+        let quantile = thresholds.interval_quantile;
+        let t = StudentsT::new(0.0, 1.0, (count - 1.0).max(1.0))
+            .map_or(2.0, |d| d.inverse_cdf(quantile));
         let unnamed = DMatrix::zeros(columns.len(), columns.len());
-        Self { columns, likelihood, blocks, unnamed, t }
+        Self { columns, likelihood, blocks, unnamed, thresholds, t }
     }
 
-    /// The parameters of `hypothesis` as the user reads them, with intervals, where it and its
-    /// `parts` are fitted about a robot.
+    /// The parameters of `hypothesis` as the user reads them, with intervals, where it and its `parts` are fitted about a
+    /// robot.
     pub fn estimates(
         &self,
-        fitted: &Fitted,
+        fitted: &LinearFit,
         hypothesis: Hypothesis,
         parts: &[Hypothesis],
     ) -> Vec<Estimate> {
         let (design, weights) = (fitted.problem.design, fitted.weights);
         let at = |w: &[f64]| {
-            let robot = extended(fitted.about, design, fitted.model, w);
+            let robot = extend_robot(fitted.about, design, fitted.model, w);
             hypothesis.quantities(fitted.nominal, &robot)
         };
         let here = at(weights);
@@ -95,13 +98,13 @@ impl Uncertainty {
             let interval = |with: f64| match is_reciprocal {
                 true => {
                     let every = DVector::from_element(own.len(), 1.0);
-                    between(quantity.value.recip(), self.half(&place, &every, with))
+                    reciprocal_interval(quantity.value.recip(), self.half(&place, &every, with))
                 }
                 false => {
                     let half = self.half(&place, &gradient, with);
                     let whole = [quantity.value - half, quantity.value + half];
                     let at = (quantity.value, weights);
-                    clipped(whole, (&own, &gradient), &design.bounds, at)
+                    clip_interval(whole, (&own, &gradient), &design.bounds, at)
                 }
             };
             let prior = pick(&DVector::from_column_slice(&design.prior), &own);
@@ -115,14 +118,15 @@ impl Uncertainty {
                 nominal: quantity.nominal,
                 unit: quantity.unit,
                 // A quantity that no weight moves is not determined.
-                determined: before > 1e-9 * quantity.value.abs() && half < MOST * before,
+                determined: before > self.thresholds.rounding * quantity.value.abs()
+                    && half < self.thresholds.determined * before,
             }
         };
         here.iter().enumerate().map(estimate).collect()
     }
 
-    /// Half the 95 per cent interval of `gradient' w` over the columns at `place`, with a share of what
-    /// effects without a name may change.
+    /// Half the 95 per cent interval of `gradient' w` over the columns at `place`, with a share of the covariance from
+    /// effects without a name.
     fn half(&self, place: &[usize], gradient: &DVector<f64>, share: f64) -> f64 {
         let variance = |all: &DMatrix<f64>| {
             let part = DMatrix::from_fn(place.len(), place.len(), |i, k| all[(place[i], place[k])]);
@@ -155,12 +159,16 @@ impl Uncertainty {
         let Some(inverse) = likelihood.pseudo_inverse(ROUNDING).ok() else { return false };
         let Ok(law) = ChiSquared::new(count as f64) else { return false };
         let wider = ((&inverse * part(&self.blocks)).trace() / count as f64).max(1.0);
-        scaled.dot(&(&inverse * &scaled)) / wider < law.inverse_cdf(0.95)
+        scaled.dot(&(&inverse * &scaled)) / wider < law.inverse_cdf(self.thresholds.region)
     }
 
-    /// How many directions of the group's weights the data leave as wide as half the prior,
-    /// and how many there are.
-    pub fn undetermined(&self, problem: &Problem, hypothesis: Hypothesis) -> (usize, usize) {
+    /// Number of directions of a group's weights whose standard deviation is more than half that of the prior, and number
+    /// of all directions.
+    pub fn undetermined_directions(
+        &self,
+        problem: &Problem,
+        hypothesis: Hypothesis,
+    ) -> (usize, usize) {
         let design = problem.design;
         let Some(group) = design.find(hypothesis) else { return (0, 0) };
         let own = &design.groups[group].columns;
@@ -169,24 +177,28 @@ impl Uncertainty {
         let scaled = DMatrix::from_fn(place.len(), place.len(), |i, k| {
             self.likelihood[(place[i], place[k])] / (design.prior[own[i]] * design.prior[own[k]])
         });
-        // An infinite covariance has no eigenvalues, and determines nothing.
+        // A covariance that is infinite has no eigenvalues: nothing is determined.
         if scaled.is_empty() || scaled.iter().any(|v| !v.is_finite()) {
             return (own.len(), own.len());
         }
-        let wide = scaled.symmetric_eigenvalues().iter().filter(|v| **v > MOST.powi(2)).count();
+        let widest = self.thresholds.determined.powi(2);
+        let wide = scaled.symmetric_eigenvalues().iter().filter(|v| **v > widest).count();
         (wide, own.len())
     }
 }
 
-/// A hypothesis that is not possible together with all others, one with one weight none of
-/// whose parameters differs from its nominal value by more than its 95 per cent interval, a body
-/// whose ten numbers together may as well be those described, or an asymmetry or an excess near rest
-/// that may be none: its size is not decided. None if all stand.
-pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Option<usize> {
+/// A hypothesis whose size the logs do not determine, if there is one:
+///
+/// - together with all others it is not possible physically,
+/// - it has one weight, and the 95 per cent interval of every parameter contains the described value,
+/// - it is a body, and the 95 per cent region of its ten parameters contains the described ones,
+/// - it is an asymmetry or an excess near rest, and its interval contains zero.
+pub(crate) fn undetermined(problem: &Problem, model: &Model, fitted: &LinearFit) -> Option<usize> {
     let uncertainty = Uncertainty::of(fitted)?;
     let robot = fitted.robot();
+    let share = uncertainty.thresholds.rounding;
     let holds = |e: &Estimate| {
-        let rounding = 1e-9 * (e.ci95[1] - e.ci95[0]);
+        let rounding = share * (e.ci95[1] - e.ci95[0]);
         (e.ci95[0] - rounding..=e.ci95[1] + rounding).contains(&e.nominal)
     };
     model.iter().copied().find(|&g| {
@@ -199,8 +211,12 @@ pub(crate) fn untenable(problem: &Problem, model: &Model, fitted: &Fitted) -> Op
     })
 }
 
-/// Whether an effect that changes all ten inertial parameters of a link changes none for sure.
-fn is_unchanged_body(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hypothesis) -> bool {
+/// Whether the 95 per cent region of a link's ten inertial parameters contains the described ones.
+fn is_unchanged_body(
+    uncertainty: &Uncertainty,
+    fitted: &LinearFit,
+    hypothesis: Hypothesis,
+) -> bool {
     let design = fitted.problem.design;
     let (Some(link), Some(group)) = (hypothesis.link(), design.find(hypothesis)) else {
         return false;
@@ -210,10 +226,10 @@ fn is_unchanged_body(uncertainty: &Uncertainty, fitted: &Fitted, hypothesis: Hyp
     uncertainty.may_be_none(&design.groups[group].columns, &change)
 }
 
-/// Whether what makes an effect more than a plainer one of the same place may be none.
+/// Whether the weight that distinguishes an effect from a simpler one of the same place may be zero.
 fn is_no_more_than_plain(
     uncertainty: &Uncertainty,
-    fitted: &Fitted,
+    fitted: &LinearFit,
     hypothesis: Hypothesis,
 ) -> bool {
     let design = fitted.problem.design;
@@ -249,7 +265,7 @@ fn slope(
 
 /// An interval kept within what is physically possible, where its quantity follows one
 /// bounded weight; `value` is the quantity at `weights`.
-fn clipped(
+fn clip_interval(
     [low, high]: [f64; 2],
     (own, gradient): (&[usize], &DVector<f64>),
     bounds: &[(f64, f64)],
@@ -264,8 +280,8 @@ fn clipped(
     [low.max(a.min(b)).min(value), high.min(a.max(b)).max(value)]
 }
 
-/// Interval of the reciprocal of a number that is not negative and known to `half`: of a
-/// stiffness whose compliance is what the weights change.
-fn between(number: f64, half: f64) -> [f64; 2] {
+/// Interval of the reciprocal of a non-negative number that is known to `half`, such as of a stiffness where the weights
+/// change the compliance.
+fn reciprocal_interval(number: f64, half: f64) -> [f64; 2] {
     [(number + half).recip(), (number - half).max(0.0).recip()]
 }

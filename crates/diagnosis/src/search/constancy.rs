@@ -3,12 +3,11 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::columns::design::Design;
 use crate::columns::run_design::RunDesign;
-use crate::regression::fitted::Fitted;
 use crate::regression::gram::Information;
+use crate::regression::linear_fit::LinearFit;
 use crate::regression::problem::Problem;
-use crate::thresholds::{EVIDENCE, VARIATION, VARIATION_OF_ROUGH};
 
-/// What a size may vary with: position, velocity and acceleration of the joint, and its load.
+/// Signals that a size may vary with: position, velocity and acceleration of the joint, and its load.
 const SIGNALS: [&str; 4] = ["position", "velocity", "acceleration", "load"];
 
 /// Functions of one signal.
@@ -19,14 +18,13 @@ const FUNCTIONS: usize = 2;
 pub(crate) struct Variation {
     /// RMS variation as a share of the size.
     pub rms: f64,
-    /// The signal that it varies with; none where it differs from joint to joint.
+    /// The signal that it varies with; `None` where it differs from joint to joint.
     pub with: Option<&'static str>,
     /// The joint.
     pub joint: usize,
 }
 
-/// What is fitted beside a model: the torque `c` of one effect at one joint, times functions of a
-/// signal there.
+/// Columns that are fitted beside a model: the torque `c` of one effect at one joint, times functions of a signal there.
 #[derive(Debug)]
 struct Contrast {
     joint: usize,
@@ -43,9 +41,9 @@ struct Equations {
     yy: f64,
 }
 
-/// The variation without which an effect does not do what the logs show; none where its size may be a
-/// constant, as that of a cause is. `size` are the weights of the effect about the robot without it;
-/// those that it has beyond them about a robot with it are of its shape.
+/// The variation that the size of an effect needs to reproduce the logs; `None` where its size may be constant, as that of
+/// a cause is. `size` are the weights of the effect about the robot without it; further weights about a robot with it are
+/// of its shape.
 ///
 /// With `c` the torque of the effect, `b_k` functions of one signal z, and `X` the columns of the whole
 /// model,
@@ -55,23 +53,24 @@ struct Equations {
 /// share = (D(X) - D(X, b c)) / D(c | X without the effect)
 /// ```
 ///
-/// with `z` of zero mean and variance one, the fall of `D` on held-out blocks, and what `c` explains
-/// that the others cannot below it. It varies where the root of the share is above [`VARIATION`], or
-/// [`VARIATION_OF_ROUGH`], for some signal. What stands in for a cause that is not looked for explains some
-/// of its torque, and leaves the rest where it is not like it.
-pub(crate) fn variation(fitted: &Fitted, group: usize, size: &[f64]) -> Option<Variation> {
-    let Fitted { problem, model, .. } = *fitted;
+/// with `z` of zero mean and variance one. Above the line stands the fall of `D` on held-out blocks, below it the part of
+/// `c` that the other columns cannot explain. A size varies where the root of the share exceeds
+/// [`variation`](crate::SearchThresholds::variation), or that of rough laws, for some signal. An effect that stands in for
+/// a cause of another kind explains a part of its torque, and leaves a part that depends on the motion.
+pub(crate) fn size_variation(fitted: &LinearFit, group: usize, size: &[f64]) -> Option<Variation> {
+    let (problem, model) = (&*fitted.problem, fitted.model);
+    let t = &problem.thresholds.search;
     let columns = problem.columns(model);
-    let alone = explained_alone(problem, &columns, group, size)?;
+    let alone = power_alone(problem, &columns, group, size)?;
     let base = held_out(problem, &columns, None)?;
     let nature = problem.design.groups[group].hypothesis.nature();
-    let most =
-        if nature.is_some_and(|n| n.law == Law::Rough) { VARIATION_OF_ROUGH } else { VARIATION };
+    let is_rough = nature.is_some_and(|n| n.law == Law::Rough);
+    let most = if is_rough { t.variation_of_rough } else { t.variation };
     let mut largest: Option<(f64, Contrast)> = None;
     for contrast in contrasts(problem.design, group, size) {
         let fall = base - held_out(problem, &columns, Some(&contrast))?;
         let is_largest = largest.as_ref().is_none_or(|(least, _)| fall > *least);
-        if is_largest && fall > 2.0 * EVIDENCE && fall > most * most * alone {
+        if is_largest && fall > 2.0 * t.variation_evidence && fall > most * most * alone {
             largest = Some((fall, contrast));
         }
     }
@@ -79,14 +78,8 @@ pub(crate) fn variation(fitted: &Fitted, group: usize, size: &[f64]) -> Option<V
     Some(Variation { rms: (fall / alone).sqrt(), with, joint })
 }
 
-/// What the torque of an effect explains that the other columns of a model cannot (weighted sum of
-/// squares).
-fn explained_alone(
-    problem: &Problem,
-    columns: &[usize],
-    group: usize,
-    size: &[f64],
-) -> Option<f64> {
+/// Weighted sum of squares of the torque of an effect that the other columns of a model cannot explain.
+fn power_alone(problem: &Problem, columns: &[usize], group: usize, size: &[f64]) -> Option<f64> {
     let own = &problem.design.groups[group].columns;
     let others: Vec<usize> = columns.iter().copied().filter(|k| !own.contains(k)).collect();
     let h = &problem.info.h;
@@ -100,12 +93,15 @@ fn explained_alone(
     (alone > 0.0).then_some(alone)
 }
 
-/// The variations of an effect that are tried.
+/// The variations that are tried for an effect.
 fn contrasts(design: &Design, group: usize, size: &[f64]) -> Vec<Contrast> {
     let joints = &design.groups[group].joints;
     let of_joint = |&joint: &usize| {
-        let torque: Vec<DVector<f64>> =
-            design.runs.iter().map(|run| torque(design, run, (group, size), joint)).collect();
+        let torque: Vec<DVector<f64>> = design
+            .runs
+            .iter()
+            .map(|run| effect_torque(design, run, (group, size), joint))
+            .collect();
         let mut all: Vec<Contrast> = Vec::new();
         for (index, &with) in SIGNALS.iter().enumerate() {
             let (mean, sd) = spread(design, index, joint);
@@ -130,7 +126,7 @@ fn contrasts(design: &Design, group: usize, size: &[f64]) -> Vec<Contrast> {
 }
 
 /// The torque of an effect of some size at a joint along a run (N·m or N).
-fn torque(
+fn effect_torque(
     design: &Design,
     run: &RunDesign,
     (group, size): (usize, &[f64]),
@@ -200,8 +196,8 @@ fn equations(
         let signals = &design.runs[block.run].joints[*joint];
         let (from, samples) = (block.samples.start, block.samples.len());
         let mut b = factors[block.run].rows(from, samples).into_owned();
-        for (t, tells) in signals.tells[block.samples.clone()].iter().enumerate() {
-            if !tells {
+        for (t, counts) in signals.is_informative[block.samples.clone()].iter().enumerate() {
+            if !counts {
                 b.row_mut(t).fill(0.0);
             }
         }

@@ -1,14 +1,14 @@
-//! Which hypotheses earn their place: by evidence and by what they predict, with one size that
-//! holds for all of the logs.
+//! Which hypotheses the logs support: by evidence and by held-out prediction, with one size that holds for all of the
+//! logs.
 
-pub(crate) mod conclusion;
+pub(crate) mod accept;
+pub(crate) mod causes;
 pub(crate) mod constancy;
-pub(crate) mod contest;
-pub(crate) mod failed;
-pub(crate) mod record;
+pub(crate) mod dataset;
+pub(crate) mod inputs;
+pub(crate) mod kept_nominal;
+pub(crate) mod paired_difference;
 pub(crate) mod rivals;
-pub(crate) mod searched;
+pub(crate) mod search_result;
 pub(crate) mod select;
-pub(crate) mod settled;
-pub(crate) mod study;
-pub(crate) mod worse;
+pub(crate) mod twins;

@@ -1,25 +1,22 @@
 use crate::regression::problem::{Model, Problem};
+use crate::search::paired_difference::PairedDifference;
 use crate::search::select::Selection;
-use crate::search::worse::Worse;
-use crate::thresholds::{EVIDENCE, MOST};
-
-/// Least information on a weight, in those of its prior, that is more than rounding.
-const SHOWN: f64 = 1e-9;
 
 /// Hypotheses that explain the held-out data as well in place of `group`, block by block.
 pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
     let problem = selection.problem;
+    let errors = problem.thresholds.search.rival_errors;
     let with = problem.held_out_by_block(model);
     let is_as_good = |rival: &Model| {
         let rival = problem.held_out_by_block(rival);
-        !Worse::new(problem.of.iter().map(|&b| (with[b], rival[b]))).is_told_apart()
+        !PairedDifference::new(problem.of.iter().map(|&b| (with[b], rival[b]))).exceeds(errors)
     };
     let contenders = contenders(selection, model, group, |_| true).into_iter();
     contenders.filter(|(_, rival)| is_as_good(rival)).map(|(h, _)| h).collect()
 }
 
-/// Those of the hypotheses asked for that explain much of the held-out data in place of `group`, be it
-/// as well or not, and the model with them.
+/// Hypotheses that explain at least half of the held-out gain of `group` in its place, whether as well or not, each with
+/// the model that has it; of those that `is_asked_for`.
 pub(crate) fn contenders(
     selection: &Selection,
     model: &Model,
@@ -40,30 +37,30 @@ pub(crate) fn contenders(
         return Vec::new();
     }
     let bare = problem.held_out(&without).deviance;
-    let much = MOST * (bare - problem.held_out(model).deviance);
+    let much = problem.thresholds.search.rival_gain * (bare - problem.held_out(model).deviance);
     let recovers = |h: usize| {
-        let replaced = replaced(problem, &without, group, h);
+        let replaced = with_rival(problem, &without, group, h);
         let left = selection.is_possible(&replaced, h).then(|| problem.held_out(&replaced))?;
         (bare - left.deviance > much).then_some((h, replaced))
     };
     candidates.into_iter().filter_map(recovers).collect()
 }
 
-/// Whether a hypothesis makes the logs nearly as likely as `group` does: about one posture a gap that
-/// never opens is a turned encoder, though the catalogue does not say that the two are confused.
+/// Whether a hypothesis makes the logs nearly as likely as `group` does. This finds rivals that the catalogue does not
+/// list: about one posture a gap that never opens is a turned encoder.
 fn is_nearly_as_likely(problem: &Problem, without: &Model, group: usize) -> impl Fn(usize) -> bool {
     let fit = problem.fit(without);
     let evidence = move |g: usize| {
         let columns = problem.new_columns(without, g);
         fit.as_ref().map(|fit| fit.evidence_of(&problem.info, &columns, &problem.design.prior))
     };
-    let least = evidence(group).map(|evidence| evidence - EVIDENCE);
+    let least = evidence(group).map(|evidence| evidence - problem.thresholds.search.rival_evidence);
     move |h| evidence(h) > least
 }
 
-/// The model with `rival` in the place of `group`. Asymmetric friction leaves its symmetric
-/// part behind: only the asymmetry is disputed.
-pub(crate) fn replaced(problem: &Problem, without: &Model, group: usize, rival: usize) -> Model {
+/// The model with `rival` in the place of `group`. Only the asymmetry of asymmetric friction is disputed: its symmetric part
+/// stays.
+pub(crate) fn with_rival(problem: &Problem, without: &Model, group: usize, rival: usize) -> Model {
     let mut model = without.clone();
     model.insert(rival);
     let hypothesis = problem.design.groups[group].hypothesis;
@@ -72,9 +69,11 @@ pub(crate) fn replaced(problem: &Problem, without: &Model, group: usize, rival: 
     model
 }
 
-/// Whether `group` is `other` with some weights zero that the logs show, as Coulomb friction is
-/// symmetric asymmetric friction: then `other` can only do as well, and is no rival. Of the inertia
-/// of a link that turns about the vertical they show one number, which a rotor has as well.
+/// Whether `group` is `other` with some of its weights zero, as Coulomb friction is symmetric asymmetric friction. Then
+/// `other` does as well and is no rival.
+///
+/// Only weights that the logs show count: of the inertia of a link that turns about the vertical they show one number,
+/// which a rotor has as well.
 fn is_special_case(problem: &Problem, group: usize, other: usize) -> bool {
     let columns = |g: usize| -> Vec<usize> {
         let all = problem.design.groups[g].columns.iter().copied();
@@ -84,7 +83,7 @@ fn is_special_case(problem: &Problem, group: usize, other: usize) -> bool {
     others.len() > own.len() && own.iter().all(|k| others.contains(k))
 }
 
-/// Whether the logs say anything of the weight of column `k` beside what is believed of it.
+/// Whether the logs say anything about the weight of column `k` beyond its prior.
 fn is_shown(problem: &Problem, k: usize) -> bool {
-    problem.info.h[(k, k)] * problem.design.prior[k].powi(2) > SHOWN
+    problem.info.h[(k, k)] * problem.design.prior[k].powi(2) > problem.thresholds.search.informed
 }

@@ -6,6 +6,7 @@ use robot::Robot;
 
 use crate::signals::limit::Limit;
 use crate::signals::tone::{Beat, Tone};
+use crate::thresholds::signals::SignalThresholds;
 
 /// Rate at which effects are evaluated, in cut-off frequencies: the harmonics that a sign
 /// or a product makes of a signal limited to the cut-off stay far from folding into the band.
@@ -17,22 +18,10 @@ pub(crate) const REGRESSION_RATE: f64 = 2.5;
 /// Order of the low-pass filter, before it runs forward and backward.
 const ORDER: usize = 4;
 
-/// How far beyond a stand a low-pass carries what holds the joint there, in periods of its cut-off.
-const CARRIED: f64 = 0.35;
-
 /// Cut-off of the filter before the signals of a log are thinned, in cut-offs of the regression.
 const THINNING: f64 = 4.0;
 
-/// Least share of what the low-pass takes into a sample that comes from where the joint moves, for the
-/// sample to tell of the effort: of a smaller one less is left than of its noise, whose power falls
-/// with the share and not with its square.
-const TELLS: f64 = 2.0 / 3.0;
-
-/// Noise of readings of the efforts, as a share of them, above which the start of a run takes no part:
-/// the low-pass begins in the first reading, with all of its noise.
-const NOISY: f64 = 0.1;
-
-/// Least RMS value of a sine of size one behind the low-pass that is one in its band.
+/// Least RMS value behind the low-pass of a sine of amplitude one that is in its band.
 const IN_BAND: f64 = 1e-4;
 
 /// A sine of size one along a run, behind the low-pass, at the rate of the regression.
@@ -50,12 +39,12 @@ pub(crate) struct Along<'a> {
     /// The motion about a robot.
     pub motion: Motion,
     run: &'a PreparedRun,
-    /// `[joint][sample]`: one where the signals of a joint count and zero elsewhere; empty where they
-    /// count everywhere.
+    /// `[joint][sample]`: one where the signals of a joint count, else zero; empty where they count everywhere.
     counts: Vec<Vec<f64>>,
-    /// `[joint][_][sample]`: an orthonormal basis of the tones there may be in the effort.
-    heard: Vec<Vec<Vec<f64>>>,
+    /// `[joint][_][sample]`: an orthonormal basis of the tones that the effort may contain.
+    tone_basis: Vec<Vec<Vec<f64>>>,
     limits: &'a [Limit],
+    thresholds: &'a SignalThresholds,
     /// Whether readings of the efforts are noisy.
     noisy: bool,
     cutoff_hz: f64,
@@ -67,13 +56,14 @@ pub(crate) struct Along<'a> {
 }
 
 impl<'a> Along<'a> {
-    /// Evaluates `robot` along a run, whose efforts go beyond limits.
+    /// Evaluates `robot` along a run whose efforts may exceed `limits`.
     pub fn new(
         robot: &Robot,
         frame: &Frame,
         run: &'a PreparedRun,
         cutoff_hz: f64,
         limits: &'a [Limit],
+        thresholds: &'a SignalThresholds,
     ) -> Result<Self, LogError> {
         let first = stride(run.rate_hz, EVALUATION_RATE * cutoff_hz);
         let rate = run.rate_hz / first as f64;
@@ -93,14 +83,15 @@ impl<'a> Along<'a> {
         let motion = Motion::seen(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
-        let (counts, heard) = (Vec::new(), vec![Vec::new(); run.joints.len()]);
-        let noisy = is_noisy(run);
+        let (counts, tone_basis) = (Vec::new(), vec![Vec::new(); run.joints.len()]);
+        let noisy = is_noisy(run, thresholds.noisy_readings);
         Ok(Self {
             motion,
             run,
             counts,
-            heard,
+            tone_basis,
             limits,
+            thresholds,
             noisy,
             cutoff_hz,
             low_pass,
@@ -109,60 +100,59 @@ impl<'a> Along<'a> {
         })
     }
 
-    /// The same of the joints while they move: what holds one that stands is any part of its dry
-    /// friction. Efforts and columns are set to zero there before the low-pass, which carries
-    /// nothing of it elsewhere then, and leaves `effort = columns weights + noise` as true as it was:
+    /// Sets efforts and columns to zero while a joint stands: dry friction holds it there with any part of its level.
+    ///
+    /// This comes before the low-pass, so that nothing of a standstill reaches the samples beside it, and the model
+    /// stays true:
     ///
     /// ```text
     /// L(m effort) = L(m columns) weights + L(m noise),   m = 1 while the joint moves, else 0
     /// ```
     pub fn while_moving(mut self) -> Self {
-        self.counts = (0..self.run.joints.len()).map(|j| self.moving(j)).collect();
+        self.counts = (0..self.run.joints.len()).map(|j| self.moving_mask(j)).collect();
         self
     }
 
-    /// The same with tones in its efforts.
-    pub fn hearing(mut self, tones: &[Tone]) -> Result<Self, LogError> {
+    /// Takes tones out of efforts and columns alike.
+    pub fn with_tones(mut self, tones: &[Tone]) -> Result<Self, LogError> {
         for tone in tones {
-            self.hear(tone)?;
+            self.project_out(tone)?;
         }
         Ok(self)
     }
 
-    /// One where joint `j` moves, and as far from where it stands as thinning carries what holds it
-    /// there; zero elsewhere, at the end of the run, beyond which a late torque looks, and at the
-    /// start of a noisy one.
-    fn moving(&self, j: usize) -> Vec<f64> {
+    /// One where joint `j` moves, else zero. Zero is also what lies within the reach of the thinning filter of a
+    /// standstill, the end of the run, which a late torque needs, and the start of a noisy run.
+    fn moving_mask(&self, j: usize) -> Vec<f64> {
         let thins = self.strides[0] > 1;
-        let margin = if thins { self.carried(THINNING * self.cutoff_hz) } else { 0 };
-        let away = self.away(&self.motion.stands(j), margin);
+        let margin = if thins { self.reach(THINNING * self.cutoff_hz) } else { 0 };
+        let away = self.is_away(&self.motion.stands(j), margin);
         away.into_iter().map(|away| f64::from(u8::from(away))).collect()
     }
 
-    /// Takes a tone into the basis of what is heard at its joint, if the band has any of it.
-    fn hear(&mut self, tone: &Tone) -> Result<(), LogError> {
+    /// Adds a tone to the basis of the tones at its joint, if the band contains any of it.
+    fn project_out(&mut self, tone: &Tone) -> Result<(), LogError> {
         let beat = match tone.beat {
             Beat::Position(_) => &self.run.joints[tone.joint].wide.q,
             Beat::Clock(_) => &self.run.time,
         };
         let phase = || beat.iter().map(|b| tone.beat.rate() * b);
         for sine in [phase().map(f64::cos).collect(), phase().map(f64::sin).collect()] {
-            // The second time what the first leaves by rounding.
-            let sine = self.without_heard(tone.joint, self.thinned(tone.joint, sine)?);
-            let mut sine = self.without_heard(tone.joint, sine);
+            // The second projection takes what the first leaves by rounding.
+            let sine = self.without_tones(tone.joint, self.thin_signal(tone.joint, sine)?);
+            let mut sine = self.without_tones(tone.joint, sine);
             let norm = sine.iter().map(|x| x * x).sum::<f64>().sqrt();
             if norm > IN_BAND * (sine.len() as f64).sqrt() {
                 sine.iter_mut().for_each(|x| *x /= norm);
-                self.heard[tone.joint].push(sine);
+                self.tone_basis[tone.joint].push(sine);
             }
         }
         Ok(())
     }
 
-    /// A signal of the efforts at joint `j`, at the rate of the regression, without what tones may have
-    /// in it.
-    fn without_heard(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
-        for sine in &self.heard[j] {
+    /// A signal of the efforts at joint `j`, at the rate of the regression, orthogonal to the tones there.
+    fn without_tones(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
+        for sine in &self.tone_basis[j] {
             let size: f64 = x.iter().zip(sine).map(|(x, s)| x * s).sum();
             x.iter_mut().zip(sine).for_each(|(x, s)| *x -= size * s);
         }
@@ -175,7 +165,7 @@ impl<'a> Along<'a> {
         x
     }
 
-    /// The same of many signals, each with its joint.
+    /// [`Along::finish`] for many signals, each with its joint.
     fn finish_all<'x>(&self, signals: impl IntoIterator<Item = (usize, &'x mut Vec<f64>)>) {
         let mut signals: Vec<&mut Vec<f64>> = signals
             .into_iter()
@@ -190,16 +180,15 @@ impl<'a> Along<'a> {
         signals.into_iter().for_each(|x| *x = decimate(x, self.strides[1]));
     }
 
-    /// How far a low-pass carries what is somewhere (samples of the motion).
-    fn carried(&self, cutoff_hz: f64) -> usize {
-        (CARRIED / (cutoff_hz * self.motion.period_s)).round() as usize
+    /// How far a low-pass spreads a signal (samples of the motion).
+    fn reach(&self, cutoff_hz: f64) -> usize {
+        (self.thresholds.filter_reach / (cutoff_hz * self.motion.period_s)).round() as usize
     }
 
-    /// Whether a sample of the motion is more than `margin` from where a joint `rests`, and as far from
-    /// the end of the run, beyond which a late torque looks, and from the start of a noisy one, as the
-    /// low-pass carries what is there.
-    fn away(&self, rests: &[bool], margin: usize) -> Vec<bool> {
-        let end = self.carried(self.cutoff_hz).min(rests.len());
+    /// Whether a sample of the motion is more than `margin` away from where a joint `rests`, and out of reach of the
+    /// low-pass from the end of the run, which a late torque needs, and from the start of a noisy run.
+    fn is_away(&self, rests: &[bool], margin: usize) -> Vec<bool> {
+        let end = self.reach(self.cutoff_hz).min(rests.len());
         let mut away = vec![true; rests.len()];
         away[rests.len() - end..].fill(false);
         away[..if self.noisy { end } else { 0 }].fill(false);
@@ -210,10 +199,9 @@ impl<'a> Along<'a> {
         away
     }
 
-    /// Whether a sample at the rate of the regression is as far from where a joint `rests` as the
-    /// low-pass carries what is there.
-    fn clear(&self, rests: &[bool]) -> Vec<bool> {
-        let away = self.away(rests, self.carried(self.cutoff_hz));
+    /// Whether a sample at the rate of the regression is out of reach of the low-pass from where a joint `rests`.
+    fn is_clear(&self, rests: &[bool]) -> Vec<bool> {
+        let away = self.is_away(rests, self.reach(self.cutoff_hz));
         away.into_iter().step_by(self.strides[1]).collect()
     }
 
@@ -232,49 +220,49 @@ impl<'a> Along<'a> {
         signals.iter().map(|x| decimate(x, self.strides[1])).collect()
     }
 
-    /// Whether joint `j` is held by any part of its dry friction at a sample at the rate of the
-    /// regression, or the low-pass mixes that in.
+    /// Whether dry friction holds joint `j` at a sample at the rate of the regression, or the low-pass mixes in a moment
+    /// at which it does.
     pub fn stands(&self, j: usize) -> Vec<bool> {
-        self.clear(&self.motion.stands(j)).iter().map(|clear| !clear).collect()
+        self.is_clear(&self.motion.stands(j)).iter().map(|is_clear| !is_clear).collect()
     }
 
-    /// Whether a sample at the rate of the regression tells of the effort of joint `j`.
-    pub fn tells(&self, j: usize) -> Vec<bool> {
-        let moving = self.finish(j, vec![1.0; self.motion.samples()]);
-        moving.into_iter().map(|share| share > TELLS).collect()
+    /// Whether a sample at the rate of the regression is informative about the effort of joint `j`.
+    pub fn is_informative(&self, j: usize) -> Vec<bool> {
+        let moving_mask = self.finish(j, vec![1.0; self.motion.samples()]);
+        moving_mask.into_iter().map(|share| share > self.thresholds.informative_share).collect()
     }
 
-    /// Whether joint `j` slides at a sample at the rate of the regression: does not turn there.
+    /// Whether joint `j` slides at a sample at the rate of the regression: it does not change its direction there.
     pub fn slides(&self, j: usize) -> Vec<bool> {
         let (rests, stands) = (self.motion.rests(j), self.motion.stands(j));
         let turns: Vec<bool> = rests.iter().zip(stands).map(|(rests, s)| *rests && !s).collect();
-        self.clear(&turns)
+        self.is_clear(&turns)
     }
 
-    /// The columns of one effect, low-passed, at the rate of the regression, without what tones may
-    /// have in them: sizes of tones are fitted with those of all effects.
-    pub fn finished(&self, mut columns: Vec<Column>) -> Vec<Column> {
+    /// The columns of one effect, low-passed, at the rate of the regression, orthogonal to the tones: the sizes of tones
+    /// are fitted with those of all effects.
+    pub fn finish_columns(&self, mut columns: Vec<Column>) -> Vec<Column> {
         let parts = columns.iter_mut().flatten();
         self.finish_all(parts.map(|part| (part.joint, &mut part.values)));
         for part in columns.iter_mut().flatten() {
-            part.values = self.without_heard(part.joint, std::mem::take(&mut part.values));
+            part.values = self.without_tones(part.joint, std::mem::take(&mut part.values));
         }
         columns
     }
 
     /// The efforts of the log.
-    pub fn measured(&self) -> Result<Vec<Vec<f64>>, LogError> {
-        self.all_thinned(self.run.joints.iter().map(|j| j.effort.clone()).collect())
+    pub fn measured_effort(&self) -> Result<Vec<Vec<f64>>, LogError> {
+        self.thin_signals(self.run.joints.iter().map(|j| j.effort.clone()).collect())
     }
 
-    /// What the first encoder of every joint reports beyond the position of its link; zero where
-    /// no second one shows it.
+    /// The position that the first encoder of every joint reports minus that of its link (rad or m); zero where no second
+    /// encoder shows the link.
     pub fn twists(&self) -> Result<Vec<Vec<f64>>, LogError> {
         let samples = self.run.time.len();
         let of = |j: &PreparedJoint| {
             j.link.as_ref().map_or_else(|| vec![0.0; samples], |link| link.twist.clone())
         };
-        self.all_thinned(self.run.joints.iter().map(of).collect())
+        self.thin_signals(self.run.joints.iter().map(of).collect())
     }
 
     /// The effort of joint `j` in the log (N·m or N).
@@ -285,10 +273,10 @@ impl<'a> Along<'a> {
     /// The part of the effort at the joint of `limit` that became no torque.
     pub fn beyond(&self, limit: &Limit) -> Result<Vec<f64>, LogError> {
         let beyond = self.effort(limit.joint).map(|effort| limit.beyond(effort)).collect();
-        self.thinned(limit.joint, beyond)
+        self.thin_signal(limit.joint, beyond)
     }
 
-    /// What of them became no torque; nothing where all did.
+    /// The clipped part of each effort (N·m or N); empty without saturation.
     pub fn beyond_limits(&self) -> Result<Vec<Vec<f64>>, LogError> {
         let mut all = vec![Vec::new(); self.run.joints.len()];
         for limit in self.limits {
@@ -297,19 +285,21 @@ impl<'a> Along<'a> {
         Ok(all)
     }
 
-    /// The same with the tones there may be in what a robot leaves of the efforts.
-    pub fn known(&self, left: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LogError> {
+    /// The clipped part of each effort, and the tones in what a robot leaves of the rest (`left`).
+    pub fn known_effort(&self, left: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LogError> {
         let mut known = self.beyond_limits()?;
-        for (j, known) in known.iter_mut().enumerate().filter(|(j, _)| !self.heard[*j].is_empty()) {
+        for (j, known) in
+            known.iter_mut().enumerate().filter(|(j, _)| !self.tone_basis[*j].is_empty())
+        {
             known.resize(left[j].len(), 0.0);
             let became_torque: Vec<f64> = left[j].iter().zip(&*known).map(|(x, k)| x - k).collect();
-            let rest = self.without_heard(j, became_torque);
+            let rest = self.without_tones(j, became_torque);
             *known = left[j].iter().zip(rest).map(|(x, rest)| x - rest).collect();
         }
         Ok(known)
     }
 
-    /// The sine of a beat at joint `j`, its phase none at `origin`.
+    /// The sine of a beat at joint `j`, of phase zero at `origin`.
     pub fn wave(&self, j: usize, beat: Beat, origin: f64) -> Wave {
         let along: Vec<f64> = match beat {
             Beat::Position(_) => self.motion.q[j].clone(),
@@ -330,13 +320,13 @@ impl<'a> Along<'a> {
         Wave { values: finish(values), slopes: finish(slopes) }
     }
 
-    /// `measured` less the efforts of the robot.
-    pub fn left(&self, measured: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        less(measured, &self.expected())
+    /// `measured` minus the efforts of the robot.
+    pub fn remaining_effort(&self, measured: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        minus(measured, &self.expected_effort())
     }
 
     /// The efforts of the robot.
-    pub fn expected(&self) -> Vec<Vec<f64>> {
+    pub fn expected_effort(&self) -> Vec<Vec<f64>> {
         let mut efforts = self.motion.effort.clone();
         self.finish_all(efforts.iter_mut().enumerate());
         efforts
@@ -345,12 +335,12 @@ impl<'a> Along<'a> {
     /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects
     /// are evaluated at a lower rate than the log's, noise is kept from folding into the band by
     /// a filter that leaves the band itself alone (1e-5 at the cut-off).
-    fn all_thinned(&self, efforts: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, LogError> {
-        let thinned = |(j, effort)| self.thinned(j, effort);
-        efforts.into_par_iter().enumerate().map(thinned).collect()
+    fn thin_signals(&self, efforts: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, LogError> {
+        let thin_signal = |(j, effort)| self.thin_signal(j, effort);
+        efforts.into_par_iter().enumerate().map(thin_signal).collect()
     }
 
-    fn thinned(&self, j: usize, mut x: Vec<f64>) -> Result<Vec<f64>, LogError> {
+    fn thin_signal(&self, j: usize, mut x: Vec<f64>) -> Result<Vec<f64>, LogError> {
         if self.strides[0] > 1 {
             LowPass::new(ORDER, THINNING * self.cutoff_hz, self.run.rate_hz)?.apply(&mut x);
             x = decimate(&x, self.strides[0]);
@@ -359,20 +349,20 @@ impl<'a> Along<'a> {
     }
 }
 
-/// Whether readings of the efforts are noisy, by the RMS difference of two in turn, over `sqrt 2`, and
-/// over all joints.
-fn is_noisy(run: &PreparedRun) -> bool {
+/// Whether the noise of the efforts is more than a share `least` of them: the RMS difference of neighbouring readings
+/// over `sqrt 2`, over all joints.
+fn is_noisy(run: &PreparedRun, least: f64) -> bool {
     let efforts = || run.joints.iter().map(|joint| &joint.effort);
     let steps: f64 =
         efforts().flat_map(|x| x.windows(2)).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
     let whole: f64 = efforts().flatten().map(|x| x * x).sum();
-    0.5 * steps > NOISY * NOISY * whole
+    0.5 * steps > least * least * whole
 }
 
-/// The signals of all joints less others.
-pub(crate) fn less(from: &[Vec<f64>], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let less = |(x, y): (&Vec<f64>, &Vec<f64>)| x.iter().zip(y).map(|(x, y)| x - y).collect();
-    from.iter().zip(others).map(less).collect()
+/// The signals of all joints minus others.
+pub(crate) fn minus(from: &[Vec<f64>], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let of_joint = |(x, y): (&Vec<f64>, &Vec<f64>)| x.iter().zip(y).map(|(x, y)| x - y).collect();
+    from.iter().zip(others).map(of_joint).collect()
 }
 
 fn stride(rate: f64, wanted: f64) -> usize {

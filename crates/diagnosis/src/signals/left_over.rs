@@ -4,14 +4,15 @@ use robot::{Robot, TorqueSource};
 
 use crate::signals::along::Along;
 use crate::signals::limit::Limit;
+use crate::thresholds::signals::SignalThresholds;
 
-/// What a robot leaves of the efforts of one run, `[joint][sample]`, in the band of the motion and
+/// Measured efforts of one run minus those of a robot, `[joint][sample]`, in the band of the motion and
 /// at a rate of 2.5 cut-off frequencies (N m or N).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOver {
     /// The efforts of the log, behind the low-pass.
     pub measured: Vec<Vec<f64>>,
-    /// Those less the efforts that the robot expects along the motion, behind the same low-pass.
+    /// The same minus the efforts that the robot needs for the motion, behind the same low-pass.
     pub left: Vec<Vec<f64>>,
 }
 
@@ -21,10 +22,9 @@ pub struct LeftOver {
 /// left = L(clamp(effort, -limit, limit) - effort of the robot),   measured = L(effort)
 /// ```
 ///
-/// with everything that the description says of its drives, late torques, encoders that err and
-/// transmissions that give way too, which no function of the state `q, qd, qdd` has
-/// ([`effects::Motion`]). The limit is that of the joint, unless efforts were measured: those
-/// were torque. Joints count as at rest below `rest_speed` (rad/s or m/s).
+/// with the drives as they are described, including delays, encoder errors and elastic transmissions, which no function
+/// of the state `q, qd, qdd` has ([`effects::Motion`]). The limit is that of the joint; measured efforts have none,
+/// since they were torque. Joints count as at rest below `rest_speed` (rad/s or m/s).
 ///
 /// # Errors
 ///
@@ -32,16 +32,17 @@ pub struct LeftOver {
 ///
 /// # Panics
 ///
-/// When robot, `rest_speed` and logs are not of one number of joints.
+/// When robot, `rest_speed` and logs differ in their number of joints.
 pub fn left_over(
     robot: &Robot,
     rest_speed: &[f64],
     logs: &Prepared,
 ) -> Result<Vec<LeftOver>, LogError> {
     let limits = described_limits(robot);
+    let thresholds = SignalThresholds::default();
     let frame = Frame { rest_speed: rest_speed.to_vec(), ..Frame::of_logs(logs) };
     let of = |run| {
-        let along = Along::new(robot, &frame, run, logs.cutoff_hz, &limits)?;
+        let along = Along::new(robot, &frame, run, logs.cutoff_hz, &limits, &thresholds)?;
         of_run(&along)
     };
     logs.runs.iter().map(of).collect()
@@ -49,8 +50,8 @@ pub fn left_over(
 
 /// What the robot of `along` leaves of the efforts that became torque.
 fn of_run(along: &Along) -> Result<LeftOver, LogError> {
-    let measured = along.measured()?;
-    let mut left = along.left(&measured);
+    let measured = along.measured_effort()?;
+    let mut left = along.remaining_effort(&measured);
     for (left, beyond) in left.iter_mut().zip(along.beyond_limits()?) {
         left.iter_mut().zip(beyond).for_each(|(left, beyond)| *left -= beyond);
     }

@@ -1,37 +1,45 @@
 use catalogue::EffectKind;
 use effects::{Frame, Hypothesis};
-use logs::{LogError, Prepared};
+use logs::{LogError, Prepared, PreparedRun};
 use rayon::prelude::*;
 use robot::Robot;
 
 use crate::signals::along::Along;
 use crate::signals::limit::Limit;
-use crate::signals::look::Look;
+use crate::signals::response::Response;
 use crate::signals::tone::Tone;
+use crate::thresholds::Thresholds;
 
-/// The logs as a design takes them.
+/// The logs from which a design is made, and what is already known of them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Log<'a> {
     pub prepared: &'a Prepared,
     /// Joints that moved.
     pub moved: &'a [bool],
-    /// What oscillates in the efforts.
+    /// Oscillations of the efforts.
     pub tones: &'a [Tone],
-    /// Beyond which the efforts became no torque.
+    /// Torque limits: effort beyond them became no torque.
     pub limits: &'a [Limit],
     /// Effects that are not looked for.
     pub without: &'a [EffectKind],
-    pub look: Look,
-    /// The robot as it was described, where its efforts are not those of the robot that a design
-    /// is about: second encoders have shown otherwise.
+    /// The signal that a design of these logs explains.
+    pub response: Response,
+    /// The described robot, where second encoders have shown its drives to be otherwise: efforts are then compared
+    /// with those of this robot, while a design is about another one.
     pub described: Option<&'a Robot>,
+    pub thresholds: &'a Thresholds,
 }
 
 impl<'a> Log<'a> {
-    /// The efforts of some logs, as they are.
-    pub fn new(prepared: &'a Prepared, moved: &'a [bool]) -> Self {
-        let (tones, limits, without, look) = (&[], &[], &[], Look::Effort);
-        Self { prepared, moved, tones, limits, without, look, described: None }
+    /// The efforts of some logs, of which nothing is known yet.
+    pub fn new(prepared: &'a Prepared, moved: &'a [bool], thresholds: &'a Thresholds) -> Self {
+        let (tones, limits, without, response) = (&[], &[], &[], Response::Effort);
+        Self { prepared, moved, tones, limits, without, response, described: None, thresholds }
+    }
+
+    /// The same logs for a design of the twist between two encoders, in which tones and limits of the efforts play no part.
+    pub fn of_twist(&self) -> Self {
+        Self { tones: &[], limits: &[], response: Response::Twist, described: None, ..*self }
     }
 
     /// Whether a second encoder shows the link of joint `j`.
@@ -42,35 +50,44 @@ impl<'a> Log<'a> {
     /// The joints whose rows a design has.
     pub fn rows(&self) -> Vec<bool> {
         let has = |(j, moved): (usize, &bool)| {
-            *moved && (self.look == Look::Effort || self.shows_link(j))
+            *moved && (self.response == Response::Effort || self.shows_link(j))
         };
         self.moved.iter().enumerate().map(has).collect()
     }
 
-    /// Whether a design asks about a hypothesis. Both encoders together say what lies between
-    /// them, whatever the effort; then nothing of it is left in the effort.
-    pub fn asks(&self, hypothesis: Hypothesis) -> bool {
+    /// Whether a design of these logs includes a hypothesis. Two encoders show what lies between motor and link by
+    /// themselves, so that a design of the efforts leaves it out where there are two.
+    pub fn includes(&self, hypothesis: Hypothesis) -> bool {
         let shown = hypothesis.before_the_link().is_some_and(|j| self.shows_link(j));
         let moved = hypothesis.joint().is_none_or(|j| self.moved[j]);
         let wanted = !self.without.contains(&hypothesis.kind);
-        wanted && moved && shown == (self.look == Look::Twist)
+        wanted && moved && shown == (self.response == Response::Twist)
     }
 
-    /// Evaluates `robot` along every run; its efforts while its joints move.
+    /// `robot` along every run; of its efforts, those while its joints move.
     pub fn along(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
-        let evaluated = |run| {
-            let along = Along::new(robot, frame, run, self.prepared.cutoff_hz, self.limits)?;
-            let along = if self.look == Look::Effort { along.while_moving() } else { along };
-            along.hearing(self.tones)
+        let evaluate = |run| {
+            let along = self.along_run(robot, frame, run)?;
+            let along =
+                if self.response == Response::Effort { along.while_moving() } else { along };
+            along.with_tones(self.tones)
         };
-        self.prepared.runs.par_iter().map(evaluated).collect()
+        self.prepared.runs.par_iter().map(evaluate).collect()
     }
 
-    /// The same of whole runs.
+    /// `robot` along every run, with its efforts also while its joints stand.
     pub fn along_all(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
+        let evaluate = |run| self.along_run(robot, frame, run)?.with_tones(self.tones);
+        self.prepared.runs.par_iter().map(evaluate).collect()
+    }
+
+    fn along_run(
+        &self,
+        robot: &Robot,
+        frame: &Frame,
+        run: &'a PreparedRun,
+    ) -> Result<Along<'a>, LogError> {
         let cutoff_hz = self.prepared.cutoff_hz;
-        let evaluated =
-            |run| Along::new(robot, frame, run, cutoff_hz, self.limits)?.hearing(self.tones);
-        self.prepared.runs.par_iter().map(evaluated).collect()
+        Along::new(robot, frame, run, cutoff_hz, self.limits, &self.thresholds.signals)
     }
 }

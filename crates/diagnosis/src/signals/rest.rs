@@ -2,7 +2,7 @@ use logs::LogError;
 
 use crate::signals::along::Along;
 
-/// What a robot leaves of one run, in the wide band.
+/// The remaining efforts of one run, in the wide band of the tones.
 pub(crate) struct Rest<'a> {
     /// The run about the robot.
     pub along: Along<'a>,
@@ -12,19 +12,19 @@ pub(crate) struct Rest<'a> {
     pub q: Vec<Vec<f64>>,
     pub qd: Vec<Vec<f64>>,
     pub left: Vec<Vec<f64>>,
-    /// Whether the joint is held by any part of its dry friction, or the low-pass mixes that in.
+    /// Whether dry friction holds the joint, or the low-pass mixes in a moment at which it does.
     pub stands: Vec<Vec<bool>>,
 }
 
 impl<'a> Rest<'a> {
-    /// What the robot of `along` leaves of the efforts, with the positions and speeds of the motors
-    /// and where they stand.
+    /// The efforts minus those of the robot of `along`, with the positions and velocities of the motors and where they
+    /// stand.
     pub fn new(along: Along<'a>) -> Result<Self, LogError> {
         Ok(Self {
             time: along.time(),
             q: along.thin(&along.motion.q),
             qd: along.thin(&along.motion.qd),
-            left: along.left(&along.measured()?),
+            left: along.remaining_effort(&along.measured_effort()?),
             stands: (0..along.motion.q.len()).map(|j| along.stands(j)).collect(),
             along,
         })

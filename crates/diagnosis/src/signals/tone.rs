@@ -5,7 +5,7 @@ use effects::{Hypothesis, Place};
 use nalgebra::Complex;
 use robot::{Ripple, Robot};
 
-/// What a tone keeps time with.
+/// The variable that the phase of a tone follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Beat {
     /// The position of the motor: phase per way (1 or rad/m).
@@ -23,7 +23,7 @@ pub(crate) enum Beat {
 pub(crate) struct Tone {
     /// Index of the joint.
     pub joint: usize,
-    /// What it keeps time with.
+    /// The variable that its phase follows.
     pub beat: Beat,
     /// `z` of every run (N·m or N): the same in all for a tone that follows the position.
     pub z: Vec<Complex<f64>>,
@@ -60,10 +60,11 @@ impl Tone {
         self.z.iter().map(|z| z.norm()).sum::<f64>() / self.z.len().max(1) as f64
     }
 
-    /// The phase of `sin(beat + phase)` and its standard error (rad): none where the runs differ.
+    /// The phase of `sin(beat + phase)` and its standard error (rad), where the unit phasors of the runs have a mean
+    /// longer than `common_phase`.
     ///
-    /// A ripple is what the motor has to give, a disturbance what it has to bear.
-    pub fn sine_phase(&self) -> Option<(f64, f64)> {
+    /// A ripple is torque that the motor gives, a disturbance torque that acts on it: their signs differ.
+    pub fn sine_phase(&self, common_phase: f64) -> Option<(f64, f64)> {
         let unit: Complex<f64> = self.z.iter().map(|z| z / z.norm().max(f64::MIN_POSITIVE)).sum();
         let alike = unit.norm() / self.z.len().max(1) as f64;
         let sign = match self.beat {
@@ -72,14 +73,14 @@ impl Tone {
         };
         // Re(z e^(i x)) = |z| sin(x + arg(z) + pi / 2)
         let phase = (sign * unit * Complex::i()).arg();
-        const ALIKE: f64 = 0.95;
         let [_, _, error] = self.error;
-        (alike > ALIKE).then_some((phase, error))
+        (alike > common_phase).then_some((phase, error))
     }
 
     /// Gives the drive of the joint the ripple; a disturbance is no part of a robot.
-    pub fn extend(&self, robot: &mut Robot) {
-        let (Beat::Position(periods), Some((phase, _))) = (self.beat, self.sine_phase()) else {
+    pub fn extend(&self, robot: &mut Robot, common_phase: f64) {
+        let phase = self.sine_phase(common_phase);
+        let (Beat::Position(periods), Some((phase, _))) = (self.beat, phase) else {
             return;
         };
         if let Some(link) = robot.link_mut(self.joint) {
@@ -107,13 +108,13 @@ mod tests {
     fn a_tone_is_the_sine_whose_amplitude_and_phase_it_tells() {
         let (amplitude, z) = (0.7, Complex::from_polar(0.7, 0.4));
         let ripple = tone(Beat::Position(30.0), z);
-        let phase = ripple.sine_phase().unwrap().0;
+        let phase = ripple.sine_phase(0.95).unwrap().0;
         for q in [-0.3, 0.0, 1.1] {
             let expected = amplitude * (30.0 * q + phase).sin();
             assert!((effort(&ripple, q) - expected).abs() < 1e-12);
         }
         let hum = tone(Beat::Clock(2.5), z);
-        let phase = hum.sine_phase().unwrap().0;
+        let phase = hum.sine_phase(0.95).unwrap().0;
         let expected = -amplitude * (TAU * 2.5 * 0.37 + phase).sin();
         assert!((effort(&hum, 0.37) - expected).abs() < 1e-12);
     }
@@ -122,6 +123,6 @@ mod tests {
     fn runs_that_differ_have_no_phase_in_common() {
         let mut hum = tone(Beat::Clock(1.0), Complex::new(1.0, 0.0));
         hum.z[1] = Complex::new(-1.0, 0.0);
-        assert_eq!(hum.sine_phase(), None);
+        assert_eq!(hum.sine_phase(0.95), None);
     }
 }

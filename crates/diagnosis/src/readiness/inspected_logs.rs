@@ -1,29 +1,28 @@
-use inspection::{Mended, Observation, ObservationKind, Spoils, mended};
+use inspection::{Mended, Observation, ObservationKind, Spoils, mend_with};
 use logs::Run;
 use robot::Robot;
 
-/// Fewest samples of a run that is worth keeping.
-const FEWEST_SAMPLES: usize = 100;
+use crate::thresholds::Thresholds;
 
-/// Logs after a look at the whole of them.
+/// Logs after an inspection as a whole.
 #[derive(Debug)]
-pub(crate) struct Inspected {
-    /// The runs without the seconds that are spoilt, where there are any.
+pub(crate) struct InspectedLogs {
+    /// The runs without spoilt seconds, where there are any.
     without: Option<Vec<Run>>,
-    /// Whole runs as they were read, where that is not as they stand.
+    /// Whole runs as they are read, where they were corrected.
     pub read: Option<Vec<Run>>,
-    /// Why the effort of a joint cannot be used, for every joint of which that is so.
+    /// For every joint, the reason why its effort cannot be used, if there is one.
     pub spoilt: Vec<Option<String>>,
-    /// What was seen, each in a sentence.
+    /// All observations, each in a sentence.
     pub warnings: Vec<String>,
 }
 
-/// Looks at whole logs: a turned sign, another unit, a frozen encoder. What has one reading only is read so.
-/// No cause is sought where others spoil what it would be sought in.
-pub(crate) fn inspected(robot: &Robot, runs: &[Run]) -> Inspected {
-    let Mended { runs: read, mended, left: mut seen } = mended(robot, runs);
+/// Inspects whole logs for a turned sign, another unit, a frozen encoder. Errors with one possible correction are corrected.
+/// No causes are sought in seconds or joints that the other errors spoil.
+pub(crate) fn inspect_logs(robot: &Robot, runs: &[Run], t: &Thresholds) -> InspectedLogs {
+    let Mended { runs: read, mended, left: mut seen } = mend_with(robot, runs, &t.inspection);
     let runs = read.as_deref().unwrap_or(runs);
-    // A drive at its limit gives the torque of the limit, and what it was asked for beyond is a cause.
+    // A drive at its limit gives the torque of the limit; the effort beyond it is a cause.
     seen.retain(|o| !matches!(o.kind, ObservationKind::AtLimit { .. }));
     let said = |o: &Observation| o.sentence(robot, runs);
     let reason = |j: usize| {
@@ -37,25 +36,26 @@ pub(crate) fn inspected(robot: &Robot, runs: &[Run]) -> Inspected {
     let spoilt = (0..robot.joint_count()).map(reason).collect();
     let put_right = |o: &Observation| format!("{} Until then the logs are read so.", said(o));
     let warnings = mended.iter().map(put_right).chain(seen.iter().map(said)).collect();
-    Inspected { without: without_spoilt_seconds(runs, &seen), read, spoilt, warnings }
+    let fewest = t.readiness.fewest_run_samples;
+    InspectedLogs { without: without_spoilt_seconds(runs, &seen, fewest), read, spoilt, warnings }
 }
 
-impl Inspected {
-    /// The runs that causes are sought in, of those that were `given`.
+impl InspectedLogs {
+    /// The runs in which causes are sought; `given` are those of the inspection.
     pub fn runs<'a>(&'a self, given: &'a [Run]) -> &'a [Run] {
         self.without.as_deref().or(self.read.as_deref()).unwrap_or(given)
     }
 }
 
-/// The runs without spoilt seconds; a run of which too little is left is left out, unless that is so
-/// of all. None where all of all runs is left.
-fn without_spoilt_seconds(runs: &[Run], seen: &[Observation]) -> Option<Vec<Run>> {
+/// The runs without spoilt seconds, and without runs that are too short then unless all are; `None` where nothing is
+/// spoilt.
+fn without_spoilt_seconds(runs: &[Run], seen: &[Observation], fewest: usize) -> Option<Vec<Run>> {
     let spoilt = |run: usize| -> Vec<[f64; 2]> {
         let observations = seen.iter().filter(|o| o.spoils == Spoils::Stretches);
         let stretches = observations.flat_map(|o| &o.stretches).filter(|s| s.run == run);
         stretches.map(|s| [s.from_s, s.to_s]).collect()
     };
-    let is_long = |run: &Run| run.time.len() >= FEWEST_SAMPLES;
+    let is_long = |run: &Run| run.time.len() >= fewest;
     if runs.iter().enumerate().all(|(r, run)| is_long(run) && spoilt(r).is_empty()) {
         return None;
     }

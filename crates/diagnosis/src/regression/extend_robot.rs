@@ -3,8 +3,13 @@ use robot::Robot;
 use crate::columns::design::Design;
 use crate::regression::problem::Model;
 
-/// The robot changed by the weights of a model.
-pub(crate) fn extended(robot: &Robot, design: &Design, model: &Model, weights: &[f64]) -> Robot {
+/// Changes a robot by the weights of a model.
+pub(crate) fn extend_robot(
+    robot: &Robot,
+    design: &Design,
+    model: &Model,
+    weights: &[f64],
+) -> Robot {
     let mut changed = robot.clone();
     for &g in model {
         let group = &design.groups[g];

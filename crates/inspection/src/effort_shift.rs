@@ -1,26 +1,24 @@
 use robot::Robot;
 
 use crate::judge::Judge;
+use crate::observation::{Evidence, Observation, ObservationKind, Spoils};
 use crate::samples::Thinned;
-use crate::{Evidence, Observation, ObservationKind, Spoils, Thresholds};
-
-/// Longest shift that is looked for (s).
-const LONGEST_S: f64 = 1.5;
+use crate::thresholds::InspectionThresholds;
 
 /// A shift of the efforts against the motion that explains as much as a reading does.
 ///
 /// ```text
 /// effort(t) = tau(t - shift)
 /// ```
-pub(crate) fn shift(
+pub(crate) fn effort_shift(
     robot: &Robot,
     thinned: &Thinned,
-    t: &Thresholds,
+    t: &InspectionThresholds,
     gain: f64,
     runs: usize,
 ) -> Option<Observation> {
     let (step_s, shortest) = thinned.spacing()?;
-    let reach = ((LONGEST_S / step_s) as usize).min(shortest / 4);
+    let reach = ((t.longest_shift_s / step_s) as usize).min(shortest / 4);
     let mut judge = Judge::new(robot, t, thinned.samples(reach, 0));
     let as_is = judge.as_is();
     let mut best: Option<(f64, isize, Vec<f64>)> = None;

@@ -1,12 +1,12 @@
 use catalogue::{EffectKind, Parameter};
 use effects::Seat;
 
-/// What a diagnosis finds of an effect.
+/// How a diagnosis finds an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Diagnosed {
-    /// How, in a few words.
+    /// The method, in a few words.
     pub how: &'static str,
-    /// Those of its parameters that it finds.
+    /// The parameters that it finds.
     pub parameters: &'static [Parameter],
 }
 
@@ -14,7 +14,7 @@ pub struct Diagnosed {
 ///
 /// # Errors
 ///
-/// Why it does not.
+/// The reason why it does not.
 pub fn diagnosed(kind: EffectKind) -> Result<Diagnosed, &'static str> {
     let parameters = kind.entry().parameters;
     match kind {

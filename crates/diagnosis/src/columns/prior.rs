@@ -1,8 +1,8 @@
-/// What is believed of every weight before any data.
+/// What is assumed of every weight before any data: a normal distribution within bounds.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Beliefs<'a> {
+pub(crate) struct Prior<'a> {
     /// Standard deviations.
-    pub prior: &'a [f64],
+    pub sd: &'a [f64],
     /// Lowest and highest physically possible values.
     pub bounds: &'a [(f64, f64)],
 }

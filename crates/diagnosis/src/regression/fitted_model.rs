@@ -1,20 +1,22 @@
+use std::borrow::Cow;
+
 use effects::Hypothesis;
 use logs::LogError;
 use robot::Robot;
 
 use crate::columns::design::Design;
-use crate::regression::extended::extended;
-use crate::regression::fitted::Fitted;
+use crate::regression::extend_robot::extend_robot;
 use crate::regression::gram::Grams;
+use crate::regression::linear_fit::LinearFit;
+use crate::regression::physical_inertias::physical_inertias;
 use crate::regression::problem::{Model, Problem};
-use crate::regression::settle::settle;
 use crate::signals::log::Log;
 
 /// Most rounds of fitting anew about the extended robot.
 const ROUNDS: usize = 8;
 
-/// Relative fall of what is left below which a round has changed nothing.
-const SETTLED: f64 = 1e-4;
+/// Relative fall of the deviance below which a round has changed nothing.
+const CONVERGED: f64 = 1e-4;
 
 /// Shortest share of a step that is tried.
 const SHORTEST: f64 = 0.125;
@@ -27,11 +29,11 @@ pub(crate) struct Refit {
     pub design: Design,
     pub grams: Grams,
     pub model: Model,
-    /// What is still changed.
+    /// Weights that are still to be changed.
     pub weights: Vec<f64>,
     /// Weighted sum of squares that the robot leaves.
     left: f64,
-    /// What it would leave were the columns the same with what is still changed.
+    /// Deviance predicted by the linear model.
     expected: f64,
 }
 
@@ -46,30 +48,29 @@ impl Refit {
         let grams = Grams::new(&design, problem.blocks);
         let model: Model = (0..design.groups.len()).collect();
         let info = grams.information(&problem.of, &problem.weight);
-        let weights = settle(&design, &model, &info, &about);
+        let weights = physical_inertias(&design, &model, &info, &about, &problem.thresholds.sizes);
         let (left, expected) = (info.yy, info.deviance(&weights));
         Ok(Self { about, design, grams, model, weights, left, expected })
     }
 
-    /// The robot a share of the way on that is still to go.
-    fn stepped(&self, share: f64) -> Robot {
-        extended(&self.about, &self.design, &self.model, &scaled(&self.weights, share))
+    /// The robot after a share of the remaining step.
+    fn after_step(&self, share: f64) -> Robot {
+        extend_robot(&self.about, &self.design, &self.model, &scaled(&self.weights, share))
     }
 }
 
 /// The robot with the findings of a model.
 #[derive(Debug, Clone)]
-pub(crate) struct Solved {
+pub(crate) struct FittedModel {
     /// Weights of the model about the robot without them.
     pub weights: Vec<f64>,
     pub robot: Robot,
-    /// None where every column is the same however large the effect.
+    /// None where the columns of every effect are linear.
     pub refit: Option<Refit>,
 }
 
-impl Solved {
-    /// What is left of the effort of joint `j` in a run (N·m or N); `first` is the design about the
-    /// robot without findings.
+impl FittedModel {
+    /// Residual of joint `j` in a run (N·m or N); `first` is the design about the robot without findings.
     pub fn remaining(&self, first: &Design, run: usize, j: usize) -> Vec<f64> {
         match &self.refit {
             Some(Refit { design, weights, .. }) => design.remaining(run, j, weights),
@@ -77,43 +78,47 @@ impl Solved {
         }
     }
 
-    /// What `tell` says of the last fit: `first` is the one about the robot without findings.
-    pub fn tell<T>(&self, first: &Fitted, tell: impl FnOnce(&Fitted) -> T) -> T {
+    /// The last linear fit; `first` is the one about the robot without findings.
+    pub fn last_fit<'a>(&'a self, first: LinearFit<'a>) -> LinearFit<'a> {
         let Some(Refit { about, design, grams, model, weights, .. }) = &self.refit else {
-            return tell(first);
+            return first;
         };
-        let Problem { blocks, of, weight, .. } = first.problem;
-        let problem = Problem::new(design, blocks, grams, of, weight.clone());
-        tell(&Fitted { problem: &problem, model, weights, about, nominal: first.nominal })
+        let whole = &first.problem;
+        let (blocks, weight, thresholds) = (whole.blocks, whole.weight.clone(), whole.thresholds);
+        let problem = Problem::new(design, blocks, grams, &whole.of, weight, thresholds);
+        LinearFit { problem: Cow::Owned(problem), model, weights, about, nominal: first.nominal }
     }
 }
 
-/// The robot changed by the weights of a model, with what is left of the changes fitted
-/// again about it where columns are tangents only: a gain scales what the other findings
-/// add, a tilt turns gravity on a circle, and a spring twists the more the softer it is. A Gauss-Newton
-/// iteration, whose steps are halved where they lead to worse, and which ends where it gets no better.
-pub(crate) fn solved(
+/// Fits a model, and the robot that it makes.
+///
+/// Columns of some effects are tangents only: a gain scales the torque of the other findings, a tilt turns gravity on a
+/// circle, a spring twists the more the softer it is. These are fitted again about the robot with the findings, a
+/// Gauss-Newton iteration whose steps are halved where they lead to a larger deviance, and which ends where the deviance
+/// falls no more.
+pub(crate) fn fit_model(
     robot: &Robot,
     log: &Log,
     problem: &Problem,
     model: &Model,
-) -> Result<Solved, LogError> {
-    let first = settle(problem.design, model, &problem.info, robot);
+) -> Result<FittedModel, LogError> {
+    let sizes = &problem.thresholds.sizes;
+    let first = physical_inertias(problem.design, model, &problem.info, robot, sizes);
     let hypotheses: Vec<Hypothesis> =
         model.iter().map(|&g| problem.design.groups[g].hypothesis).collect();
     if !hypotheses.iter().any(|h| h.is_tangent()) {
-        let robot = extended(robot, problem.design, model, &first);
-        return Ok(Solved { weights: first, robot, refit: None });
+        let robot = extend_robot(robot, problem.design, model, &first);
+        return Ok(FittedModel { weights: first, robot, refit: None });
     }
     let (mut best, mut worse): (Option<Refit>, Option<Refit>) = (None, None);
     let (mut least, mut share) = (problem.info.yy, 1.0);
     for _ in 0..ROUNDS {
         let about = match &best {
-            Some(best) => best.stepped(share),
-            None => extended(robot, problem.design, model, &scaled(&first, share)),
+            Some(best) => best.after_step(share),
+            None => extend_robot(robot, problem.design, model, &scaled(&first, share)),
         };
         let fit = Refit::new(about, log, problem, &hypotheses)?;
-        if fit.left > (1.0 + SETTLED) * least {
+        if fit.left > (1.0 + CONVERGED) * least {
             worse = Some(fit);
             share *= 0.5;
             if share < SHORTEST {
@@ -121,23 +126,24 @@ pub(crate) fn solved(
             }
             continue;
         }
-        let is_settled =
-            fit.left >= (1.0 - SETTLED) * least || fit.expected >= (1.0 - SETTLED) * fit.left;
+        let has_converged =
+            fit.left >= (1.0 - CONVERGED) * least || fit.expected >= (1.0 - CONVERGED) * fit.left;
         (least, share, worse) = (fit.left, 1.0, None);
         best = Some(fit);
-        if is_settled {
+        if has_converged {
             break;
         }
     }
-    // Where the last step led to worse, it is not taken.
+    // A last step that leads to a larger deviance is not taken.
     if let Some(best) = best.as_mut().filter(|_| worse.is_some()) {
         best.weights.fill(0.0);
     }
     let refit = best.or(worse);
-    let robot = refit
-        .as_ref()
-        .map_or_else(|| extended(robot, problem.design, model, &first), |refit| refit.stepped(1.0));
-    Ok(Solved { weights: first, robot, refit })
+    let robot = refit.as_ref().map_or_else(
+        || extend_robot(robot, problem.design, model, &first),
+        |refit| refit.after_step(1.0),
+    );
+    Ok(FittedModel { weights: first, robot, refit })
 }
 
 fn scaled(weights: &[f64], share: f64) -> Vec<f64> {

@@ -6,39 +6,42 @@ use crate::regression::gram::Grams;
 use crate::regression::noise::Noise;
 use crate::regression::problem::{Model, Problem};
 use crate::search::select::Selection;
+use crate::thresholds::Thresholds;
 
-/// Rounds of selecting and measuring anew the noise that the selected model leaves.
+/// Most rounds of selecting a model and measuring the noise that it leaves.
 const ROUNDS: usize = 4;
 
-/// What every search on a record shares.
+/// The logs cut into blocks: what every search on them shares.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Record<'a> {
+pub(crate) struct Dataset<'a> {
     pub robot: &'a Robot,
     pub design: &'a Design,
     pub blocks: &'a [Block],
     pub grams: &'a Grams,
     /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
     pub practical: &'a [f64],
+    pub thresholds: &'a Thresholds,
 }
 
-impl<'a> Record<'a> {
-    /// The problem on the blocks `of`, weighted by the noise that all hypotheses together
-    /// leave on the blocks they are fitted to: too little, which a search that measures it
-    /// anew mends, while too much would hide the causes from it.
+impl<'a> Dataset<'a> {
+    /// The problem on the blocks `of`, weighted by the noise that all hypotheses together leave on the blocks they are
+    /// fitted to.
+    ///
+    /// That noise is too small. A search measures it anew and corrects it; noise that is too large would hide causes.
     pub fn problem(&self, of: &[usize]) -> Problem<'a> {
-        let nothing = |j: usize| {
+        let power = |j: usize| {
             let all = self.grams.joint(j, of);
             all.yy / all.count.max(1) as f64
         };
         let joints = self.design.joints();
-        let start = Noise { variance: (0..joints).map(nothing).collect(), time: vec![1.0; joints] };
+        let start = Noise { variance: (0..joints).map(power).collect(), time: vec![1.0; joints] };
         let weight = start.weights(&self.design.moved);
-        let rough = Problem::new(self.design, self.blocks, self.grams, of, weight);
-        let noise = rough.fitted_noise(&rough.everything());
-        rough.reweighted(noise.weights(&self.design.moved))
+        let rough = Problem::new(self.design, self.blocks, self.grams, of, weight, self.thresholds);
+        let noise = rough.training_noise(&rough.everything());
+        rough.with_weights(noise.weights(&self.design.moved))
     }
 
-    /// Median over joints of the autocorrelation time of what a model of everything leaves (samples).
+    /// Median over joints of the autocorrelation time of the residual of a model of everything (samples).
     pub fn memory(&self) -> f64 {
         let all: Vec<usize> = (0..self.blocks.len()).collect();
         let problem = self.problem(&all);
@@ -49,23 +52,22 @@ impl<'a> Record<'a> {
         times.get(times.len() / 2).copied().unwrap_or(1.0)
     }
 
-    /// The hypotheses that earn their place on the blocks `of`, and the problem weighted by the noise
-    /// that they leave.
-    pub fn search(&self, of: &[usize]) -> (Problem<'a>, Model) {
+    /// The hypotheses that the blocks `of` support, and the problem weighted by the noise that they leave.
+    pub fn select_model(&self, of: &[usize]) -> (Problem<'a>, Model) {
         let (mut problem, mut model) = (self.problem(of), Model::new());
         for _ in 0..ROUNDS {
             let next = self.selection(&problem).run(model.clone());
-            let settled = next == model;
+            let is_same = next == model;
             model = next;
-            problem = problem.reweighted(problem.noise(&model).weights(&self.design.moved));
-            if settled {
+            problem = problem.with_weights(problem.noise(&model).weights(&self.design.moved));
+            if is_same {
                 break;
             }
         }
         (problem, model)
     }
 
-    /// A selection on `problem` with the record's gates.
+    /// A selection on `problem`.
     pub fn selection<'b>(&'b self, problem: &'b Problem<'b>) -> Selection<'b> {
         Selection { problem, robot: self.robot, practical: self.practical.to_vec() }
     }

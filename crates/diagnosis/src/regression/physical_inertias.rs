@@ -6,47 +6,41 @@ use crate::columns::design::Design;
 use crate::regression::fit::{Fit, pick};
 use crate::regression::gram::Information;
 use crate::regression::problem::Model;
-
-/// Weight of the divergence from the nominal inertias, in units of the log-likelihood: a
-/// pseudo-inertia that differs by its own size counts like one standard deviation.
-const PRIOR_WEIGHT: f64 = 1.0;
-
-/// Least standard deviation of a direction, in those of its prior: a thousandth of what is
-/// believed beforehand is sharper than any model of rigid bodies is true.
-const SHARPEST: f64 = 1e-3;
+use crate::thresholds::sizes::SizeThresholds;
 
 /// Weights of a model with every inertia physical.
 ///
 /// Links of the model are profiled against all other columns, moved to the physically
 /// consistent inertias nearest in likelihood (see [`ConsistentFit`]), and the other
 /// columns are fitted again with the links held.
-pub(crate) fn settle(
+pub(crate) fn physical_inertias(
     design: &Design,
     model: &Model,
     info: &Information,
     robot: &Robot,
+    t: &SizeThresholds,
 ) -> Vec<f64> {
     let links = links(design, model);
     let all = design.columns(model);
     if links.is_empty() {
-        let fit = Fit::new(info, all, design.beliefs());
+        let fit = Fit::new(info, all, design.weight_prior());
         return fit.map_or_else(|| vec![0.0; design.width], |f| f.expand(design.width));
     }
     let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
     let rest: Vec<usize> = all.into_iter().filter(|k| !body.contains(k)).collect();
-    let Some(others) = Fit::new(info, rest.clone(), design.beliefs()) else {
+    let Some(others) = Fit::new(info, rest.clone(), design.weight_prior()) else {
         return vec![0.0; design.width];
     };
-    let change = consistent_change(&others, info, robot, &links, design);
+    let change = consistent_change(&others, info, robot, &links, design, t);
     let mut weights = vec![0.0; design.width];
     body.iter().zip(&change).for_each(|(&k, &w)| weights[k] = w);
-    // With the links held, the rest answers what is left: g_R - H_RL w_L.
+    // With the links held, the rest is fitted to the remainder: g_R - H_RL w_L.
     let held = Information {
         h: info.h.clone(),
         g: &info.g - &info.h * DVector::from_column_slice(&weights),
         yy: info.yy,
     };
-    if let Some(fit) = Fit::new(&held, rest, design.beliefs()) {
+    if let Some(fit) = Fit::new(&held, rest, design.weight_prior()) {
         let others = fit.expand(design.width);
         weights.iter_mut().zip(others).for_each(|(w, other)| *w += other);
     }
@@ -70,12 +64,13 @@ fn consistent_change(
     robot: &Robot,
     links: &[(usize, Vec<usize>)],
     design: &Design,
+    t: &SizeThresholds,
 ) -> Vec<f64> {
     let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
     let flat = vec![f64::INFINITY; design.width];
     let (complement, score) = others.beyond(info, &body, &flat);
     let prior = pick(&DVector::from_column_slice(&design.prior), &body);
-    let (h, change) = limited(&complement.b, &score, &prior);
+    let (h, change) = shrink_change(&complement.b, &score, &prior, t.sharpest_inertia);
     let nominal: Vec<f64> = robot.links().iter().flat_map(|l| l.inertia.parameters()).collect();
     let place: Vec<usize> = links
         .iter()
@@ -93,11 +88,11 @@ fn consistent_change(
         information: &information,
         estimate: &estimate,
         links: &indices,
-        prior_weight: PRIOR_WEIGHT,
+        prior_weight: t.inertia_prior,
     };
-    // What is physical as it stands needs no change; otherwise the nearest in likelihood of
-    // two physical answers is taken, and the second is there whatever the solver says.
-    let back = drawn_back(&nominal, &place, &change);
+    // A change that is physical as it stands is kept. Otherwise the nearer in likelihood of two physical changes is
+    // taken; the second of them exists even where the solver fails.
+    let back = largest_physical_part(&nominal, &place, &change);
     let found = fit.solve().ok().map(|found| {
         DVector::from_iterator(place.len(), place.iter().map(|&k| found.parameters[k] - nominal[k]))
     });
@@ -110,15 +105,16 @@ fn consistent_change(
 /// `P H P = V diag(l) V'` with `P` the priors' standard deviations:
 ///
 /// ```text
-/// l' = l / (1 + l SHARPEST^2),  change = P V diag(1 / (1 + l)) V' P score
+/// l' = l / (1 + l sharpest^2),  change = P V diag(1 / (1 + l)) V' P score
 /// ```
 ///
-/// No direction is known better than a share of its prior, which keeps the problem well
-/// conditioned; directions that the data do not show stay.
-fn limited(
+/// No direction is known better than a share `sharpest` of its prior, which keeps the problem well conditioned. Directions
+/// that the data do not show stay as they are.
+fn shrink_change(
     h: &DMatrix<f64>,
     score: &DVector<f64>,
     prior: &DVector<f64>,
+    sharpest: f64,
 ) -> (DMatrix<f64>, DVector<f64>) {
     let n = h.nrows();
     let scaled = DMatrix::from_fn(n, n, |i, k| 0.5 * prior[i] * (h[(i, k)] + h[(k, i)]) * prior[k]);
@@ -127,10 +123,10 @@ fn limited(
     }
     let eigen = SymmetricEigen::new(scaled);
     let seen = eigen.eigenvalues.map(|l| l.max(0.0));
-    let kept = seen.map(|l| l / (1.0 + l * SHARPEST * SHARPEST));
-    let solved = seen.map(|l| 1.0 / (1.0 + l));
+    let kept = seen.map(|l| l / (1.0 + l * sharpest * sharpest));
+    let shrunk = seen.map(|l| 1.0 / (1.0 + l));
     let v = &eigen.eigenvectors;
-    let change = v * solved.component_mul(&v.tr_mul(&score.component_mul(prior)));
+    let change = v * shrunk.component_mul(&v.tr_mul(&score.component_mul(prior)));
     let known = v * DMatrix::from_diagonal(&kept) * v.transpose();
     let information = DMatrix::from_fn(n, n, |i, k| {
         0.5 * (known[(i, k)] + known[(k, i)]) / (prior[i] * prior[k])
@@ -139,7 +135,7 @@ fn limited(
 }
 
 /// The largest part of a change, in tenths, that keeps every inertia physical.
-fn drawn_back(nominal: &[f64], place: &[usize], change: &DVector<f64>) -> DVector<f64> {
+fn largest_physical_part(nominal: &[f64], place: &[usize], change: &DVector<f64>) -> DVector<f64> {
     let part = |tenths: u32| change.map(|c| c * f64::from(tenths) / 10.0);
     let physical = |change: &DVector<f64>| {
         let mut all = nominal.to_vec();

@@ -4,44 +4,43 @@ use crate::columns::design::Design;
 use crate::regression::problem::{Model, Problem};
 use crate::result::InverseGain;
 
-/// What was fitted and predicts efforts that took no part worse than the description does.
+/// Joints that keep their description, because a fit predicts their held-out efforts worse than it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Failed {
-    /// Joints that keep their description.
+pub(crate) struct KeptNominal {
+    /// Their indices.
     pub joints: BTreeSet<usize>,
-    /// What had a name over the whole record.
+    /// Causes of the search over all blocks that are removed for it.
     pub dropped: Model,
 }
 
-impl Failed {
-    /// Whether hypothesis `g` is left out.
+impl KeptNominal {
+    /// Whether hypothesis `g` acts on such joints alone.
     pub fn drops(&self, design: &Design, g: usize) -> bool {
         let keep_theirs = |j: &usize| self.joints.contains(j);
         design.groups[g].joints.iter().all(keep_theirs)
     }
 
-    /// What is left of a model.
-    pub fn kept(&self, problem: &Problem, model: &Model) -> Model {
+    /// A model without the hypotheses that act on such joints alone.
+    pub fn remaining(&self, problem: &Problem, model: &Model) -> Model {
         model.iter().copied().filter(|g| !self.drops(problem.design, *g)).collect()
     }
 
-    /// Whether anything that had a name at joint `j` is left out.
-    pub fn is_told_at(&self, design: &Design, j: usize) -> bool {
+    /// Whether a cause at joint `j` was removed.
+    pub fn has_dropped_at(&self, design: &Design, j: usize) -> bool {
         self.dropped.iter().any(|g| design.groups[*g].joints.contains(&j))
     }
 
-    /// The same with every other joint that a fit predicts worse than the description; none where
-    /// there is no such joint.
+    /// The same with every other joint that a fit predicts worse than the description, where there is one.
     pub fn with_worse_joints(&self, gain: &InverseGain) -> Option<Self> {
-        let worse = worse(gain).filter(|j| !self.joints.contains(j));
-        let mut failed = self.clone();
-        failed.joints.extend(worse);
-        (failed != *self).then_some(failed)
+        let more = joints_predicted_worse(gain).filter(|j| !self.joints.contains(j));
+        let mut all = self.clone();
+        all.joints.extend(more);
+        (all != *self).then_some(all)
     }
 }
 
 /// Joints whose held-out error is larger than that of the description.
-pub(crate) fn worse(gain: &InverseGain) -> impl Iterator<Item = usize> {
+pub(crate) fn joints_predicted_worse(gain: &InverseGain) -> impl Iterator<Item = usize> {
     let pairs = gain.rms_before_nm.iter().zip(&gain.rms_after_nm).enumerate();
     pairs.filter(|(_, (before, after))| after > before).map(|(j, _)| j)
 }
@@ -63,9 +62,10 @@ mod tests {
 
     #[test]
     fn a_joint_that_is_predicted_worse_fails_once() {
-        let none = Failed::default();
-        let failed = none.with_worse_joints(&gain(&[1.0, 1.0, 0.0], &[0.5, 1.001, 0.0])).unwrap();
-        assert_eq!(failed.joints, BTreeSet::from([1]));
-        assert_eq!(failed.with_worse_joints(&gain(&[1.0, 1.0], &[0.5, 1.001])), None);
+        let none = KeptNominal::default();
+        let kept_nominal =
+            none.with_worse_joints(&gain(&[1.0, 1.0, 0.0], &[0.5, 1.001, 0.0])).unwrap();
+        assert_eq!(kept_nominal.joints, BTreeSet::from([1]));
+        assert_eq!(kept_nominal.with_worse_joints(&gain(&[1.0, 1.0], &[0.5, 1.001])), None);
     }
 }

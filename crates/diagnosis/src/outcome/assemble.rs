@@ -1,78 +1,81 @@
 use robot::TorqueSource;
 
 use crate::columns::run_design::{JointDesign, RunDesign};
-use crate::outcome::answer::Answer;
-use crate::outcome::findings::Found;
+use crate::outcome::finding_builder::FindingWithFall;
 use crate::outcome::limit_finding::limit_finding;
 use crate::outcome::spectrum::Spectrum;
 use crate::outcome::structure::{Probe, Structure};
+use crate::outcome::tested_findings::TestedFindings;
 use crate::outcome::tone_finding::tone_finding;
 use crate::outcome::torque_noise::TorqueNoise;
-use crate::outcome::verdict::{Situation, hides, overall};
+use crate::outcome::verdict::{Situation, hides_friction, overall};
 use crate::readiness::extent::range;
 use crate::regression::noise::integrated_time;
 use crate::result::{
     DataSummary, Diagnosis, Finding, Gain, JointReport, Negligible, NoiseSpectrum, RuledOut,
     SCHEMA, Unexplained, Verdict,
 };
-use crate::search::record::Record;
-use crate::search::study::Study;
+use crate::search::dataset::Dataset;
+use crate::search::inputs::Inputs;
 use crate::signals::along::REGRESSION_RATE;
+use crate::signals::tone::Tone;
 
-impl Study<'_> {
-    /// The answer; `data.runs` and `warnings` are left for the caller.
-    pub fn report(&self, record: &Record, answer: &Answer) -> Diagnosis {
-        let noise = TorqueNoise::new(self.nominal, self.design, self.log.prepared);
-        let least = record.practical;
-        let joint = |j: usize| self.joint(answer, (&noise, least), j);
+impl Inputs<'_> {
+    /// Assembles the diagnosis; `data.runs` and `warnings` are left for the caller.
+    pub fn assemble(&self, dataset: &Dataset, tested: &TestedFindings) -> Diagnosis {
+        let t = self.thresholds();
+        let noise = TorqueNoise::new(self.nominal, self.design, self.log.prepared, &t.signals);
+        let least = dataset.practical;
+        let joint = |j: usize| self.joint(tested, &noise, least, j);
         let reports: Vec<(JointReport, Structure)> = (0..self.design.joints()).map(joint).collect();
         let unexplained = reports.iter().filter_map(unexplained).collect();
         let joints: Vec<JointReport> = reports.into_iter().map(|(j, _)| j).collect();
         let hides = |((joint, unseen), inadequate): &((&JointReport, &f64), &Option<String>)| {
             joint.verdict == Verdict::DataInadequate
                 && inadequate.is_none()
-                && hides(**unseen, joint.torque_rms_nm)
+                && hides_friction(**unseen, joint.torque_rms_nm, &t.verdict)
         };
-        let each = joints.iter().zip(&answer.unseen_friction).zip(self.inadequate);
+        let each = joints.iter().zip(&tested.unseen_friction).zip(self.inadequate);
         let hiding = each.filter(hides).count();
         Diagnosis {
             schema: SCHEMA,
             robot: self.robot.name().to_owned(),
             verdict: overall(&joints.iter().map(|j| j.verdict).collect::<Vec<_>>(), hiding),
             joints,
-            findings: self.findings(answer, least),
-            negligible: self.negligible(answer, least),
+            findings: self.all_findings(tested, least),
+            negligible: self.negligible(tested, least),
             unexplained,
-            ruled_out: self.ruled_out(answer),
-            gain: Gain { inverse: answer.gain.inverse.clone() },
-            data: self.data(record, answer),
+            ruled_out: self.ruled_out(tested),
+            gain: Gain { inverse: tested.gain.inverse.clone() },
+            data: self.data(dataset, tested),
             warnings: Vec::new(),
         }
     }
 
     fn joint(
         &self,
-        answer: &Answer,
-        (noise, least): (&TorqueNoise, &[f64]),
+        tested: &TestedFindings,
+        noise: &TorqueNoise,
+        least: &[f64],
         j: usize,
     ) -> (JointReport, Structure) {
-        let heard = self.heard_at(j);
-        // What a search without a part of the record takes for a cause is none where the search
-        // over all of it has dropped it again.
-        let is_named = heard > 0 || answer.found.iter().any(|f| f.fall[j].abs() > 0.0);
-        let left = if is_named { &answer.left[j] } else { &answer.gap[j] };
-        let (gap, rest) = (self.told_of(&answer.gap[j], j), self.told_of(left, j));
-        let structure = self.structure(answer, left, j);
+        let oscillations = self.oscillations_at(j);
+        // Causes of a search without some blocks do not count where the search over all blocks has none at the joint.
+        let is_named = oscillations > 0 || tested.found.iter().any(|f| f.fall[j].abs() > 0.0);
+        let left = if is_named { &tested.left[j] } else { &tested.gap[j] };
+        let (gap, rest) =
+            (self.informative_part(&tested.gap[j], j), self.informative_part(left, j));
+        let structure = self.structure(tested, left, j);
         let spectrum = Spectrum::of(left, self.design.rate_hz);
-        let lowered = || answer.found.iter().filter(|f| f.fall[j] > least[j].powi(2));
+        let lowered = || tested.found.iter().filter(|f| f.fall[j] > least[j].powi(2));
         let name = &self.robot.links()[j].joint.name;
-        let is_own = |f: &&Found| f.finding.at.joint.as_ref() == Some(name);
+        let is_own = |f: &&FindingWithFall| f.finding.at.joint.as_ref() == Some(name);
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
-            findings: lowered().count() + heard,
-            own: lowered().filter(is_own).count() + heard,
-            between: answer.between.as_ref().map_or(0, |b| b.at(name)),
-            unseen: answer.unseen_friction[j],
+            findings: lowered().count() + oscillations,
+            own: lowered().filter(is_own).count() + oscillations,
+            between_encoders: tested.second_encoder.as_ref().map_or(0, |found| found.at(name)),
+            unseen: tested.unseen_friction[j],
             torque_rms: self.torque_rms(j),
             nominal_rms: rms(&gap),
             remaining_rms: rms(&rest),
@@ -80,11 +83,12 @@ impl Study<'_> {
             noise: noise.rms(j),
             is_command: self.nominal.links()[j].actuator.torque_source == TorqueSource::Commanded,
             near_rest: self.near_rest(j),
-            failed: answer.failed.is_told_at(self.design, j),
+            keeps_nominal: tested.kept_nominal.has_dropped_at(self.design, j),
             practical: self.settings.open_share,
             structure: structure.share,
-            above_hz: spectrum.above_hz(),
+            above_hz: spectrum.above_hz(self.thresholds().verdict.mostly_above),
             motion_hz: self.log.prepared.motion_hz,
+            thresholds: &self.thresholds().verdict,
         };
         let spectra = spectra(noise.spectrum(j), &spectrum);
         let report = self.joint_report(&situation, (spectra, &rest), j);
@@ -115,55 +119,56 @@ impl Study<'_> {
         }
     }
 
-    /// RMS of the dry friction of the description that may be anything up to its level while the joint
-    /// turns (N·m or N):
+    /// RMS of the described dry friction at moments at which the joint changes its direction, where it may be anything up to
+    /// its level (N·m or N):
     ///
     /// ```text
-    /// level sqrt(share / 3)   with `share` of the samples that tell near a turn
+    /// level sqrt(share / 3)   with `share` of the informative samples near a change of direction
     /// ```
     fn near_rest(&self, j: usize) -> f64 {
         let joints = || self.design.runs.iter().map(|run| &run.joints[j]);
-        let told = joints().flat_map(|joint| &joint.tells).filter(|t| **t).count();
+        let informative = joints().flat_map(|joint| &joint.is_informative).filter(|t| **t).count();
         let slides = |joint: &JointDesign| {
-            joint.tells.iter().zip(&joint.slides).filter(|(t, s)| **t && **s).count()
+            joint.is_informative.iter().zip(&joint.slides).filter(|(t, s)| **t && **s).count()
         };
         let sliding: usize = joints().map(slides).sum();
         let drive = &self.nominal.links()[j].actuator;
         let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
         let gain = drive.transmission_ratio * drive.torque_gain;
-        (gain * level).abs() * ((told - sliding) as f64 / (3 * told.max(1)) as f64).sqrt()
+        (gain * level).abs()
+            * ((informative - sliding) as f64 / (3 * informative.max(1)) as f64).sqrt()
     }
 
     /// Number of tones and limits of joint `j`.
-    fn heard_at(&self, j: usize) -> usize {
+    fn oscillations_at(&self, j: usize) -> usize {
         let tones = self.log.tones.iter().filter(|t| t.joint == j).count();
         tones + self.log.limits.iter().filter(|l| l.joint == j).count()
     }
 
-    /// RMS of the effort of joint `j` where it tells (N·m or N).
+    /// RMS of the informative samples of the effort of joint `j` (N·m or N).
     fn torque_rms(&self, j: usize) -> f64 {
         let efforts = self.design.runs.iter().map(|run| run.joints[j].measured.clone());
-        rms(&self.told_of(&efforts.collect::<Vec<_>>(), j))
+        rms(&self.informative_part(&efforts.collect::<Vec<_>>(), j))
     }
 
-    /// What a flexible predictor finds in what is left of joint `j`.
-    fn structure(&self, answer: &Answer, left: &[Vec<f64>], j: usize) -> Structure {
+    /// Structure in the residual of joint `j`.
+    fn structure(&self, tested: &TestedFindings, left: &[Vec<f64>], j: usize) -> Structure {
         if !self.design.moved[j] {
             return Structure { share: 0.0, depends_on: Vec::new() };
         }
-        let parts = (answer.by_run.blocks, answer.by_run.folds.as_slice());
+        let parts = (tested.by_run.blocks, tested.by_run.folds.as_slice());
         Probe::new(self.robot, self.design, parts, j).structure(left, self.settings.open_share)
     }
 
-    /// What is left of joint `j`, `[run][sample]`, at the samples that tell of its effort.
-    fn told_of(&self, left: &[Vec<f64>], j: usize) -> Vec<Vec<f64>> {
+    /// The informative samples of a residual of joint `j`, `[run][sample]`.
+    fn informative_part(&self, left: &[Vec<f64>], j: usize) -> Vec<Vec<f64>> {
         let of_run = |(left, run): (&Vec<f64>, &RunDesign)| {
-            run.joints[j].told(left.iter().copied()).collect()
+            run.joints[j].informative(left.iter().copied()).collect()
         };
         left.iter().zip(&self.design.runs).map(of_run).collect()
     }
 
-    fn data(&self, record: &Record, answer: &Answer) -> DataSummary {
+    fn data(&self, dataset: &Dataset, tested: &TestedFindings) -> DataSummary {
         let samples: usize = self.design.runs.iter().map(|r| r.time.len()).sum();
         DataSummary {
             runs: Vec::new(),
@@ -171,26 +176,29 @@ impl Study<'_> {
             cutoff_hz: self.log.prepared.cutoff_hz,
             cutoff_reason: self.log.prepared.cutoff_reason.clone(),
             regression_rate_hz: self.design.rate_hz,
-            block_s: samples as f64 / record.blocks.len() as f64 / self.design.rate_hz,
-            blocks: record.blocks.len(),
-            hypotheses: answer.hypotheses + answer.between.as_ref().map_or(0, |b| b.hypotheses),
+            block_s: samples as f64 / dataset.blocks.len() as f64 / self.design.rate_hz,
+            blocks: dataset.blocks.len(),
+            hypotheses: tested.hypotheses
+                + tested.second_encoder.as_ref().map_or(0, |found| found.hypotheses),
         }
     }
 
-    /// What is found by the search and by listening, the largest share first.
-    fn findings(&self, answer: &Answer, least: &[f64]) -> Vec<Finding> {
-        let heard = self.log.tones.iter().map(|tone| tone_finding(self.nominal, tone));
-        let limited = self.log.limits.iter().map(|limit| limit_finding(self.nominal, limit));
-        let between = answer.between.iter().flat_map(|b| b.found.clone());
-        let found = answer.found.iter().filter(|f| matters(f, least)).map(|f| f.finding.clone());
-        let mut findings: Vec<Finding> = found.chain(between).chain(heard).chain(limited).collect();
+    /// Findings of the search and of second encoders, tones and limits, the largest share first.
+    fn all_findings(&self, tested: &TestedFindings, least: &[f64]) -> Vec<Finding> {
+        let common_phase = self.thresholds().tones.common_phase;
+        let tone = |tone: &Tone| tone_finding(self.nominal, tone, common_phase);
+        let tones = self.log.tones.iter().map(tone);
+        let limits = self.log.limits.iter().map(|limit| limit_finding(self.nominal, limit));
+        let between = tested.second_encoder.iter().flat_map(|of| of.found.clone());
+        let found = tested.found.iter().filter(|f| matters(f, least)).map(|f| f.finding.clone());
+        let mut findings: Vec<Finding> = found.chain(between).chain(tones).chain(limits).collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
         findings
     }
 
-    /// What is seen and does not matter.
-    fn negligible(&self, answer: &Answer, least: &[f64]) -> Vec<Negligible> {
-        let told = |found: &Found| {
+    /// Findings that are too small to matter.
+    fn negligible(&self, tested: &TestedFindings, least: &[f64]) -> Vec<Negligible> {
+        let negligible = |found: &FindingWithFall| {
             let size =
                 |j: &usize| found.fall[*j].max(0.0).sqrt() / least[*j].max(f64::MIN_POSITIVE);
             let most = (0..least.len()).max_by(|a, b| size(a).total_cmp(&size(b)))?;
@@ -201,21 +209,21 @@ impl Study<'_> {
                 least_nm: least[most],
             })
         };
-        answer.found.iter().filter(|f| !matters(f, least)).filter_map(told).collect()
+        tested.found.iter().filter(|f| !matters(f, least)).filter_map(negligible).collect()
     }
 
-    fn ruled_out(&self, answer: &Answer) -> Vec<RuledOut> {
-        let between = answer.between.iter().flat_map(|b| &b.ruled_out);
-        answer.ruled_out.iter().chain(between).cloned().collect()
+    fn ruled_out(&self, tested: &TestedFindings) -> Vec<RuledOut> {
+        let between = tested.second_encoder.iter().flat_map(|of| &of.ruled_out);
+        tested.ruled_out.iter().chain(between).cloned().collect()
     }
 }
 
-/// Whether a finding takes more off the held-out error of a joint than what does not matter there.
-fn matters(found: &Found, least: &[f64]) -> bool {
+/// Whether a finding lowers the held-out error of some joint by more than the practical share there.
+fn matters(found: &FindingWithFall, least: &[f64]) -> bool {
     found.fall.iter().zip(least).any(|(fall, least)| *fall > least.powi(2))
 }
 
-/// Number of independent samples of noise in the band, were what is left noise: two a cut-off of 2.5.
+/// Number of independent samples in the band, were the residual noise: two a cut-off of 2.5.
 fn independent(left: &[Vec<f64>]) -> f64 {
     left.iter().map(Vec::len).sum::<usize>() as f64 * 2.0 / REGRESSION_RATE
 }

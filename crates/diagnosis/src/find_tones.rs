@@ -1,0 +1,88 @@
+use effects::Frame;
+use logs::{PrepareSettings, Run, centre_commands, prepare};
+use robot::Robot;
+
+use crate::columns::design::Design;
+use crate::columns::shapes::with_best_shapes;
+use crate::error::DiagnosisError;
+use crate::oscillations::lines::Oscillations;
+use crate::oscillations::tones::{Asked, tones};
+use crate::search::inputs::Inputs;
+use crate::settings::Settings;
+use crate::signals::log::Log;
+
+/// A robot with the best trial shapes of effects, and the design about it.
+#[derive(Debug)]
+pub(crate) struct ShapedDesign {
+    pub robot: Robot,
+    pub design: Design,
+}
+
+impl ShapedDesign {
+    fn new(robot: &Robot, log: &Log) -> Result<Self, DiagnosisError> {
+        let robot = with_best_shapes(robot, log)?;
+        let design = Design::new(&robot, log)?;
+        Ok(Self { robot, design })
+    }
+}
+
+/// The search for tones in logs of which the tones are not known yet.
+pub(crate) struct ToneSearch<'a> {
+    pub nominal: &'a Robot,
+    /// The robot whose efforts are subtracted.
+    pub about: &'a Robot,
+    pub settings: &'a Settings,
+    pub log: Log<'a>,
+    pub inadequate: &'a [Option<String>],
+}
+
+impl ToneSearch<'_> {
+    /// The oscillations of the logs, and the design about a robot that has them.
+    ///
+    /// Tones are looked for again with those of the first search taken out: a search without them takes other effects for
+    /// their cause, which hides some of them.
+    pub fn find_tones(&self, runs: &[Run]) -> Result<(Oscillations, ShapedDesign), DiagnosisError> {
+        let Self { nominal, about, settings, log, inadequate } = *self;
+        let mut shaped = ShapedDesign::new(about, &log)?;
+        let mut found = Oscillations::default();
+        for _ in 0..settings.thresholds.tones.searches {
+            let log = Log { tones: &found.tones, ..log };
+            let ShapedDesign { robot, design } = &shaped;
+            let now =
+                tones_left_by(&Inputs { nominal, robot, settings, log, design, inadequate }, runs)?;
+            let has_none = now.tones.is_empty() && found.tones.is_empty();
+            found = now;
+            if has_none {
+                break;
+            }
+            shaped = ShapedDesign::new(about, &Log { tones: &found.tones, ..self.log })?;
+        }
+        Ok((found, shaped))
+    }
+}
+
+/// The oscillations in the efforts that a search leaves, in a band much wider than the motion's.
+fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, DiagnosisError> {
+    let (prepared, settings) = (inputs.log.prepared, inputs.settings);
+    let t = &settings.thresholds.tones;
+    let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
+    let wide_hz = t.band * slowest;
+    if wide_hz < t.least_band * prepared.cutoff_hz {
+        return Ok(Oscillations::default());
+    }
+    let extended = inputs.extended_robot()?;
+    let mut wide = prepare(runs, &PrepareSettings { cutoff_hz: Some(wide_hz) })?;
+    let is_known = |name: &String| prepared.runs.iter().any(|r| r.name == *name);
+    wide.runs.retain(|run| is_known(&run.name));
+    // Twice differentiated, the steps of an encoder at the link drown whatever is fast: the twist that was found
+    // replaces it there.
+    wide.runs.iter_mut().flat_map(|run| &mut run.joints).for_each(|joint| joint.link = None);
+    centre_commands(&extended, &mut wide.runs, settings.control_rate_hz);
+    // A line as slow as the motion may be the motion's, and a faster one too where the motion repeats.
+    let motions = &inputs.design.motion;
+    let all_differ = motions.len() >= 2 && motions.iter().enumerate().all(|(r, m)| *m == r);
+    let slowest_hz = if all_differ { prepared.motion_hz } else { prepared.cutoff_hz };
+    let (practical, open_share) = (&inputs.practical(), settings.open_share);
+    let asked = Asked { slowest_hz, practical, open_share };
+    Ok(tones(&extended, &wide, &Frame::of_logs(&wide), &inputs.log, &asked)?)
+}

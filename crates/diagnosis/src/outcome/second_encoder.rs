@@ -1,0 +1,79 @@
+use robot::Robot;
+
+use crate::columns::design::Design;
+use crate::error::DiagnosisError;
+use crate::outcome::findings::Findings;
+use crate::progress::Silent;
+use crate::result::{Finding, RuledOut};
+use crate::search::inputs::Inputs;
+use crate::settings::Settings;
+use crate::signals::log::Log;
+
+/// Effects between motors and links, as second encoders at the links show them.
+#[derive(Debug)]
+pub(crate) struct SecondEncoder {
+    pub found: Vec<Finding>,
+    pub ruled_out: Vec<RuledOut>,
+    /// Number of hypotheses that were looked for.
+    pub hypotheses: usize,
+    /// The robot with the findings.
+    pub robot: Robot,
+}
+
+impl SecondEncoder {
+    /// Number of findings at a joint.
+    pub fn at(&self, joint: &str) -> usize {
+        self.found.iter().filter(|f| f.at.joint.as_deref() == Some(joint)).count()
+    }
+}
+
+/// Looks for effects between the two encoders of a joint, in the position that the first one reports minus that of the
+/// second; `None` where no joint has two.
+///
+/// ```text
+/// reported - q = (q + load / elasticity + x) / transmission_ratio + encoder_offset - q + noise
+/// ```
+///
+/// with `|x| <= backlash / 2` on the side of the load, and the load that the links of the robot `about` carry along the
+/// motion of the second encoders. Search, tests, sizes and intervals are those of the efforts. These four effects are
+/// counted from the `nominal` robot, whatever `about` has of them.
+pub(crate) fn compare_encoders(
+    about: &Robot,
+    nominal: &Robot,
+    settings: &Settings,
+    log: &Log,
+    inadequate: &[Option<String>],
+) -> Result<Option<SecondEncoder>, DiagnosisError> {
+    let log = log.of_twist();
+    let rows = log.rows();
+    if !rows.contains(&true) {
+        return Ok(None);
+    }
+    let robot = &with_nominal_transmissions(about, nominal, &rows);
+    let design = &Design::new(robot, &log)?;
+    let inputs = Inputs { nominal, robot, settings, log, design, inadequate };
+    inputs.with_dataset(|dataset| {
+        let causes = inputs.find_causes(dataset, &Silent)?;
+        let Findings { found, ruled_out, .. } = inputs.findings(dataset, &causes);
+        Ok(Some(SecondEncoder {
+            found: found.into_iter().map(|f| f.finding).collect(),
+            ruled_out,
+            hypotheses: causes.problem.design.groups.len(),
+            robot: causes.fitted.robot,
+        }))
+    })?
+}
+
+/// The robot `about` with the nominal transmissions of the joints of `rows`.
+fn with_nominal_transmissions(about: &Robot, nominal: &Robot, rows: &[bool]) -> Robot {
+    let mut robot = about.clone();
+    for (j, link) in nominal.links().iter().enumerate().filter(|(j, _)| rows[*j]) {
+        let Some(changed) = robot.link_mut(j) else { continue };
+        let (drive, before) = (&mut changed.actuator, &link.actuator);
+        drive.elasticity = before.elasticity;
+        drive.backlash = before.backlash;
+        drive.encoder_offset = before.encoder_offset;
+        drive.transmission_ratio = before.transmission_ratio;
+    }
+    robot
+}

@@ -1,0 +1,82 @@
+use robot::Robot;
+
+use crate::error::DiagnosisError;
+use crate::outcome::finding_builder::FindingWithFall;
+use crate::outcome::findings::Findings;
+use crate::outcome::gain::HeldOutGain;
+use crate::outcome::held_out::{HeldOut, spans};
+use crate::outcome::second_encoder::{SecondEncoder, compare_encoders};
+use crate::progress::Progress;
+use crate::regression::blocks::{Fold, Folding};
+use crate::regression::fitted_model::FittedModel;
+use crate::regression::problem::Problem;
+use crate::result::RuledOut;
+use crate::search::dataset::Dataset;
+use crate::search::inputs::Inputs;
+use crate::search::kept_nominal::KeptNominal;
+
+/// The findings of a search over all blocks, and their test on held-out runs.
+pub(crate) struct TestedFindings<'a> {
+    /// The same problem held out by run.
+    pub by_run: Problem<'a>,
+    pub extended: Robot,
+    pub found: Vec<FindingWithFall>,
+    pub ruled_out: Vec<RuledOut>,
+    /// The smallest level of dry friction that would have been found at every joint (N·m or N).
+    pub unseen_friction: Vec<f64>,
+    /// Number of hypotheses that were looked for.
+    pub hypotheses: usize,
+    pub gain: HeldOutGain,
+    pub kept_nominal: KeptNominal,
+    /// Held-out residuals of the models found without each run, and those of the nominal model, `[joint][run][sample]`.
+    pub left: Vec<Vec<Vec<f64>>>,
+    pub gap: Vec<Vec<Vec<f64>>>,
+    /// Findings between motors and links, from second encoders.
+    pub second_encoder: Option<SecondEncoder>,
+}
+
+impl Inputs<'_> {
+    /// Finds causes, and tests them on runs held out in turn.
+    pub fn test_findings<'b>(
+        &self,
+        dataset: &Dataset<'b>,
+        progress: &dyn Progress,
+    ) -> Result<TestedFindings<'b>, DiagnosisError> {
+        let causes = self.find_causes(dataset, progress)?;
+        let by_run = causes.problem.with_folding(Folding::ByRun);
+        let (causes, gain) = self.keep_what_predicts(dataset, &by_run, causes, progress)?;
+        let left = gain.left(&by_run);
+        let gap = by_run
+            .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
+        let Findings { found, ruled_out, unseen_friction } = self.findings(dataset, &causes);
+        let extended = self.without_trial_shapes(causes.fitted.robot.clone());
+        let hypotheses = causes.problem.design.groups.len();
+        let second_encoder =
+            compare_encoders(&extended, self.nominal, self.settings, &self.log, self.inadequate)?;
+        let extended = second_encoder.as_ref().map_or(extended, |found| found.robot.clone());
+        Ok(TestedFindings {
+            kept_nominal: causes.kept_nominal,
+            by_run,
+            extended,
+            found,
+            ruled_out,
+            unseen_friction,
+            hypotheses,
+            gain,
+            left,
+            gap,
+            second_encoder,
+        })
+    }
+
+    /// The folds, each with the robot that was found without it.
+    pub fn held_out(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOut> {
+        let spans = |of: &[usize]| spans(self.design, dataset.blocks, of);
+        let part = |(fold, fitted): (&Fold, &FittedModel)| HeldOut {
+            test: spans(&fold.test),
+            train: spans(&fold.train),
+            extended: self.without_trial_shapes(fitted.robot.clone()),
+        };
+        tested.by_run.folds.iter().zip(&tested.gain.folds).map(part).collect()
+    }
+}

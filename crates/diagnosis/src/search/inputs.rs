@@ -1,0 +1,100 @@
+use std::borrow::Cow;
+
+use effects::weeded;
+use robot::Robot;
+
+use crate::columns::design::Design;
+use crate::error::DiagnosisError;
+use crate::regression::blocks::{Block, blocks};
+use crate::regression::fitted_model::FittedModel;
+use crate::regression::gram::Grams;
+use crate::regression::linear_fit::LinearFit;
+use crate::regression::problem::{Model, Problem};
+use crate::search::dataset::Dataset;
+use crate::settings::Settings;
+use crate::signals::log::Log;
+use crate::thresholds::Thresholds;
+
+/// The inputs of a diagnosis, once the logs are prepared.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Inputs<'a> {
+    /// The robot as it was described.
+    pub nominal: &'a Robot,
+    /// The same with the best trial shapes of effects, which the design is about.
+    pub robot: &'a Robot,
+    pub settings: &'a Settings,
+    pub log: Log<'a>,
+    pub design: &'a Design,
+    /// Why the logs say nothing of a joint.
+    pub inadequate: &'a [Option<String>],
+}
+
+impl Inputs<'_> {
+    pub fn thresholds(&self) -> &Thresholds {
+        &self.settings.thresholds
+    }
+
+    /// Calls `work` with the logs cut into blocks.
+    pub fn with_dataset<T>(&self, work: impl FnOnce(&Dataset) -> T) -> Result<T, DiagnosisError> {
+        let blocks = self.blocks()?;
+        let grams = Grams::new(self.design, &blocks);
+        let practical = self.practical();
+        Ok(work(&self.dataset(&blocks, &grams, &practical)))
+    }
+
+    fn dataset<'a>(
+        &'a self,
+        blocks: &'a [Block],
+        grams: &'a Grams,
+        practical: &'a [f64],
+    ) -> Dataset<'a> {
+        let (robot, design, thresholds) = (self.robot, self.design, self.thresholds());
+        Dataset { robot, design, blocks, grams, practical, thresholds }
+    }
+
+    /// Blocks of at least five autocorrelation times of the residual of a model of everything.
+    fn blocks(&self) -> Result<Vec<Block>, DiagnosisError> {
+        let thresholds = &self.thresholds().blocks;
+        let rough = blocks(self.design, 1.0, thresholds);
+        if rough.len() < thresholds.fewest {
+            return Err(DiagnosisError::TooShort { got: rough.len(), expected: thresholds.fewest });
+        }
+        let grams = Grams::new(self.design, &rough);
+        let practical = self.practical();
+        let memory = self.dataset(&rough, &grams, &practical).memory();
+        Ok(blocks(self.design, memory, thresholds))
+    }
+
+    /// Least fall of each joint's held-out RMS error that counts (N·m or N).
+    pub fn practical(&self) -> Vec<f64> {
+        let rms = |j: usize| {
+            let joints = self.design.runs.iter().map(|run| &run.joints[j]);
+            let efforts =
+                joints.flat_map(|joint| joint.informative(joint.measured.iter().copied()));
+            let (n, sum) = efforts.fold((0, 0.0), |(n, s), e| (n + 1, s + e * e));
+            (sum / f64::from(n.max(1))).sqrt()
+        };
+        (0..self.design.joints()).map(|j| self.settings.practical_share * rms(j)).collect()
+    }
+
+    /// A robot without the trial shapes of effects that it does not have, and with the tones and limits of the logs.
+    pub fn without_trial_shapes(&self, robot: Robot) -> Robot {
+        let mut finished = weeded(robot, self.nominal);
+        let common_phase = self.thresholds().tones.common_phase;
+        self.log.tones.iter().for_each(|tone| tone.extend(&mut finished, common_phase));
+        self.log.limits.iter().for_each(|limit| limit.extend(&mut finished));
+        finished
+    }
+
+    /// The first linear fit of a model, about the robot without findings.
+    pub fn first_fit<'b>(
+        &'b self,
+        problem: &'b Problem<'b>,
+        model: &'b Model,
+        fitted: &'b FittedModel,
+    ) -> LinearFit<'b> {
+        let Self { robot: about, nominal, .. } = *self;
+        let problem = Cow::Borrowed(problem);
+        LinearFit { problem, model, weights: &fitted.weights, about, nominal }
+    }
+}

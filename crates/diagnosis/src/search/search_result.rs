@@ -1,0 +1,36 @@
+use logs::LogError;
+use robot::Robot;
+
+use crate::error::DiagnosisError;
+use crate::regression::fitted_model::{FittedModel, fit_model};
+use crate::regression::problem::{Model, Problem};
+use crate::search::dataset::Dataset;
+use crate::search::inputs::Inputs;
+
+/// The model that a search selects, before any test of it.
+pub(crate) struct SearchResult<'a> {
+    pub problem: Problem<'a>,
+    pub model: Model,
+    pub fitted: FittedModel,
+}
+
+impl Inputs<'_> {
+    /// The robot with the model that a search over all blocks selects.
+    pub fn extended_robot(&self) -> Result<Robot, DiagnosisError> {
+        self.with_dataset(|dataset| {
+            let all: Vec<usize> = (0..dataset.blocks.len()).collect();
+            Ok(self.search(dataset, &all)?.fitted.robot)
+        })?
+    }
+
+    /// Searches on the blocks `of`.
+    pub fn search<'b>(
+        &self,
+        dataset: &Dataset<'b>,
+        of: &[usize],
+    ) -> Result<SearchResult<'b>, LogError> {
+        let (problem, model) = dataset.select_model(of);
+        let fitted = fit_model(self.robot, &self.log, &problem, &model)?;
+        Ok(SearchResult { problem, model, fitted })
+    }
+}

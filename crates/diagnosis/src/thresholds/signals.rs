@@ -1,0 +1,33 @@
+/// Which samples speak of the effort of a joint, and which runs repeat a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SignalThresholds {
+    /// How far the low-pass carries the effort of a standing joint into the motion beside it, in periods of its
+    /// cut-off (1).
+    pub filter_reach: f64,
+    /// Least share of what the low-pass takes into a sample that comes from a moving joint, for the sample to be
+    /// informative (1). With a smaller share the signal falls below the noise: the power of the signal falls with the
+    /// square of the share, that of the noise with the share itself.
+    pub informative_share: f64,
+    /// Noise of the readings of the efforts, as a share of them, above which the start of a run takes no part (1): the
+    /// low-pass begins in the first reading, with all of its noise.
+    pub noisy_readings: f64,
+    /// Least share of a run's samples in which a joint moves, for the run to count as a motion of that joint (1).
+    pub moving_share: f64,
+    /// Largest RMS difference in position between two runs of one motion, as a share of the range (1).
+    pub repeat_difference: f64,
+    /// Largest shift in time between two runs of one motion (s).
+    pub repeat_shift_s: f64,
+}
+
+impl Default for SignalThresholds {
+    fn default() -> Self {
+        Self {
+            filter_reach: 0.35,
+            informative_share: 2.0 / 3.0,
+            noisy_readings: 0.1,
+            moving_share: 0.05,
+            repeat_difference: 0.01,
+            repeat_shift_s: 1.0,
+        }
+    }
+}
