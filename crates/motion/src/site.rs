@@ -6,10 +6,12 @@ use std::{
 
 use robot::{Joint, Robot};
 
-use crate::{
-    MotionError, Quantity, clock::Clock, curve::Curve, extremes::extremes, knots::Knots,
-    motion::Part,
-};
+use crate::clock::Clock;
+use crate::curve::Curve;
+use crate::error::{MotionError, Quantity};
+use crate::extremes::extremes;
+use crate::knots::Knots;
+use crate::motion::Part;
 
 /// Longest motion (s): a day.
 pub(crate) const LONGEST_S: f64 = 86_400.0;

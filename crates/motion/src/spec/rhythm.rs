@@ -4,15 +4,13 @@ use nalgebra::{DVector, Point3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ByJoint, two_seconds};
-use crate::{
-    MotionError,
-    curve::Curve,
-    harmonics::{Harmonics, Series},
-    kinematics::{REACHED_M, Tip},
-    motion::Part,
-    site::{Site, above},
-};
+use crate::curve::Curve;
+use crate::error::MotionError;
+use crate::harmonics::{Harmonics, Series};
+use crate::kinematics::{REACHED_M, Tip};
+use crate::motion::Part;
+use crate::site::{Site, above};
+use crate::spec::defaults::{ByJoint, two_seconds};
 
 /// A point of the robot's last link follows a figure in a plane again and again, around
 /// where it is in a posture. Its orientation is left free.

@@ -5,15 +5,13 @@ use rand_chacha::ChaCha8Rng;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ByJoint, four_fifths, two_seconds};
-use crate::{
-    MotionError, Quantity,
-    curve::Curve,
-    extremes::extremes,
-    harmonics::{Harmonics, Series, Term},
-    motion::Part,
-    site::{Site, above},
-};
+use crate::curve::Curve;
+use crate::error::{MotionError, Quantity};
+use crate::extremes::extremes;
+use crate::harmonics::{Harmonics, Series, Term};
+use crate::motion::Part;
+use crate::site::{Site, above};
+use crate::spec::defaults::{ByJoint, four_fifths, two_seconds};
 
 /// A superposition of sinusoids at every joint, drawn from a seed:
 ///

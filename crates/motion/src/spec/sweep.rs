@@ -3,13 +3,11 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ByJoint, four_fifths};
-use crate::{
-    MotionError, Quantity,
-    knots::{Knots, blend_s, fastest, glide_s},
-    motion::Part,
-    site::{LONGEST_S, Site, above, above_up_to},
-};
+use crate::error::{MotionError, Quantity};
+use crate::knots::{Knots, blend_s, fastest, glide_s};
+use crate::motion::Part;
+use crate::site::{LONGEST_S, Site, above, above_up_to};
+use crate::spec::defaults::{ByJoint, four_fifths};
 
 /// One joint after the other back and forth over its range, once at each constant speed,
 /// while the others rest.
