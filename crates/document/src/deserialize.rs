@@ -8,8 +8,8 @@ use serde::de::{
 };
 use serde::forward_to_deserialize_any;
 
-use crate::Segment;
 use crate::fault::Fault;
+use crate::key_path::Segment;
 use crate::names::one_of;
 use crate::node::{Node, Value};
 

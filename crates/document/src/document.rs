@@ -3,10 +3,12 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
+use crate::error::DocumentError;
+use crate::key_path::{KeyPath, Segment};
 use crate::names::unknown;
 use crate::node::{Node, Value};
 use crate::place::{Origin, Source};
-use crate::{DocumentError, KeyPath, Segment, read, set};
+use crate::{read, set};
 
 /// A TOML document, every value of which knows the file, line and column it comes from.
 ///
@@ -165,7 +167,7 @@ mod tests {
     use toml::{Table, Value};
 
     use super::*;
-    use crate::Coloring;
+    use crate::error::Coloring;
 
     fn value() -> impl Strategy<Value = Value> {
         let leaf = prop_oneof![

@@ -2,8 +2,8 @@ use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
 
-use crate::place::{Origin, printable};
-use crate::{KeyPath, Place};
+use crate::key_path::KeyPath;
+use crate::place::{Origin, Place, printable};
 
 /// How an assignment is given on the command line.
 const SET: &str = "--set ";

@@ -2,9 +2,10 @@ use std::fmt;
 
 use serde::de::{self, Expected, Unexpected};
 
+use crate::error::DocumentError;
+use crate::key_path::{KeyPath, Segment};
 use crate::names::unknown;
 use crate::node::{Node, quoted};
-use crate::{DocumentError, KeyPath, Segment};
 
 /// What a type finds wrong with a value; where, is added on the way out of the document.
 #[derive(Debug)]

@@ -22,6 +22,7 @@ mod key_path;
 mod mistakes;
 mod names;
 mod node;
+mod parse_key_path;
 mod place;
 mod read;
 mod set;

@@ -6,9 +6,8 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 use toml::value::Datetime;
 
-use crate::key_path::Quoted;
-use crate::place::Source;
-use crate::{Place, Segment};
+use crate::key_path::{Quoted, Segment};
+use crate::place::{Place, Source};
 
 /// Deepest nesting of tables and arrays.
 pub(crate) const DEEPEST: usize = 128;

@@ -3,9 +3,10 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::error::DocumentError;
+use crate::key_path::KeyPath;
 use crate::node::{Node, Value};
-use crate::place::{Origin, Source};
-use crate::{DocumentError, KeyPath, Place};
+use crate::place::{Origin, Place, Source};
 
 /// The key of a file that names the files it extends.
 pub(crate) const EXTENDS: &str = "extends";
@@ -158,7 +159,9 @@ mod tests {
 
     use tempfile::TempDir;
 
-    use crate::{Document, DocumentError, KeyPath};
+    use crate::document::Document;
+    use crate::error::DocumentError;
+    use crate::key_path::KeyPath;
 
     /// A folder with these files.
     fn folder(files: &[(&str, &str)]) -> TempDir {

@@ -2,11 +2,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::key_path::{self, Quoted};
+use crate::error::DocumentError;
+use crate::key_path::{KeyPath, Quoted, Segment};
 use crate::node::{Node, Value, Wrong};
-use crate::place::{Origin, Source};
+use crate::parse_key_path;
+use crate::place::{Origin, Place, Source};
 use crate::read::EXTENDS;
-use crate::{DocumentError, KeyPath, Place, Segment};
 
 /// A step of a written path, and where it stands in the text.
 type Step = (Segment, Range<usize>);
@@ -26,7 +27,7 @@ fn parsed(source: &Arc<Source>) -> Result<(Vec<Step>, Node), Wrong> {
     let text = &source.text;
     let form = "expected `path=value`, such as `effect.0.delay_s=0.002`";
     let equals = equals_sign(text).ok_or_else(|| (0..text.len(), form.to_owned()))?;
-    let steps = key_path::parse(&text[..equals])?;
+    let steps = parse_key_path::parse(&text[..equals])?;
     if matches!(steps.first(), Some((Segment::Key(key), _)) if key == EXTENDS) {
         return Err((steps[0].1.clone(), "`extends` belongs into a file".to_owned()));
     }
@@ -111,7 +112,8 @@ fn in_tables(steps: &[Step], key: &Range<usize>, value: Node) -> Result<Node, Wr
 mod tests {
     use std::path::Path;
 
-    use crate::{Document, KeyPath};
+    use crate::document::Document;
+    use crate::key_path::KeyPath;
 
     const TEXT: &str = "name = \"a\"\n[[effect]]\npayload.mass_kg = 1\n[joint.\"a.b\"]\nx = 1\n";
 
