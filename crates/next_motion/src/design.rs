@@ -3,11 +3,11 @@ use std::ops::RangeInclusive;
 use logs::{Prepared, PreparedRun, of_run};
 use motion::{Motion, MotionSpec};
 
-use crate::aim::Aim;
+use crate::aim::{Aim, Goal, Question};
+use crate::error::NextMotionError;
 use crate::known::Known;
 use crate::limits::usable;
 use crate::search::Search;
-use crate::{Goal, NextMotionError, Question};
 
 /// Lengths of a motion (s): one that is to say more is run more than once.
 const DURATION_S: RangeInclusive<f64> = 1.0..=120.0;

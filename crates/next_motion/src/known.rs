@@ -3,11 +3,10 @@ use logs::{LowPass, Prepared, PreparedJoint};
 use nalgebra::DVector;
 use robot::Robot;
 
-use crate::NextMotionError;
+use crate::error::NextMotionError;
 use crate::information::{Information, Layout, ORDER};
 use crate::limits::{Usable, efforts, usable};
-use crate::record::Record;
-use crate::search::EVALUATION_RATE;
+use crate::record::{EVALUATION_RATE, Record};
 
 /// Share of what is believed possible of a cause that it is taken to have where no log says how
 /// large it is.

@@ -8,11 +8,11 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use robot::Robot;
 
-use crate::NextMotionError;
 use crate::aim::Aim;
+use crate::error::NextMotionError;
 use crate::information::{Information, Layout};
 use crate::limits::Usable;
-use crate::record::Record;
+use crate::record::{EVALUATION_RATE, Record};
 use crate::steps::Steps;
 
 /// Motions drawn at random.
@@ -27,10 +27,6 @@ const CALM: f64 = 0.95;
 
 /// Stretches of a motion of which none may be all that counts.
 const STRETCHES: usize = 5;
-
-/// Rate at which logs and the motion that is found are evaluated, in cut-off frequencies: that
-/// of the diagnosis.
-pub(crate) const EVALUATION_RATE: f64 = 16.0;
 
 /// Rate at which motions are compared, in cut-off frequencies.
 const SEARCH_RATE: f64 = 8.0;
