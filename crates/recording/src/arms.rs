@@ -1,15 +1,13 @@
 use colours::Rgb;
 use nalgebra::{Isometry3, Vector3};
-use rerun::{
-    EntityPath, EntityPathPart, LineStrips3D, RecordingStream, RecordingStreamResult, TimeColumn,
-    Transform3D,
-};
+use rerun::{EntityPath, LineStrips3D, RecordingStream, RecordingStreamResult, Transform3D};
 use robot::{Looks, Visual};
 
 use crate::colour::Paint;
-use crate::recorder::TIMELINE;
+use crate::entities::{part, time_column};
+use crate::scene::{Arm, Role};
 use crate::skeleton::Skeleton;
-use crate::{Arm, Role, colour, shapes};
+use crate::{colour, shapes};
 
 /// Parts of the reach: radius of the drawn path and of the ball at the tip.
 const PATH: f64 = 0.002;
@@ -211,15 +209,6 @@ impl Brush<'_> {
         }
         Ok(drawn)
     }
-}
-
-pub(crate) fn time_column(time_s: &[f64]) -> TimeColumn {
-    TimeColumn::new_duration_secs(TIMELINE, time_s.iter().copied())
-}
-
-/// A name as one part of a path, whatever characters it has.
-pub(crate) fn part(name: &str) -> EntityPathPart {
-    EntityPathPart::new(if name.is_empty() { "unnamed" } else { name })
 }
 
 fn below(path: &EntityPath, name: &str) -> EntityPath {

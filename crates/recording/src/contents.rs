@@ -9,8 +9,8 @@ use rerun::external::re_log_encoding::{Decodable, DecoderApp, StreamFooter};
 use rerun::external::re_log_types::{LogMsg, StoreKind};
 use rerun::log::Chunk;
 
-use crate::RecordingError;
-use crate::recorder::TIMELINE;
+use crate::entities::TIMELINE;
+use crate::error::RecordingError;
 
 /// What a recording holds, read back: its numbers, and how much there is of everything else.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -7,8 +7,7 @@ use rerun::external::re_log_encoding::{Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
-use crate::RecordingError;
-use crate::error::unwritable;
+use crate::error::{RecordingError, unwritable};
 
 /// The file of a recording, shared by the stream that writes it and the one who ends it.
 ///

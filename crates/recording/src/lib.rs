@@ -26,6 +26,8 @@ mod colour;
 mod contents;
 #[cfg(feature = "rerun")]
 mod disk;
+#[cfg(feature = "rerun")]
+mod entities;
 mod error;
 #[cfg(feature = "rerun")]
 mod layout;

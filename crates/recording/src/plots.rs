@@ -4,8 +4,9 @@ use rerun::external::re_sdk_types::{VisualizableArchetype, Visualizer};
 use rerun::{EntityPath, SeriesLines};
 use robot::JointKind;
 
-use crate::arms::part;
-use crate::{Quantity, Role, Signal, colour};
+use crate::colour;
+use crate::entities::part;
+use crate::scene::{Quantity, Role, Signal};
 
 /// What the plots of all joints have in common: the signals of the scene, without its data.
 #[derive(Debug, Clone)]

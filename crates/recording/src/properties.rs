@@ -4,8 +4,7 @@ use rerun::external::re_sdk_types::blueprint::archetypes::ContainerBlueprint;
 use rerun::log::Chunk;
 use rerun::{AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder};
 
-use crate::RecordingError;
-use crate::error::refused;
+use crate::error::{RecordingError, refused};
 
 /// Properties of views, which the library's views have no methods for in this version.
 ///

@@ -6,23 +6,21 @@ use rerun::{
     ViewCoordinates,
 };
 
-use crate::arms::{ArmTrack, part, time_column};
+use crate::arms::ArmTrack;
+use crate::colour;
 use crate::disk::Disk;
-use crate::error::{refused, unwritable};
+use crate::entities::{DOCUMENT, EVENTS, part, time_column};
+use crate::error::{RecordingError, refused, unwritable};
 use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
 use crate::pace::Pace;
 use crate::plots::Plots;
+use crate::rows::{Bar, Rows, Written};
+use crate::scene::{Level, Live, Scene, Signal};
 use crate::seen::Seen;
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
-use crate::{Bar, Level, Live, RecordingError, Rows, Scene, Signal, Written, colour};
-
-/// The one timeline, in seconds.
-pub(crate) const TIMELINE: &str = "t";
-pub(crate) const DOCUMENT: &str = "verdict";
-pub(crate) const EVENTS: &str = "events";
 
 /// Rows wait up to this long, in their own time (s): every write costs some kilobytes.
 const WAIT_S: f64 = 1.9;

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use crate::{Listener, Role};
+use crate::scene::{Listener, Role};
 
 /// Consecutive rows of a run.
 #[derive(Debug, Clone, Copy)]

@@ -4,9 +4,9 @@ use rerun::sink::LogSink;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
 use crate::disk::Disk;
-use crate::error::refused;
+use crate::error::{RecordingError, refused};
 use crate::live::Viewer;
-use crate::{Live, RecordingError};
+use crate::scene::Live;
 
 /// The stream into the file, and into a viewer where one listens.
 pub(crate) fn open(
