@@ -2,8 +2,9 @@ use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
-use crate::error::check;
-use crate::{Column, ColumnSet, Dynamics, DynamicsError};
+use crate::columns::{Column, ColumnSet};
+use crate::error::{DynamicsError, check};
+use crate::model::Dynamics;
 
 /// A column counts as dependent when less than this is left of it after projection on
 /// the columns already kept, in units of the longest column of its kind.

@@ -1,4 +1,5 @@
-use crate::{Dynamics, PARAMETERS_PER_LINK, Workspace};
+use crate::model::{Dynamics, Workspace};
+use crate::regressor::PARAMETERS_PER_LINK;
 
 /// One column of a regressor: the parameter it multiplies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

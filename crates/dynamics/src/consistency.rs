@@ -1,8 +1,8 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix4, SMatrix, SVector, SymmetricEigen};
 use robot::Robot;
 
-use crate::error::check;
-use crate::{DynamicsError, PARAMETERS_PER_LINK};
+use crate::error::{DynamicsError, check};
+use crate::regressor::PARAMETERS_PER_LINK;
 
 type Parameters = SVector<f64, PARAMETERS_PER_LINK>;
 

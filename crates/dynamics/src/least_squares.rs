@@ -1,7 +1,8 @@
 use faer::{Mat, MatRef};
 use nalgebra::DVector;
 
-use crate::{DynamicsError, add_gram};
+use crate::error::DynamicsError;
+use crate::gram::add_gram;
 
 /// Share of a column's square below which what is left of it is rounding.
 const ROUNDING: f64 = 1e-13;

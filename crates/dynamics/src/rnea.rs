@@ -1,7 +1,6 @@
 use nalgebra::{DVector, Vector3};
 
-use crate::DynamicsError;
-use crate::error::check;
+use crate::error::{DynamicsError, check};
 use crate::model::{Dynamics, JointModel, LinkState, Workspace};
 use crate::spatial::{Force, Motion, multiply, multiply_transposed};
 
