@@ -4,10 +4,14 @@ use gaussian_process::{
 };
 
 use crate::described::size;
+use crate::error::LearnerError;
 use crate::kernels::{prior_by_evidence, rigid_body_kernel};
+use crate::model::{Mean, Model, Process};
+use crate::model_kind::ModelKind;
+use crate::rigid_body_fit::RigidBodyFit;
+use crate::settings::PriorSpread;
 use crate::spread::Spread;
 use crate::training::{Fitted, JointFit, Training, features};
-use crate::{LearnerError, Mean, Model, ModelKind, PriorSpread, Process, RigidBodyFit};
 
 /// One joint, conditioned on the points about a linear part whose weights are not settled.
 pub(crate) struct Joint {

@@ -1,8 +1,10 @@
 use gaussian_process::{GaussianKernel, Inducing, KernelSum, inducing_points, shared_kernel};
 
+use crate::error::LearnerError;
+use crate::model::{Model, Process};
+use crate::model_kind::ModelKind;
 use crate::spread::Spread;
 use crate::training::{Fitted, JointFit, Training, left};
-use crate::{LearnerError, Model, ModelKind, Process};
 
 /// Candidates for every inducing point.
 const CANDIDATES: usize = 3;

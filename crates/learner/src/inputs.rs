@@ -1,4 +1,4 @@
-use crate::{Samples, State};
+use crate::samples::{Samples, State};
 
 /// What a Gaussian process sees of a state, and how it is scaled.
 ///

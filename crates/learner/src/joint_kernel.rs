@@ -2,10 +2,12 @@ use gaussian_process::{
     Covariance, GaussianKernel, LearnedKernel, Likelihood, Linear, Objective, SearchEnd, maximise,
 };
 
+use crate::error::LearnerError;
 use crate::exact::Weighed;
 use crate::kernels::rigid_body_kernel;
+use crate::model::Mean;
+use crate::model_kind::ModelKind;
 use crate::training::{Fitted, JointFit, Training, features};
-use crate::{LearnerError, Mean, ModelKind};
 
 /// How far each hyperparameter may move from where the parts alone have it, as a natural
 /// logarithm: a factor of some thousand each way.

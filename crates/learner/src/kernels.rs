@@ -2,7 +2,8 @@ use std::ops::ControlFlow;
 
 use gaussian_process::{KernelSearch, LearnedKernel, WhiteSums, maximise};
 
-use crate::{LearnerError, Progress};
+use crate::error::LearnerError;
+use crate::progress::Progress;
 
 /// How far a search may take a prior variance from where it starts, as a natural logarithm:
 /// a factor of a million each way, which is as good as a weight held and a weight free.

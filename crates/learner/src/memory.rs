@@ -1,4 +1,4 @@
-use crate::LearnerError;
+use crate::error::LearnerError;
 
 /// Memory of a training that is left for others, as a share.
 const SPARE: f64 = 0.1;

@@ -6,9 +6,13 @@ use gaussian_process::KernelSum;
 use rayon::prelude::*;
 use robot::Robot;
 
+use crate::error::LearnerError;
+use crate::inputs::Inputs;
+use crate::model_kind::ModelKind;
+use crate::robot_torque::RobotTorque;
+use crate::samples::{Samples, State};
 use crate::spread::Spread;
 use crate::torque_model::{TorqueModel, Workspace, each};
-use crate::{Inputs, LearnerError, ModelKind, RobotTorque, Samples, State};
 
 /// Queries whose variance is worked out together.
 const BLOCK: usize = 64;

@@ -13,9 +13,11 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::KeyValue;
 use robot::Robot;
 
+use crate::error::LearnerError;
+use crate::model::{Mean, Model, Process};
 use crate::saved::{Header, VERSION, symmetric, tree_sha256};
 use crate::spread::Spread;
-use crate::{LearnerError, Mean, Model, Process, training};
+use crate::training;
 
 /// Key of the header among the metadata of the file.
 const HEADER: &str = "plumbline.model";

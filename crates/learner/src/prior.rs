@@ -1,6 +1,6 @@
 use dynamics::DynamicsError;
 
-use crate::LearnerError;
+use crate::error::LearnerError;
 
 /// What is believed of the parameters before the data: each independent and Gaussian.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::block_sums::{BlockSums, JointSums, Sums};
-use crate::{LearnerError, Samples};
+use crate::error::LearnerError;
+use crate::samples::{Samples, Stretch};
 
 /// Samples that one thread sums at a time: their rows stay in its cache.
 const PIECE: usize = 256;
@@ -15,20 +16,6 @@ const BATCH: usize = 64;
 
 /// The largest number that is taken for a signal: its sixth power still has a sum.
 const LARGEST: f64 = 1e30;
-
-/// Consecutive samples of the motion and the torque of all joints, row-major: sample by
-/// sample, one entry a joint.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch<'a> {
-    /// Position (rad or m).
-    pub q: &'a [f64],
-    /// Velocity (rad/s or m/s).
-    pub qd: &'a [f64],
-    /// Acceleration (rad/s² or m/s²).
-    pub qdd: &'a [f64],
-    /// Torque (N·m or N).
-    pub tau: &'a [f64],
-}
 
 /// Linear regression of the inertial parameters and drives of a robot, from any number of
 /// samples in the memory of some Gram matrices:

@@ -6,9 +6,13 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use robot::Robot;
 
 use crate::described::size;
-use crate::undetermined::directions;
-use crate::weighting::{LEAST_INFORMATION, Problem, Solution, scaled, to_base};
-use crate::{Direction, GaussianPrior, JointNoise, LearnerError, Regression, Weighting};
+use crate::error::LearnerError;
+use crate::prior::GaussianPrior;
+use crate::regression::Regression;
+use crate::undetermined::{Direction, directions};
+use crate::weighting::{
+    JointNoise, LEAST_INFORMATION, Problem, Solution, Weighting, scaled, to_base,
+};
 
 /// Rigid-body parameters with their uncertainty: `tau = Y pi`.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@ use dynamics::{Dynamics, Workspace};
 use effects::drive_torque;
 use robot::Robot;
 
-use crate::State;
+use crate::samples::State;
 
 /// The effort that a description of the robot expects: rigid bodies and drives, the nominal
 /// robot or one extended by what a diagnosis has named.

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use logs::Prepared;
 
-use crate::{LearnerError, Stretch};
+use crate::error::LearnerError;
 
 /// Samples of the motion and torque of every joint, run after run.
 ///
@@ -37,6 +37,20 @@ pub struct State<'a> {
     pub qd: &'a [f64],
     /// Acceleration (rad/s² or m/s²).
     pub qdd: &'a [f64],
+}
+
+/// Consecutive samples of the motion and the torque of all joints, row-major: sample by
+/// sample, one entry a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch<'a> {
+    /// Position (rad or m).
+    pub q: &'a [f64],
+    /// Velocity (rad/s or m/s).
+    pub qd: &'a [f64],
+    /// Acceleration (rad/s² or m/s²).
+    pub qdd: &'a [f64],
+    /// Torque (N·m or N).
+    pub tau: &'a [f64],
 }
 
 impl Samples {

@@ -5,8 +5,10 @@ use robot::{Actuator, Inertia, Robot};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::inputs::Inputs;
+use crate::model::{Mean, Model};
+use crate::robot_torque::RobotTorque;
 use crate::spread::Spread;
-use crate::{Inputs, Mean, Model, RobotTorque};
 
 /// Version of the format; a file of another one is refused.
 pub(crate) const VERSION: u32 = 2;

@@ -1,6 +1,6 @@
 use gaussian_process::KernelSearch;
 
-use crate::LearnerError;
+use crate::error::LearnerError;
 
 /// Where the prior variances `B` of the rigid-body parameters come from (equation 6 of
 /// Nguyen-Tuong & Peters 2010).

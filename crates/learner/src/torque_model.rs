@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use crate::{Samples, State};
+use crate::samples::{Samples, State};
 
 /// Samples that one thread predicts at a time.
 const CHUNK: usize = 64;

@@ -5,10 +5,17 @@ use faer::Mat;
 use gaussian_process::LearnedKernel;
 use robot::Robot;
 
-use crate::{
-    Inputs, LearnerError, Mean, Model, ModelKind, Progress, RigidBodyFit, RobotTorque, Samples,
-    TorqueModel, TrainSettings, kernels, memory,
-};
+use crate::error::LearnerError;
+use crate::inputs::Inputs;
+use crate::model::{Mean, Model};
+use crate::model_kind::ModelKind;
+use crate::progress::Progress;
+use crate::rigid_body_fit::RigidBodyFit;
+use crate::robot_torque::RobotTorque;
+use crate::samples::Samples;
+use crate::settings::TrainSettings;
+use crate::torque_model::TorqueModel;
+use crate::{kernels, memory};
 
 /// What one unit of divergence from the described inertias weighs beside half a squared
 /// standard error: enough to settle what the log leaves open, little against what it says.

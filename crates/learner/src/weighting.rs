@@ -3,7 +3,8 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::block_sums::{JointSums, Sums};
 use crate::described::{described, size};
-use crate::{GaussianPrior, Regression};
+use crate::prior::GaussianPrior;
+use crate::regression::Regression;
 
 /// Change of the weights, relative, at which the reweighting has converged.
 const SETTLED: f64 = 1e-8;
