@@ -1,6 +1,6 @@
-use crate::GpError;
 use crate::cholesky::{cholesky, cholesky_with_jitter, rounding};
 use crate::covariance::dot;
+use crate::error::GpError;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::{inverse, solve};
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Queries that one task evaluates.
 const PANEL: usize = 64;
 
-/// What a Gaussian process knows after [`Inducing`](crate::Inducing) has seen the samples; `m` is
+/// What a Gaussian process knows after [`Inducing`](crate::inducing::Inducing) has seen the samples; `m` is
 /// the number of inducing points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InducingPosterior {

@@ -1,5 +1,4 @@
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 
 /// The Gaussian kernel with one width per input:
 ///

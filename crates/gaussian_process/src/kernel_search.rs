@@ -1,7 +1,8 @@
-use crate::error::check;
-use crate::{
-    Evidence, GaussianKernel, GpError, Likelihood, Maximum, Objective, SearchEnd, Watch, maximise,
-};
+use crate::error::{GpError, check};
+use crate::kernel::GaussianKernel;
+use crate::likelihood::{Evidence, Likelihood};
+use crate::maximise;
+use crate::maximise::{Maximum, Objective, SearchEnd, Watch};
 
 /// Where a hyperparameter may lie, as shares of the mean square of the targets and, for
 /// length scales, in standard deviations of the inputs. What lies beyond cannot be told from

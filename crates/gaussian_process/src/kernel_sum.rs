@@ -1,10 +1,9 @@
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use crate::GaussianKernel;
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 use crate::exp::{exp, exp_each};
+use crate::kernel::GaussianKernel;
 
 /// Points in a block: two AVX-512 vectors.
 const BLOCK: usize = 16;
@@ -357,7 +356,8 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::{GROUP, GroupSum, KernelSum};
-    use crate::{GaussianKernel, GpError};
+    use crate::error::GpError;
+    use crate::kernel::GaussianKernel;
 
     struct Problem {
         points: Vec<f64>,

@@ -1,10 +1,12 @@
 use pulp::Arch;
 
-use crate::error::check;
+use crate::error::{GpError, check};
 use crate::gram::Gram;
+use crate::inverse::Inverse;
+use crate::kernel::GaussianKernel;
 use crate::packed::Packed;
 use crate::panels::{Panels, ROWS};
-use crate::{GaussianKernel, GpError, Inverse, product, sweep};
+use crate::{product, sweep};
 
 /// What is added to the diagonal, in turn, until the matrix is positive definite; in units of
 /// the signal variance.

@@ -1,8 +1,7 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 
 /// What the data say of the weights of a linear part, before a prior on them is chosen.
 ///

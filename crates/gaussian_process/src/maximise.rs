@@ -6,8 +6,7 @@ use basin::{
     FirstOrderState, Gradient, Lbfgsb, Termination,
 };
 
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 
 /// Largest slope, in units of the objective per unit of a parameter, at a maximum.
 const SLOPE: f64 = 1e-4;

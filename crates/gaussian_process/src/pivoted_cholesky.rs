@@ -1,7 +1,7 @@
 use crate::cholesky::rounding;
 use crate::covariance::{ScaledPoints, check_points, dot};
-use crate::error::check;
-use crate::{GaussianKernel, GpError};
+use crate::error::{GpError, check};
+use crate::kernel::GaussianKernel;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};

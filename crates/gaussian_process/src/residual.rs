@@ -1,8 +1,9 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{ColRef, Mat, MatRef, Side};
 
-use crate::error::check;
-use crate::{GpError, Inverse, LinearEvidence, LinearPosterior};
+use crate::error::{GpError, check};
+use crate::inverse::Inverse;
+use crate::linear_evidence::{LinearEvidence, LinearPosterior};
 
 /// The linear part of a process for one output.
 #[derive(Debug, Clone, Copy)]

@@ -3,7 +3,10 @@ use std::f64::consts::TAU;
 use motion::State;
 use robot::{Gain, Reading};
 
-use crate::{Prediction, TorqueLimits, TrackingError, error};
+use crate::error;
+use crate::error::TrackingError;
+use crate::feedforward::Prediction;
+use crate::torque_limits::TorqueLimits;
 
 /// What a run is controlled with.
 ///

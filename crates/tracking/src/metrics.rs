@@ -1,7 +1,9 @@
 use nalgebra::{Point3, distance};
 use robot::Robot;
 
-use crate::{Rows, Signal, TrackingError, error::same_joints, tip::tip_in_base};
+use crate::error::{TrackingError, same_joints};
+use crate::rows::{Rows, Signal};
+use crate::tip::tip_in_base;
 
 /// How well a run tracked its motion, and what that took. A run without ticks has zeros.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,8 @@ use effects::{Compensated, Compensation, CompensationWorkspace};
 use motion::{Motion, State};
 use robot::Robot;
 
-use crate::{Feedforward, Prediction, TrackingError, error::same_joints};
+use crate::error::{TrackingError, same_joints};
+use crate::feedforward::{Feedforward, Prediction};
 
 /// What the drives of a robot have to be asked for so that its links follow the motion: rigid
 /// bodies, and the inverse of every effect that the description of the robot names.

@@ -3,7 +3,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::WallTiming;
+use crate::timing::WallTiming;
 
 /// How ticks follow one another.
 #[derive(Debug)]

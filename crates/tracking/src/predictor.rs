@@ -1,6 +1,7 @@
 use motion::Motion;
 
-use crate::{Ahead, Feedforward, Prediction, VirtualClock, feedforward::ask};
+use crate::feedforward::{Feedforward, Prediction, ask};
+use crate::settings::{Ahead, VirtualClock};
 
 /// What a predictor hands over.
 #[derive(Debug, Clone, Default)]

@@ -1,4 +1,4 @@
-use crate::Tick;
+use crate::watch::Tick;
 
 /// Every tick of a run, kept flat.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -136,7 +136,7 @@ pub(crate) mod tests {
     use robot::Reading;
 
     use super::*;
-    use crate::Prediction;
+    use crate::feedforward::Prediction;
 
     /// Rows of one joint at 1 Hz, from `[q_ref, q, feedforward, feedback]` and the link.
     pub fn rows_of(ticks: &[[f64; 4]], link: Option<f64>) -> Rows {

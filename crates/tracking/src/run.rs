@@ -3,7 +3,9 @@ use std::{collections::BTreeMap, path::PathBuf};
 use logs::{Channels, Run};
 use robot::Robot;
 
-use crate::{Rows, Signal, Tracking, TrackingError, error::same_joints};
+use crate::error::{TrackingError, same_joints};
+use crate::rows::{Rows, Signal};
+use crate::tracking::Tracking;
 
 impl Tracking {
     /// The run as a motion log with the name `name`, on the clock of the machine.
@@ -62,11 +64,11 @@ mod tests {
     use logs::{ReadOptions, read_run, write_parquet};
 
     use super::*;
-    use crate::{
-        Settings, Signal, TrackingError,
-        testing::{Of, Plant, controller, pendulum, slider, swing},
-        track,
-    };
+    use crate::error::TrackingError;
+    use crate::rows::Signal;
+    use crate::settings::Settings;
+    use crate::testing::{Of, Plant, controller, pendulum, slider, swing};
+    use crate::track;
 
     fn tracking() -> Tracking {
         let motion = swing(&slider(), 3.0);

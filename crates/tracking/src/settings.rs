@@ -1,4 +1,5 @@
-use crate::{TrackingError, error};
+use crate::error;
+use crate::error::TrackingError;
 
 /// How a run goes on in time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,9 @@ use learner::{Mean, Model, ModelKind, RobotTorque};
 use motion::{Motion, MotionSpec};
 use robot::{Gain, Machine, MachineFault, Reading, Robot};
 
-use crate::{Controller, ErrorRate, Feedforward, Prediction, TorqueLimits};
+use crate::controller::{Controller, ErrorRate};
+use crate::feedforward::{Feedforward, Prediction};
+use crate::torque_limits::TorqueLimits;
 
 pub const PERIOD_S: f64 = 0.002;
 /// Mass of a slider, and of a pendulum at the end of a rod of `ROD_M` (kg).

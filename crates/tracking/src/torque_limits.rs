@@ -1,4 +1,4 @@
-use crate::TrackingError;
+use crate::error::TrackingError;
 
 /// What the motors can give.
 ///

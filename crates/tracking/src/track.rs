@@ -1,16 +1,18 @@
 use motion::{Motion, State};
 use robot::{Machine, MachineFault, Reading};
 
-use crate::{
-    Clock, Controller, End, Event, Feedforward, Level, Rows, Settings, Tick, Timing, Tracking,
-    TrackingError, Watch,
-    controller::Feedback,
-    error::{period, same_joints},
-    pace::Pace,
-    predictor::{Delivery, Predictor, VirtualPredictor, tick_from},
-    trust::Trust,
-    wall::on_the_wall,
-};
+use crate::controller::{Controller, Feedback};
+use crate::error::{TrackingError, period, same_joints};
+use crate::feedforward::Feedforward;
+use crate::pace::Pace;
+use crate::predictor::{Delivery, Predictor, VirtualPredictor, tick_from};
+use crate::rows::Rows;
+use crate::settings::{Clock, Settings};
+use crate::timing::Timing;
+use crate::tracking::{End, Tracking};
+use crate::trust::Trust;
+use crate::wall::on_the_wall;
+use crate::watch::{Event, Level, Tick, Watch};
 
 /// Tracks `motion` with `machine` from its beginning to its end.
 ///
@@ -217,14 +219,16 @@ mod tests {
     use std::ops::ControlFlow;
 
     use super::*;
-    use crate::{
-        Ahead, ErrorRate, GravityFeedforward, ModelFeedforward, NoFeedforward, Signal,
-        TorqueLimits, VirtualClock,
-        testing::{
-            GRAVITY, MASS, Of, PERIOD_S, Plant, ROD_M, controller, model_of, pendulum, rest,
-            slider, swing,
-        },
+    use crate::controller::ErrorRate;
+    use crate::feedforward::NoFeedforward;
+    use crate::model_feedforward::{GravityFeedforward, ModelFeedforward};
+    use crate::rows::Signal;
+    use crate::settings::{Ahead, VirtualClock};
+    use crate::testing::{
+        GRAVITY, MASS, Of, PERIOD_S, Plant, ROD_M, controller, model_of, pendulum, rest, slider,
+        swing,
     };
+    use crate::torque_limits::TorqueLimits;
 
     const LEAD_S: f64 = 0.5 * PERIOD_S;
 
@@ -324,7 +328,7 @@ mod tests {
         let model = model_of(&robot);
         let motion = swing(&robot, 3.0);
         let mut gravity = GravityFeedforward::new(&model, 0.1);
-        let mut prediction = crate::Prediction::zero(1);
+        let mut prediction = crate::feedforward::Prediction::zero(1);
         gravity.predict(&motion, 1.3, &mut prediction);
         let expected = MASS * GRAVITY * ROD_M * motion.at(1.4).q[0].sin();
         assert!((prediction.tau[0] - expected).abs() < 1e-12, "{prediction:?}");

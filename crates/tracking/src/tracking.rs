@@ -1,6 +1,8 @@
 use robot::MachineFault;
 
-use crate::{Event, Rows, Timing};
+use crate::rows::Rows;
+use crate::timing::Timing;
+use crate::watch::Event;
 
 /// A run: what was asked, what was done, and how it ended.
 #[derive(Debug, Clone, PartialEq)]

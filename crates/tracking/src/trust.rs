@@ -1,4 +1,7 @@
-use crate::{Event, Level, Prediction, Settings, predictor::Delivery};
+use crate::feedforward::Prediction;
+use crate::predictor::Delivery;
+use crate::settings::Settings;
+use crate::watch::{Event, Level};
 
 /// The newest prediction and how far it is trusted.
 ///

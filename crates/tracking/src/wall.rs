@@ -5,13 +5,13 @@ use std::{
 
 use motion::Motion;
 
-use crate::{
-    Ahead, End, Feedforward, Latency, WallClock, WallTiming,
-    feedforward::ask,
-    latest::Latest,
-    pace::{Pace, WallPace},
-    predictor::{Delivery, Predictor},
-};
+use crate::feedforward::{Feedforward, ask};
+use crate::latest::Latest;
+use crate::pace::{Pace, WallPace};
+use crate::predictor::{Delivery, Predictor};
+use crate::settings::{Ahead, WallClock};
+use crate::timing::{Latency, WallTiming};
+use crate::tracking::End;
 
 /// Longest wait for the prediction before the run (s).
 const FIRST_S: f64 = 5.0;
@@ -145,11 +145,12 @@ mod tests {
     use robot::{Machine, MachineFault, Reading};
 
     use super::*;
-    use crate::{
-        Clock, Level, Settings, Signal, Tracking,
-        testing::{Of, PERIOD_S, Plant, controller, rest, slider},
-        track,
-    };
+    use crate::rows::Signal;
+    use crate::settings::{Clock, Settings};
+    use crate::testing::{Of, PERIOD_S, Plant, controller, rest, slider};
+    use crate::track;
+    use crate::tracking::Tracking;
+    use crate::watch::Level;
 
     const TICKS: usize = 200;
 

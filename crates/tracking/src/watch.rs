@@ -15,7 +15,7 @@ pub struct Tick<'a> {
     /// Where the links are (rad or m), when the machine knows.
     pub link_positions: Option<&'a [f64]>,
     /// What the feedforward asked for, faded where it is not trusted.
-    pub feedforward: &'a crate::Prediction,
+    pub feedforward: &'a crate::feedforward::Prediction,
     /// Torque of the feedback (N m or N).
     pub feedback: &'a [f64],
     /// What the machine was told (N m or N).
