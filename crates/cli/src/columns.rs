@@ -12,7 +12,7 @@ use robot::Robot;
 use crate::doubts::needed_gb;
 use crate::error::CliError;
 use crate::input::seconds;
-use crate::output::{tell, warn};
+use crate::messages::{tell, warn};
 
 /// How the columns of logs are called.
 #[derive(Debug, clap::Args)]

@@ -2,7 +2,7 @@ use inspection::Mended;
 use logs::Run;
 use robot::{Loaded, LockedJoint, RobotWarning};
 
-use crate::output::warn;
+use crate::messages::warn;
 
 /// Distance from the place of a locked joint within which a log confirms it (rad or m).
 const NEAR: f64 = 0.01;

@@ -6,7 +6,7 @@ use logs::Run;
 use report::{FileHash, Provenance, ReportError};
 use robot::{LoadOptions, Loaded, MeshFolders, Packages, Robot, RobotError};
 
-use crate::commands::explain;
+use crate::effect_name::find_effect;
 use crate::invocation;
 use crate::output::shown;
 
@@ -131,7 +131,7 @@ pub fn hashes_of(runs: &[Run]) -> impl Iterator<Item = FileHash> {
 
 /// An effect of an option, by name or code.
 fn effect(name: &str) -> Result<EffectKind, String> {
-    explain::find(name).map_err(|error| error.to_string())
+    find_effect(name).map_err(|error| error.to_string())
 }
 
 /// A package of an option.

@@ -10,7 +10,8 @@ use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::read_as_they_are;
 use crate::error::CliError;
 use crate::input::PartArguments;
-use crate::output::{shown, table, warn};
+use crate::messages::warn;
+use crate::output::{shown, table};
 
 /// Logs that an export is held against.
 #[derive(Debug, clap::Args)]

@@ -1,8 +1,6 @@
-use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-use anstyle::AnsiColor;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
@@ -51,19 +49,6 @@ pub fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> St
     });
     let lines = table.lines().map(|line| format!(" {}\n", line.trim_end()));
     lines.collect()
-}
-
-/// Prints a line on the standard error, its colours only where they are wanted.
-///
-/// One that cannot be written, as on a full disk, is left out: the answer and the exit code stand without it.
-pub fn tell(what: &dyn Display) {
-    let _ = writeln!(anstream::stderr().lock(), "{what}");
-}
-
-/// Prints a warning on the standard error.
-pub fn warn(what: &dyn Display) {
-    let yellow = AnsiColor::Yellow.on_default();
-    tell(&format_args!("{yellow}warning:{yellow:#} {what}"));
 }
 
 /// The file as it was given, for messages and provenance.

@@ -3,7 +3,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::CliError;
-use crate::output::tell;
+use crate::messages::tell;
 use crate::progress::Line;
 
 /// Exit code of a program that Ctrl-C has ended.

@@ -6,12 +6,13 @@ use report::{Report, ReportError};
 use robot::Loaded;
 
 use super::diagnose;
-use crate::Outcome;
 use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::doubts;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{keep_inputs, print, shown, warn};
+use crate::messages::warn;
+use crate::output::{keep_inputs, print, shown};
 use crate::progress::Bar;
 
 /// Columns of the text.
@@ -52,7 +53,7 @@ const PAGE: &str = "report.html";
 const SIDES: [&str; 2] = ["before", "after"];
 
 /// Compares two sets of logs, writes a diagnosis of each and prints what changed.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let out = &arguments.out;
     if out.exists() && !out.is_dir() {
         return Err(ReportError::NotAFolder { path: out.clone() }.into());
@@ -81,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         print(&format!("{}\n{}", words(&comparison), closing(out)))?;
     }
     let changes = &comparison.after.diagnosis.findings;
-    Ok(if changes.is_empty() { Outcome::Good } else { Outcome::Gap })
+    Ok(if changes.is_empty() { ExitStatus::Good } else { ExitStatus::Gap })
 }
 
 /// Writes the diagnosis of each set of logs into a folder of its own.

@@ -1,6 +1,5 @@
 mod cause;
 mod diagnosis_file;
-mod error;
 mod files;
 mod searched;
 
@@ -12,11 +11,11 @@ use report::ReportError;
 use robot::Loaded;
 
 pub use self::diagnosis_file::DiagnosisFile;
-pub use self::error::DesignError;
 pub use self::searched::{Searched, Wanted};
-use crate::Outcome;
 use crate::columns::{ColumnArguments, LengthArguments};
+use crate::design_error::DesignError;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, positive};
 use crate::output::print;
 use crate::progress::Line;
@@ -61,7 +60,7 @@ pub struct Arguments {
 }
 
 /// Searches the motion that settles what a diagnosis left open, and writes it.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if arguments.out.exists() && !arguments.out.is_dir() {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
@@ -89,7 +88,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
             if !arguments.quiet {
                 print(&format!("{nothing}\n"))?;
             }
-            return Ok(Outcome::Good);
+            return Ok(ExitStatus::Good);
         }
         searched => searched?,
     };
@@ -97,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if !arguments.quiet {
         print(&format!("{}{}", searched.text(), written.as_deref().unwrap_or_default()))?;
     }
-    Ok(if written.is_some() { Outcome::Good } else { Outcome::Gap })
+    Ok(if written.is_some() { ExitStatus::Good } else { ExitStatus::Gap })
 }
 
 /// The logs that were diagnosed.

@@ -12,12 +12,13 @@ use robot::{Loaded, Robot};
 
 use residual::Learned;
 
-use crate::Outcome;
 use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::doubts;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{keep_inputs, print, shown, tell, warn};
+use crate::messages::{tell, warn};
+use crate::output::{keep_inputs, print, shown};
 use crate::progress::{Bar, Line};
 
 /// Columns of a comment in `extended.toml`.
@@ -84,7 +85,7 @@ enum ResidualKind {
 }
 
 /// Diagnoses the logs, writes the output folder and prints the verdict.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if arguments.out.exists() && !arguments.out.is_dir() {
         return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
     }
@@ -132,8 +133,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     say(arguments, &report, &json, shown)?;
     recording?;
     Ok(match outcome.diagnosis.verdict {
-        Verdict::Consistent | Verdict::Explained => Outcome::Good,
-        Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => Outcome::Gap,
+        Verdict::Consistent | Verdict::Explained => ExitStatus::Good,
+        Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => {
+            ExitStatus::Gap
+        }
     })
 }
 

@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 use exchange::{Export, Fated, Format};
 use serde::Serialize;
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::loss::{Loss, LossArguments};
 use crate::output::{create_folder, keep_inputs, print, print_json, shown, table};
@@ -75,7 +75,7 @@ struct Written {
 }
 
 /// Writes the robot in other formats and prints what became of every quantity, and what that costs on logs.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let path = described(&arguments.path)?;
     let loaded = arguments.part.load(&path)?;
     let source = std::fs::read_to_string(&loaded.urdf_path).map_err(|error| {
@@ -112,7 +112,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     } else {
         print(&text(&exports))?;
     }
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// The description of the robot in an output folder, or the file itself.

@@ -4,9 +4,9 @@ use logs::{Channel, JointInfo, LogError, LogInfo, ReadOptions, Run};
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 use serde::Serialize;
 
-use crate::Outcome;
 use crate::columns::ColumnArguments;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::output::{print, print_json, shown, table};
 
@@ -30,7 +30,7 @@ pub struct Arguments {
 }
 
 /// Prints what there is to know about each log before it is used.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let reader = arguments.columns.reader()?;
     let described = arguments.robot.as_deref().map(|path| arguments.part.load(path));
     let described = described.transpose()?;
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         let blocks: Vec<String> = infos.iter().map(text).collect();
         print(&blocks.join("\n"))?;
     }
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// A file with what was found in it.

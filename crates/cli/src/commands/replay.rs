@@ -5,10 +5,10 @@ use report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
-use crate::Outcome;
 use crate::columns::{ColumnArguments, LengthArguments};
 use crate::doubts::read_as_they_are;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, hashes_of, positive, provenance};
 use crate::output::{create_folder, print, shown, table};
 
@@ -37,7 +37,7 @@ pub struct Arguments {
 
 /// Rolls the simulation forward under recorded torque, lets it follow the recorded motion, and
 /// says how far both are from the record.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
     let given = arguments.columns.read_runs(&arguments.logs, &loaded.robot, arguments.length)?;
     let read = read_as_they_are(&loaded, &given);
@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let files = [("report.html", page.as_bytes()), ("replay.json", json.as_bytes())];
     report::write_folder(&arguments.out, &files)?;
     print(&closing(arguments, &prepared))?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// What was simulated of one record.

@@ -1,6 +1,7 @@
 mod excitation;
 mod guess;
 mod path;
+mod quote;
 mod text;
 
 use std::path::PathBuf;
@@ -11,10 +12,11 @@ use simulator::scenario::Scenario;
 
 use self::excitation::Excitation;
 use self::guess::{Drive, drives};
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
-use crate::output::{create_folder, print, shown, table, warn};
+use crate::messages::warn;
+use crate::output::{create_folder, print, shown, table};
 
 /// Rate of a control loop that the robot does not say (Hz), as the simulator has it.
 const RATE_HZ: f64 = 500.0;
@@ -38,7 +40,7 @@ pub struct Arguments {
 }
 
 /// Writes a robot.toml with what the file cannot say, guessed, and a scenario that moves the robot.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let loaded = arguments.part.load(&arguments.file)?;
     let toml = arguments.out.join("robot.toml");
     if toml.exists() && !arguments.force {
@@ -60,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     report::write_folder(&arguments.out, &files)?;
     try_out(arguments)?;
     print(&summary(arguments, &loaded, &drives))?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// Reads both files as `simulate` does and moves the arm for a few seconds; an arm that runs away is

@@ -10,10 +10,11 @@ use document::Document;
 use evaluation::{Experiment, FigureScenario, FigureSpec};
 use report::{Provenance, RunReport};
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{hash, provenance};
-use crate::output::{create_folder, print, shown, tell};
+use crate::messages::tell;
+use crate::output::{create_folder, print, shown};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -72,7 +73,7 @@ impl Output {
 
 /// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains, or
 /// draws the figure that it asks for.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let mut document = Document::read(&arguments.scenario)?;
     for assignment in &arguments.set {
         document.set(assignment)?;
@@ -98,7 +99,7 @@ pub fn perform(
     scenario: &Path,
     out: &Path,
     output: &Output,
-) -> Result<Outcome, CliError> {
+) -> Result<ExitStatus, CliError> {
     create_folder(out)?;
     let watch = Watch::of_all((!output.quiet).then(Line::new));
     let made = Stages { experiment, out, scenario, watch: &watch, drawn: OnceCell::new() }.all();
@@ -115,7 +116,7 @@ pub fn perform(
     };
     write(experiment, &report, out)?;
     say(&report, out, output)?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// This program and the files that the run was made from.

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use evaluation::{FeedforwardKind, TrackedRun, TrackingScenario};
 use report::{ReportError, TrackingComparison};
 
-use crate::Outcome;
 use crate::error::CliError;
-use crate::output::{print, shown, tell};
+use crate::exit_status::ExitStatus;
+use crate::messages::tell;
+use crate::output::{print, shown};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -48,7 +49,7 @@ pub struct Arguments {
 }
 
 /// Tracks the motion of a scenario with every feedforward and compares them.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let asked = Asked {
         scenario: &arguments.scenario,
         set: &arguments.set,
@@ -67,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     say(arguments, tracked.comparison())?;
     written?;
     match tracked.problems().into_iter().next() {
-        None => Ok(Outcome::Good),
+        None => Ok(ExitStatus::Good),
         Some(problem) => Err(CliError::Incomplete { problem }),
     }
 }

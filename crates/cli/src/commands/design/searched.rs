@@ -5,7 +5,8 @@ use next_motion::{Design, Designed, Goal, Prospect, Question, Settings};
 use robot::{Loaded, Robot};
 
 use super::diagnosis_file::DiagnosisFile;
-use super::{DesignError, cause, files};
+use super::{cause, files};
+use crate::design_error::DesignError;
 use crate::error::CliError;
 
 /// Rate of a motion where neither log nor robot says one (Hz).

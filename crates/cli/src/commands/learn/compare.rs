@@ -8,21 +8,22 @@ use learner::{
 use report::{ComparedJoint, Comparison, ModelRow};
 use robot::{Loaded, Robot};
 
-use super::Arguments;
+use super::arguments::Arguments;
 use super::data::Data;
 use super::row::row;
 use super::timing::median_query_us;
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::provenance;
-use crate::output::{create_folder, print, shown, tell};
+use crate::messages::tell;
+use crate::output::{create_folder, print, shown};
 use crate::watch::Watch;
 
 /// A file of the output folder, and what it holds.
 type NamedFile = (String, Vec<u8>);
 
 /// Learns the models, compares them, and writes them with the comparison.
-pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<ExitStatus, CliError> {
     let robot = &loaded.robot;
     let named = arguments.named.as_deref().map(|path| named(path, robot)).transpose()?;
     settings(arguments, Vec::new()).check()?;
@@ -53,7 +54,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
         files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
     report::write_folder(out, &files)?;
     say(arguments, out, &comparison)?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// The robot with named effects, which must be the same robot.

@@ -5,7 +5,7 @@ use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, rest_s
 use report::{DataSet, FileHash};
 use robot::Loaded;
 
-use super::Arguments;
+use super::arguments::Arguments;
 use crate::doubts::doubts;
 use crate::error::CliError;
 use crate::input::hashes_of;
