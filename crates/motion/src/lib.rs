@@ -44,7 +44,7 @@ mod site;
 mod spec;
 mod spline;
 
-pub use error::{MotionError, Quantity};
+pub use error::{LimitedQuantity, MotionError};
 pub use motion::{Motion, State};
 pub use rising_sine::Growth;
 pub use spec::chirp::Chirp;

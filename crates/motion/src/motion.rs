@@ -11,7 +11,7 @@ pub struct State {
     pub qdd: Vec<f64>,
 }
 
-/// What the joints of a robot are asked to do, from time 0 to its end.
+/// The reference of all joints of a robot, from time 0 to its end.
 ///
 /// ```text
 /// q(t) = x(s(t)),   qd = x' s',   qdd = x'' s'^2 + x' s''

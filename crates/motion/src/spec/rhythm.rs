@@ -96,7 +96,7 @@ impl Rhythm {
                 return site.part(Curve::Harmonics(curve), clock);
             }
             if count >= POSTURES[1] {
-                return Err(self.unreachable(site, &centre, worst));
+                return Err(self.unreachable(site, &centre, worst.0, worst.1));
             }
             count *= 2;
         }
@@ -117,7 +117,7 @@ impl Rhythm {
             let share = k as f64 / count as f64;
             let (posture, miss) = tip.reach(&self.point(&centre, share), &q, home);
             if miss > REACHED_M {
-                return Err(self.unreachable(site, &centre, (share, miss)));
+                return Err(self.unreachable(site, &centre, share, miss));
             }
             q = posture;
             samples.iter_mut().zip(q.iter()).for_each(|(list, &q)| list.push(q));
@@ -165,7 +165,8 @@ impl Rhythm {
         &self,
         site: &Site,
         centre: &Point3<f64>,
-        (share, miss_m): (f64, f64),
+        share: f64,
+        miss_m: f64,
     ) -> MotionError {
         let point_m = self.point(centre, share).coords.into();
         MotionError::Unreachable { key: site.key(&["radius_m"]), point_m, share, miss_m }

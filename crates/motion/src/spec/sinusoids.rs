@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::curve::Curve;
-use crate::error::{MotionError, Quantity};
+use crate::error::{LimitedQuantity, MotionError};
 use crate::extremes::extremes;
 use crate::harmonics::{Harmonics, Series, Term};
 use crate::motion::Part;
@@ -126,7 +126,7 @@ impl Sinusoids {
     fn room(&self, site: &Site, index: usize, centre: f64) -> Result<f64, MotionError> {
         let joint = site.joint(index);
         let Some((low, high)) = joint.limits.position else {
-            return Err(missing(site, "amplitude_rad", index, Quantity::Position));
+            return Err(missing(site, "amplitude_rad", index, LimitedQuantity::Position));
         };
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low) * self.position_share);
         site.number(&["centre_rad", &joint.name], centre, middle - half..=middle + half)?;
@@ -143,11 +143,11 @@ impl Sinusoids {
         let own = site.joint(index).limits.velocity.map(|limit| self.velocity_share * limit);
         let asked = largest.copied();
         let lowest = own.into_iter().chain(asked).reduce(f64::min);
-        lowest.ok_or_else(|| missing(site, "max_speed_rad_per_s", index, Quantity::Velocity))
+        lowest.ok_or_else(|| missing(site, "max_speed_rad_per_s", index, LimitedQuantity::Velocity))
     }
 }
 
-fn missing(site: &Site, key: &str, joint: usize, limit: Quantity) -> MotionError {
+fn missing(site: &Site, key: &str, joint: usize, limit: LimitedQuantity) -> MotionError {
     let joint = site.joint(joint).name.clone();
     MotionError::Missing { key: site.key(&[key, &joint]), joint, limit }
 }

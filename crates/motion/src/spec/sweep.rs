@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{MotionError, Quantity};
+use crate::error::{LimitedQuantity, MotionError};
 use crate::knots::{Knots, blend_s, fastest, glide_s};
 use crate::motion::Part;
 use crate::site::{LONGEST_S, Site, above, above_up_to};
@@ -101,7 +101,7 @@ impl Sweep {
         let (low, high) = joint.limits.position.ok_or_else(|| MotionError::Missing {
             key: site.key(&["range_rad", &joint.name]),
             joint: joint.name.clone(),
-            limit: Quantity::Position,
+            limit: LimitedQuantity::Position,
         })?;
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low) * self.position_share);
         Ok([middle - half, middle + half])
