@@ -23,12 +23,12 @@ mod mistakes;
 mod names;
 mod node;
 mod parse_key_path;
-mod place;
 mod read;
 mod set;
+mod source;
 
 pub use document::Document;
 pub use error::{Coloring, DocumentError};
 pub use key_path::{KeyPath, Segment};
 pub use names::suggest;
-pub use place::Place;
+pub use source::SourceSpan;

@@ -32,7 +32,7 @@ pub(crate) fn parse(text: &str) -> Parsed {
     }
     let assignment = format!("{text}=0");
     let mut table = DeTable::parse(&assignment)
-        .map_err(|error| (clamped(error.span(), text), syntax(&error)))?
+        .map_err(|error| (clamp(error.span(), text), syntax(&error)))?
         .into_inner();
     let mut segments = Vec::new();
     loop {
@@ -52,7 +52,7 @@ pub(crate) fn parse(text: &str) -> Parsed {
     }
 }
 
-fn clamped(span: Option<Range<usize>>, text: &str) -> Range<usize> {
+fn clamp(span: Option<Range<usize>>, text: &str) -> Range<usize> {
     let span = span.unwrap_or(0..text.len());
     span.start.min(text.len())..span.end.min(text.len())
 }
