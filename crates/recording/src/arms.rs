@@ -66,8 +66,9 @@ impl ArmTrack {
             stream.log_static(path.clone(), &line)?;
         }
         if let Some(last) = links.get(skeleton.last) {
-            let ball = (BALL * skeleton.reach_m, Paint::solid(colour::rgb(arm.role)));
-            shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, ball)?;
+            let paint = Paint::solid(colour::rgb(arm.role));
+            let radius_m = BALL * skeleton.reach_m;
+            shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, radius_m, paint)?;
         }
         Ok(Self {
             links,
@@ -85,7 +86,8 @@ impl ArmTrack {
     pub fn push(
         &mut self,
         stream: &RecordingStream,
-        (time_s, q): (f64, &[f64]),
+        time_s: f64,
+        q: &[f64],
         skeleton: &Skeleton,
     ) -> RecordingStreamResult<()> {
         if !q.iter().all(|q| q.is_finite()) {
@@ -169,13 +171,13 @@ impl Brush<'_> {
         if self.shapes(path, visuals, own)? {
             return Ok(());
         }
-        let brush = (self.skeleton.stick_m(), Paint::on_arm(own, self.role));
-        let hub = (1.4 * self.skeleton.stick_m(), brush.1);
-        shapes::ball(self.stream, &below(path, "joint"), &Vector3::zeros(), hub)?;
+        let (radius_m, paint) = (self.skeleton.stick_m(), Paint::on_arm(own, self.role));
+        let hub = below(path, "joint");
+        shapes::ball(self.stream, &hub, &Vector3::zeros(), 1.4 * radius_m, paint)?;
         let far = joints.iter().filter(|to| to.norm() > self.skeleton.stick_m());
         for (i, to) in far.enumerate() {
             let ends = [Vector3::zeros(), *to];
-            shapes::stick(self.stream, &below(path, &format!("stick{i}")), ends, brush)?;
+            shapes::stick(self.stream, &below(path, &format!("stick{i}")), ends, radius_m, paint)?;
         }
         Ok(())
     }
@@ -185,10 +187,10 @@ impl Brush<'_> {
         if self.shapes(&path, visuals, colour::BASE)? {
             return Ok(());
         }
-        let brush = (self.skeleton.stick_m(), Paint::solid(colour::BASE));
+        let (radius_m, paint) = (self.skeleton.stick_m(), Paint::solid(colour::BASE));
         for (i, to) in self.skeleton.joints_on(None).into_iter().enumerate() {
             let ends = [Vector3::zeros(), to];
-            shapes::stick(self.stream, &below(&path, &format!("stick{i}")), ends, brush)?;
+            shapes::stick(self.stream, &below(&path, &format!("stick{i}")), ends, radius_m, paint)?;
         }
         Ok(())
     }

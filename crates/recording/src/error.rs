@@ -87,7 +87,7 @@ pub enum RecordingError {
 
 #[cfg(feature = "rerun")]
 /// A refusal of the library, which has an error for every part of it.
-pub(crate) fn refused(error: impl std::fmt::Display) -> RecordingError {
+pub(crate) fn refusal(error: impl std::fmt::Display) -> RecordingError {
     RecordingError::Refused { reason: error.to_string() }
 }
 
