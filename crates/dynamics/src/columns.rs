@@ -33,7 +33,7 @@ pub enum Column {
     },
 }
 
-/// The families of columns beside the inertial ones, which are always there.
+/// The families of columns that are added to the inertial ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ColumnSet {
     /// Rotor inertias.

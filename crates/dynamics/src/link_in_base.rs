@@ -21,7 +21,7 @@ pub(crate) struct LinkInBase {
     pub f: Force,
 }
 
-/// The change of a wrench by a velocity that is not the inertia's own turning,
+/// The derivative of a wrench by velocity, without the turning of the inertia itself,
 ///
 /// ```text
 /// B = (v x*) I - I (v x) + (. x* I v) = [ T, 0; -2 [l]x, 0 ]
