@@ -33,7 +33,7 @@ impl GaussianKernel {
         self.signal_variance * (-0.5 * square).exp()
     }
 
-    /// Refuses a kernel that is none.
+    /// Refuses hyperparameters that are not positive and finite.
     ///
     /// # Errors
     ///
