@@ -9,7 +9,7 @@ use crate::progress::Progress;
 /// a factor of a million each way, which is as good as a weight held and a weight free.
 const REACH: f64 = 14.0;
 
-/// Square of targets that are none.
+/// Mean square of the targets below which they count as zero.
 const SILENT: f64 = 1e-200;
 
 /// Iterations for a linear part, whose evaluations cost little.

@@ -8,7 +8,6 @@
 //! having both that Nguyen-Tuong & Peters 2010 compare.
 
 mod block_sums;
-mod described;
 mod error;
 mod exact;
 mod inducing;
@@ -19,6 +18,7 @@ mod memory;
 mod model;
 mod model_file;
 mod model_kind;
+mod nominal_parameter;
 #[cfg(test)]
 mod planar;
 mod prior;
@@ -53,4 +53,4 @@ pub use spread::Spread;
 pub use torque_model::{TorqueModel, Workspace};
 pub use training::{Fitted, JointFit, Training};
 pub use undetermined::Direction;
-pub use weighting::{JointNoise, Weighting};
+pub use weighting::{FitNoise, Weighting};

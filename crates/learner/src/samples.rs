@@ -17,7 +17,7 @@ pub struct Samples {
     runs: Vec<RunSpan>,
 }
 
-/// Which samples a run holds.
+/// The samples of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunSpan {
     /// Name of the run.
@@ -132,11 +132,11 @@ impl Samples {
         if points >= n {
             return self.clone();
         }
-        self.picked((0..points).map(|i| i * n / points))
+        self.select((0..points).map(|i| i * n / points))
     }
 
     /// The samples `chosen`, in ascending order.
-    pub(crate) fn picked(&self, chosen: impl Iterator<Item = usize>) -> Self {
+    pub(crate) fn select(&self, chosen: impl Iterator<Item = usize>) -> Self {
         let chosen: Vec<usize> = chosen.collect();
         let pick = |signal: &[f64]| -> Vec<f64> {
             let rows = chosen.iter().map(|&i| &signal[i * self.joints..(i + 1) * self.joints]);

@@ -136,7 +136,7 @@ impl<'a> Training<'a> {
     /// not given, and what the Gaussian process refuses.
     pub fn fit(&mut self, kind: ModelKind) -> Result<Fitted, LearnerError> {
         match kind {
-            ModelKind::Cad | ModelKind::Named => self.described(kind),
+            ModelKind::Cad | ModelKind::Named => self.described_robot(kind),
             ModelKind::Rbd => self.rigid_bodies(),
             ModelKind::RbdConsistent => self.consistent_rigid_bodies(),
             ModelKind::Gp | ModelKind::GpRbd | ModelKind::NamedGp => self.about_fixed_mean(kind),
@@ -151,14 +151,14 @@ impl<'a> Training<'a> {
     }
 
     /// A description of the robot as a model.
-    fn described(&self, kind: ModelKind) -> Result<Fitted, LearnerError> {
-        self.alone(kind, self.mean(kind)?)
+    fn described_robot(&self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+        self.mean_alone(kind, self.mean(kind)?)
     }
 
     /// A mean as a model; its noise is what it leaves of the points.
-    fn alone(&self, kind: ModelKind, mean: Mean) -> Result<Fitted, LearnerError> {
+    fn mean_alone(&self, kind: ModelKind, mean: Mean) -> Result<Fitted, LearnerError> {
         let n = self.few.len() as f64;
-        let left = self.left(&mean);
+        let left = self.residuals(&mean);
         let noise = left.iter().map(|r| r.iter().map(|r| r * r).sum::<f64>() / n).collect();
         let model = Model::new(kind, self.robot, mean, noise);
         Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
@@ -181,7 +181,7 @@ impl<'a> Training<'a> {
         let kind = ModelKind::RbdConsistent;
         let found = self.regression(kind)?.consistent(self.robot, PRIOR_WEIGHT)?;
         let beta = vec![found.parameters; self.robot.joint_count()];
-        self.alone(kind, Mean::Columns { set: self.columns(), beta })
+        self.mean_alone(kind, Mean::Columns { set: self.columns(), beta })
     }
 
     pub(crate) fn regression(&self, kind: ModelKind) -> Result<&'a RigidBodyFit, LearnerError> {
@@ -224,8 +224,8 @@ impl<'a> Training<'a> {
     }
 
     /// What `mean` leaves of the torque of the points, one row a joint.
-    pub(crate) fn left(&self, mean: &Mean) -> Vec<Vec<f64>> {
-        left(self.robot, mean, &self.few)
+    pub(crate) fn residuals(&self, mean: &Mean) -> Vec<Vec<f64>> {
+        residuals(self.robot, mean, &self.few)
     }
 
     /// The kernels of all joints for what the mean of `kind` leaves; searched for once.
@@ -239,7 +239,7 @@ impl<'a> Training<'a> {
         if let Some(known) = self.kernels.get(name) {
             return Ok(known.clone());
         }
-        let targets = self.left(&mean);
+        let targets = self.residuals(&mean);
         let search = &self.settings.search;
         let width = self.inputs.width();
         let found = kernels::search(search, &self.points, width, &targets, self.progress)?;
@@ -248,7 +248,7 @@ impl<'a> Training<'a> {
 }
 
 /// What `mean` leaves of the torque of `samples`, one row a joint.
-pub(crate) fn left(robot: &Robot, mean: &Mean, samples: &Samples) -> Vec<Vec<f64>> {
+pub(crate) fn residuals(robot: &Robot, mean: &Mean, samples: &Samples) -> Vec<Vec<f64>> {
     let joints = robot.joint_count();
     let model = Model::new(ModelKind::Cad, robot, mean.clone(), vec![0.0; joints]);
     let expected = model.torque(samples);
