@@ -2,7 +2,7 @@ use nalgebra::{Point3, distance};
 use robot::Robot;
 
 use crate::error::{TrackingError, same_joints};
-use crate::rows::{Rows, Signal};
+use crate::rows::{Signal, TrackingRows};
 use crate::tip::tip_in_base;
 
 /// How well a run tracked its motion, and what that took. A run without ticks has zeros.
@@ -78,7 +78,7 @@ impl Metrics {
     ///
     /// [`TrackingError::JointCount`] when the run is of another number of joints.
     pub fn of(
-        rows: &Rows,
+        rows: &TrackingRows,
         robot: &Robot,
         point_in_link: &Point3<f64>,
     ) -> Result<Self, TrackingError> {
@@ -98,7 +98,7 @@ impl Metrics {
 }
 
 impl JointMetrics {
-    fn of(rows: &Rows, joint: usize) -> Self {
+    fn of(rows: &TrackingRows, joint: usize) -> Self {
         let signal = |signal| rows.column(signal, joint);
         let errors = LinkMetrics::of(rows, joint, Signal::Q);
         let feedforward = signal(Signal::Feedforward);
@@ -125,7 +125,7 @@ impl JointMetrics {
 }
 
 impl LinkMetrics {
-    fn of(rows: &Rows, joint: usize, actual: Signal) -> Self {
+    fn of(rows: &TrackingRows, joint: usize, actual: Signal) -> Self {
         let (q_ref, q) = (rows.column(Signal::QRef, joint), rows.column(actual, joint));
         let errors = q_ref.zip(q).map(|(q_ref, q)| q_ref - q);
         let first = rows.time_s().take_while(|time_s| *time_s < FIRST_S).count();
@@ -207,7 +207,8 @@ mod tests {
         let metrics = Metrics::of(&rows_of(&[], None), &slider(), &Point3::origin()).unwrap();
         assert_eq!(metrics.end_effector, Distance::default());
         assert_eq!((metrics.joints[0].rmse, metrics.joints[0].jump_max), (0.0, 0.0));
-        let error = Metrics::of(&Rows::new(2, 0), &slider(), &Point3::origin()).unwrap_err();
+        let error =
+            Metrics::of(&TrackingRows::new(2, 0), &slider(), &Point3::origin()).unwrap_err();
         assert_eq!(error.to_string(), "the run is for 2 joints, 1 were expected");
     }
 }

@@ -3,7 +3,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::timing::WallTiming;
+use crate::timing::WallClockTiming;
 
 /// How ticks follow one another.
 #[derive(Debug)]
@@ -71,14 +71,14 @@ impl WallPace {
     }
 
     /// How the schedule was kept.
-    pub fn timing(&self) -> WallTiming {
+    pub fn timing(&self) -> WallClockTiming {
         let share = |count: usize| count as f64 / self.ticks.max(1) as f64;
-        WallTiming {
+        WallClockTiming {
             deadlines_missed: self.missed,
             deadlines_missed_share: share(self.missed),
             latest_s: self.latest.as_secs_f64(),
             late_share: share(self.late),
-            ..WallTiming::default()
+            ..WallClockTiming::default()
         }
     }
 }

@@ -86,7 +86,7 @@ impl<'a> VirtualPredictor<'a> {
     }
 
     /// Ticks at which a prediction is used.
-    fn held(&self) -> f64 {
+    fn ticks_in_use(&self) -> f64 {
         self.ticks.max(1) as f64
     }
 
@@ -99,7 +99,7 @@ impl<'a> VirtualPredictor<'a> {
 
 impl Predictor for VirtualPredictor<'_> {
     fn first(&mut self, delivery: &mut Delivery) -> bool {
-        self.predict(0.0, self.ahead.periods(0.0, self.held()));
+        self.predict(0.0, self.ahead.periods(0.0, self.ticks_in_use()));
         self.deliver(delivery)
     }
 
@@ -116,7 +116,7 @@ impl Predictor for VirtualPredictor<'_> {
         if self.begun.is_some() {
             return done;
         }
-        let ahead = self.ahead.periods(self.ticks as f64, self.held());
+        let ahead = self.ahead.periods(self.ticks as f64, self.ticks_in_use());
         self.predict(tick as f64 * self.period_s, ahead);
         if self.ticks == 0 || self.dead {
             return self.deliver(delivery);
