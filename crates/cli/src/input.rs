@@ -43,6 +43,41 @@ impl PartArguments {
     }
 }
 
+/// The robot of a command, and the part of it that is meant.
+#[derive(Debug, clap::Args)]
+pub struct RobotArguments {
+    /// The robot: a robot.urdf, or a robot.toml that names one
+    #[arg(long, value_name = "FILE")]
+    pub robot: PathBuf,
+    /// The part of it that is meant
+    #[command(flatten)]
+    pub part: PartArguments,
+}
+
+impl RobotArguments {
+    /// The robot, or the part of it that is meant.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Robot::load_with`].
+    pub fn load(&self) -> Result<Loaded, RobotError> {
+        self.part.load(&self.robot)
+    }
+
+    /// This program, its command line, and the files that describe the robot and its logs.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Unreadable`].
+    pub fn provenance(
+        &self,
+        loaded: &Loaded,
+        map: Option<&Path>,
+    ) -> Result<Provenance, ReportError> {
+        provenance(&self.robot, loaded, map)
+    }
+}
+
 /// How causes are searched.
 #[derive(Debug, clap::Args)]
 pub struct SearchArguments {

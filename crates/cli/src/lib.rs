@@ -11,12 +11,12 @@ mod arguments;
 mod columns;
 mod commands;
 mod design_error;
-mod doubts;
 mod effect_facts;
 mod effect_name;
 mod error;
 mod exit_status;
 mod input;
+mod input_warnings;
 mod invocation;
 mod loss;
 mod messages;
@@ -37,16 +37,17 @@ use crate::exit_status::ExitStatus;
 // For the files of the benchmark, which move out.
 use crate::exit_status::ExitStatus as Outcome;
 
-pub use crate::columns::{ColumnArguments, ExcerptArguments, LengthArguments};
-pub use crate::commands::design::{
-    DiagnosisFile, Searched as SearchedMotion, Wanted as WantedMotion,
+pub use crate::columns::{ColumnArguments, ExcerptArguments};
+pub use crate::commands::design::diagnosis_file::DiagnosisFile;
+pub use crate::commands::design::motion_design::{MotionDesign, MotionRequest};
+pub use crate::commands::diagnose::{
+    write as write_diagnosis, write_recording as record_diagnosis,
 };
-pub use crate::commands::diagnose::{recorded as record_diagnosis, write as write_diagnosis};
-pub use crate::commands::track::{Asked as AskedTracking, Tracked as TrackedMotion};
-pub use crate::doubts::doubts;
+pub use crate::commands::track::tracking_result::{TrackingRequest, TrackingResult};
 pub use crate::effect_name::find_effect;
 pub use crate::error::CliError;
 pub use crate::input::{PartArguments, SearchArguments, hashes_of, provenance_of};
+pub use crate::input_warnings::input_warnings;
 
 /// Runs the program with a command line, whose first argument is the program's own name, and gives its
 /// exit code.

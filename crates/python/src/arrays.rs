@@ -54,13 +54,13 @@ impl Columns<'_> {
 }
 
 /// Rows of numbers, one column a joint, as they lie in memory.
-pub struct Rows<'py> {
+pub struct SampleRows<'py> {
     array: PyReadonlyArray2<'py, f64>,
     /// Whether one row was given, and not a table of rows.
     pub is_single: bool,
 }
 
-impl<'py> Rows<'py> {
+impl<'py> SampleRows<'py> {
     /// The argument `name`, of the shape (samples, joints) or (joints,).
     ///
     /// Float64 whose rows lie one behind the other is read where it is; all other numbers are copied.
@@ -115,7 +115,7 @@ impl<'py> Rows<'py> {
 }
 
 /// Refuses arguments that do not have as many rows as the first.
-pub fn same_rows(rows: [(&str, &Rows<'_>); 3]) -> PyResult<()> {
+pub fn same_rows(rows: [(&str, &SampleRows<'_>); 3]) -> PyResult<()> {
     let [(first_name, first), ..] = rows;
     let other = rows.iter().find(|(_, r)| r.len() != first.len() || r.is_single != first.is_single);
     match other {
@@ -128,7 +128,7 @@ pub fn same_rows(rows: [(&str, &Rows<'_>); 3]) -> PyResult<()> {
     }
 }
 
-impl Rows<'_> {
+impl SampleRows<'_> {
     fn shape(&self) -> &[usize] {
         if self.is_single { &self.array.shape()[1..] } else { self.array.shape() }
     }
@@ -138,7 +138,7 @@ impl Rows<'_> {
 ///
 /// # Errors
 ///
-/// As [`Rows::new`].
+/// As [`SampleRows::new`].
 pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = numbers(name, value)?;
     if array.ndim() != 1 {

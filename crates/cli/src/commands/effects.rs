@@ -1,10 +1,10 @@
 mod page;
 mod rows;
 
-use catalogue::{EffectKind, Family};
+use catalogue::Family;
 use serde::Serialize;
 
-use self::rows::{Row, rows};
+use self::rows::{EffectRow, rows};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::output::{print, print_json, table};
@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 #[derive(Serialize)]
 struct Document {
     schema: &'static str,
-    effects: Vec<Row>,
+    effects: Vec<EffectRow>,
 }
 
 fn text() -> String {
@@ -55,6 +55,8 @@ fn text() -> String {
 
 #[cfg(test)]
 mod tests {
+    use catalogue::EffectKind;
+
     use super::*;
 
     #[test]

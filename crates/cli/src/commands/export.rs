@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         exports.push((format.name(), shown(&folder.join(&name)), export));
     }
     let held = exports.iter().map(|(format, path, export)| (*format, path.clone(), export));
-    let loss = arguments.loss.measure((&path, &loaded), &arguments.part, held)?;
+    let loss = arguments.loss.measure(&path, &loaded, &arguments.part, held)?;
     let written =
         |(format, path, export): (_, _, Export)| Written { format, path, quantities: export.fates };
     let exports = Exports {

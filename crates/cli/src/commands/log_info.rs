@@ -36,11 +36,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let described = described.transpose()?;
     let mut runs: Vec<Run> = Vec::new();
     let mut infos = Vec::new();
-    let mut asked = Vec::new();
+    let mut selected = Vec::new();
     for path in &arguments.files {
-        asked.push((path, arguments.columns.episodes_of(path)?));
+        selected.push((path, arguments.columns.episodes_of(path)?));
     }
-    let each = asked.iter().flat_map(|(path, asked)| asked.each().map(move |e| (*path, e)));
+    let each = selected.iter().flat_map(|(path, runs)| runs.iter().map(move |e| (*path, e)));
     for (path, episode) in each {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
@@ -78,8 +78,8 @@ struct Info {
 /// A robot without limits whose joints are those of the log, to look at a log alone.
 fn robot_from_columns(path: &Path, options: &ReadOptions) -> Result<Robot, CliError> {
     // The log is asked for a joint that no log has; the answer lists those it has.
-    let asked = robot_of(&["\u{0}".to_owned()])?;
-    let joints = match logs::read_run(path, &asked, options) {
+    let nameless = robot_of(&["\u{0}".to_owned()])?;
+    let joints = match logs::read_run(path, &nameless, options) {
         Err(LogError::JointAbsent { found, .. }) => found.into_vec(),
         Err(other) => return Err(other.into()),
         Ok(_) => Vec::new(),

@@ -14,7 +14,7 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::{hash, provenance};
 use crate::messages::tell;
-use crate::output::{create_folder, print, shown};
+use crate::output::{create_folder, print_answer, shown};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -59,15 +59,8 @@ impl Output {
 
     /// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
     fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
-        if self.json {
-            print(json)?;
-        }
-        match (self.quiet, self.json) {
-            (true, _) => {}
-            (false, true) => tell(&closing.trim_end()),
-            (false, false) => print(&format!("{text}\n{closing}"))?,
-        }
-        Ok(())
+        let json = self.json.then_some(json);
+        print_answer(self.quiet, json, || text.to_owned(), closing)
     }
 }
 

@@ -1,10 +1,10 @@
 use catalogue::{EffectKind, Family};
 
-use super::rows::Row;
+use super::rows::EffectRow;
 use crate::effect_facts::facts;
 
 /// The catalogue as a page in Markdown: a table of all effects, then each with what `explain` says of it.
-pub(super) fn page(rows: &[Row]) -> String {
+pub(super) fn page(rows: &[EffectRow]) -> String {
     let mut page = format!(
         "# The effects\n\nThe {} causes that Plumbline knows. All can be simulated; the table says which a diagnosis \
          names, and which a feedforward compensates. On the command line `plumbline explain CODE` says the same.\n\n\
@@ -34,7 +34,7 @@ pub(super) fn page(rows: &[Row]) -> String {
 }
 
 /// An effect: its heading, and a list of what is known of it.
-fn section(row: &Row) -> String {
+fn section(row: &EffectRow) -> String {
     let entry = row.kind.entry();
     let mut text = format!("\n### {}\n\n`{}`\n\n", row.kind.label(), row.name);
     let parameters: Vec<&str> = entry.parameters.iter().map(|p| p.name).collect();

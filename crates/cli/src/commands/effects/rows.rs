@@ -3,7 +3,7 @@ use serde::Serialize;
 
 /// What the list says of an effect.
 #[derive(Serialize)]
-pub struct Row {
+pub struct EffectRow {
     #[serde(skip)]
     pub kind: EffectKind,
     pub code: &'static str,
@@ -17,10 +17,10 @@ pub struct Row {
 }
 
 /// The effects by family and code.
-pub fn rows() -> Vec<Row> {
+pub fn rows() -> Vec<EffectRow> {
     let mut kinds = EffectKind::ALL;
     kinds.sort_by_key(|kind| (kind.family(), kind.code()));
-    let row = |kind: EffectKind| Row {
+    let row = |kind: EffectKind| EffectRow {
         kind,
         code: kind.code(),
         name: kind.name(),

@@ -4,8 +4,8 @@ use std::str::FromStr;
 use dynamics::ColumnSet;
 use learner::{ModelKind, PriorSpread, TrainSettings};
 
-use crate::columns::{ColumnArguments, LengthArguments};
-use crate::input::{PartArguments, positive};
+use crate::columns::LogArguments;
+use crate::input::{RobotArguments, positive};
 
 /// Models that are compared when none are named: the robot as described and the five of
 /// Nguyen-Tuong & Peters 2010.
@@ -21,11 +21,8 @@ const MODELS: [ModelKind; 6] = [
 /// Arguments of `learn`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The robot: a robot.urdf, or a robot.toml that names one
-    #[arg(long, value_name = "FILE")]
-    pub robot: PathBuf,
     #[command(flatten)]
-    pub part: PartArguments,
+    pub robot: RobotArguments,
     /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2) to learn from, one run each
     #[arg(long, value_name = "LOG", num_args = 1.., required_unless_present = "benchmark")]
     pub train: Vec<PathBuf>,
@@ -65,9 +62,7 @@ pub struct Arguments {
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub cutoff_hz: Option<f64>,
     #[command(flatten)]
-    pub names: ColumnArguments,
-    #[command(flatten)]
-    pub length: LengthArguments,
+    pub reading: LogArguments,
     /// Time one prediction against the number of points instead of learning
     #[arg(long, conflicts_with_all = ["train", "test", "regression", "named"])]
     pub benchmark: bool,

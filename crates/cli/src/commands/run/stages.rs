@@ -13,7 +13,9 @@ use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 
 use super::bench::{self, Bench, DiagnosedRuns, diagnosis_files};
-use crate::commands::{diagnose, track};
+use crate::commands::diagnose;
+use crate::commands::track::comparison::{comparison, problems};
+use crate::commands::track::tracking_result::write_comparison;
 use crate::error::CliError;
 use crate::output::create_folder;
 use crate::watch::Watch;
@@ -111,7 +113,8 @@ impl Stages<'_> {
                 self.bench().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
             let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             if recording::IS_BUILT {
-                diagnose::recorded(self.out, &diagnosed, self.watch).map_err(|error| *error)?;
+                diagnose::write_recording(self.out, &diagnosed, self.watch)
+                    .map_err(|error| *error)?;
             }
             let sealed = Sealed::open(&self.out.join(LOGS))?;
             let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
@@ -195,9 +198,9 @@ impl Stages<'_> {
         runs: &[TrackedRun],
     ) -> Result<Product<Tracked>, CliError> {
         let swept = evaluation::sweep(scenario, learned, self.watch)?;
-        let comparison = track::comparison(self.scenario, scenario, runs, swept.as_ref())?;
-        track::write(&self.out.join(TRACKING), scenario, &comparison)?;
-        if let Some(problem) = track::problems(runs).next() {
+        let comparison = comparison(self.scenario, scenario, runs, swept.as_ref())?;
+        write_comparison(&self.out.join(TRACKING), scenario, &comparison)?;
+        if let Some(problem) = problems(runs).next() {
             return Err(CliError::Incomplete { problem: problem.clone() });
         }
         let pages = ["report.html", "tracking.json"].map(|name| Path::new(TRACKING).join(name));
