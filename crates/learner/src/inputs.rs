@@ -46,7 +46,7 @@ impl Inputs {
     }
 
     /// The scaling that was saved with a model.
-    pub fn saved(mean: Vec<f64>, deviation: Vec<f64>, rest_speed: Vec<f64>) -> Self {
+    pub fn from_parts(mean: Vec<f64>, deviation: Vec<f64>, rest_speed: Vec<f64>) -> Self {
         let joints = (mean.len() - rest_speed.len().min(mean.len())) / 3;
         Self { mean, deviation, rest_speed, joints }
     }

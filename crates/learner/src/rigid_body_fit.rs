@@ -79,7 +79,7 @@ impl Regression {
         let total = self.sums.total().ok_or(LearnerError::NoSamples)?;
         prior.map_or(Ok(()), |p| p.check(self.base.columns.len()))?;
         let problem = Problem::new(self, &total, prior);
-        let (solution, noise, weighting) = problem.reweighted();
+        let (solution, noise, weighting) = problem.reweight();
         let (covariance, groups) = covariance(&problem, &solution, &noise);
         let columns = self.base.columns.clone();
         let base_sizes: Vec<f64> =

@@ -51,7 +51,7 @@ impl Default for TrainSettings {
 }
 
 impl TrainSettings {
-    /// Refuses settings that nothing can be trained with.
+    /// Refuses settings that are out of their ranges.
     ///
     /// # Errors
     ///

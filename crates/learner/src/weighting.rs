@@ -12,8 +12,8 @@ const SETTLED: f64 = 1e-8;
 /// Most rounds of reweighting.
 const ROUNDS: usize = 200;
 
-/// A direction of which the data know less than this, as information in units of the sizes of
-/// the parameters, stays as described: its standard deviation would be twice the size.
+/// Least information of a direction that is fitted, in units of the sizes of the parameters: below
+/// it the standard deviation would be over twice the size, and the direction stays as described.
 pub(crate) const LEAST_INFORMATION: f64 = 0.25;
 
 /// Share of the largest eigenvalue below which an eigenvalue is rounding.
@@ -35,9 +35,9 @@ pub struct FitNoise {
     /// Standard deviation of one sample (N·m or N); zero for a joint that reports no torque, as
     /// all its samples are zero: it has no part in the fit.
     pub standard_deviation: f64,
-    /// Samples that count as one independent sample, at least 1: the variance of the sums of
-    /// blocks over what it would be without memory. What the columns cannot explain counts as
-    /// noise here.
+    /// Number of samples that count as one independent sample, at least 1: the variance of the sums
+    /// of blocks over that of independent samples. What the columns cannot explain counts as noise
+    /// here.
     pub correlated_samples: f64,
 }
 
@@ -57,8 +57,8 @@ pub enum Weighting {
         /// Fits made.
         rounds: usize,
     },
-    /// It still changes: too few samples to tell noise from parameters, so give a prior or
-    /// more samples.
+    /// The weights still change: too few samples to separate noise from parameters. A prior or more
+    /// samples help.
     Unsettled {
         /// Relative change of the weights in the last round.
         change: f64,
@@ -86,7 +86,7 @@ pub(crate) struct Problem<'a> {
     centre_base: DVector<f64>,
 }
 
-/// What all samples say at one joint.
+/// The sums over all samples of one joint.
 struct JointTotal {
     gram: DMatrix<f64>,
     rhs: DVector<f64>,
@@ -94,7 +94,7 @@ struct JointTotal {
 }
 
 impl JointTotal {
-    /// Torque that is zero in every sample was not measured, and says nothing.
+    /// A torque that is zero in every sample was not measured, and is left out.
     fn new(sums: &JointSums) -> Self {
         let (gram, rhs, square) = (sums.gram(), sums.rhs(), sums.square());
         let gram = if square > 0.0 { gram } else { 0.0 * gram };
@@ -159,7 +159,7 @@ impl<'a> Problem<'a> {
     /// ```
     ///
     /// which divides the squares by `n` less the parameters that joint `k` pays for.
-    pub fn reweighted(&self) -> (Solution, Vec<FitNoise>, Weighting) {
+    pub fn reweight(&self) -> (Solution, Vec<FitNoise>, Weighting) {
         let joints = 0..self.joints.len();
         let start = |joint: usize| FitNoise {
             standard_deviation: (self.remaining(joint, &self.centre_base) / self.samples).sqrt(),
@@ -252,8 +252,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Covariance of `z` in the determined directions that the blocks show, whatever the
-    /// memory of the noise, and the number of groups of blocks that show it (Liang & Zeger 1986):
+    /// Covariance of `z` in the determined directions from the spread of the blocks, valid for
+    /// correlated noise, and the number of groups of blocks (Liang & Zeger 1986):
     ///
     /// ```text
     /// H^-1 (B / (B - 1) sum_b s_b s_b' + believed) H^-1,   s_b the score of group b
