@@ -5,7 +5,7 @@ use crate::error::{TrackingError, same_joints};
 use crate::rows::{Signal, TrackingRows};
 use crate::tip::tip_in_base;
 
-/// How well a run tracked its motion, and what that took. A run without ticks has zeros.
+/// Tracking errors of a run, and the torque that they took. A run without ticks has zeros.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metrics {
     /// Joint by joint, in the order of the robot.
@@ -16,7 +16,7 @@ pub struct Metrics {
     pub end_effector_of_links: Option<Distance>,
 }
 
-/// How well one joint tracked, and what that took.
+/// Tracking errors of one joint, and its torque.
 ///
 /// ```text
 /// error = q_ref - q,   RMS(x) = sqrt(mean over the ticks of x²)
@@ -33,7 +33,7 @@ pub struct JointMetrics {
     pub link: Option<LinkMetrics>,
     /// RMS of the command (N m or N).
     pub command_rms: f64,
-    /// RMS of the feedback (N m or N): how far it had to work.
+    /// RMS of the feedback (N m or N).
     pub feedback_rms: f64,
     /// That over the RMS of the command; 0 without a command.
     pub feedback_share: f64,
@@ -59,7 +59,7 @@ pub struct LinkMetrics {
     pub max_error: f64,
 }
 
-/// How far a point was from another.
+/// Distance between two points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distance {
     /// RMS over the ticks (m).

@@ -33,7 +33,7 @@ pub(crate) struct WallPace {
     latest: Duration,
 }
 
-/// The end of a wait, spent awake: a thread that sleeps is woken up to this much late.
+/// Last part of a wait, in which the thread spins: a sleeping thread wakes up to this much late.
 const AWAKE: Duration = Duration::from_micros(200);
 
 impl Pace {
@@ -70,7 +70,7 @@ impl WallPace {
         self.due = Some(from + self.period);
     }
 
-    /// How the schedule was kept.
+    /// Timing of the schedule so far.
     pub fn timing(&self) -> WallClockTiming {
         let share = |count: usize| count as f64 / self.ticks.max(1) as f64;
         WallClockTiming {

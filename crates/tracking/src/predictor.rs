@@ -3,13 +3,13 @@ use motion::Motion;
 use crate::feedforward::{Feedforward, Prediction, ask};
 use crate::settings::{Ahead, VirtualClock};
 
-/// What a predictor hands over.
+/// A prediction on its way to the loop.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Delivery {
     /// When the reference was taken (s).
     pub asked_s: f64,
     pub prediction: Prediction,
-    /// Why there will be no other, if so.
+    /// The reason why no prediction follows, if none does.
     pub died: Option<String>,
 }
 
@@ -24,7 +24,7 @@ pub(crate) trait Predictor {
     /// Predicts the first tick, before the run; whether `delivery` now holds it.
     fn first(&mut self, delivery: &mut Delivery) -> bool;
 
-    /// Whether `delivery` now holds what was not delivered before.
+    /// Whether `delivery` now holds a new prediction.
     fn newest(&mut self, tick: usize, delivery: &mut Delivery) -> bool;
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct VirtualPredictor<'a> {
     work: Delivery,
 }
 
-/// Part of a period by which rounding may put a time behind its tick.
+/// Share of a period by which rounding may delay a time behind its tick.
 const ROUNDING: f64 = 1e-6;
 
 /// The first tick at or after a time (s).
@@ -76,7 +76,7 @@ impl<'a> VirtualPredictor<'a> {
         }
     }
 
-    /// Predicts into `work`; a death stays there.
+    /// Predicts into `work`, which keeps the message of a panic.
     fn predict(&mut self, asked_s: f64, ahead_periods: f64) {
         let time_s = asked_s + ahead_periods * self.period_s;
         self.work.asked_s = asked_s;
