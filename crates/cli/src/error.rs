@@ -122,7 +122,7 @@ pub enum CliError {
         /// What the operating system said.
         reason: String,
     },
-    /// The robot with the findings is none that can be described.
+    /// The robot with the findings cannot be described.
     #[error("the extended model cannot be written: {0}")]
     Extended(RobotError),
     /// The robot cannot be written in another format.

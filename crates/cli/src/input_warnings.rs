@@ -26,8 +26,8 @@ pub fn input_warnings<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Ru
     warnings
 }
 
-/// The runs with the errors of the log corrected that the inspection can correct (signs, units,
-/// clocks), if there are any. Prints the warnings about the input and each correction.
+/// The runs with those errors corrected that the inspection can correct; none without errors.
+/// Prints the warnings about the input, and each correction.
 pub fn correct_runs(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
     input_warnings(loaded, runs).iter().for_each(|warning| warn(warning));
     let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, runs);

@@ -13,7 +13,7 @@ use crate::input_warnings::correct_runs;
 use crate::messages::warn;
 use crate::output::{shown, table};
 
-/// Logs that an export is held against.
+/// Logs that exports are tested on.
 #[derive(Debug, clap::Args)]
 pub struct LossArguments {
     /// Logs that the diagnosis has not seen: the torque error of what each file holds is printed beside those
@@ -165,7 +165,7 @@ struct SourceFile {
     sha256: String,
 }
 
-/// The robot that a diagnosis was made with, where it is still there as it was.
+/// The file of the robot that was diagnosed, if it is unchanged.
 fn diagnosed_robot(diagnosis: &Path) -> Option<PathBuf> {
     let sources: DiagnosisSources = serde_json::from_slice(&fs::read(diagnosis).ok()?).ok()?;
     let robot = sources.provenance.files.into_iter().find(|file| file.role == "robot")?;

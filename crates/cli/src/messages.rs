@@ -5,7 +5,8 @@ use anstyle::AnsiColor;
 
 /// Prints a line on the standard error, its colours only where they are wanted.
 ///
-/// One that cannot be written, as on a full disk, is left out: the answer and the exit code stand without it.
+/// A line that cannot be written, as on a full disk, is left out; the answer and the exit code do
+/// not depend on it.
 pub fn tell(what: &dyn Display) {
     let _ = writeln!(anstream::stderr().lock(), "{what}");
 }

@@ -75,7 +75,7 @@ impl<'py> SampleRows<'py> {
         let n = match shape.last() {
             Some(n) if columns.fit(&shape) => *n,
             _ => {
-                let (shape, expected) = (shown(&shape), columns.words());
+                let (shape, expected) = (shape_words(&shape), columns.words());
                 return Err(PyValueError::new_err(format!(
                     "{name}: its shape is {shape}, {expected}"
                 )));
@@ -122,8 +122,8 @@ pub fn same_rows(rows: [(&str, &SampleRows<'_>); 3]) -> PyResult<()> {
         None => Ok(()),
         Some((name, other)) => Err(PyValueError::new_err(format!(
             "{name}: its shape is {}, that of {first_name} is {}: both were expected to be alike",
-            shown(other.shape()),
-            shown(first.shape())
+            shape_words(other.shape()),
+            shape_words(first.shape())
         ))),
     }
 }
@@ -142,7 +142,7 @@ impl SampleRows<'_> {
 pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = numbers(name, value)?;
     if array.ndim() != 1 {
-        let shape = shown(array.shape());
+        let shape = shape_words(array.shape());
         return Err(PyValueError::new_err(format!(
             "{name}: its shape is {shape}, (samples,) was expected"
         )));
@@ -232,7 +232,7 @@ pub fn type_name(value: &Bound<'_, PyAny>) -> String {
 }
 
 /// A shape as Python writes it.
-fn shown(shape: &[usize]) -> String {
+fn shape_words(shape: &[usize]) -> String {
     match shape {
         [only] => format!("({only},)"),
         all => format!("({})", all.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),

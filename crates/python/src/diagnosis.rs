@@ -112,7 +112,7 @@ impl PyDiagnosis {
         &self.runs
     }
 
-    fn shown(&self) -> Report<'_> {
+    fn as_report(&self) -> Report<'_> {
         Report {
             forward: self.forward.as_ref(),
             ..Report::new(&self.outcome, &self.robot.robot, &self.provenance)
@@ -169,27 +169,27 @@ impl PyDiagnosis {
 
     /// `diagnosis.json`.
     pub fn json(&self) -> PyResult<String> {
-        report::json(&self.shown()).map_err(raised)
+        report::json(&self.as_report()).map_err(raised)
     }
 
     /// What the program prints.
     fn text(&self) -> String {
-        report::text(&self.shown())
+        report::text(&self.as_report())
     }
 
     /// `report.html`.
     fn html(&self) -> PyResult<String> {
-        report::html(&self.shown()).map_err(raised)
+        report::html(&self.as_report()).map_err(raised)
     }
 
     /// The first screen of the report.
     fn notebook(&self) -> PyResult<String> {
-        report::notebook(&self.shown()).map_err(raised)
+        report::notebook(&self.as_report()).map_err(raised)
     }
 
     /// `figure.svg`.
     fn figure(&self) -> PyResult<String> {
-        report::figure(&self.shown()).map_err(raised)
+        report::figure(&self.as_report()).map_err(raised)
     }
 
     /// Writes the files of the program's output folder.
@@ -201,9 +201,9 @@ impl PyDiagnosis {
         recording: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
-        let shown = self.shown();
-        let json = report::json(&shown).map_err(raised)?;
-        cli::write_diagnosis(&folder, &self.robot, &self.outcome, &shown, &json, None)
+        let report = self.as_report();
+        let json = report::json(&report).map_err(raised)?;
+        cli::write_diagnosis(&folder, &self.robot, &self.outcome, &report, &json, None)
             .map_err(raised)?;
         if !recording {
             return Ok(());
@@ -212,7 +212,7 @@ impl PyDiagnosis {
             loaded: &self.robot,
             runs: self.outcome.read.as_deref().unwrap_or(&self.runs),
             outcome: &self.outcome,
-            verdict: &report::markdown(&shown),
+            verdict: &report::markdown(&report),
         };
         let recorded =
             run(py, progress.as_ref(), |work| cli::record_diagnosis(&folder, &diagnosed, work))?;

@@ -121,8 +121,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         verdict: &report::markdown(&report),
     };
     let recording = record(arguments, &diagnosed);
-    let shown = recording.as_ref().ok().and_then(Option::as_deref);
-    say(arguments, &report, &json, shown)?;
+    let written = recording.as_ref().ok().and_then(Option::as_deref);
+    say(arguments, &report, &json, written)?;
     recording?;
     Ok(match outcome.diagnosis.verdict {
         Verdict::Consistent | Verdict::Explained => ExitStatus::Good,

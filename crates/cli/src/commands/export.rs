@@ -76,7 +76,7 @@ struct Written {
 
 /// Writes the robot in other formats and prints what became of every quantity, and what that costs on logs.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let path = described(&arguments.path)?;
+    let path = description_file(&arguments.path)?;
     let loaded = arguments.part.load(&path)?;
     let source = std::fs::read_to_string(&loaded.urdf_path).map_err(|error| {
         CliError::Robot(robot::RobotError::Unreadable {
@@ -116,7 +116,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 }
 
 /// The description of the robot in an output folder, or the file itself.
-fn described(path: &Path) -> Result<PathBuf, CliError> {
+fn description_file(path: &Path) -> Result<PathBuf, CliError> {
     if !path.is_dir() {
         return Ok(path.to_owned());
     }

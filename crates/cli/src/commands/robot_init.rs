@@ -50,12 +50,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     loaded.warnings.iter().for_each(|warning| warn(warning));
     let rate_hz = loaded.control.rate_hz.unwrap_or(RATE_HZ);
     let drives = drives(&loaded.robot, &loaded.control.gains, rate_hz);
-    let driven = guess::driven(&loaded.robot, &drives);
+    let driven = guess::with_rotors(&loaded.robot, &drives);
     let excitation = Excitation::within_limits(&driven);
     if !excitation.fits {
         warn(&"the limits of effort leave no room for the motion: its weight alone may reach them");
     }
-    let model = path::seen_from(&arguments.out, &loaded.urdf_path);
+    let model = path::relative_to(&arguments.out, &loaded.urdf_path);
     let described = text::robot_toml(&loaded, &model, &drives, rate_hz);
     let scenario = text::scenario_toml(&driven, &excitation);
     let files = [("robot.toml", described.as_bytes()), ("scenario.toml", scenario.as_bytes())];

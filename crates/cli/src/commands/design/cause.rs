@@ -7,7 +7,7 @@ use crate::effect_name::find_effect;
 use crate::error::CliError;
 
 /// A cause as it is typed: `FR01@elbow`, `payload@hand`, `gravity_direction`.
-pub fn typed(text: &str, robot: &Robot) -> Result<Hypothesis, CliError> {
+pub fn parse(text: &str, robot: &Robot) -> Result<Hypothesis, CliError> {
     let (effect, place) = text.split_once('@').map_or((text, None), |(e, p)| (e, Some(p)));
     Ok(at(find_effect(effect)?, place, robot)?)
 }

@@ -53,7 +53,7 @@ fn titles(goal: Goal, robot: &Robot) -> (String, &'static str) {
 }
 
 fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> String {
-    let shown = |nats: f64| report::significant(nats, 2);
+    let digits = |nats: f64| report::significant(nats, 2);
     let before = prospect.before;
     let Some(after) = prospect.after else {
         return match prospect.goal {
@@ -74,19 +74,19 @@ fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> Stri
             "no motion of {length:.0} s within the robot's limits was found that tells them apart: \
              {sizes} the best is worth {} nats of log evidence, {SEPARATING_NATS} are needed. What may \
              help: {help}",
-            shown(after)
+            digits(after)
         ),
         (Goal::Separate { .. }, Some(runs)) => format!(
             "this motion tells them apart{}: its {length:.0} s are worth {} nats of log evidence \
              {sizes}, {SEPARATING_NATS} are needed{}",
             if runs > 1 { format!(", run {runs} times") } else { String::new() },
-            shown(after),
+            digits(after),
             if before > 0.0 {
                 let [same, times] = [before * length / logged, after / before * logged / length];
                 format!(
                     "; {length:.0} s of the logs were worth {} ({} times less)",
-                    shown(same),
-                    shown(times)
+                    digits(same),
+                    digits(times)
                 )
             } else {
                 String::new()

@@ -114,7 +114,7 @@ impl MotionDesign {
 
 /// Two causes that are to be told apart.
 fn goal_of_pair([one, other]: [&str; 2], robot: &Robot) -> Result<Goal, CliError> {
-    let [finding, rival] = [cause::typed(one, robot)?, cause::typed(other, robot)?];
+    let [finding, rival] = [cause::parse(one, robot)?, cause::parse(other, robot)?];
     Ok(Goal::Separate { finding, rival })
 }
 

@@ -99,7 +99,7 @@ impl Learning<'_> {
         if let Some(named) = self.named {
             training = training.with_named(named);
         }
-        let tested = self.data.tested();
+        let tested = self.data.test_samples();
         let (mut rows, mut files) = (Vec::new(), Vec::new());
         for kind in without_repeats(&self.arguments.models) {
             let (mut row, file) = self.model(&mut training, kind, &tested, out)?;

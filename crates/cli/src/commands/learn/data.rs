@@ -88,7 +88,7 @@ impl Data {
     }
 
     /// The samples that the models are tested on.
-    pub fn tested(&self) -> Samples {
+    pub fn test_samples(&self) -> Samples {
         self.test.samples.thinned(MOST_TESTED)
     }
 }

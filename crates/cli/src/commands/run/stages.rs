@@ -186,12 +186,12 @@ impl Stages<'_> {
             let outputs = Outputs { logs, recordings, live: Live::Off };
             let scenario = self.experiment.held(self.drawn()?, &self.extended()?);
             let runs = track_all(&scenario, &learned, Some(&outputs), self.watch)?;
-            self.tracked(&scenario, &learned, &runs)
+            self.write_tracking(&scenario, &learned, &runs)
         })
     }
 
     /// Writes the comparison of the runs.
-    fn tracked(
+    fn write_tracking(
         &self,
         scenario: &TrackingScenario,
         learned: &Learned,
@@ -211,7 +211,8 @@ impl Stages<'_> {
         let runs_files = runs_files.map(|name| Path::new(TRACKING).join(name));
         let errors = runs.iter().map(TrackedError::of).collect();
         let gains = scenario.gains_name().to_owned();
-        let value = Tracked { gains, errors, motion: compared(comparison).motion_in_page()? };
+        let value =
+            Tracked { gains, errors, motion: with_page_names(comparison).motion_in_page()? };
         Ok(Product { value, files: pages.into_iter().chain(runs_files).collect() })
     }
 
@@ -261,7 +262,7 @@ impl Stages<'_> {
 
 /// The runs with the robot as described and with the extended one alone, under the names that they have
 /// wherever a page compares the two.
-fn compared(comparison: TrackingComparison) -> TrackingComparison {
+fn with_page_names(comparison: TrackingComparison) -> TrackingComparison {
     let named = [("named", "extended"), ("cad", "nominal")].into_iter();
     let models = named.filter_map(|(kind, name)| {
         let run = comparison.models.iter().find(|model| model.name == kind)?;
