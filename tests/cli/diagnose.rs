@@ -7,6 +7,7 @@ use robot::Robot;
 use serde_json::Value;
 
 use crate::arm::{self, Gap};
+use crate::files::{json, names};
 use crate::program::{Answer, plumbline, run};
 
 const FILES: [&str; 6] =
@@ -20,18 +21,6 @@ fn diagnose(folder: &Path, more: &[&str]) -> Answer {
 /// The output folder, with its recording.
 fn all_files() -> Vec<&'static str> {
     [&FILES[..4], &["recording.rrd"], &FILES[4..]].concat()
-}
-
-fn json(path: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> =
-        entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
 }
 
 #[test]

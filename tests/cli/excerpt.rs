@@ -3,9 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
-
 use crate::arm::{self, Gap};
+use crate::files::json;
 use crate::program::run;
 
 /// What of the logs is read.
@@ -45,10 +44,6 @@ fn output(folder: &Path, place: &str, command: &str, more: &[&str]) {
     let words = words.split(' ').chain(["--out", &out]).chain(more.iter().copied());
     let answer = run(folder, &words.collect::<Vec<_>>());
     assert!(answer.code <= 1, "{command}: {}", answer.err);
-}
-
-fn json(path: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
 }
 
 #[test]

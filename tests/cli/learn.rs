@@ -8,6 +8,7 @@ use robot::Robot;
 use serde_json::Value;
 
 use crate::arm::{self, Gap};
+use crate::files::json;
 use crate::program::{Answer, plumbline, run};
 
 const LOGS: [&str; 7] =
@@ -15,10 +16,6 @@ const LOGS: [&str; 7] =
 
 fn learn(folder: &Path, more: &[&str]) -> Answer {
     run(folder, &[&["learn"], &LOGS[..], more].concat())
-}
-
-fn json(path: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
 }
 
 fn errors<'a>(comparison: &'a Value, model: &str) -> Vec<&'a Value> {

@@ -16,6 +16,7 @@ mod export;
 #[cfg(target_os = "linux")]
 mod faults;
 mod figure;
+mod files;
 mod foreign_files;
 mod impossible;
 mod learn;

@@ -1,6 +1,7 @@
 use std::fs;
 use std::path::Path;
 
+use crate::files::{names, workspace};
 use crate::program::{Answer, run};
 
 const ROBOT: &str = "robots/wam7/robot.toml";
@@ -20,22 +21,10 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn workspace() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
-}
-
 fn replay(folder: &Path, log: &str, more: &[&str]) -> Answer {
     let robot = workspace().join(ROBOT);
     let base = ["replay", "--robot", robot.to_str().unwrap(), "--log", log, "--out", "out"];
     run(folder, &[&base, more].concat())
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> =
-        entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::arm;
+use crate::files::json;
 use crate::program::{Answer, run};
 
 const SCENARIOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios");
@@ -36,7 +37,7 @@ fn made(folder: &Path, arguments: &[&str]) -> Answer {
 }
 
 fn metrics(out: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(out.join("metrics.json")).unwrap()).unwrap()
+    json(&out.join("metrics.json"))
 }
 
 /// The stages that were made, those that were there before left out.

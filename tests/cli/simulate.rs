@@ -10,6 +10,7 @@ use evaluation::{
 use simulator::scenario::Scenario;
 
 use crate::arm;
+use crate::files::workspace;
 use crate::program::{Answer, plumbline, run};
 
 const ROBOT: &str = "urdf = \"arm.urdf\"\n\
@@ -58,10 +59,6 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 
 fn names(files: &[(String, Vec<u8>)]) -> Vec<&str> {
     files.iter().map(|(name, _)| name.as_str()).collect()
-}
-
-fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 #[test]

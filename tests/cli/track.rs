@@ -10,6 +10,7 @@ use robot::Robot;
 use serde_json::Value;
 
 use crate::arm;
+use crate::files::{json, names};
 use crate::program::{Answer, plumbline, run};
 
 const SCENARIOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios");
@@ -44,22 +45,13 @@ fn track(folder: &Path, out: &str, more: &[&str]) -> Answer {
     run(folder, &[&["track", "tracking.toml", "--out", out], more].concat())
 }
 
-/// The names in a folder.
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
-fn json(out: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(out.join("tracking.json")).unwrap()).unwrap()
+fn comparison(out: &Path) -> Value {
+    json(&out.join("tracking.json"))
 }
 
 /// The runs without what a clock measured.
 fn timeless(out: &Path) -> Vec<Value> {
-    let mut models = json(out)["models"].as_array().unwrap().clone();
+    let mut models = comparison(out)["models"].as_array().unwrap().clone();
     models.iter_mut().for_each(|model| model["prediction_us"] = Value::Null);
     models
 }
@@ -103,7 +95,7 @@ fn everything_that_a_comparison_needs_is_written_and_told() {
         assert!((1000..=1001).contains(&log(&out.join("logs").join(name)).time.len()));
     }
 
-    let json = json(&out);
+    let json = comparison(&out);
     assert_eq!(json["schema"], "plumbline.tracking/1");
     assert_eq!(json["robot"], "wam7");
     assert_eq!(json["gains"]["name"], "low-quarter");
@@ -262,7 +254,7 @@ fn on_the_clock_on_the_wall_missed_deadlines_are_told() {
     let out = folder.path().join("out");
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("missed deadlines"));
-    for model in json(&out)["models"].as_array().unwrap() {
+    for model in comparison(&out)["models"].as_array().unwrap() {
         assert!(model["stopped"].is_null(), "{model}");
         let timing = |key: &str| model["timing"][key].as_f64().unwrap();
         assert!((1000.0..=1001.0).contains(&timing("ticks")));
@@ -287,7 +279,7 @@ fn a_log_that_cannot_be_made_whole_is_left_as_it_grew() {
     assert!(answer.out.contains("j4_elbow_pitch"), "{}", answer.out);
     assert_eq!(log(&logs.join("none.csv")).time.len(), 1000);
     is_recorded(&folder.path().join("out/recordings/none.rrd"), 2.0);
-    let warning = json(&folder.path().join("out"))["warnings"][0].to_string();
+    let warning = comparison(&folder.path().join("out"))["warnings"][0].to_string();
     assert!(warning.contains("none.parquet: it cannot be written"), "{warning}");
 }
 
@@ -379,7 +371,7 @@ fn a_run_that_ctrl_c_ends_is_whole_up_to_there() {
     assert_eq!(answer.code, 0, "{}", answer.err);
     assert!(answer.out.contains("Ctrl-C ended the run"), "{}", answer.out);
     let out = folder.path().join("out");
-    let model = &json(&out)["models"][0];
+    let model = &comparison(&out)["models"][0];
     assert_eq!(model["stopped"], "Ctrl-C ended the run");
     assert_eq!(names(&out.join("logs")), ["none.parquet"]);
     let log = log(&out.join("logs/none.parquet"));

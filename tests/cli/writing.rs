@@ -7,17 +7,10 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::arm::{self, Gap};
+use crate::files::names;
 use crate::program::{Answer, plumbline, run};
 
 const DIAGNOSE: [&str; 6] = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "run_1.csv"];
-
-fn names(folder: &Path) -> Vec<String> {
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let mut names: Vec<String> =
-        entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
 
 /// Runs a command where no file may become larger than so many kB, as on a disk that is full.
 #[cfg(target_os = "linux")]

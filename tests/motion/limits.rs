@@ -1,7 +1,7 @@
 //! What a joint may not do is refused, with the place, and what it may is not.
 
 use checks::synthetic::wam;
-use motion::{MotionError, Quantity};
+use motion::{LimitedQuantity, MotionError};
 use robot::Robot;
 
 use crate::support::{build, every_kind, gantry, sinusoids};
@@ -41,7 +41,7 @@ fn a_sine_that_just_passes_a_limit_is_refused_with_joint_time_and_value() {
         panic!("accepted");
     };
     assert_eq!((key.as_str(), joint.as_str(), unit), ("chirp", "j4_elbow_pitch", "rad"));
-    assert_eq!(quantity, Quantity::Position);
+    assert_eq!(quantity, LimitedQuantity::Position);
     assert!((time_s - 7.5).abs() < 1e-6 && (found + 0.900_01).abs() < 1e-9, "{time_s} {found}");
     assert!((low + 0.9).abs() < 1e-15 && (high - 3.1).abs() < 1e-15);
 }

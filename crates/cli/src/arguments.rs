@@ -310,7 +310,7 @@ pub enum Command {
     Simulate(simulate::Arguments),
     /// Learns models of the torque from logs and compares them on others
     #[command(after_help = format!("{LEARN_EXAMPLES}\n\n{LEARN_EXIT_CODES}"))]
-    Learn(learn::Arguments),
+    Learn(learn::arguments::Arguments),
     /// Compares a simulation with logs: motion under their torque, torque along their motion
     #[command(after_help = format!("{REPLAY_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Replay(replay::Arguments),

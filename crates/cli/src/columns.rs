@@ -9,10 +9,10 @@ use logs::{
 };
 use robot::Robot;
 
-use crate::doubts::needed_gb;
 use crate::error::CliError;
 use crate::input::seconds;
-use crate::output::{tell, warn};
+use crate::input_warnings::needed_gb;
+use crate::messages::{tell, warn};
 
 /// How the columns of logs are called.
 #[derive(Debug, clap::Args)]
@@ -50,7 +50,7 @@ pub struct ExcerptArguments {
 }
 
 impl ExcerptArguments {
-    /// What of a log is read, where that is not the whole.
+    /// The part of a log that is read; none for the whole log.
     fn excerpt(self) -> Option<Excerpt> {
         let Self { from_s, to_s } = self;
         from_s.or(to_s)?;
@@ -67,27 +67,33 @@ pub struct LengthArguments {
     pub all_samples: bool,
 }
 
-impl ColumnArguments {
-    /// The runs of some files, or what takes part of them.
+/// How the logs of a command are read.
+#[derive(Debug, clap::Args)]
+pub struct LogArguments {
+    /// How their columns are called
+    #[command(flatten)]
+    pub columns: ColumnArguments,
+    /// How much of them takes part
+    #[command(flatten)]
+    pub length: LengthArguments,
+}
+
+impl LogArguments {
+    /// The runs of some files, or the part of them that is used.
     ///
     /// # Errors
     ///
     /// [`CliError::Log`] of the first file that cannot be used, or of the map.
-    pub fn read_runs(
-        &self,
-        paths: &[PathBuf],
-        robot: &Robot,
-        length: LengthArguments,
-    ) -> Result<Vec<Run>, CliError> {
-        let reader = self.reader()?;
+    pub fn read_runs(&self, paths: &[PathBuf], robot: &Robot) -> Result<Vec<Run>, CliError> {
+        let reader = self.columns.reader()?;
         let mut runs = Vec::new();
         for path in paths {
-            let asked = self.episodes_of(path)?;
-            for episode in asked.each() {
+            let selected = self.columns.episodes_of(path)?;
+            for episode in selected.iter() {
                 runs.push(reader.read(path, episode, robot)?);
             }
         }
-        let most = if length.all_samples { usize::MAX } else { ENOUGH_SAMPLES };
+        let most = if self.length.all_samples { usize::MAX } else { ENOUGH_SAMPLES };
         let runs = stretches(runs, most);
         if let Some(taken) = runs.iter().flat_map(|run| &run.mended).find_map(Mend::taken) {
             tell(&format_args!(
@@ -98,27 +104,34 @@ impl ColumnArguments {
         Ok(runs)
     }
 
-    /// The runs at a path: of a dataset of LeRobot the episodes that are asked for, of any other log
-    /// one, which is no episode.
+    /// The file of the map, if it is one.
+    pub fn map_file(&self) -> Option<&Path> {
+        self.columns.map_file()
+    }
+}
+
+impl ColumnArguments {
+    /// The runs at a path: the selected episodes of a LeRobot dataset, or the one run of any other
+    /// log.
     ///
     /// # Errors
     ///
     /// [`CliError::Log`], and [`CliError::NoEpisode`] where episodes are asked for that are not there.
-    pub fn episodes_of(&self, path: &Path) -> Result<Asked, CliError> {
+    pub fn episodes_of(&self, path: &Path) -> Result<SelectedRuns, CliError> {
         let dataset = Dataset::open(path).map_err(LogError::from)?;
         let all = dataset.as_ref().map_or_else(
             || vec![None],
             |dataset| dataset.episodes().into_iter().map(Some).collect(),
         );
         if self.episodes.is_empty() {
-            return Ok(Asked { dataset, numbers: all });
+            return Ok(SelectedRuns { dataset, numbers: all });
         }
         let is_asked = |episode: u64| self.episodes.iter().any(|range| range.contains(&episode));
         let numbers: Vec<_> = all.into_iter().filter(|e| e.is_some_and(is_asked)).collect();
         if numbers.is_empty() {
             return Err(CliError::NoEpisode { path: path.to_owned() });
         }
-        Ok(Asked { dataset, numbers })
+        Ok(SelectedRuns { dataset, numbers })
     }
 
     /// The file of the map, if it is one.
@@ -129,10 +142,10 @@ impl ColumnArguments {
     /// What reads the logs; the file of a map is read once for all of them.
     pub fn reader(&self) -> Result<Reader<'_>, CliError> {
         let map = self.map_file().map(ColumnMap::load).transpose()?;
-        Ok(Reader { arguments: self, map, told: Mutex::default() })
+        Ok(Reader { arguments: self, map, notes: Mutex::default() })
     }
 
-    /// The preset that is asked for by name; a file of that name counts more.
+    /// The preset of the given name, unless a file has that name.
     fn preset(&self) -> Option<&'static str> {
         let path = self.map.as_deref().filter(|path| !path.exists())?;
         logs::preset_names().into_iter().find(|name| path.as_os_str() == *name)
@@ -140,7 +153,7 @@ impl ColumnArguments {
 }
 
 /// The runs at a path that are asked for.
-pub struct Asked {
+pub struct SelectedRuns {
     dataset: Option<Dataset>,
     /// The episode that each run is; none of a log that is no dataset.
     numbers: Vec<Option<u64>>,
@@ -155,20 +168,20 @@ pub struct Episode<'a> {
     dataset: Option<&'a Dataset>,
 }
 
-impl Asked {
+impl SelectedRuns {
     /// The runs in their order.
-    pub fn each(&self) -> impl Iterator<Item = Episode<'_>> {
+    pub fn iter(&self) -> impl Iterator<Item = Episode<'_>> {
         let dataset = self.dataset.as_ref();
         self.numbers.iter().map(move |&number| Episode { number, dataset })
     }
 }
 
-/// Reads logs whose columns are called alike.
+/// Reads logs with the same names of columns.
 pub struct Reader<'a> {
     arguments: &'a ColumnArguments,
     map: Option<ColumnMap>,
-    /// What was said of maps that were recognised; once is enough.
-    told: Mutex<BTreeSet<String>>,
+    /// Notes about recognised maps that were printed, each once.
+    notes: Mutex<BTreeSet<String>>,
 }
 
 impl Reader<'_> {
@@ -182,8 +195,7 @@ impl Reader<'_> {
 
     /// The run of a file, or of an episode of a dataset.
     ///
-    /// Where the usual columns are not there and those of a program that is known are, these are
-    /// read, and said.
+    /// Where the usual columns are absent, those of a known program are read, and a note says so.
     pub fn read(&self, path: &Path, episode: Episode<'_>, robot: &Robot) -> Result<Run, CliError> {
         let options = self.options(episode);
         if let Some(name) = self.arguments.preset() {
@@ -242,7 +254,7 @@ impl Reader<'_> {
 
     fn tell(&self, found: &Recognised) {
         let note = format!("columns are read as --map {}: {}", found.name, found.words);
-        let is_new = self.told.lock().is_ok_and(|mut told| told.insert(note.clone()));
+        let is_new = self.notes.lock().is_ok_and(|mut notes| notes.insert(note.clone()));
         if is_new {
             tell(&format_args!("note: {note}"));
         }

@@ -13,10 +13,13 @@ use report::ReportError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
-use crate::commands::design::DesignError;
 use crate::commands::trials::SubmitError;
-use crate::commands::view::INSTALLATION;
-use crate::output::tell;
+use crate::design_error::DesignError;
+use crate::messages::tell;
+
+/// How to get the viewer of recordings, in the version that they are written for.
+pub const VIEWER_INSTALLATION: &str =
+    "pip install rerun-sdk==0.36.3, or cargo install rerun-cli --version 0.36.3 --locked";
 
 /// Why a command did not run to its end.
 #[derive(Debug, thiserror::Error)]
@@ -119,7 +122,7 @@ pub enum CliError {
         /// What the operating system said.
         reason: String,
     },
-    /// The robot with the findings is none that can be described.
+    /// The robot with the findings cannot be described.
     #[error("the extended model cannot be written: {0}")]
     Extended(RobotError),
     /// The robot cannot be written in another format.
@@ -317,7 +320,7 @@ impl CliError {
             Self::Learner(LearnerError::Memory { .. }) => {
                 Some("--points N, or a model -inducing, which takes all samples")
             }
-            Self::NoViewer { .. } => Some(INSTALLATION),
+            Self::NoViewer { .. } => Some(VIEWER_INSTALLATION),
             Self::Submit(error) => error.help(),
             Self::NotOpened { .. } => Some("plumbline view --print names the files"),
             Self::Evaluation(error) => {

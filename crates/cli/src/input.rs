@@ -6,7 +6,7 @@ use logs::Run;
 use report::{FileHash, Provenance, ReportError};
 use robot::{LoadOptions, Loaded, MeshFolders, Packages, Robot, RobotError};
 
-use crate::commands::explain;
+use crate::effect_name::find_effect;
 use crate::invocation;
 use crate::output::shown;
 
@@ -40,6 +40,41 @@ impl PartArguments {
         let joints = (!self.joints.is_empty()).then(|| self.joints.clone());
         let meshes = if self.allow_outside { MeshFolders::Anywhere } else { MeshFolders::Below };
         Robot::load_with(path, &LoadOptions { joints, packages, meshes })
+    }
+}
+
+/// The robot of a command, and the part of it that is meant.
+#[derive(Debug, clap::Args)]
+pub struct RobotArguments {
+    /// The robot: a robot.urdf, or a robot.toml that names one
+    #[arg(long, value_name = "FILE")]
+    pub robot: PathBuf,
+    /// The part of it that is meant
+    #[command(flatten)]
+    pub part: PartArguments,
+}
+
+impl RobotArguments {
+    /// The robot, or the part of it that is meant.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Robot::load_with`].
+    pub fn load(&self) -> Result<Loaded, RobotError> {
+        self.part.load(&self.robot)
+    }
+
+    /// This program, its command line, and the files that describe the robot and its logs.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Unreadable`].
+    pub fn provenance(
+        &self,
+        loaded: &Loaded,
+        map: Option<&Path>,
+    ) -> Result<Provenance, ReportError> {
+        provenance(&self.robot, loaded, map)
     }
 }
 
@@ -131,7 +166,7 @@ pub fn hashes_of(runs: &[Run]) -> impl Iterator<Item = FileHash> {
 
 /// An effect of an option, by name or code.
 fn effect(name: &str) -> Result<EffectKind, String> {
-    explain::find(name).map_err(|error| error.to_string())
+    find_effect(name).map_err(|error| error.to_string())
 }
 
 /// A package of an option.

@@ -3,8 +3,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// The command line of this process, which is not that of the operating system where another program
-/// has called [`crate::main`].
+/// The command line of this call. It differs from that of the operating system where another
+/// program has called [`crate::main`].
 static COMMAND_LINE: OnceLock<Vec<OsString>> = OnceLock::new();
 
 /// Keeps the command line that the program was started with; the first one counts.

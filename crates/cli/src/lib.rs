@@ -10,44 +10,44 @@
 mod arguments;
 mod columns;
 mod commands;
-mod doubts;
+mod design_error;
+mod effect_facts;
+mod effect_name;
 mod error;
+mod exit_status;
 mod input;
+mod input_warnings;
 mod invocation;
 mod loss;
+mod messages;
 mod output;
 mod progress;
 mod watch;
 
 use std::ffi::OsString;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
     compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
     replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
 };
+use crate::exit_status::ExitStatus;
+// For the files of the benchmark, which move out.
+use crate::exit_status::ExitStatus as Outcome;
 
-pub use crate::columns::{ColumnArguments, ExcerptArguments, LengthArguments};
-pub use crate::commands::design::{
-    DiagnosisFile, Searched as SearchedMotion, Wanted as WantedMotion,
+pub use crate::columns::{ColumnArguments, ExcerptArguments};
+pub use crate::commands::design::diagnosis_file::DiagnosisFile;
+pub use crate::commands::design::motion_design::{MotionDesign, MotionRequest};
+pub use crate::commands::diagnose::{
+    write as write_diagnosis, write_recording as record_diagnosis,
 };
-pub use crate::commands::diagnose::{recorded as record_diagnosis, write as write_diagnosis};
-pub use crate::commands::explain::find as find_effect;
-pub use crate::commands::track::{Asked as AskedTracking, Tracked as TrackedMotion};
-pub use crate::doubts::doubts;
+pub use crate::commands::track::tracking_result::{TrackingRequest, TrackingResult};
+pub use crate::effect_name::find_effect;
 pub use crate::error::CliError;
 pub use crate::input::{PartArguments, SearchArguments, hashes_of, provenance_of};
-
-/// How a command that ran to its end turned out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Outcome {
-    /// Exit code 0.
-    Good,
-    /// A gap is left or an inertia is impossible: exit code 1.
-    Gap,
-}
+pub use crate::input_warnings::input_warnings;
 
 /// Runs the program with a command line, whose first argument is the program's own name, and gives its
 /// exit code.
@@ -57,8 +57,7 @@ pub fn main(command_line: Vec<OsString>) -> u8 {
     let arguments = Arguments::parse_from(&command_line);
     invocation::keep(command_line);
     match run(&arguments) {
-        Ok(Outcome::Good) => 0,
-        Ok(Outcome::Gap) => 1,
+        Ok(status) => status.code(),
         Err(error) => {
             error.print();
             error.exit_code()
@@ -66,7 +65,7 @@ pub fn main(command_line: Vec<OsString>) -> u8 {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     match &arguments.command {
         Command::Demo(arguments) => demo::run(arguments),
         Command::Run(arguments) => run_scenario::run(arguments),
@@ -86,7 +85,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Trials(action) => trials::run(action),
         Command::View(arguments) => view::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
-        Command::Completions(arguments) => completions::run(arguments),
-        Command::Man(arguments) => man::run(arguments),
+        Command::Completions(arguments) => completions::run(arguments, Arguments::command()),
+        Command::Man(arguments) => man::run(arguments, Arguments::command()),
     }
 }

@@ -6,13 +6,14 @@ use logs::Run;
 use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 
-use crate::columns::{ColumnArguments, LengthArguments};
-use crate::doubts::read_as_they_are;
+use crate::columns::LogArguments;
 use crate::error::CliError;
 use crate::input::PartArguments;
-use crate::output::{shown, table, warn};
+use crate::input_warnings::correct_runs;
+use crate::messages::warn;
+use crate::output::{shown, table};
 
-/// Logs that an export is held against.
+/// Logs that exports are tested on.
 #[derive(Debug, clap::Args)]
 pub struct LossArguments {
     /// Logs that the diagnosis has not seen: the torque error of what each file holds is printed beside those
@@ -23,12 +24,10 @@ pub struct LossArguments {
     #[arg(long, value_name = "FILE", requires = "logs")]
     nominal: Option<PathBuf>,
     #[command(flatten)]
-    columns: ColumnArguments,
-    #[command(flatten)]
-    length: LengthArguments,
+    reading: LogArguments,
 }
 
-/// What the torque errors of descriptions of a robot on held-out logs are.
+/// Torque errors of descriptions of a robot on held-out logs.
 #[derive(Serialize)]
 pub struct Loss {
     logs: Vec<String>,
@@ -57,18 +56,19 @@ impl LossArguments {
     /// [`CliError`] of a log, or of a nominal robot, that cannot be used.
     pub fn measure<'a>(
         &self,
-        (path, loaded): (&Path, &Loaded),
+        path: &Path,
+        loaded: &Loaded,
         part: &PartArguments,
         exports: impl Iterator<Item = (&'static str, String, &'a Export)>,
     ) -> Result<Option<Loss>, CliError> {
         if self.logs.is_empty() {
             return Ok(None);
         }
-        let (nominal, name) = self.nominal((path, loaded), part)?;
-        let runs = self.columns.read_runs(&self.logs, &loaded.robot, self.length)?;
-        let runs = read_as_they_are(loaded, &runs).unwrap_or(runs);
+        let (nominal, name) = self.nominal(path, loaded, part)?;
+        let runs = self.reading.read_runs(&self.logs, &loaded.robot)?;
+        let runs = correct_runs(loaded, &runs).unwrap_or(runs);
         let error = |model, described_by, robot: &Robot| {
-            ModelError::of(model, described_by, robot, (loaded.control.rate_hz, &runs))
+            ModelError::measure(model, described_by, robot, loaded.control.rate_hz, &runs)
         };
         let mut models =
             vec![error("nominal", name, &nominal)?, error("extended", shown(path), &loaded.robot)?];
@@ -85,11 +85,14 @@ impl LossArguments {
     /// The robot before the findings, and where it is described.
     fn nominal(
         &self,
-        (path, loaded): (&Path, &Loaded),
+        path: &Path,
+        loaded: &Loaded,
         part: &PartArguments,
     ) -> Result<(Robot, String), CliError> {
-        let found =
-            self.nominal.clone().or_else(|| diagnosed(&path.with_file_name("diagnosis.json")));
+        let found = self
+            .nominal
+            .clone()
+            .or_else(|| diagnosed_robot(&path.with_file_name("diagnosis.json")));
         let Some(file) = found else {
             let name = shown(&loaded.urdf_path);
             warn(&format!("nominal is what {name} says alone; --nominal names another robot"));
@@ -104,11 +107,12 @@ impl LossArguments {
 }
 
 impl ModelError {
-    fn of(
+    fn measure(
         model: &'static str,
         described_by: String,
         robot: &Robot,
-        (rate_hz, runs): (Option<f64>, &[Run]),
+        rate_hz: Option<f64>,
+        runs: &[Run],
     ) -> Result<Self, CliError> {
         let rms_nm = evaluation::robot_error(robot, rate_hz, runs)?;
         let all_nm = rms_nm.iter().flatten().map(|rms| rms * rms).sum::<f64>().sqrt();
@@ -142,29 +146,29 @@ impl Loss {
     }
 }
 
-/// What is read of a diagnosis.json.
+/// The part of a diagnosis.json that is read here.
 #[derive(Deserialize)]
-struct Told {
+struct DiagnosisSources {
     provenance: Provenance,
 }
 
 #[derive(Deserialize)]
 struct Provenance {
-    files: Vec<Read>,
+    files: Vec<SourceFile>,
 }
 
 /// A file that a diagnosis has read.
 #[derive(Deserialize)]
-struct Read {
+struct SourceFile {
     role: String,
     path: PathBuf,
     sha256: String,
 }
 
-/// The robot that a diagnosis was made with, where it is still there as it was.
-fn diagnosed(diagnosis: &Path) -> Option<PathBuf> {
-    let told: Told = serde_json::from_slice(&fs::read(diagnosis).ok()?).ok()?;
-    let robot = told.provenance.files.into_iter().find(|file| file.role == "robot")?;
+/// The file of the robot that was diagnosed, if it is unchanged.
+fn diagnosed_robot(diagnosis: &Path) -> Option<PathBuf> {
+    let sources: DiagnosisSources = serde_json::from_slice(&fs::read(diagnosis).ok()?).ok()?;
+    let robot = sources.provenance.files.into_iter().find(|file| file.role == "robot")?;
     let is_as_it_was = report::sha256_of(&robot.path).is_ok_and(|hash| hash == robot.sha256);
     is_as_it_was.then_some(robot.path)
 }

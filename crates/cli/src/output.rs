@@ -1,13 +1,13 @@
-use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-use anstyle::AnsiColor;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
+use report::ReportError;
 use serde::Serialize;
 
 use crate::error::CliError;
+use crate::messages::tell;
 
 /// Prints text on the standard output, its colours only where they are wanted.
 ///
@@ -34,6 +34,27 @@ pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
     print(&(text + "\n"))
 }
 
+/// Prints the answer of a command: its text and where the files lie, or its JSON. With JSON, where
+/// the files lie goes to the standard error. A quiet command prints the JSON alone.
+///
+/// # Errors
+///
+/// [`CliError::Output`].
+pub fn print_answer(
+    quiet: bool,
+    json: Option<&str>,
+    text: impl FnOnce() -> String,
+    closing: &str,
+) -> Result<(), CliError> {
+    json.map_or(Ok(()), print)?;
+    match (quiet, json) {
+        (true, _) => {}
+        (false, Some(_)) => tell(&closing.trim_end()),
+        (false, None) => print(&format!("{}\n{closing}", text()))?,
+    }
+    Ok(())
+}
+
 /// A table without lines, numbers to the right, for a terminal of any width.
 ///
 /// Columns whose header starts with `>` are aligned to the right.
@@ -53,22 +74,21 @@ pub fn table(header: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> St
     lines.collect()
 }
 
-/// Prints a line on the standard error, its colours only where they are wanted.
-///
-/// One that cannot be written, as on a full disk, is left out: the answer and the exit code stand without it.
-pub fn tell(what: &dyn Display) {
-    let _ = writeln!(anstream::stderr().lock(), "{what}");
-}
-
-/// Prints a warning on the standard error.
-pub fn warn(what: &dyn Display) {
-    let yellow = AnsiColor::Yellow.on_default();
-    tell(&format_args!("{yellow}warning:{yellow:#} {what}"));
-}
-
 /// The file as it was given, for messages and provenance.
 pub fn shown(path: &Path) -> String {
     path.display().to_string()
+}
+
+/// Refuses an output folder that is a file.
+///
+/// # Errors
+///
+/// [`ReportError::NotAFolder`].
+pub fn refuse_file(folder: &Path) -> Result<(), ReportError> {
+    if folder.exists() && !folder.is_dir() {
+        return Err(ReportError::NotAFolder { path: folder.to_owned() });
+    }
+    Ok(())
 }
 
 /// The output folder, made before the work so that none is lost.

@@ -2,7 +2,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::output::tell;
+use crate::messages::tell;
 
 /// Work that is done sooner is not worth a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -34,6 +34,14 @@ impl Bar {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
     }
+}
+
+/// Does some work under a bar, or without one where nothing is to be printed.
+pub fn with_bar<T>(quiet: bool, work: impl FnOnce(&dyn diagnosis::Progress) -> T) -> T {
+    let bar = Bar::new();
+    let done = work(if quiet { &diagnosis::Silent } else { &bar });
+    bar.finish();
+    done
 }
 
 impl diagnosis::Progress for Bar {

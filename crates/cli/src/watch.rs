@@ -3,7 +3,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::CliError;
-use crate::output::tell;
+use crate::messages::tell;
 use crate::progress::Line;
 
 /// Exit code of a program that Ctrl-C has ended.
@@ -22,7 +22,7 @@ pub struct Watch {
     /// Seconds of motion simulated since it began.
     seconds: AtomicUsize,
     stop: Arc<AtomicBool>,
-    /// Whether a search was ended since it was last asked.
+    /// Whether a search was ended since the last query.
     ended: AtomicBool,
 }
 
@@ -61,7 +61,7 @@ impl Watch {
         self.line.iter().for_each(|line| line.leave(words));
     }
 
-    /// Something is done that has no stages of its own.
+    /// Begins work that has no stages of its own.
     pub fn begin(&self, what: &str) {
         *self.stage.lock().unwrap_or_else(PoisonError::into_inner) =
             [what.to_owned(), String::new()];
@@ -74,7 +74,7 @@ impl Watch {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Whether a search was ended since the last time that this was asked.
+    /// Whether a search was ended since the last call.
     pub fn took_an_end(&self) -> bool {
         self.ended.swap(false, Ordering::Relaxed)
     }

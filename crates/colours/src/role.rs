@@ -1,4 +1,4 @@
-use crate::Colour;
+use crate::colour::Colour;
 
 /// What a curve shows, which decides its colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,7 +62,7 @@ pub fn model(index: usize) -> Colour {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Rgb;
+    use crate::colour::Rgb;
     use crate::sight::{contrast, least_difference};
 
     /// A ground, and which of a colour's two values stands on it.

@@ -1,6 +1,6 @@
 //! How far apart colours are for eyes with three cones and with two.
 
-use crate::Rgb;
+use crate::colour::Rgb;
 
 /// Linear sRGB as seen without one of the cones: Machado, Oliveira & Fernandes, *A Physiologically-based
 /// Model for Simulation of Color Vision Deficiency*, IEEE TVCG 15(6), 2009, severity 1.0; and as it is.

@@ -8,8 +8,8 @@ use serde::de::{
 };
 use serde::forward_to_deserialize_any;
 
-use crate::Segment;
 use crate::fault::Fault;
+use crate::key_path::Segment;
 use crate::names::one_of;
 use crate::node::{Node, Value};
 
@@ -23,14 +23,14 @@ impl<'de> Deserializer<'de> for &'de Node {
             Value::Float(number) => visitor.visit_f64(*number),
             Value::Boolean(value) => visitor.visit_bool(*value),
             Value::Date(_) => {
-                Err(Fault::invalid_type(Unexpected::Other(&self.described()), &visitor))
+                Err(Fault::invalid_type(Unexpected::Other(&self.describe()), &visitor))
             }
             Value::Array(array) => {
                 let mut entries = Entries { rest: array.iter(), index: 0 };
                 let value = visitor.visit_seq(&mut entries)?;
                 if entries.rest.len() > 0 {
                     let expected = format!("an array of {}", entries.index);
-                    return Err(Fault::expected(&expected, &self.described()));
+                    return Err(Fault::expected(&expected, &self.describe()));
                 }
                 Ok(value)
             }
@@ -59,7 +59,7 @@ impl<'de> Deserializer<'de> for &'de Node {
         let table = match &self.value {
             Value::String(name) => return visitor.visit_enum(Variant { name, content: None }),
             Value::Table(table) => table,
-            _ => return Err(Fault::expected(&one_of(variants), &self.described())),
+            _ => return Err(Fault::expected(&one_of(variants), &self.describe())),
         };
         let mut entries = table.iter();
         match (entries.next(), entries.next()) {
@@ -144,7 +144,7 @@ struct Variant<'de> {
 }
 
 impl Variant<'_> {
-    fn located(&self, fault: Fault) -> Fault {
+    fn locate(&self, fault: Fault) -> Fault {
         match self.content {
             Some(_) => fault.inside(Segment::Key(self.name.to_owned())),
             None => fault,
@@ -180,18 +180,18 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
         match self.content {
             Some(node) => {
                 let form = format!("\"{}\"", self.name);
-                Err(self.located(Fault::expected(&form, &node.described())))
+                Err(self.locate(Fault::expected(&form, &node.describe())))
             }
             None => Ok(()),
         }
     }
 
     fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Fault> {
-        seed.deserialize(self.content()?).map_err(|fault| self.located(fault))
+        seed.deserialize(self.content()?).map_err(|fault| self.locate(fault))
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, _len: usize, visitor: V) -> Result<V::Value, Fault> {
-        self.content()?.deserialize_any(visitor).map_err(|fault| self.located(fault))
+        self.content()?.deserialize_any(visitor).map_err(|fault| self.locate(fault))
     }
 
     fn struct_variant<V: Visitor<'de>>(

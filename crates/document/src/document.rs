@@ -3,10 +3,12 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
-use crate::names::unknown;
+use crate::error::DocumentError;
+use crate::key_path::{KeyPath, Segment};
+use crate::names::unknown_name;
 use crate::node::{Node, Value};
-use crate::place::{Origin, Source};
-use crate::{DocumentError, KeyPath, Segment, read, set};
+use crate::source::{Origin, Source};
+use crate::{read, set};
 
 /// A TOML document, every value of which knows the file, line and column it comes from.
 ///
@@ -54,7 +56,7 @@ impl Document {
         read::read(path.as_ref()).map(|root| Self { root })
     }
 
-    /// Reads a text of the program's own, which `name` stands for in mistakes.
+    /// Reads a text of the program's own; mistakes show it under `name`.
     ///
     /// # Errors
     ///
@@ -77,7 +79,7 @@ impl Document {
     /// Puts the value of `path=value` into the document, in place of what is there.
     ///
     /// The path is a [`KeyPath`]; the value is TOML, or else a string as it stands, unless it
-    /// begins with a quote or bracket. Where nothing stands on the way, tables are made.
+    /// begins with a quote or bracket. Missing tables on the path are created.
     ///
     /// # Errors
     ///
@@ -90,17 +92,16 @@ impl Document {
 
     /// The document as a value of type `T`.
     ///
-    /// Enumerations are best written the way serde does without attributes,
-    /// `coulomb_friction = { level_nm = 0.6 }`: what it has to put aside before it knows the
-    /// type (`tag`, `untagged`, `flatten`) loses its place, and a mistake in it is shown at
-    /// the table around. A date is no value of any type.
+    /// Enumerations are best written the way serde does without attributes, `coulomb_friction = {
+    /// level_nm = 0.6 }`: serde buffers the values of `tag`, `untagged` and `flatten` before it
+    /// knows their type, and a mistake in them is shown at the table around. No type takes a date.
     ///
     /// # Errors
     ///
     /// [`DocumentError::Mistake`] at the first value that `T` does not take, the first key
     /// that it does not know, or the table in which it misses one.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, DocumentError> {
-        T::deserialize(&self.root).map_err(|fault| fault.located(&self.root))
+        T::deserialize(&self.root).map_err(|fault| fault.locate(&self.root))
     }
 
     /// A mistake that only the meaning of a value shows.
@@ -119,7 +120,7 @@ impl Document {
         DocumentError::at(place, path.clone(), &message.into(), help)
     }
 
-    /// The mistake that `found` at `path` is none of the names that were `expected`.
+    /// The mistake of a name `found` at `path` that is not among the `expected` ones.
     ///
     /// It is shown at the value at `path` where `found` is that value, and at the key where
     /// `found` is the key at the end of `path`. `what` says what the names are, such as
@@ -132,7 +133,7 @@ impl Document {
         found: &str,
         expected: &[&str],
     ) -> DocumentError {
-        let (message, help) = unknown(what, found, expected);
+        let (message, help) = unknown_name(what, found, expected);
         let node = self.root.nearest(path.segments());
         let is_value = matches!(&node.value, Value::String(text) if text == found);
         let is_key = matches!(path.segments().last(), Some(Segment::Key(key)) if key == found);
@@ -165,7 +166,7 @@ mod tests {
     use toml::{Table, Value};
 
     use super::*;
-    use crate::Coloring;
+    use crate::error::Coloring;
 
     fn value() -> impl Strategy<Value = Value> {
         let leaf = prop_oneof![

@@ -2,8 +2,8 @@ use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
 
-use crate::place::{Origin, printable};
-use crate::{KeyPath, Place};
+use crate::key_path::KeyPath;
+use crate::source::{Origin, SourceSpan, printable};
 
 /// How an assignment is given on the command line.
 const SET: &str = "--set ";
@@ -20,7 +20,7 @@ pub enum DocumentError {
         /// What was found instead of a text.
         reason: String,
     },
-    /// A text that should be a [`KeyPath`] is none.
+    /// A text is not a [`KeyPath`].
     #[error("key path {text}, column {column}: {reason}")]
     NotAKeyPath {
         /// The text.
@@ -34,7 +34,7 @@ pub enum DocumentError {
     #[error("{place}: {}{message}", subject(path))]
     Mistake {
         /// Where it stands.
-        place: Box<Place>,
+        place: Box<SourceSpan>,
         /// Where it stands in the document; the root for what has no place there.
         path: KeyPath,
         /// What was found and what was expected.
@@ -44,18 +44,23 @@ pub enum DocumentError {
     },
 }
 
-/// Whether a text holds the escape codes that make a terminal colour it.
+/// Whether a text contains colour codes for a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coloring {
-    /// It holds none.
+    /// No colour codes.
     Plain,
-    /// It holds those of ANSI.
+    /// ANSI colour codes.
     Ansi,
 }
 
 impl DocumentError {
     /// A mistake with a sentence in one line, in which nothing controls the terminal.
-    pub(crate) fn at(place: Place, path: KeyPath, message: &str, help: Option<String>) -> Self {
+    pub(crate) fn at(
+        place: SourceSpan,
+        path: KeyPath,
+        message: &str,
+        help: Option<String>,
+    ) -> Self {
         Self::Mistake { place: Box::new(place), path, message: printable(message), help }
     }
 
@@ -93,7 +98,7 @@ impl DocumentError {
         let snippet = Snippet::source(text).path(source.name()).annotation(underline.label(label));
         let mut group = Level::ERROR.primary_title(message).element(snippet);
         if let Some(help) = help {
-            group = group.element(Level::HELP.message(wrapped(&normalize_untrusted_str(help))));
+            group = group.element(Level::HELP.message(wrap(&normalize_untrusted_str(help))));
         }
         // The renderer shows the other control characters, these it lets through.
         renderer.render(&[group]).replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
@@ -101,7 +106,7 @@ impl DocumentError {
 
     /// Where in a text the mistake is, if it is in one.
     #[must_use]
-    pub fn place(&self) -> Option<&Place> {
+    pub fn place(&self) -> Option<&SourceSpan> {
         match self {
             Self::Mistake { place, .. } => Some(place),
             Self::Unreadable { .. } | Self::NotAKeyPath { .. } => None,
@@ -117,7 +122,7 @@ pub(crate) fn syntax(error: &toml::de::Error) -> String {
 }
 
 /// A text in lines that a terminal holds.
-fn wrapped(text: &str) -> String {
+fn wrap(text: &str) -> String {
     const WIDTH: usize = 88;
     let mut lines = String::new();
     let mut column = 0;
@@ -145,9 +150,9 @@ mod tests {
     #[test]
     fn a_long_help_is_broken_between_words() {
         let words = "expected `viscous_friction` or ".repeat(12);
-        let lines = wrapped(&words);
+        let lines = wrap(&words);
         assert!(lines.lines().count() > 3 && lines.lines().all(|line| line.len() <= 88), "{lines}");
         assert_eq!(lines.replace('\n', " "), words);
-        assert_eq!(wrapped("short"), "short");
+        assert_eq!(wrap("short"), "short");
     }
 }

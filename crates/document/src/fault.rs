@@ -2,11 +2,13 @@ use std::fmt;
 
 use serde::de::{self, Expected, Unexpected};
 
-use crate::names::unknown;
-use crate::node::{Node, quoted};
-use crate::{DocumentError, KeyPath, Segment};
+use crate::error::DocumentError;
+use crate::key_path::{KeyPath, Segment};
+use crate::names::unknown_name;
+use crate::node::{Node, quote};
 
-/// What a type finds wrong with a value; where, is added on the way out of the document.
+/// What is wrong with a value, as its type reports it. The place is added while the error leaves
+/// the document.
 #[derive(Debug)]
 pub(crate) struct Fault {
     message: String,
@@ -40,7 +42,7 @@ impl Fault {
     }
 
     /// The fault with the place that it has in a document.
-    pub(crate) fn located(self, root: &Node) -> DocumentError {
+    pub(crate) fn locate(self, root: &Node) -> DocumentError {
         let path: KeyPath = self.way_out.into_iter().rev().collect();
         let node = root.nearest(path.segments());
         let place = match self.part {
@@ -61,11 +63,11 @@ impl de::Error for Fault {
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::expected(&in_words(expected), &described(found))
+        Self::expected(&in_words(expected), &describe(found))
     }
 
     fn invalid_value(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::expected(&in_words(expected), &described(found))
+        Self::expected(&in_words(expected), &describe(found))
     }
 
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
@@ -73,12 +75,12 @@ impl de::Error for Fault {
     }
 
     fn unknown_variant(found: &str, expected: &'static [&'static str]) -> Self {
-        let (message, help) = unknown("name", found, expected);
+        let (message, help) = unknown_name("name", found, expected);
         Self::new(message, Some(help))
     }
 
     fn unknown_field(found: &str, expected: &'static [&'static str]) -> Self {
-        let (message, help) = unknown("key", found, expected);
+        let (message, help) = unknown_name("key", found, expected);
         Self::new(message, Some(help))
     }
 
@@ -96,13 +98,13 @@ impl fmt::Display for Fault {
 }
 
 /// What serde found, as TOML calls it.
-fn described(found: Unexpected<'_>) -> String {
+fn describe(found: Unexpected<'_>) -> String {
     match found {
         Unexpected::Bool(value) => value.to_string(),
         Unexpected::Signed(number) => number.to_string(),
         Unexpected::Unsigned(number) => number.to_string(),
         Unexpected::Float(number) => format!("{number:?}"),
-        Unexpected::Str(text) => quoted(text),
+        Unexpected::Str(text) => quote(text),
         Unexpected::Seq => "an array".to_owned(),
         Unexpected::Map => "a table".to_owned(),
         Unexpected::UnitVariant => "its name alone".to_owned(),

@@ -22,12 +22,13 @@ mod key_path;
 mod mistakes;
 mod names;
 mod node;
-mod place;
+mod parse_key_path;
 mod read;
 mod set;
+mod source;
 
 pub use document::Document;
 pub use error::{Coloring, DocumentError};
 pub use key_path::{KeyPath, Segment};
 pub use names::suggest;
-pub use place::Place;
+pub use source::SourceSpan;

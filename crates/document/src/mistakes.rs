@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::{Coloring, Document, DocumentError, KeyPath};
+use crate::document::Document;
+use crate::error::{Coloring, DocumentError};
+use crate::key_path::KeyPath;
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]

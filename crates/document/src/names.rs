@@ -39,7 +39,7 @@ pub(crate) fn one_of(names: &[&str]) -> String {
 }
 
 /// The sentence and the help for a name that none of `expected` is.
-pub(crate) fn unknown(what: &str, found: &str, expected: &[&str]) -> (String, String) {
+pub(crate) fn unknown_name(what: &str, found: &str, expected: &[&str]) -> (String, String) {
     let hint = suggest(found, expected.iter().copied());
     let hint = hint.map_or_else(String::new, |name| format!(", did you mean `{name}`?"));
     (format!("unknown {what} `{found}`{hint}"), format!("expected {}", one_of(expected)))

@@ -6,9 +6,8 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 use toml::value::Datetime;
 
-use crate::key_path::Quoted;
-use crate::place::Source;
-use crate::{Place, Segment};
+use crate::key_path::{Quoted, Segment};
+use crate::source::{Source, SourceSpan};
 
 /// Deepest nesting of tables and arrays.
 pub(crate) const DEEPEST: usize = 128;
@@ -18,7 +17,7 @@ pub(crate) const DEEPEST: usize = 128;
 pub(crate) struct Node {
     pub value: Value,
     pub source: Arc<Source>,
-    /// The key that it is the value of; what stands for itself in an array.
+    /// The span of its key; in an array, the span of the value itself.
     pub key: Range<usize>,
     /// The value; for a table under a header, the header.
     pub span: Range<usize>,
@@ -49,7 +48,7 @@ impl Node {
     /// The value written at `span` of a text.
     pub(crate) fn value_at(source: &Arc<Source>, span: Range<usize>) -> Result<Self, Wrong> {
         let layer = Layer { source, offset: span.start };
-        let there = |range| layer.shifted(range);
+        let there = |range| layer.shift(range);
         let text = source.text.get(span.clone()).unwrap_or_default();
         let value = DeValue::parse(text)
             .map_err(syntax)
@@ -89,19 +88,19 @@ impl Node {
     }
 
     /// Where the value stands.
-    pub(crate) fn place(&self) -> Place {
-        Place::new(&self.source, self.span.clone())
+    pub(crate) fn place(&self) -> SourceSpan {
+        SourceSpan::new(&self.source, self.span.clone())
     }
 
     /// Where its key stands.
-    pub(crate) fn key_place(&self) -> Place {
-        Place::new(&self.source, self.key.clone())
+    pub(crate) fn key_place(&self) -> SourceSpan {
+        SourceSpan::new(&self.source, self.key.clone())
     }
 
     /// What is there, for a sentence that says what was found.
-    pub(crate) fn described(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         match &self.value {
-            Value::String(text) => quoted(text),
+            Value::String(text) => quote(text),
             Value::Integer(number) => number.to_string(),
             Value::Float(number) => format!("{number:?}"),
             Value::Boolean(value) => value.to_string(),
@@ -129,7 +128,7 @@ impl Node {
 }
 
 /// A string in a sentence, cut after what fits there.
-pub(crate) fn quoted(text: &str) -> String {
+pub(crate) fn quote(text: &str) -> String {
     const LONGEST: usize = 40;
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("the string {}...", Quoted(&text[..end])),
@@ -154,7 +153,7 @@ impl Layer<'_> {
         key: Option<Range<usize>>,
         depth: usize,
     ) -> Result<Node, Wrong> {
-        let span = self.shifted(value.span());
+        let span = self.shift(value.span());
         let Some(depth) = depth.checked_sub(1) else {
             return Err((span, format!("expected at most {DEEPEST} levels, found more")));
         };
@@ -183,7 +182,7 @@ impl Layer<'_> {
 
     fn table(&self, table: DeTable<'_>, depth: usize) -> Result<Value, Wrong> {
         let entries = table.into_iter().map(|(key, value)| {
-            let node = self.read(value, Some(self.shifted(key.span())), depth)?;
+            let node = self.read(value, Some(self.shift(key.span())), depth)?;
             Ok((key.into_inner().into_owned(), node))
         });
         Ok(Value::Table(entries.collect::<Result<_, _>>()?))
@@ -193,7 +192,7 @@ impl Layer<'_> {
         Node { value, source: Arc::clone(self.source), key, span }
     }
 
-    fn shifted(&self, span: Range<usize>) -> Range<usize> {
+    fn shift(&self, span: Range<usize>) -> Range<usize> {
         span.start + self.offset..span.end + self.offset
     }
 }

@@ -3,9 +3,10 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::error::DocumentError;
+use crate::key_path::KeyPath;
 use crate::node::{Node, Value};
-use crate::place::{Origin, Source};
-use crate::{DocumentError, KeyPath, Place};
+use crate::source::{Origin, Source, SourceSpan};
 
 /// The key of a file that names the files it extends.
 pub(crate) const EXTENDS: &str = "extends";
@@ -29,7 +30,7 @@ pub(crate) fn read(path: &Path) -> Result<Node, DocumentError> {
 /// The document in a text, `extends` among its keys.
 pub(crate) fn parse(source: &Arc<Source>) -> Result<Node, DocumentError> {
     Node::document(source).map_err(|(span, message)| {
-        DocumentError::at(Place::new(source, span), KeyPath::root(), &message, None)
+        DocumentError::at(SourceSpan::new(source, span), KeyPath::root(), &message, None)
     })
 }
 
@@ -122,7 +123,7 @@ fn laid_over(below: Option<Node>, node: Node) -> Node {
 /// A file that another one extends, and where that says so.
 struct Base {
     name: String,
-    place: Place,
+    place: SourceSpan,
     path: KeyPath,
 }
 
@@ -145,7 +146,7 @@ fn bases(extends: Node) -> Result<Vec<Base>, DocumentError> {
 
 fn base(node: Node, path: KeyPath) -> Result<Base, DocumentError> {
     let place = node.place();
-    let message = format!("expected the name of a file, found {}", node.described());
+    let message = format!("expected the name of a file, found {}", node.describe());
     match node.value {
         Value::String(name) if !name.is_empty() => Ok(Base { name, place, path }),
         _ => Err(DocumentError::at(place, path, &message, None)),
@@ -158,7 +159,9 @@ mod tests {
 
     use tempfile::TempDir;
 
-    use crate::{Document, DocumentError, KeyPath};
+    use crate::document::Document;
+    use crate::error::DocumentError;
+    use crate::key_path::KeyPath;
 
     /// A folder with these files.
     fn folder(files: &[(&str, &str)]) -> TempDir {

@@ -2,11 +2,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::key_path::{self, Quoted};
+use crate::error::DocumentError;
+use crate::key_path::{KeyPath, Quoted, Segment};
 use crate::node::{Node, Value, Wrong};
-use crate::place::{Origin, Source};
+use crate::parse_key_path;
 use crate::read::EXTENDS;
-use crate::{DocumentError, KeyPath, Place, Segment};
+use crate::source::{Origin, Source, SourceSpan};
 
 /// A step of a written path, and where it stands in the text.
 type Step = (Segment, Range<usize>);
@@ -14,19 +15,19 @@ type Step = (Segment, Range<usize>);
 /// Puts the value of `path=value` into a document.
 pub(crate) fn set(root: &mut Node, assignment: &str) -> Result<(), DocumentError> {
     let source = Arc::new(Source { origin: Origin::Assignment, text: assignment.to_owned() });
-    let (steps, value) = parsed(&source).map_err(|wrong| mistake(&source, wrong))?;
+    let (steps, value) = parse_assignment(&source).map_err(|wrong| mistake(&source, wrong))?;
     put(root, &steps, value).map_err(|wrong| mistake(&source, wrong))
 }
 
 fn mistake(source: &Arc<Source>, (span, message): Wrong) -> DocumentError {
-    DocumentError::at(Place::new(source, span), KeyPath::root(), &message, None)
+    DocumentError::at(SourceSpan::new(source, span), KeyPath::root(), &message, None)
 }
 
-fn parsed(source: &Arc<Source>) -> Result<(Vec<Step>, Node), Wrong> {
+fn parse_assignment(source: &Arc<Source>) -> Result<(Vec<Step>, Node), Wrong> {
     let text = &source.text;
     let form = "expected `path=value`, such as `effect.0.delay_s=0.002`";
     let equals = equals_sign(text).ok_or_else(|| (0..text.len(), form.to_owned()))?;
-    let steps = key_path::parse(&text[..equals])?;
+    let steps = parse_key_path::parse(&text[..equals])?;
     if matches!(steps.first(), Some((Segment::Key(key), _)) if key == EXTENDS) {
         return Err((steps[0].1.clone(), "`extends` belongs into a file".to_owned()));
     }
@@ -70,7 +71,7 @@ fn put(node: &mut Node, steps: &[Step], value: Node) -> Result<(), Wrong> {
         *node = value;
         return Ok(());
     };
-    let described = node.described();
+    let described = node.describe();
     let wrong = |message: String| Err((span.clone(), message));
     match (&mut node.value, segment) {
         (Value::Table(table), Segment::Key(key)) => match table.get_mut(key) {
@@ -111,7 +112,8 @@ fn in_tables(steps: &[Step], key: &Range<usize>, value: Node) -> Result<Node, Wr
 mod tests {
     use std::path::Path;
 
-    use crate::{Document, KeyPath};
+    use crate::document::Document;
+    use crate::key_path::KeyPath;
 
     const TEXT: &str = "name = \"a\"\n[[effect]]\npayload.mass_kg = 1\n[joint.\"a.b\"]\nx = 1\n";
 

@@ -2,8 +2,9 @@ use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
-use crate::error::check;
-use crate::{Column, ColumnSet, Dynamics, DynamicsError};
+use crate::columns::{Column, ColumnSet};
+use crate::error::{DynamicsError, check};
+use crate::model::Dynamics;
 
 /// A column counts as dependent when less than this is left of it after projection on
 /// the columns already kept, in units of the longest column of its kind.
@@ -16,14 +17,14 @@ const DEPENDENT_SHARE: f64 = 1e-4;
 /// joint.
 const MOST_ROWS: usize = 2800;
 
-/// States that tell the parameters of every link and drive from one another: four times as many as a link and
-/// its drive have, as the first row of a state alone tells those of the first link.
+/// Number of states that separates the parameters of every link and drive: four times as many as a
+/// link and its drive have, as the first row of a state alone tells those of the first link.
 const FEWEST_STATES: usize = 56;
 
 /// Entries of the mapping below this are rounding errors and set to zero.
 const MAPPING_ROUNDING: f64 = 1e-9;
 
-/// Which combinations of parameters any motion can reveal.
+/// The combinations of parameters that motions can determine.
 ///
 /// ```text
 /// tau = Y pi = Y_b pi_base,   pi_base = pi[independent] + mapping pi[dependent]
@@ -52,7 +53,7 @@ impl BaseParameters {
         self.independent.len()
     }
 
-    /// Indices of the columns that no motion shows at all, alone or with others.
+    /// Indices of the columns that no motion shows, neither alone nor combined with others.
     pub fn invisible(&self) -> Vec<usize> {
         let silent = |d: &usize| self.mapping.column(*d).iter().all(|&share| share == 0.0);
         (0..self.dependent.len()).filter(silent).map(|d| self.dependent[d]).collect()
@@ -85,7 +86,8 @@ impl BaseParameters {
 /// cube of the number of joints.
 pub fn base_parameters(robot: &Robot, set: ColumnSet) -> BaseParameters {
     let columns = set.columns(robot.joint_count());
-    let (triangle, scales) = scaled_triangle(&stacked(robot, set, columns.len()), &columns);
+    let (triangle, scales) =
+        scaled_triangle(&stack_regressors(robot, set, columns.len()), &columns);
     let mut independent = Kept::of(&triangle, &columns);
     independent.sort_unstable();
     let dependent: Vec<usize> =
@@ -98,7 +100,7 @@ pub fn base_parameters(robot: &Robot, set: ColumnSet) -> BaseParameters {
 /// How many base parameters a robot has for the columns of `set`: the rank of [`base_parameters`].
 pub fn base_parameter_count(robot: &Robot, set: ColumnSet) -> usize {
     let columns = set.columns(robot.joint_count());
-    let (triangle, _) = scaled_triangle(&stacked(robot, set, columns.len()), &columns);
+    let (triangle, _) = scaled_triangle(&stack_regressors(robot, set, columns.len()), &columns);
     Kept::of(&triangle, &columns).len()
 }
 
@@ -120,8 +122,8 @@ fn preference(columns: &[Column]) -> Vec<usize> {
     order
 }
 
-/// The regressor over as many states as make every column that can be told from the others so.
-fn stacked(robot: &Robot, set: ColumnSet, width: usize) -> DMatrix<f64> {
+/// The regressor over enough states to separate all columns that can be separated.
+fn stack_regressors(robot: &Robot, set: ColumnSet, width: usize) -> DMatrix<f64> {
     let dynamics = Dynamics::new(robot);
     let (n, mut ws) = (dynamics.joint_count(), dynamics.workspace());
     let states = (2 * width).min((MOST_ROWS / n.max(1)).max(FEWEST_STATES));

@@ -1,4 +1,5 @@
-use crate::{Dynamics, PARAMETERS_PER_LINK, Workspace};
+use crate::model::{Dynamics, Workspace};
+use crate::regressor::PARAMETERS_PER_LINK;
 
 /// One column of a regressor: the parameter it multiplies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -32,7 +33,7 @@ pub enum Column {
     },
 }
 
-/// The families of columns beside the inertial ones, which are always there.
+/// The families of columns that are added to the inertial ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ColumnSet {
     /// Rotor inertias.

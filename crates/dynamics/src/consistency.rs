@@ -1,8 +1,8 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix4, SMatrix, SVector, SymmetricEigen};
 use robot::Robot;
 
-use crate::error::check;
-use crate::{DynamicsError, PARAMETERS_PER_LINK};
+use crate::error::{DynamicsError, check};
+use crate::regressor::PARAMETERS_PER_LINK;
 
 type Parameters = SVector<f64, PARAMETERS_PER_LINK>;
 
@@ -10,7 +10,7 @@ type Parameters = SVector<f64, PARAMETERS_PER_LINK>;
 /// the objective is then within `prior_weight * 1e-24` of its minimum, or within rounding.
 const DECREMENT: f64 = 1e-6;
 
-/// Decrement that is near enough to a stage's minimum to lower the prior weight.
+/// Newton decrement at which a stage ends and the prior weight is lowered.
 const STAGE_DECREMENT: f64 = 0.1;
 
 /// Newton steps allowed per prior weight, and prior weights tried on the way down.
@@ -26,7 +26,7 @@ const PRIOR_FLOOR: f64 = 1e-6;
 /// The smallest trace of a pseudo-inertia that a floor is taken from: one gram.
 const PRIOR_TRACE: f64 = 1e-3;
 
-/// Question: which physical inertias agree best with an estimate?
+/// The problem of finding the physical inertias nearest to an estimate:
 ///
 /// ```text
 /// minimise  1/2 (pi - pi_hat)' H (pi - pi_hat)
@@ -81,7 +81,7 @@ pub struct ShiftedPrior {
     pub distance: f64,
 }
 
-/// Answer to a [`ConsistentFit`]: physical inertias for every free link.
+/// The solution of a [`ConsistentFit`]: physical inertias for every free link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConsistentInertias {
     /// All 10 n parameters; those of links that were not free are the prior's.
@@ -96,11 +96,10 @@ impl ConsistentFit<'_> {
     /// Solves the fit by Newton's method with a line search that stays inside the cone,
     /// from the prior, lowering the prior weight tenfold until the one asked for.
     ///
-    /// The objective divided by `gamma` is convex and self-concordant in `pi` itself, so
-    /// Newton's method converges from anywhere and its decrement bounds the error (Boyd
-    /// & Vandenberghe 2004, section 9.6). A log-Cholesky parametrisation handed to a
-    /// general optimiser would lose both, and the method's indifference to the units of
-    /// mass and inertia with them.
+    /// The objective divided by `gamma` is convex and self-concordant in `pi` itself, so Newton's
+    /// method converges from anywhere and its decrement bounds the error (Boyd & Vandenberghe 2004,
+    /// section 9.6). A log-Cholesky parametrisation with a general optimiser would lose both
+    /// properties, and the invariance to the units of mass and inertia.
     ///
     /// # Errors
     ///

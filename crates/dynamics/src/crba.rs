@@ -1,7 +1,6 @@
 use nalgebra::DMatrix;
 
-use crate::DynamicsError;
-use crate::error::check;
+use crate::error::{DynamicsError, check};
 use crate::model::{Dynamics, Workspace};
 
 impl Dynamics {

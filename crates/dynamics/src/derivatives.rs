@@ -1,9 +1,8 @@
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::DMatrix;
 
-use crate::DynamicsError;
-use crate::error::check;
+use crate::error::{DynamicsError, check};
+use crate::link_in_base::{LinkInBase, VelocityChange};
 use crate::model::{Dynamics, Workspace};
-use crate::spatial::{Force, Motion, Pose, RigidInertia, multiply, multiply_transposed};
 
 /// How the torques of inverse dynamics change with the state, each n x n, row i of joint i's torque.
 ///
@@ -18,83 +17,6 @@ pub struct InverseDynamicsDerivatives {
     pub dqd: DMatrix<f64>,
     /// By acceleration: the mass matrix (kg m²; kg).
     pub dqdd: DMatrix<f64>,
-}
-
-/// One link in the base frame, all about the origin of that frame.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct InBase {
-    pose: Pose,
-    /// Motion of a unit of velocity of the joint that carries the link.
-    s: Motion,
-    v: Motion,
-    /// Acceleration relative to free fall.
-    a: Motion,
-    /// Change of `s` as the link moves, `v x s`.
-    s_rate: Motion,
-    /// Change of the acceleration by the joint's position, `a_parent x s + v_parent x (v_parent x s)`.
-    a_by_q: Motion,
-    /// Inertia, momentum's change by velocity and wrench, of the link with all it carries.
-    inertia: RigidInertia,
-    change: Change,
-    f: Force,
-}
-
-/// The change of a wrench by a velocity that is not the inertia's own turning,
-///
-/// ```text
-/// B = (v x*) I - I (v x) + (. x* I v) = [ T, 0; -2 [l]x, 0 ]
-/// T = [w]x I - I [w]x - h v' - v h' + 2 (v.h) 1 - [I w + h x v]x,   l = m v + w x h
-/// ```
-///
-/// angular part first, with `w`, `v` the velocity, `h` the first and `I` the second moment.
-#[derive(Debug, Clone, Copy)]
-struct Change {
-    t: Matrix3<f64>,
-    l: Vector3<f64>,
-}
-
-impl Change {
-    #[inline(always)]
-    fn of(inertia: &RigidInertia, velocity: &Motion) -> Self {
-        let RigidInertia { mass, h, about_origin } = inertia;
-        let Motion { angular: w, linear: v } = velocity;
-        let turned = w.cross_matrix() * about_origin;
-        let moment = multiply(about_origin, w) + h.cross(v);
-        // I [w]x is the negative transpose of [w]x I.
-        let t = turned + turned.transpose() - h * v.transpose() - v * h.transpose()
-            + Matrix3::from_diagonal_element(2.0 * v.dot(h))
-            - moment.cross_matrix();
-        Self { t, l: v * *mass + w.cross(h) }
-    }
-
-    /// `B m`.
-    #[inline(always)]
-    fn apply(&self, m: &Motion) -> Force {
-        Force { angular: multiply(&self.t, &m.angular), linear: self.l.cross(&m.angular) * -2.0 }
-    }
-
-    /// `B' m`, of which the linear part is zero.
-    #[inline(always)]
-    fn apply_transposed(&self, m: &Motion) -> Vector3<f64> {
-        multiply_transposed(&self.t, &m.angular) + self.l.cross(&m.linear) * 2.0
-    }
-}
-
-impl InBase {
-    pub fn at_rest() -> Self {
-        let zero = Vector3::zeros();
-        Self {
-            pose: Pose::identity(),
-            s: Motion::zero(),
-            v: Motion::zero(),
-            a: Motion::zero(),
-            s_rate: Motion::zero(),
-            a_by_q: Motion::zero(),
-            inertia: RigidInertia { mass: 0.0, h: zero, about_origin: Matrix3::zeros() },
-            change: Change { t: Matrix3::zeros(), l: zero },
-            f: Force::zero(),
-        }
-    }
 }
 
 impl Dynamics {
@@ -187,7 +109,7 @@ impl Dynamics {
 
     /// Motion, inertia and wrench of every link in the base frame.
     fn outward_in_base(&self, ws: &mut Workspace, [q, qd, qdd]: [&[f64]; 3]) {
-        ws.in_base[0] = InBase::at_rest();
+        ws.in_base[0] = LinkInBase::at_rest();
         ws.in_base[0].a.linear = -self.gravity_in_base;
         for (i, joint) in self.joints.iter().enumerate() {
             let parent = &ws.in_base[joint.parent];
@@ -204,8 +126,8 @@ impl Dynamics {
             let inertia = pose.inertia_to_parent(&joint.inertia);
             let mut f = inertia.apply(&a);
             f.add(&v.cross_force(&inertia.apply(&v)));
-            let change = Change::of(&inertia, &v);
-            ws.in_base[i + 1] = InBase { pose, s, v, a, s_rate, a_by_q, inertia, change, f };
+            let change = VelocityChange::of(&inertia, &v);
+            ws.in_base[i + 1] = LinkInBase { pose, s, v, a, s_rate, a_by_q, inertia, change, f };
         }
     }
 }

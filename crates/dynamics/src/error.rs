@@ -1,4 +1,4 @@
-/// Why a question about the dynamics cannot be answered.
+/// Why a computation of the dynamics is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DynamicsError {
@@ -51,7 +51,7 @@ pub enum DynamicsError {
         /// The value found.
         value: f64,
     },
-    /// A link index names no link of the robot, or a link twice.
+    /// A link index is out of range or occurs twice.
     #[error("link index {link} is out of range or repeated, the robot has {count} links")]
     NoSuchLink {
         /// The index found.

@@ -1,9 +1,9 @@
 use nalgebra::DVector;
 
 use crate::cholesky::{factor, solve_factored};
-use crate::error::check;
+use crate::error::{DynamicsError, check};
 use crate::model::{Dynamics, Workspace};
-use crate::{DynamicsError, Rotors};
+use crate::rotor::Rotors;
 
 impl Dynamics {
     /// Joint accelerations (rad/s² or m/s²) that the torque `tau` (N·m or N) produces.

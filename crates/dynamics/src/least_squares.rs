@@ -1,12 +1,13 @@
 use faer::{Mat, MatRef};
 use nalgebra::DVector;
 
-use crate::{DynamicsError, add_gram};
+use crate::error::DynamicsError;
+use crate::gram::add_gram;
 
 /// Share of a column's square below which what is left of it is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Least squares over any number of rows in the memory of one Gram matrix:
+/// Least squares over any number of rows, with the memory of one Gram matrix:
 ///
 /// ```text
 /// gram = sum y y',  rhs = sum y tau   over the rows y' of the regressor
@@ -46,7 +47,7 @@ impl NormalEquations {
         Ok(())
     }
 
-    /// Adds the rows that another thread has gathered.
+    /// Adds the rows of another accumulator, such as that of another thread.
     ///
     /// # Errors
     ///

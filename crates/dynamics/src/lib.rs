@@ -36,6 +36,7 @@ mod error;
 mod forward;
 mod gram;
 mod least_squares;
+mod link_in_base;
 mod model;
 mod regressor;
 mod rnea;

@@ -1,7 +1,7 @@
 use nalgebra::{DVector, Matrix3, Vector3};
 use robot::Robot;
 
-use crate::derivatives::InBase;
+use crate::link_in_base::LinkInBase;
 use crate::spatial::{Force, Motion, Pose, RigidInertia};
 
 /// A robot prepared for dynamics: constant transforms, axes and inertias of its tree.
@@ -43,7 +43,7 @@ pub struct Workspace {
     /// Inertia of each link with everything it carries, base first.
     pub(crate) composite: Vec<RigidInertia>,
     /// The links in the base frame, base first.
-    pub(crate) in_base: Vec<InBase>,
+    pub(crate) in_base: Vec<LinkInBase>,
     /// Row-major n x n.
     pub(crate) matrix: Vec<f64>,
 }
@@ -93,7 +93,7 @@ impl Dynamics {
             links: vec![at_rest; n + 1],
             axes: vec![Motion::zero(); n * n],
             composite: vec![nothing; n + 1],
-            in_base: vec![InBase::at_rest(); n + 1],
+            in_base: vec![LinkInBase::at_rest(); n + 1],
             matrix: vec![0.0; n * n],
         }
     }

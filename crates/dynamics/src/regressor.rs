@@ -1,7 +1,6 @@
 use nalgebra::{DMatrix, Vector3};
 
-use crate::DynamicsError;
-use crate::error::check;
+use crate::error::{DynamicsError, check};
 use crate::model::{Dynamics, LinkState, Workspace};
 use crate::spatial::{Motion, multiply};
 

@@ -1,7 +1,6 @@
 use nalgebra::{DVector, Vector3};
 
-use crate::DynamicsError;
-use crate::error::check;
+use crate::error::{DynamicsError, check};
 use crate::model::{Dynamics, JointModel, LinkState, Workspace};
 use crate::spatial::{Force, Motion, multiply, multiply_transposed};
 
@@ -121,7 +120,8 @@ impl Dynamics {
         ws.links[0].f = Force::zero();
         for (i, (joint, &q)) in self.joints.iter().zip(q).enumerate() {
             let parent = &ws.links[joint.parent];
-            ws.links[i + 1] = joint.carried(parent, q, rates(i));
+            let (qd, qdd) = rates(i);
+            ws.links[i + 1] = joint.child_state(parent, q, qd, qdd);
         }
     }
 
@@ -166,7 +166,7 @@ impl JointModel {
     /// prismatic: w_i = w,         linear  += s qdd + 2 w x s qd
     /// ```
     #[inline(always)]
-    fn carried(&self, parent: &LinkState, q: f64, (qd, qdd): (f64, f64)) -> LinkState {
+    fn child_state(&self, parent: &LinkState, q: f64, qd: f64, qdd: f64) -> LinkState {
         let pose = self.pose(q);
         let p = &pose.origin;
         let at_origin =

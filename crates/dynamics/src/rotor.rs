@@ -1,7 +1,7 @@
 use nalgebra::DVector;
 
-use crate::error::check;
-use crate::{Dynamics, DynamicsError};
+use crate::error::{DynamicsError, check};
+use crate::model::Dynamics;
 
 /// Whether the inertia of rotors and gears moves with the joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

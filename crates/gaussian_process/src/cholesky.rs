@@ -1,4 +1,4 @@
-use crate::GpError;
+use crate::error::GpError;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor;
 use faer::{Mat, MatRef, Par};

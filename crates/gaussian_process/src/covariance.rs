@@ -1,6 +1,6 @@
-use crate::error::check;
+use crate::error::{GpError, check};
 use crate::exp::exp;
-use crate::{GaussianKernel, GpError};
+use crate::kernel::GaussianKernel;
 use pulp::{Arch, Simd, WithSimd};
 
 /// Points held side by side: two vectors of AVX-512, four of AVX2.

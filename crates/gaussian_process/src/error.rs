@@ -1,4 +1,4 @@
-/// Input that no Gaussian process can be fitted to or evaluated at.
+/// Input that a Gaussian process can be neither fitted to nor evaluated at.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpError {

@@ -207,7 +207,7 @@ fn weighted_squares<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::GaussianKernel;
+    use crate::kernel::GaussianKernel;
     use crate::tile::every_arch;
 
     const N: usize = 55;

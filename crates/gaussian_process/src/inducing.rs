@@ -1,8 +1,8 @@
 use crate::cholesky::{cholesky_with_jitter, rounding};
 use crate::covariance::{ScaledPoints, check_points};
-use crate::error::check;
+use crate::error::{GpError, check};
 use crate::inducing_posterior::{Evidence, InducingPosterior};
-use crate::{GaussianKernel, GpError};
+use crate::kernel::GaussianKernel;
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
@@ -228,7 +228,7 @@ impl Tile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inducing_points;
+    use crate::pivoted_cholesky::inducing_points;
     use faer::Side;
     use faer::linalg::solvers::Solve;
 

@@ -1,6 +1,6 @@
-use crate::GpError;
 use crate::cholesky::{cholesky, cholesky_with_jitter, rounding};
 use crate::covariance::dot;
+use crate::error::GpError;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::{inverse, solve};
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
@@ -11,8 +11,9 @@ use rayon::prelude::*;
 /// Queries that one task evaluates.
 const PANEL: usize = 64;
 
-/// What a Gaussian process knows after [`Inducing`](crate::Inducing) has seen the samples; `m` is
-/// the number of inducing points.
+/// The posterior of a Gaussian process over inducing points, which
+/// [`Inducing`](crate::inducing::Inducing) computes from samples; `m` is the number of inducing
+/// points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InducingPosterior {
     /// Weights of the mean `sum_i alpha[i] k(x, z_i)`, `m` of them.

@@ -1,5 +1,4 @@
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 
 /// The Gaussian kernel with one width per input:
 ///
@@ -34,7 +33,7 @@ impl GaussianKernel {
         self.signal_variance * (-0.5 * square).exp()
     }
 
-    /// Refuses a kernel that is none.
+    /// Refuses hyperparameters that are not positive and finite.
     ///
     /// # Errors
     ///

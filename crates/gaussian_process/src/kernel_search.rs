@@ -1,13 +1,13 @@
-use crate::error::check;
-use crate::{
-    Evidence, GaussianKernel, GpError, Likelihood, Maximum, Objective, SearchEnd, Watch, maximise,
-};
+use crate::error::{GpError, check};
+use crate::kernel::GaussianKernel;
+use crate::likelihood::{Likelihood, LikelihoodValue};
+use crate::maximise;
+use crate::maximise::{Maximum, Objective, SearchEnd, SearchWatch};
 
-/// Where a hyperparameter may lie, as shares of the mean square of the targets and, for
-/// length scales, in standard deviations of the inputs. What lies beyond cannot be told from
-/// the bound itself: an input with a length scale of a hundred standard deviations has no
-/// say, a noise of a millionth of the signal is below the rounding of an ill-conditioned
-/// covariance.
+/// Bounds of the hyperparameters, as shares of the mean square of the targets and, for length
+/// scales, in standard deviations of the inputs. Values beyond the bounds have the same effect as
+/// the bounds: an input with a length scale of a hundred standard deviations does not matter, and a
+/// noise of a millionth of the signal is below the rounding of an ill-conditioned covariance.
 const SIGNAL: (f64, f64) = (1e-4, 1e4);
 const LENGTH: (f64, f64) = (0.05, 200.0);
 const NOISE: (f64, f64) = (1e-6, 10.0);
@@ -16,7 +16,7 @@ const NOISE: (f64, f64) = (1e-6, 10.0);
 /// the searches start from: smooth with some noise, rough with little, very smooth with much.
 const STARTS: [(f64, f64); 3] = [(1.0, 1e-2), (0.4, 1e-3), (2.5, 1e-1)];
 
-/// Mean square of the targets that is none.
+/// Mean square of the targets below which they count as zero.
 const SILENT: f64 = 1e-200;
 
 /// How hyperparameters are searched for.
@@ -53,8 +53,8 @@ pub struct LearnedKernel {
     pub end: SearchEnd,
     /// Names of the hyperparameters that ended at a bound.
     pub at_bounds: Vec<String>,
-    /// Evaluations for which the covariance was not positive definite as it was, and the
-    /// largest value that had to be added to its diagonal.
+    /// Evaluations whose covariance needed jitter to be positive definite, and the largest jitter
+    /// added to its diagonal.
     pub jitter: (usize, f64),
     /// Log likelihood that each start reached on the thinned points.
     pub starts: Vec<f64>,
@@ -73,10 +73,10 @@ impl KernelSearch {
         inputs: &[f64],
         width: usize,
         targets: &[f64],
-        watch: &Watch,
+        watch: &SearchWatch,
     ) -> Result<LearnedKernel, GpError> {
         check("targets", targets, targets.len())?;
-        let subset = thinned(inputs, width, targets, self.start_points);
+        let subset = thin(inputs, width, targets, self.start_points);
         let power = targets.iter().map(|y| y * y).sum::<f64>() / targets.len().max(1) as f64;
         // Targets that are all zero have no scale of their own.
         let power = if power > SILENT { power } else { 1.0 };
@@ -128,11 +128,11 @@ impl<'a> Climb<'a> {
         start: &[f64],
         bounds: &[(f64, f64)],
         iterations: usize,
-        watch: &Watch,
+        watch: &SearchWatch,
     ) -> Result<Maximum, GpError> {
         let objective: &mut Objective = &mut |theta, slope| {
             let (kernel, noise) = hyperparameters(theta);
-            let Evidence { log_likelihood, jitter, .. } =
+            let LikelihoodValue { log_likelihood, jitter, .. } =
                 self.likelihood.evaluate(self.targets, &kernel, noise, slope)?;
             if jitter > 0.0 {
                 self.jitter = (self.jitter.0 + 1, self.jitter.1.max(jitter));
@@ -174,7 +174,7 @@ fn at_bounds(theta: &[f64], bounds: &[(f64, f64)]) -> Vec<String> {
 }
 
 /// At most `points` rows, evenly spread.
-fn thinned(inputs: &[f64], width: usize, targets: &[f64], points: usize) -> (Vec<f64>, Vec<f64>) {
+fn thin(inputs: &[f64], width: usize, targets: &[f64], points: usize) -> (Vec<f64>, Vec<f64>) {
     let n = targets.len();
     let count = points.clamp(1, n.max(1)).min(n);
     let rows = (0..count).map(|i| i * n / count);

@@ -1,10 +1,9 @@
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use crate::GaussianKernel;
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 use crate::exp::{exp, exp_each};
+use crate::kernel::GaussianKernel;
 
 /// Points in a block: two AVX-512 vectors.
 const BLOCK: usize = 16;
@@ -36,8 +35,8 @@ impl Lanes {
     }
 }
 
-/// The sums that the predictive means of several Gaussian processes are, one output each, over
-/// points that they share and kernels that they do not:
+/// The predictive means of several Gaussian processes, one output each: sums over shared points,
+/// with a kernel for each output.
 ///
 /// ```text
 /// f_c(x) = sum_i alpha_ci k_c(x, x_i),   i = 1 .. n
@@ -158,8 +157,8 @@ impl KernelSum {
 
     /// Writes `f_c(x)` for every output to `out`; allocates nothing.
     ///
-    /// Far from every point, from where `k` is below 1e-307 of its signal variance, the sum is
-    /// exactly zero; where `x` holds a NaN it is NaN.
+    /// Far from every point, where `k` is below 1e-307 of its signal variance, the sum is exactly
+    /// zero. It is NaN where `x` contains a NaN.
     ///
     /// # Panics
     ///
@@ -357,7 +356,8 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::{GROUP, GroupSum, KernelSum};
-    use crate::{GaussianKernel, GpError};
+    use crate::error::GpError;
+    use crate::kernel::GaussianKernel;
 
     struct Problem {
         points: Vec<f64>,

@@ -1,13 +1,15 @@
 use pulp::Arch;
 
-use crate::error::check;
+use crate::error::{GpError, check};
 use crate::gram::Gram;
+use crate::inverse::Inverse;
+use crate::kernel::GaussianKernel;
 use crate::packed::Packed;
 use crate::panels::{Panels, ROWS};
-use crate::{GaussianKernel, GpError, Inverse, product, sweep};
+use crate::{product, sweep};
 
-/// What is added to the diagonal, in turn, until the matrix is positive definite; in units of
-/// the signal variance.
+/// Jitters that are tried in turn until the matrix is positive definite, in units of the signal
+/// variance.
 const JITTER: [f64; 8] = [0.0, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 
 /// The covariance of targets, noise included:
@@ -25,18 +27,18 @@ pub struct Covariance<'a> {
     pub weights: &'a [f64],
 }
 
-/// How well hyperparameters explain targets.
+/// The value of the likelihood for some hyperparameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Evidence {
+pub struct LikelihoodValue {
     /// `log p(y | X, theta)`
     pub log_likelihood: f64,
-    /// What had to be added to the diagonal, in squared units of the target; zero as a rule.
+    /// Jitter that was added to the diagonal, in squared units of the target; usually zero.
     pub jitter: f64,
-    /// How many amounts of it were tried.
+    /// Number of jitters that were tried.
     pub jitter_steps: usize,
 }
 
-/// Room to evaluate the likelihood of hyperparameters for the same points again and again.
+/// Memory for repeated evaluations of the likelihood of hyperparameters at the same points.
 ///
 /// Takes about `4 n²` bytes, one triangle of a matrix ([`Likelihood::bytes`]).
 ///
@@ -114,8 +116,8 @@ impl Likelihood {
         self.matrix.rows()
     }
 
-    /// Bytes that the evaluation for so many points takes at most, to be asked before it is
-    /// tried.
+    /// Upper bound of the memory that an evaluation takes for so many points (bytes), to check
+    /// before it is tried.
     pub fn bytes(points: usize, dimensions: usize, features: usize) -> usize {
         // Inputs and features as given and scaled, features transposed and multiplied.
         let transposed = features.next_multiple_of(ROWS);
@@ -147,7 +149,7 @@ impl Likelihood {
         kernel: &GaussianKernel,
         noise_variance: f64,
         gradient: &mut [f64],
-    ) -> Result<Evidence, GpError> {
+    ) -> Result<LikelihoodValue, GpError> {
         let covariance = Covariance { kernel, noise_variance, weights: &[] };
         self.evaluate_with_features(targets, &covariance, gradient)
     }
@@ -166,7 +168,7 @@ impl Likelihood {
         targets: &[f64],
         covariance: &Covariance,
         gradient: &mut [f64],
-    ) -> Result<Evidence, GpError> {
+    ) -> Result<LikelihoodValue, GpError> {
         let n = self.points();
         check("targets", targets, n)?;
         let expected = 2 + self.dimensions + self.feature_count;
@@ -193,7 +195,7 @@ impl Likelihood {
         if let Some(features) = &gram.features {
             self.weight_slopes(features, &alpha, &mut rest[1..]);
         }
-        Ok(Evidence {
+        Ok(LikelihoodValue {
             log_likelihood: -0.5 * (fit + inverted.log_determinant + constant),
             jitter: inverted.jitter,
             jitter_steps: inverted.jitter_steps,

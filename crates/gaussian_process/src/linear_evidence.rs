@@ -1,10 +1,9 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 
-/// What the data say of the weights of a linear part, before a prior on them is chosen.
+/// The likelihood of the weights of a linear part, before a prior on them is chosen.
 ///
 /// With `r = y - Phi beta_0` and `C` the covariance of everything else (noise, and the
 /// Gaussian process where there is one),
@@ -20,8 +19,8 @@ use crate::error::check;
 /// log p(y) = without + 1/2 score' S score - 1/2 log det(I + B information)
 /// ```
 ///
-/// Rasmussen & Williams 2006, section 2.7; equation 7 of Nguyen-Tuong & Peters 2010. A
-/// variance of zero holds its weight.
+/// Rasmussen & Williams 2006, section 2.7; equation 7 of Nguyen-Tuong & Peters 2010. A variance of
+/// zero fixes its weight.
 #[derive(Debug, Clone)]
 pub struct LinearEvidence {
     /// `Phi' C^-1 Phi`, p x p.
@@ -32,7 +31,7 @@ pub struct LinearEvidence {
     pub without: f64,
 }
 
-/// The weights of a linear part after the data.
+/// The posterior of the weights of a linear part.
 #[derive(Debug, Clone)]
 pub struct LinearPosterior {
     /// `S score`: what the data add to the prior's mean.

@@ -6,8 +6,7 @@ use basin::{
     FirstOrderState, Gradient, Lbfgsb, Termination,
 };
 
-use crate::GpError;
-use crate::error::check;
+use crate::error::{GpError, check};
 
 /// Largest slope, in units of the objective per unit of a parameter, at a maximum.
 const SLOPE: f64 = 1e-4;
@@ -69,13 +68,13 @@ pub struct Maximum {
 /// What is maximised: fills the gradient at a point and returns the value.
 pub type Objective<'a> = dyn FnMut(&[f64], &mut [f64]) -> Result<f64, GpError> + 'a;
 
-/// Told the number and value of every evaluation; says whether to go on.
-pub type Watch<'a> = dyn Fn(usize, f64) -> ControlFlow<()> + 'a;
+/// Receives the number and the value of every evaluation, and returns whether to go on.
+pub type SearchWatch<'a> = dyn Fn(usize, f64) -> ControlFlow<()> + 'a;
 
 /// Maximises `objective` within `bounds` from `start` by L-BFGS-B (Byrd, Lu, Nocedal & Zhu
 /// 1995), for at most `iterations`.
 ///
-/// A point where the objective cannot be evaluated counts as far below the first one.
+/// A point where the objective cannot be evaluated gets a value far below the first one.
 ///
 /// # Errors
 ///
@@ -86,7 +85,7 @@ pub fn maximise(
     start: &[f64],
     bounds: &[(f64, f64)],
     iterations: usize,
-    watch: &Watch,
+    watch: &SearchWatch,
 ) -> Result<Maximum, GpError> {
     check("start", start, bounds.len())?;
     let start: Vec<f64> =
@@ -128,7 +127,7 @@ pub fn maximise(
 struct Climb<'a, 'b> {
     objective: RefCell<&'a mut Objective<'b>>,
     best: RefCell<Maximum>,
-    watch: &'a Watch<'a>,
+    watch: &'a SearchWatch<'a>,
 }
 
 /// The same with the sign of a minimisation, in the form that the optimiser takes.
@@ -207,7 +206,7 @@ mod tests {
         Ok(-a * a - 100.0 * b * b)
     }
 
-    const ON: &Watch = &|_, _| ControlFlow::Continue(());
+    const ON: &SearchWatch = &|_, _| ControlFlow::Continue(());
 
     #[test]
     fn a_curved_ridge_is_climbed_to_its_top_and_to_a_bound() {
@@ -222,7 +221,7 @@ mod tests {
 
     #[test]
     fn a_search_that_is_stopped_or_limited_says_so_and_keeps_its_best() {
-        let stop: &Watch = &|evaluations, _| match evaluations {
+        let stop: &SearchWatch = &|evaluations, _| match evaluations {
             0..5 => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),
         };

@@ -1,7 +1,7 @@
 use crate::cholesky::rounding;
 use crate::covariance::{ScaledPoints, check_points, dot};
-use crate::error::check;
-use crate::{GaussianKernel, GpError};
+use crate::error::{GpError, check};
+use crate::kernel::GaussianKernel;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -26,8 +26,8 @@ const FLOOR: f64 = 4.0;
 /// ```
 ///
 /// which is the pivoted Cholesky decomposition of the candidates' covariance matrix (Fine &
-/// Scheinberg 2001). They are fewer than `m` where the largest variance left is one that rounding
-/// could have made: more points would add nothing.
+/// Scheinberg 2001). There are fewer than `m` where the largest variance left is within rounding:
+/// more points would add nothing.
 ///
 /// The candidates stand for the samples: every k-th sample, so that 2 to 5 candidates come on
 /// each point asked for. The memory is `8 m` bytes and the work `m²` operations per candidate: 2000

@@ -1,8 +1,9 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{ColRef, Mat, MatRef, Side};
 
-use crate::error::check;
-use crate::{GpError, Inverse, LinearEvidence, LinearPosterior};
+use crate::error::{GpError, check};
+use crate::inverse::Inverse;
+use crate::linear_evidence::{LinearEvidence, LinearPosterior};
 
 /// The linear part of a process for one output.
 #[derive(Debug, Clone, Copy)]
@@ -18,8 +19,8 @@ impl Linear<'_> {
     pub const NONE: Linear<'static> = Linear { features: &[], mean: &[] };
 }
 
-/// What a process makes of targets beside a linear part, before the weights of that part are
-/// settled:
+/// A process conditioned on targets beside a linear part, before the weights of that part are
+/// chosen:
 ///
 /// ```text
 /// mean(x) = phi' beta_bar + k_star' alpha,   alpha = K^-1 (y - Phi beta_bar)
@@ -32,7 +33,7 @@ impl Linear<'_> {
 pub struct Residual {
     /// `alpha_0 = K^-1 (y - Phi beta_0)`.
     pub alpha: Vec<f64>,
-    /// What the targets say of the weights.
+    /// The likelihood of the weights.
     pub evidence: LinearEvidence,
     /// `H`, n x p.
     solved: Mat<f64>,

@@ -73,9 +73,9 @@ impl Sums {
     }
 }
 
-/// Sums over blocks of consecutive samples, all of one length but the last: between 32 and 64
-/// of them however long the record is, so that the spread from block to block tells how long
-/// the noise remembers.
+/// Sums over blocks of consecutive samples, all of one length but the last: between 32 and 64 of
+/// them for a record of any length. The spread from block to block shows the correlation time of
+/// the noise.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BlockSums {
     blocks: Vec<Sums>,
@@ -93,8 +93,8 @@ impl BlockSums {
         self.blocks.iter().map(|block| block.samples).sum()
     }
 
-    /// The next sample after `sample` at which what is pushed must be cut, lest it lie in two
-    /// blocks.
+    /// The next sample after `sample` at which pushed samples must be cut, so that each block gets
+    /// its own.
     pub fn cut_after(&self, sample: usize) -> usize {
         (sample / self.length + 1) * self.length
     }

@@ -1,7 +1,7 @@
 use dynamics::DynamicsError;
 use gaussian_process::GpError;
 
-/// Input that no model can be learned from or asked with.
+/// Input that no model can be learned from or evaluated at.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LearnerError {
@@ -16,7 +16,7 @@ pub enum LearnerError {
         /// Joints of the samples.
         got: usize,
     },
-    /// A number is no signal.
+    /// A sample is not finite or too large.
     #[error("{signal} of joint {joint} in sample {sample} is {value}, which no sensor reports")]
     BadSample {
         /// Name of the signal.
@@ -28,7 +28,7 @@ pub enum LearnerError {
         /// The value found.
         value: f64,
     },
-    /// A setting that nothing can be trained with.
+    /// A setting is out of its range.
     #[error("{name}: {found} was found, {expected} expected")]
     Setting {
         /// The setting.

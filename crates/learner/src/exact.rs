@@ -3,13 +3,17 @@ use gaussian_process::{
     LinearPosterior, Residual,
 };
 
-use crate::described::size;
+use crate::error::LearnerError;
 use crate::kernels::{prior_by_evidence, rigid_body_kernel};
+use crate::model::{Mean, Model, Process};
+use crate::model_kind::ModelKind;
+use crate::nominal_parameter::size;
+use crate::rigid_body_fit::RigidBodyFit;
+use crate::settings::PriorSpread;
 use crate::spread::Spread;
 use crate::training::{Fitted, JointFit, Training, features};
-use crate::{LearnerError, Mean, Model, ModelKind, PriorSpread, Process, RigidBodyFit};
 
-/// One joint, conditioned on the points about a linear part whose weights are not settled.
+/// One joint, conditioned on the points. The weights of its linear part are still open.
 pub(crate) struct Joint {
     kernel: GaussianKernel,
     noise_variance: f64,
@@ -17,7 +21,7 @@ pub(crate) struct Joint {
     pub residual: Residual,
 }
 
-/// Every joint about the rigid bodies.
+/// All joints, conditioned about the rigid bodies.
 struct RigidBodyPart {
     joints: Vec<Joint>,
     /// `Phi` of every joint, row-major.
@@ -26,14 +30,14 @@ struct RigidBodyPart {
 }
 
 /// One joint and the weights of its linear part.
-pub(crate) struct Weighed {
+pub(crate) struct WeightedJoint {
     pub joint: Joint,
     pub posterior: LinearPosterior,
     pub fit: JointFit,
 }
 
-/// One joint, settled.
-struct Settled {
+/// One joint with the final weights of its points.
+struct FinalJoint {
     joint: Joint,
     alpha: Vec<f64>,
     fit: JointFit,
@@ -53,20 +57,20 @@ impl Training<'_> {
         Ok(Joint { kernel, noise_variance, inverse, residual })
     }
 
-    /// A process about a mean that is held.
+    /// A process about a fixed mean.
     pub(crate) fn about_fixed_mean(&mut self, kind: ModelKind) -> Result<Fitted, LearnerError> {
         let kernels = self.kernels(kind)?;
         let mean = self.mean(kind)?;
-        let targets = self.left(&mean);
+        let targets = self.residuals(&mean);
         self.progress.stage(&format!("conditioning {kind}"));
-        let mut settled = Vec::new();
+        let mut finals = Vec::new();
         for (found, y) in kernels.into_iter().zip(&targets) {
             let joint = self.condition(hyperparameters(&found), y, Linear::NONE)?;
             let log_likelihood = Some(joint.residual.evidence.without);
             let fit = JointFit { log_likelihood, kernel: Some(found), ..JointFit::default() };
-            settled.push(Settled { alpha: joint.residual.alpha.clone(), joint, fit });
+            finals.push(FinalJoint { alpha: joint.residual.alpha.clone(), joint, fit });
         }
-        self.assemble(kind, mean, settled, Vec::new())
+        self.assemble(kind, mean, finals, Vec::new())
     }
 
     /// Every joint about the rigid bodies, with their columns as linear part.
@@ -75,7 +79,7 @@ impl Training<'_> {
         let fit = self.regression(kind)?;
         let features = features(self.robot, self.columns(), &self.few);
         self.progress.stage(&format!("conditioning {kind}"));
-        let targets = self.left(&Mean::Zero);
+        let targets = self.residuals(&Mean::Zero);
         let mut joints = Vec::new();
         let (mean, _) = self.prior(fit);
         for ((found, y), phi) in kernels.iter().zip(&targets).zip(&features) {
@@ -85,8 +89,8 @@ impl Training<'_> {
         Ok(RigidBodyPart { joints, features, kernels })
     }
 
-    /// Mean and variances of the prior on the rigid-body parameters, before any evidence. It is
-    /// one on base parameters: columns that others can stand in for have zero of both.
+    /// Mean and variances of the prior on the rigid-body parameters, before any evidence. It is a
+    /// prior on base parameters: dependent columns have zero mean and variance.
     fn prior(&self, fit: &RigidBodyFit) -> (Vec<f64>, Vec<f64>) {
         let (base, covariance) = fit.base_parameters();
         let width = fit.columns.len();
@@ -104,8 +108,12 @@ impl Training<'_> {
         (mean, variances)
     }
 
-    /// The prior variances that go with what the data say.
-    fn settle(&self, evidence: &LinearEvidence, prior: &[f64]) -> Result<Vec<f64>, LearnerError> {
+    /// The prior variances that the settings ask for, given the evidence.
+    fn prior_variances(
+        &self,
+        evidence: &LinearEvidence,
+        prior: &[f64],
+    ) -> Result<Vec<f64>, LearnerError> {
         match self.settings.prior {
             PriorSpread::Evidence => prior_by_evidence(evidence, prior, &|count, best| {
                 self.progress.evaluation(count, best)
@@ -121,7 +129,7 @@ impl Training<'_> {
         let (_, prior) = self.prior(self.regression(kind)?);
         let mut posteriors = Vec::new();
         for joint in &part.joints {
-            let variances = self.settle(&joint.residual.evidence, &prior)?;
+            let variances = self.prior_variances(&joint.residual.evidence, &prior)?;
             posteriors.push(joint.residual.evidence.posterior(&variances)?);
         }
         self.about_posterior(kind, part, &posteriors)
@@ -145,7 +153,7 @@ impl Training<'_> {
         let n = part.joints.len() as f64;
         let (_, prior) = self.prior(self.regression(kind)?);
         let prior: Vec<f64> = prior.iter().map(|b| b / n).collect();
-        let posterior = together.posterior(&self.settle(&together, &prior)?)?;
+        let posterior = together.posterior(&self.prior_variances(&together, &prior)?)?;
         let log_likelihood = Some(posterior.log_likelihood);
         let shared = vec![posterior; part.joints.len()];
         let mut fitted = self.about_posterior(kind, part, &shared)?;
@@ -154,7 +162,7 @@ impl Training<'_> {
         Ok(fitted)
     }
 
-    /// The model whose rigid-body parameters are what the data made of the prior.
+    /// The model with the posterior rigid-body parameters.
     fn about_posterior(
         &self,
         kind: ModelKind,
@@ -166,28 +174,28 @@ impl Training<'_> {
         let joints = joints.map(|((joint, posterior), found)| {
             let log_likelihood = Some(posterior.log_likelihood);
             let fit = JointFit { log_likelihood, kernel: Some(found), ..JointFit::default() };
-            Weighed { joint, posterior: posterior.clone(), fit }
+            WeightedJoint { joint, posterior: posterior.clone(), fit }
         });
-        self.weighed(kind, &origin, joints.collect(), part.features)
+        self.fit_of_weights(kind, &origin, joints.collect(), part.features)
     }
 
-    /// The model whose linear part has the weights `origin` and what the data add to them.
-    pub(crate) fn weighed(
+    /// The model whose linear part has the weights `origin` plus their change by the data.
+    pub(crate) fn fit_of_weights(
         &self,
         kind: ModelKind,
         origin: &[f64],
-        joints: Vec<Weighed>,
+        joints: Vec<WeightedJoint>,
         features: Vec<Vec<f64>>,
     ) -> Result<Fitted, LearnerError> {
         let beta = |change: &[f64]| origin.iter().zip(change).map(|(b, c)| b + c).collect();
         let beta = joints.iter().map(|joint| beta(&joint.posterior.change)).collect();
         let mean = Mean::Columns { set: self.columns(), beta };
         let weights = joints.iter().map(|joint| joint.posterior.covariance.clone()).collect();
-        let settled = joints.into_iter().map(|Weighed { joint, posterior, fit }| {
+        let finals = joints.into_iter().map(|WeightedJoint { joint, posterior, fit }| {
             let alpha = joint.residual.alpha(&posterior.change);
-            Settled { joint, alpha, fit }
+            FinalJoint { joint, alpha, fit }
         });
-        let mut fitted = self.assemble(kind, mean, settled.collect(), features)?;
+        let mut fitted = self.assemble(kind, mean, finals.collect(), features)?;
         fitted.model.weights = weights;
         Ok(fitted)
     }
@@ -200,7 +208,7 @@ impl Training<'_> {
         let set = self.columns();
         let features = features(self.robot, set, &self.few);
         let width = set.columns(self.robot.joint_count()).len();
-        let targets = self.left(&Mean::Zero);
+        let targets = self.residuals(&Mean::Zero);
         let origin = vec![0.0; width];
         let mut joints = Vec::new();
         for (k, found) in kernels.into_iter().enumerate() {
@@ -231,22 +239,22 @@ impl Training<'_> {
                 lambda: Some(lambda),
                 held_out,
             };
-            joints.push(Weighed { joint, posterior, fit });
+            joints.push(WeightedJoint { joint, posterior, fit });
         }
-        self.weighed(kind, &origin, joints, features)
+        self.fit_of_weights(kind, &origin, joints, features)
     }
 
-    /// Puts the joints together.
+    /// Assembles the model from its joints.
     fn assemble(
         &self,
         kind: ModelKind,
         mean: Mean,
-        settled: Vec<Settled>,
+        finals: Vec<FinalJoint>,
         features: Vec<Vec<f64>>,
     ) -> Result<Fitted, LearnerError> {
         let (mut kernels, mut alpha, mut noise) = (Vec::new(), Vec::new(), Vec::new());
         let (mut inverse, mut joints) = (Vec::new(), Vec::new());
-        for Settled { joint, alpha: weights, fit } in settled {
+        for FinalJoint { joint, alpha: weights, fit } in finals {
             kernels.push(joint.kernel);
             alpha.push(weights);
             noise.push(joint.noise_variance);

@@ -1,8 +1,10 @@
 use gaussian_process::{GaussianKernel, Inducing, KernelSum, inducing_points, shared_kernel};
 
+use crate::error::LearnerError;
+use crate::model::{Model, Process};
+use crate::model_kind::ModelKind;
 use crate::spread::Spread;
-use crate::training::{Fitted, JointFit, Training, left};
-use crate::{LearnerError, Model, ModelKind, Process};
+use crate::training::{Fitted, JointFit, Training, residuals};
 
 /// Candidates for every inducing point.
 const CANDIDATES: usize = 3;
@@ -28,9 +30,9 @@ impl Training<'_> {
         let mut learners = learners.collect::<Result<Vec<_>, _>>()?;
         self.progress.stage(&format!("summing {} samples for {kind}", self.all.len()));
         for start in (0..self.all.len()).step_by(BLOCK) {
-            let block = self.all.picked(start..(start + BLOCK).min(self.all.len()));
+            let block = self.all.select(start..(start + BLOCK).min(self.all.len()));
             let inputs = self.inputs.points(&block);
-            let targets = left(self.robot, &mean, &block);
+            let targets = residuals(self.robot, &mean, &block);
             for (learner, y) in learners.iter_mut().zip(&targets) {
                 learner.add(&inputs, y)?;
             }

@@ -1,15 +1,15 @@
-use crate::{Samples, State};
+use crate::samples::{Samples, State};
 
-/// What a Gaussian process sees of a state, and how it is scaled.
+/// The inputs that a Gaussian process computes from a state, and their scaling.
 ///
 /// ```text
 /// x = ( (q, qd, qdd, direction) - mean ) / deviation
 /// direction_j = clamp(qd_j / rest_speed_j, -1, 1)
 /// ```
 ///
-/// with mean and standard deviation over the training points; the directions of motion are
-/// there only where they are asked for. An input that is constant in training has deviation
-/// one, so that what the process makes of it elsewhere is decided by its width alone.
+/// with mean and standard deviation over the training points; the directions of motion are there
+/// only where they are asked for. An input that is constant in training has deviation one, so that
+/// its length scale alone decides its effect elsewhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inputs {
     /// Mean of every input: positions, velocities, accelerations, then directions.
@@ -23,8 +23,8 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// The scaling that `samples` ask for. `rest_speed` has one entry a joint if directions
-    /// of motion are to be inputs, none if not.
+    /// The scaling to zero mean and unit variance over `samples`. `rest_speed` has one entry a
+    /// joint if directions of motion are to be inputs, none if not.
     pub fn new(samples: &Samples, rest_speed: Vec<f64>) -> Self {
         let joints = samples.joints();
         let width = 3 * joints + rest_speed.len();
@@ -46,7 +46,7 @@ impl Inputs {
     }
 
     /// The scaling that was saved with a model.
-    pub fn saved(mean: Vec<f64>, deviation: Vec<f64>, rest_speed: Vec<f64>) -> Self {
+    pub fn from_parts(mean: Vec<f64>, deviation: Vec<f64>, rest_speed: Vec<f64>) -> Self {
         let joints = (mean.len() - rest_speed.len().min(mean.len())) / 3;
         Self { mean, deviation, rest_speed, joints }
     }

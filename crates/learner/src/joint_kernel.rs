@@ -2,10 +2,12 @@ use gaussian_process::{
     Covariance, GaussianKernel, LearnedKernel, Likelihood, Linear, Objective, SearchEnd, maximise,
 };
 
-use crate::exact::Weighed;
+use crate::error::LearnerError;
+use crate::exact::WeightedJoint;
 use crate::kernels::rigid_body_kernel;
+use crate::model::Mean;
+use crate::model_kind::ModelKind;
 use crate::training::{Fitted, JointFit, Training, features};
-use crate::{LearnerError, Mean, ModelKind};
 
 /// How far each hyperparameter may move from where the parts alone have it, as a natural
 /// logarithm: a factor of some thousand each way.
@@ -20,7 +22,7 @@ impl Training<'_> {
         let set = self.columns();
         let width = set.columns(self.robot.joint_count()).len();
         let features = features(self.robot, set, &self.few);
-        let targets = self.left(&Mean::Zero);
+        let targets = self.residuals(&Mean::Zero);
         let (mut joints, origin) = (Vec::new(), vec![0.0; width]);
         for (k, (phi, y)) in features.iter().zip(&targets).enumerate() {
             self.progress.stage(&format!("kernels of joint {} together", k + 1));
@@ -31,9 +33,9 @@ impl Training<'_> {
             let posterior = joint.residual.evidence.posterior(&variances)?;
             let log_likelihood = Some(posterior.log_likelihood);
             let fit = JointFit { log_likelihood, kernel: Some(found), ..JointFit::default() };
-            joints.push(Weighed { joint, posterior, fit });
+            joints.push(WeightedJoint { joint, posterior, fit });
         }
-        self.weighed(kind, &origin, joints, features)
+        self.fit_of_weights(kind, &origin, joints, features)
     }
 
     /// The Gaussian kernel with its noise, and the diagonal of `W`, of one joint.

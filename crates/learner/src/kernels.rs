@@ -2,13 +2,14 @@ use std::ops::ControlFlow;
 
 use gaussian_process::{KernelSearch, LearnedKernel, WhiteSums, maximise};
 
-use crate::{LearnerError, Progress};
+use crate::error::LearnerError;
+use crate::progress::Progress;
 
 /// How far a search may take a prior variance from where it starts, as a natural logarithm:
 /// a factor of a million each way, which is as good as a weight held and a weight free.
 const REACH: f64 = 14.0;
 
-/// Square of targets that are none.
+/// Mean square of the targets below which they count as zero.
 const SILENT: f64 = 1e-200;
 
 /// Iterations for a linear part, whose evaluations cost little.

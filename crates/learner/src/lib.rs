@@ -8,7 +8,6 @@
 //! having both that Nguyen-Tuong & Peters 2010 compare.
 
 mod block_sums;
-mod described;
 mod error;
 mod exact;
 mod inducing;
@@ -19,6 +18,7 @@ mod memory;
 mod model;
 mod model_file;
 mod model_kind;
+mod nominal_parameter;
 #[cfg(test)]
 mod planar;
 mod prior;
@@ -43,14 +43,14 @@ pub use model::{Mean, Model, Process};
 pub use model_kind::ModelKind;
 pub use prior::GaussianPrior;
 pub use progress::{Progress, Silent};
-pub use regression::{Regression, Stretch};
+pub use regression::Regression;
 pub use rigid_body_fit::{ConsistentRigidBodies, RigidBodyFit};
 pub use robot_torque::RobotTorque;
-pub use samples::{RunSpan, Samples, State};
+pub use samples::{RunSpan, Samples, State, Stretch};
 pub use score::Score;
 pub use settings::{PriorSpread, TrainSettings};
 pub use spread::Spread;
 pub use torque_model::{TorqueModel, Workspace};
 pub use training::{Fitted, JointFit, Training};
 pub use undetermined::Direction;
-pub use weighting::{JointNoise, Weighting};
+pub use weighting::{FitNoise, Weighting};

@@ -1,6 +1,6 @@
-use crate::LearnerError;
+use crate::error::LearnerError;
 
-/// Memory of a training that is left for others, as a share.
+/// Share of the free memory that is left for other programs.
 const SPARE: f64 = 0.1;
 
 /// Refuses a training of exact processes that would not fit into the memory that is free now:

@@ -6,14 +6,18 @@ use gaussian_process::KernelSum;
 use rayon::prelude::*;
 use robot::Robot;
 
+use crate::error::LearnerError;
+use crate::inputs::Inputs;
+use crate::model_kind::ModelKind;
+use crate::robot_torque::RobotTorque;
+use crate::samples::{Samples, State};
 use crate::spread::Spread;
 use crate::torque_model::{TorqueModel, Workspace, each};
-use crate::{Inputs, LearnerError, ModelKind, RobotTorque, Samples, State};
 
 /// Queries whose variance is worked out together.
 const BLOCK: usize = 64;
 
-/// Signal variance of a process that is none; a kernel must have one.
+/// Signal variance of a joint without a process, as a kernel must have one.
 const NO_SIGNAL: f64 = 1e-100;
 
 /// A learned model of the torque of every joint:
@@ -29,7 +33,7 @@ const NO_SIGNAL: f64 = 1e-100;
 pub struct Model {
     /// What was learned.
     pub kind: ModelKind,
-    /// What stands before the process.
+    /// The mean that the process is about.
     pub mean: Mean,
     /// Covariance of the weights of the mean, for every joint, where they are uncertain.
     pub weights: Vec<Mat<f64>>,
@@ -41,7 +45,7 @@ pub struct Model {
     dynamics: Dynamics,
 }
 
-/// The part of a model that is not a process.
+/// The mean of a model, without its process.
 #[derive(Debug, Clone)]
 pub enum Mean {
     /// Nothing.
@@ -64,7 +68,7 @@ pub struct Process {
     pub inputs: Inputs,
     /// Points, kernels and `alpha` of every joint.
     pub sum: KernelSum,
-    /// What the variance is made of; absent in a model whose mean alone is asked for.
+    /// What the variance is computed from; absent where only the mean is needed.
     pub spread: Option<Spread>,
 }
 
@@ -81,8 +85,8 @@ impl Model {
         &self.robot
     }
 
-    /// Takes the process away at one joint, whose torque is then that of the mean, with a noise
-    /// of `noise_variance` (N² m² or N²).
+    /// Removes the process at one joint. Its torque is then the mean, with a noise of
+    /// `noise_variance` (N² m² or N²).
     ///
     /// # Errors
     ///

@@ -13,9 +13,11 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::KeyValue;
 use robot::Robot;
 
+use crate::error::LearnerError;
+use crate::model::{Mean, Model, Process};
 use crate::saved::{Header, VERSION, symmetric, tree_sha256};
 use crate::spread::Spread;
-use crate::{LearnerError, Mean, Model, Process, training};
+use crate::training;
 
 /// Key of the header among the metadata of the file.
 const HEADER: &str = "plumbline.model";
@@ -79,8 +81,8 @@ impl Model {
 
     /// Reads a model of `robot` that [`save`](Self::save) has written.
     ///
-    /// Of a process over all its points the mean alone is ready;
-    /// [`with_variance`](Self::with_variance) works out the rest.
+    /// A process over all its points has its mean alone; [`with_variance`](Self::with_variance)
+    /// computes the rest.
     ///
     /// # Errors
     ///
@@ -108,8 +110,8 @@ impl Model {
         restore(&header, columns, robot).map_err(broken)
     }
 
-    /// The model with what its variance is made of, worked out again where the file does not
-    /// hold it: an inversion of the covariance of all points for every joint.
+    /// The model with what its variance is computed from. It is computed again where the file lacks
+    /// it: an inversion of the covariance of all points for every joint.
     ///
     /// # Errors
     ///

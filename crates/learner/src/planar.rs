@@ -5,7 +5,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use crate::Stretch;
+use crate::samples::Stretch;
 
 /// Length of the first link (m).
 const L1: f64 = 0.7;

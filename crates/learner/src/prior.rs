@@ -1,13 +1,13 @@
 use dynamics::DynamicsError;
 
-use crate::LearnerError;
+use crate::error::LearnerError;
 
-/// What is believed of the parameters before the data: each independent and Gaussian.
+/// The prior on the parameters: independent Gaussian distributions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianPrior {
     /// Expected values, in the order and units of the columns.
     pub mean: Vec<f64>,
-    /// Standard deviations; infinite where nothing is believed.
+    /// Standard deviations; infinite for a parameter without a prior.
     pub standard_deviations: Vec<f64>,
 }
 

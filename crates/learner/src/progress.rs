@@ -1,6 +1,6 @@
 use std::ops::ControlFlow;
 
-/// Told what a training is doing; may end its searches.
+/// Receives the progress of a training, and may end its searches.
 pub trait Progress: Sync {
     /// A new stage, in words.
     fn stage(&self, words: &str);
@@ -10,7 +10,7 @@ pub trait Progress: Sync {
     fn evaluation(&self, evaluations: usize, best: f64) -> ControlFlow<()>;
 }
 
-/// Tells nobody, and never ends a search.
+/// Ignores the progress, and never ends a search.
 #[derive(Debug, Clone, Copy)]
 pub struct Silent;
 

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::block_sums::{BlockSums, JointSums, Sums};
-use crate::{LearnerError, Samples};
+use crate::error::LearnerError;
+use crate::samples::{Samples, Stretch};
 
 /// Samples that one thread sums at a time: their rows stay in its cache.
 const PIECE: usize = 256;
@@ -13,34 +14,20 @@ const PIECE: usize = 256;
 /// Pieces that are summed side by side before they are added up in order.
 const BATCH: usize = 64;
 
-/// The largest number that is taken for a signal: its sixth power still has a sum.
+/// The largest number that is accepted in a signal: sums of its sixth power are finite.
 const LARGEST: f64 = 1e30;
 
-/// Consecutive samples of the motion and the torque of all joints, row-major: sample by
-/// sample, one entry a joint.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch<'a> {
-    /// Position (rad or m).
-    pub q: &'a [f64],
-    /// Velocity (rad/s or m/s).
-    pub qd: &'a [f64],
-    /// Acceleration (rad/s² or m/s²).
-    pub qdd: &'a [f64],
-    /// Torque (N·m or N).
-    pub tau: &'a [f64],
-}
-
-/// Linear regression of the inertial parameters and drives of a robot, from any number of
-/// samples in the memory of some Gram matrices:
+/// Linear regression of the inertial parameters and drives of a robot, from any number of samples.
+/// Its memory is that of some Gram matrices.
 ///
 /// ```text
 /// tau = Y(q, qd, qdd) pi + noise
 /// ```
 ///
 /// Samples are given in the order of time, a stretch or a run after the other
-/// ([`Regression::add`]); [`Regression::fit`] solves for what has been given so far. Kept are,
-/// for every joint and each of at most 64 blocks of consecutive samples, the sums `X'X`,
-/// `X'tau` and `tau'tau` over the base columns `X` that the joint sees.
+/// ([`Regression::add`]); [`Regression::fit`] solves for the samples so far. For every joint and
+/// each of at most 64 blocks of consecutive samples it keeps the sums `X'X`, `X'tau` and `tau'tau`
+/// over the base columns `X` that the joint sees.
 ///
 /// # Examples
 ///
@@ -106,8 +93,8 @@ impl Regression {
         self.sums.samples()
     }
 
-    /// Adds the next samples. The result is the same whatever the number of threads, and to
-    /// rounding whatever the stretches that a record is cut into.
+    /// Adds the next samples. The result is the same for any number of threads, and to rounding for
+    /// any way of cutting a record into stretches.
     ///
     /// # Errors
     ///

@@ -5,30 +5,33 @@ use dynamics::{
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use robot::Robot;
 
-use crate::described::size;
-use crate::undetermined::directions;
-use crate::weighting::{LEAST_INFORMATION, Problem, Solution, scaled, to_base};
-use crate::{Direction, GaussianPrior, JointNoise, LearnerError, Regression, Weighting};
+use crate::error::LearnerError;
+use crate::nominal_parameter::size;
+use crate::prior::GaussianPrior;
+use crate::regression::Regression;
+use crate::undetermined::{Direction, directions};
+use crate::weighting::{
+    FitNoise, LEAST_INFORMATION, Problem, Solution, Weighting, scaled, to_base,
+};
 
 /// Rigid-body parameters with their uncertainty: `tau = Y pi`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidBodyFit {
     /// What each parameter is, in the order of [`dynamics::ColumnSet::columns`].
     pub columns: Vec<Column>,
-    /// All parameters `pi` (units of the columns): the least squares, and along directions
-    /// that nothing determines those next to the robot as it is described.
+    /// All parameters `pi` (units of the columns): those of least squares and, along undetermined
+    /// directions, those nearest to the robot as described.
     pub parameters: Vec<f64>,
-    /// Standard error of every parameter, whatever the memory of the noise. Where a direction
-    /// is not determined it is about as large as the parameter is expected to be, for such a
-    /// parameter alone is not known any better.
+    /// Standard error of every parameter, valid for correlated noise. In an undetermined direction
+    /// it is about the expected size of the parameter.
     pub standard_errors: Vec<f64>,
     /// Covariance of the parameters, with the standard errors squared on its diagonal.
     pub covariance: DMatrix<f64>,
     /// Which combinations of parameters any motion can reveal.
     pub base: BaseParameters,
     /// Noise of every joint.
-    pub noise: Vec<JointNoise>,
-    /// How the weights of the joints were found.
+    pub noise: Vec<FitNoise>,
+    /// How the iteration of the joints' weights ended.
     pub weighting: Weighting,
     /// Number of directions that the samples, and the prior if there was one, determine.
     pub rank: usize,
@@ -57,7 +60,7 @@ pub struct ConsistentRigidBodies {
     pub parameters: Vec<f64>,
     /// How the fit ended.
     pub outcome: FitOutcome,
-    /// Links that were not physical as described, and were made so for a start.
+    /// Links whose descriptions were not physical and were replaced by physical ones as a start.
     pub shifted: Vec<ShiftedPrior>,
 }
 
@@ -65,8 +68,8 @@ impl Regression {
     /// The parameters that the samples so far and `prior` give.
     ///
     /// Joints are weighed by their noise and its memory ([`Weighting`]). A parameter without a
-    /// prior has its description for a guide, but only in directions that the samples leave
-    /// open, so that the fit is least squares.
+    /// prior stays near its description in the directions that the samples leave open; in all
+    /// others the fit is least squares.
     ///
     /// # Errors
     ///
@@ -76,7 +79,7 @@ impl Regression {
         let total = self.sums.total().ok_or(LearnerError::NoSamples)?;
         prior.map_or(Ok(()), |p| p.check(self.base.columns.len()))?;
         let problem = Problem::new(self, &total, prior);
-        let (solution, noise, weighting) = problem.reweighted();
+        let (solution, noise, weighting) = problem.reweight();
         let (covariance, groups) = covariance(&problem, &solution, &noise);
         let columns = self.base.columns.clone();
         let base_sizes: Vec<f64> =
@@ -108,11 +111,7 @@ impl Regression {
 
 /// Covariance of the parameters: in determined directions that of the blocks, in the others
 /// the squared size.
-fn covariance(
-    problem: &Problem,
-    solution: &Solution,
-    noise: &[JointNoise],
-) -> (DMatrix<f64>, usize) {
+fn covariance(problem: &Problem, solution: &Solution, noise: &[FitNoise]) -> (DMatrix<f64>, usize) {
     let (mut z, groups) = problem.sandwich(solution, noise);
     z += &solution.undetermined * solution.undetermined.transpose();
     (z.map_with_location(|i, k, v| v * problem.size[i] * problem.size[k]), groups)
@@ -126,8 +125,8 @@ fn information(solution: &Solution) -> DMatrix<f64> {
 }
 
 impl RigidBodyFit {
-    /// Base parameters and their covariance, in the order of [`BaseParameters::independent`]:
-    /// what the robot's structure leaves open is not in them.
+    /// Base parameters and their covariance, in the order of [`BaseParameters::independent`],
+    /// without the directions that the robot's structure leaves open.
     ///
     /// The diagonal is the prior `B` that a Gaussian process with these columns as its mean
     /// takes (Nguyen-Tuong & Peters 2010, eq. 6). That of [`RigidBodyFit::covariance`] would be

@@ -2,10 +2,10 @@ use dynamics::{Dynamics, Workspace};
 use effects::drive_torque;
 use robot::Robot;
 
-use crate::State;
+use crate::samples::State;
 
-/// The effort that a description of the robot expects: rigid bodies and drives, the nominal
-/// robot or one extended by what a diagnosis has named.
+/// The effort that a description of the robot predicts, from rigid bodies and drives. The robot is
+/// the nominal one or one that a diagnosis has extended.
 ///
 /// ```text
 /// effort = torque_gain (M qdd + C qd + g + drive(q, qd, qdd, direction)) + torque_offset

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use logs::Prepared;
 
-use crate::{LearnerError, Stretch};
+use crate::error::LearnerError;
 
 /// Samples of the motion and torque of every joint, run after run.
 ///
@@ -17,7 +17,7 @@ pub struct Samples {
     runs: Vec<RunSpan>,
 }
 
-/// Which samples a run holds.
+/// The samples of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunSpan {
     /// Name of the run.
@@ -37,6 +37,20 @@ pub struct State<'a> {
     pub qd: &'a [f64],
     /// Acceleration (rad/s² or m/s²).
     pub qdd: &'a [f64],
+}
+
+/// Consecutive samples of the motion and the torque of all joints, row-major: sample by
+/// sample, one entry a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch<'a> {
+    /// Position (rad or m).
+    pub q: &'a [f64],
+    /// Velocity (rad/s or m/s).
+    pub qd: &'a [f64],
+    /// Acceleration (rad/s² or m/s²).
+    pub qdd: &'a [f64],
+    /// Torque (N·m or N).
+    pub tau: &'a [f64],
 }
 
 impl Samples {
@@ -118,11 +132,11 @@ impl Samples {
         if points >= n {
             return self.clone();
         }
-        self.picked((0..points).map(|i| i * n / points))
+        self.select((0..points).map(|i| i * n / points))
     }
 
     /// The samples `chosen`, in ascending order.
-    pub(crate) fn picked(&self, chosen: impl Iterator<Item = usize>) -> Self {
+    pub(crate) fn select(&self, chosen: impl Iterator<Item = usize>) -> Self {
         let chosen: Vec<usize> = chosen.collect();
         let pick = |signal: &[f64]| -> Vec<f64> {
             let rows = chosen.iter().map(|&i| &signal[i * self.joints..(i + 1) * self.joints]);

@@ -5,8 +5,10 @@ use robot::{Actuator, Inertia, Robot};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::inputs::Inputs;
+use crate::model::{Mean, Model};
+use crate::robot_torque::RobotTorque;
 use crate::spread::Spread;
-use crate::{Inputs, Mean, Model, RobotTorque};
 
 /// Version of the format; a file of another one is refused.
 pub(crate) const VERSION: u32 = 2;
@@ -63,7 +65,7 @@ pub(crate) struct SavedProcess {
     pub input_deviation: Vec<f64>,
     pub rest_speed: Vec<f64>,
     pub kernels: Vec<SavedKernel>,
-    /// What inducing points know of each joint; absent in a process over all its points.
+    /// The posterior of each joint over inducing points; absent in a process over all its points.
     pub inducing: Option<Vec<SavedInducing>>,
 }
 
@@ -129,7 +131,7 @@ impl SavedMean {
         }
     }
 
-    /// The mean again, with `robot` for what it does not say; none when it does not fit.
+    /// The mean that was saved, of `robot`; none when it does not fit.
     pub fn restore(&self, robot: &Robot) -> Option<Mean> {
         let joints = robot.joint_count();
         match self {
@@ -189,7 +191,7 @@ impl SavedProcess {
             && self.kernels.len() == joints
             && self.kernels.iter().all(|k| k.length_scales.len() == width);
         let [mean, deviation] = [&self.input_mean, &self.input_deviation].map(Clone::clone);
-        fits.then(|| Inputs::saved(mean, deviation, self.rest_speed.clone()))
+        fits.then(|| Inputs::from_parts(mean, deviation, self.rest_speed.clone()))
     }
 }
 
@@ -213,7 +215,7 @@ impl SavedInducing {
         Self { log_likelihood, unexpressed_variance, jitter, samples }
     }
 
-    /// What inducing points know, from its weights and factor too.
+    /// The posterior over inducing points, from its saved part, its weights and its factor.
     pub fn restore(&self, alpha: Vec<f64>, variance_factor: Vec<f64>) -> InducingPosterior {
         let Self { log_likelihood, unexpressed_variance, jitter, samples } = *self;
         InducingPosterior {

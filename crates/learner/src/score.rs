@@ -1,4 +1,5 @@
-use crate::{Samples, TorqueModel};
+use crate::samples::Samples;
+use crate::torque_model::TorqueModel;
 
 /// Half-width of an interval that holds 95 % of a normal distribution (standard deviations).
 const NORMAL_95: f64 = 1.959_963_984_540_054;

@@ -1,6 +1,6 @@
 use gaussian_process::KernelSearch;
 
-use crate::LearnerError;
+use crate::error::LearnerError;
 
 /// Where the prior variances `B` of the rigid-body parameters come from (equation 6 of
 /// Nguyen-Tuong & Peters 2010).
@@ -51,7 +51,7 @@ impl Default for TrainSettings {
 }
 
 impl TrainSettings {
-    /// Refuses settings that nothing can be trained with.
+    /// Refuses settings that are out of their ranges.
     ///
     /// # Errors
     ///

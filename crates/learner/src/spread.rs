@@ -1,6 +1,6 @@
 use gaussian_process::{InducingPosterior, Inverse};
 
-/// What the data take from the variance of every joint's process.
+/// The terms of the predictive variance of every joint's process that depend on the data,
 ///
 /// ```text
 /// variance = k(x, x) - k_star' M k_star + (phi - Phi' M k_star)' S (phi - Phi' M k_star)

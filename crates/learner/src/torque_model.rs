@@ -1,11 +1,11 @@
 use rayon::prelude::*;
 
-use crate::{Samples, State};
+use crate::samples::{Samples, State};
 
 /// Samples that one thread predicts at a time.
 const CHUNK: usize = 64;
 
-/// What a model needs room for while it predicts.
+/// Scratch memory of a model that predicts.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     pub(crate) dynamics: dynamics::Workspace,
@@ -17,13 +17,13 @@ pub struct Workspace {
     pub(crate) k_star: Vec<f64>,
     /// The same, multiplied by the inverse covariance of the points.
     pub(crate) solved: Vec<f64>,
-    /// What is left of a row of the regressor.
+    /// A row of the regressor minus its part that the process explains.
     pub(crate) left: Vec<f64>,
-    /// What the process adds to the mean.
+    /// The torque that the process adds to the mean.
     pub(crate) process: Vec<f64>,
 }
 
-/// A model of the torque that is ready to be asked.
+/// A model of the torque that is ready to predict.
 pub trait TorqueModel: Sync {
     /// Number of joints.
     fn joints(&self) -> usize;
@@ -41,8 +41,8 @@ pub trait TorqueModel: Sync {
     /// When the state or `tau` is of another number of joints, or `ws` of another model.
     fn torque_into(&self, ws: &mut Workspace, state: State, tau: &mut [f64]);
 
-    /// Fills `variance` with that of a measured torque about the prediction, noise included
-    /// (N² m² or N²), NaN where the model has none to tell; allocates nothing.
+    /// Fills `variance` with that of a measured torque about the prediction, noise included (N² m²
+    /// or N²), NaN where the model has no variance; allocates nothing.
     ///
     /// # Panics
     ///
@@ -61,7 +61,7 @@ pub trait TorqueModel: Sync {
     }
 }
 
-/// What `fill` makes of every sample, row-major.
+/// The numbers that `fill` computes for every sample, row-major.
 pub(crate) fn each<M: TorqueModel + ?Sized>(
     model: &M,
     samples: &Samples,

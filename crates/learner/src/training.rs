@@ -5,27 +5,34 @@ use faer::Mat;
 use gaussian_process::LearnedKernel;
 use robot::Robot;
 
-use crate::{
-    Inputs, LearnerError, Mean, Model, ModelKind, Progress, RigidBodyFit, RobotTorque, Samples,
-    TorqueModel, TrainSettings, kernels, memory,
-};
+use crate::error::LearnerError;
+use crate::inputs::Inputs;
+use crate::model::{Mean, Model};
+use crate::model_kind::ModelKind;
+use crate::progress::Progress;
+use crate::rigid_body_fit::RigidBodyFit;
+use crate::robot_torque::RobotTorque;
+use crate::samples::Samples;
+use crate::settings::TrainSettings;
+use crate::torque_model::TorqueModel;
+use crate::{kernels, memory};
 
-/// What one unit of divergence from the described inertias weighs beside half a squared
-/// standard error: enough to settle what the log leaves open, little against what it says.
+/// Weight of one unit of divergence from the described inertias beside half a squared standard
+/// error: enough to determine what the log leaves open, and little beside what the log determines.
 const PRIOR_WEIGHT: f64 = 1.0;
 
-/// A model and how it came about.
+/// A trained model and the results of its training.
 #[derive(Debug, Clone)]
 pub struct Fitted {
     /// The model.
     pub model: Model,
-    /// What was found for every joint; empty for a model that has nothing to find.
+    /// The result of every joint; empty for a model without hyperparameters.
     pub joints: Vec<JointFit>,
     /// Log marginal likelihood of all joints together, where there is one.
     pub log_likelihood: Option<f64>,
 }
 
-/// What the training of one joint found.
+/// The result of training one joint.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct JointFit {
     /// `log p(y_k)` under the model.
@@ -39,7 +46,7 @@ pub struct JointFit {
     pub held_out: Vec<f64>,
 }
 
-/// What models are trained on and share.
+/// The data and the kernels that models are trained with and share.
 pub struct Training<'a> {
     pub(crate) robot: &'a Robot,
     pub(crate) settings: &'a TrainSettings,
@@ -129,7 +136,7 @@ impl<'a> Training<'a> {
     /// not given, and what the Gaussian process refuses.
     pub fn fit(&mut self, kind: ModelKind) -> Result<Fitted, LearnerError> {
         match kind {
-            ModelKind::Cad | ModelKind::Named => self.described(kind),
+            ModelKind::Cad | ModelKind::Named => self.described_robot(kind),
             ModelKind::Rbd => self.rigid_bodies(),
             ModelKind::RbdConsistent => self.consistent_rigid_bodies(),
             ModelKind::Gp | ModelKind::GpRbd | ModelKind::NamedGp => self.about_fixed_mean(kind),
@@ -144,14 +151,14 @@ impl<'a> Training<'a> {
     }
 
     /// A description of the robot as a model.
-    fn described(&self, kind: ModelKind) -> Result<Fitted, LearnerError> {
-        self.alone(kind, self.mean(kind)?)
+    fn described_robot(&self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+        self.mean_alone(kind, self.mean(kind)?)
     }
 
-    /// A mean as a model; its noise is what it leaves of the points.
-    fn alone(&self, kind: ModelKind, mean: Mean) -> Result<Fitted, LearnerError> {
+    /// A mean as a model; its noise is the mean square of the residuals at the points.
+    fn mean_alone(&self, kind: ModelKind, mean: Mean) -> Result<Fitted, LearnerError> {
         let n = self.few.len() as f64;
-        let left = self.left(&mean);
+        let left = self.residuals(&mean);
         let noise = left.iter().map(|r| r.iter().map(|r| r * r).sum::<f64>() / n).collect();
         let model = Model::new(kind, self.robot, mean, noise);
         Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
@@ -168,13 +175,13 @@ impl<'a> Training<'a> {
         Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
     }
 
-    /// The links that are physical bodies and nearest to the regression, the robot as described
-    /// in place of what it leaves open; the noise is what they leave of the points.
+    /// The physical links nearest to the regression; undetermined directions stay as described. The
+    /// noise is the mean square of the residuals at the points.
     fn consistent_rigid_bodies(&self) -> Result<Fitted, LearnerError> {
         let kind = ModelKind::RbdConsistent;
         let found = self.regression(kind)?.consistent(self.robot, PRIOR_WEIGHT)?;
         let beta = vec![found.parameters; self.robot.joint_count()];
-        self.alone(kind, Mean::Columns { set: self.columns(), beta })
+        self.mean_alone(kind, Mean::Columns { set: self.columns(), beta })
     }
 
     pub(crate) fn regression(&self, kind: ModelKind) -> Result<&'a RigidBodyFit, LearnerError> {
@@ -187,7 +194,7 @@ impl<'a> Training<'a> {
         self.regression.map_or(ColumnSet::INERTIAL, |fit| ColumnSet::of(&fit.columns))
     }
 
-    /// What stands before the process of a model.
+    /// The mean that the process of a model is about.
     pub(crate) fn mean(&self, kind: ModelKind) -> Result<Mean, LearnerError> {
         let described = |robot: &Robot| {
             Mean::Robot(Box::new(RobotTorque::new(robot.clone(), self.rest_speed.clone())))
@@ -216,9 +223,9 @@ impl<'a> Training<'a> {
         })
     }
 
-    /// What `mean` leaves of the torque of the points, one row a joint.
-    pub(crate) fn left(&self, mean: &Mean) -> Vec<Vec<f64>> {
-        left(self.robot, mean, &self.few)
+    /// Torque of the points minus `mean`, one row a joint.
+    pub(crate) fn residuals(&self, mean: &Mean) -> Vec<Vec<f64>> {
+        residuals(self.robot, mean, &self.few)
     }
 
     /// The kernels of all joints for what the mean of `kind` leaves; searched for once.
@@ -232,7 +239,7 @@ impl<'a> Training<'a> {
         if let Some(known) = self.kernels.get(name) {
             return Ok(known.clone());
         }
-        let targets = self.left(&mean);
+        let targets = self.residuals(&mean);
         let search = &self.settings.search;
         let width = self.inputs.width();
         let found = kernels::search(search, &self.points, width, &targets, self.progress)?;
@@ -240,8 +247,8 @@ impl<'a> Training<'a> {
     }
 }
 
-/// What `mean` leaves of the torque of `samples`, one row a joint.
-pub(crate) fn left(robot: &Robot, mean: &Mean, samples: &Samples) -> Vec<Vec<f64>> {
+/// Torque of `samples` minus `mean`, one row a joint.
+pub(crate) fn residuals(robot: &Robot, mean: &Mean, samples: &Samples) -> Vec<Vec<f64>> {
     let joints = robot.joint_count();
     let model = Model::new(ModelKind::Cad, robot, mean.clone(), vec![0.0; joints]);
     let expected = model.torque(samples);

@@ -9,7 +9,7 @@ const ROUNDING: f64 = 1e-6;
 /// Share of a direction's largest change below which a parameter is not named.
 const NAMED: f64 = 0.1;
 
-/// Base parameters that can change together without the torque of the samples showing it.
+/// Base parameters that can change together without a change of the torque of the samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
     /// The columns kept for these base parameters, with the change of each that belongs to a

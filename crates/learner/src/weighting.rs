@@ -2,8 +2,9 @@ use dynamics::BaseParameters;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::block_sums::{JointSums, Sums};
-use crate::described::{described, size};
-use crate::{GaussianPrior, Regression};
+use crate::nominal_parameter::{nominal_parameter, size};
+use crate::prior::GaussianPrior;
+use crate::regression::Regression;
 
 /// Change of the weights, relative, at which the reweighting has converged.
 const SETTLED: f64 = 1e-8;
@@ -11,8 +12,8 @@ const SETTLED: f64 = 1e-8;
 /// Most rounds of reweighting.
 const ROUNDS: usize = 200;
 
-/// A direction of which the data know less than this, as information in units of the sizes of
-/// the parameters, stays as described: its standard deviation would be twice the size.
+/// Least information of a direction that is fitted, in units of the sizes of the parameters: below
+/// it the standard deviation would be over twice the size, and the direction stays as described.
 pub(crate) const LEAST_INFORMATION: f64 = 0.25;
 
 /// Share of the largest eigenvalue below which an eigenvalue is rounding.
@@ -30,17 +31,17 @@ const FEWEST_GROUPS: usize = 8;
 
 /// Noise of one joint about a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JointNoise {
+pub struct FitNoise {
     /// Standard deviation of one sample (N·m or N); zero for a joint that reports no torque, as
     /// all its samples are zero: it has no part in the fit.
     pub standard_deviation: f64,
-    /// Samples that count as one independent sample, at least 1: the variance of the sums of
-    /// blocks over what it would be without memory. What the columns cannot explain counts as
-    /// noise here.
+    /// Number of samples that count as one independent sample, at least 1: the variance of the sums
+    /// of blocks over that of independent samples. What the columns cannot explain counts as noise
+    /// here.
     pub correlated_samples: f64,
 }
 
-impl JointNoise {
+impl FitNoise {
     /// `1 / (sigma² time)`, in the power of which the samples of a joint count.
     pub fn weight(&self) -> f64 {
         let variance = self.standard_deviation.powi(2) * self.correlated_samples;
@@ -56,8 +57,8 @@ pub enum Weighting {
         /// Fits made.
         rounds: usize,
     },
-    /// It still changes: too few samples to tell noise from parameters, so give a prior or
-    /// more samples.
+    /// The weights still change: too few samples to separate noise from parameters. A prior or more
+    /// samples help.
     Unsettled {
         /// Relative change of the weights in the last round.
         change: f64,
@@ -85,7 +86,7 @@ pub(crate) struct Problem<'a> {
     centre_base: DVector<f64>,
 }
 
-/// What all samples say at one joint.
+/// The sums over all samples of one joint.
 struct JointTotal {
     gram: DMatrix<f64>,
     rhs: DVector<f64>,
@@ -93,7 +94,7 @@ struct JointTotal {
 }
 
 impl JointTotal {
-    /// Torque that is zero in every sample was not measured, and says nothing.
+    /// A torque that is zero in every sample was not measured, and is left out.
     fn new(sums: &JointSums) -> Self {
         let (gram, rhs, square) = (sums.gram(), sums.rhs(), sums.square());
         let gram = if square > 0.0 { gram } else { 0.0 * gram };
@@ -127,8 +128,9 @@ impl<'a> Problem<'a> {
         let believed = |i: usize| prior.filter(|p| p.standard_deviations[i].is_finite());
         let each = |value: &dyn Fn(usize) -> f64| DVector::from_fn(width, |i, _| value(i));
         let robot = &regression.robot;
-        let centre =
-            each(&|i| believed(i).map_or_else(|| described(robot, columns[i]), |p| p.mean[i]));
+        let centre = each(&|i| {
+            believed(i).map_or_else(|| nominal_parameter(robot, columns[i]), |p| p.mean[i])
+        });
         let size = each(&|i| {
             believed(i).map_or_else(|| size(robot, columns[i]), |p| p.standard_deviations[i])
         });
@@ -157,18 +159,18 @@ impl<'a> Problem<'a> {
     /// ```
     ///
     /// which divides the squares by `n` less the parameters that joint `k` pays for.
-    pub fn reweighted(&self) -> (Solution, Vec<JointNoise>, Weighting) {
+    pub fn reweight(&self) -> (Solution, Vec<FitNoise>, Weighting) {
         let joints = 0..self.joints.len();
-        let start = |joint: usize| JointNoise {
+        let start = |joint: usize| FitNoise {
             standard_deviation: (self.remaining(joint, &self.centre_base) / self.samples).sqrt(),
             correlated_samples: 1.0,
         };
-        let mut noise = audible(joints.clone().map(start).collect());
+        let mut noise = with_noise_floor(joints.clone().map(start).collect());
         let mut solution = self.solve(&noise);
         let mut change = f64::INFINITY;
         for rounds in 1..=ROUNDS {
-            let next = audible(joints.clone().map(|j| self.noise(j, &solution)).collect());
-            let weighs = |pair: &(&JointNoise, &JointNoise)| pair.1.weight() > 0.0;
+            let next = with_noise_floor(joints.clone().map(|j| self.noise(j, &solution)).collect());
+            let weighs = |pair: &(&FitNoise, &FitNoise)| pair.1.weight() > 0.0;
             let changes = next.iter().zip(&noise).filter(weighs);
             let changes = changes.map(|(n, o)| (n.weight() / o.weight()).ln().abs());
             change = changes.fold(0.0, f64::max);
@@ -190,7 +192,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The noise of a joint about `solution`.
-    fn noise(&self, joint: usize, solution: &Solution) -> JointNoise {
+    fn noise(&self, joint: usize, solution: &Solution) -> FitNoise {
         let seen = &self.regression.seen[joint];
         let covariance = solution.base_covariance.select_rows(seen).select_columns(seen);
         let spent = self.joints[joint].gram.component_mul(&covariance).sum();
@@ -200,7 +202,7 @@ impl<'a> Problem<'a> {
         let scores = blocks.iter().map(|block| block.joints[joint].score(&w)).collect();
         let scores = Scores::widest(scores, |score| score.dot(&(&covariance * score)));
         let time = scores.spread / (variance * spent);
-        JointNoise {
+        FitNoise {
             standard_deviation: variance.sqrt(),
             correlated_samples: time.max(1.0).min(self.samples),
         }
@@ -215,7 +217,7 @@ impl<'a> Problem<'a> {
     ///
     /// Directions with too small an `l` are left out: they stay at the centre, and the
     /// prediction does not depend on them.
-    fn solve(&self, noise: &[JointNoise]) -> Solution {
+    fn solve(&self, noise: &[FitNoise]) -> Solution {
         let rank = self.centre_base.len();
         let (mut h, mut g) = (DMatrix::zeros(rank, rank), DVector::zeros(rank));
         for ((joint, noise), seen) in self.joints.iter().zip(noise).zip(&self.regression.seen) {
@@ -250,15 +252,15 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Covariance of `z` in the determined directions that the blocks show, whatever the
-    /// memory of the noise, and the number of groups of blocks that show it (Liang & Zeger 1986):
+    /// Covariance of `z` in the determined directions from the spread of the blocks, valid for
+    /// correlated noise, and the number of groups of blocks (Liang & Zeger 1986):
     ///
     /// ```text
     /// H^-1 (B / (B - 1) sum_b s_b s_b' + believed) H^-1,   s_b the score of group b
     /// ```
     ///
     /// With fewer than eight blocks it is `H^-1`, and the number zero.
-    pub fn sandwich(&self, solution: &Solution, noise: &[JointNoise]) -> (DMatrix<f64>, usize) {
+    pub fn sandwich(&self, solution: &Solution, noise: &[FitNoise]) -> (DMatrix<f64>, usize) {
         let bread = scaled(&solution.determined, &solution.information.map(f64::recip));
         let blocks = self.regression.sums.blocks();
         if blocks.len() < FEWEST_GROUPS {
@@ -297,8 +299,9 @@ pub(crate) fn scaled(a: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
     a * DMatrix::from_diagonal(scale)
 }
 
-/// No joint that reports torque quieter than [`QUIETEST`].
-fn audible(mut noise: Vec<JointNoise>) -> Vec<JointNoise> {
+/// The noise with a floor: no joint that reports torque has less than [`QUIETEST`] times the
+/// largest one.
+fn with_noise_floor(mut noise: Vec<FitNoise>) -> Vec<FitNoise> {
     let loudest = noise.iter().map(|n| n.standard_deviation).fold(0.0, f64::max);
     let reporting = noise.iter_mut().filter(|n| n.standard_deviation > 0.0);
     reporting.for_each(|n| n.standard_deviation = n.standard_deviation.max(QUIETEST * loudest));

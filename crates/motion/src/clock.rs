@@ -6,9 +6,9 @@
 /// s' = w((T - t) / fade)      for t > T - fade
 /// ```
 ///
-/// The curve is followed as it is, only slower at both ends, where velocity and
-/// acceleration are zero. A clock never runs fast, so what keeps a velocity limit without
-/// a fade keeps it with one. After `T` it has run for `T - fade`.
+/// The curve is followed as it is, only slower at both ends, where velocity and acceleration are
+/// zero. A clock never runs faster than time, so a curve that keeps a velocity limit keeps it with
+/// a fade as well. After `T` it has run for `T - fade`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Clock {
     duration_s: f64,

@@ -20,7 +20,7 @@ pub enum MotionError {
         /// The joints of the robot.
         expected: Vec<String>,
     },
-    /// A number is outside what makes sense.
+    /// A number is out of its range.
     #[error("{key}: found {found}, {expected} was expected")]
     OutOfRange {
         /// Key of the value.
@@ -30,7 +30,7 @@ pub enum MotionError {
         /// What was expected, in words.
         expected: String,
     },
-    /// A motion takes longer than any should.
+    /// A motion is too long.
     #[error("{key}: the motion takes {found_s:.1} s, at most {most_s} s were expected")]
     TooLong {
         /// Key of the value that it follows from.
@@ -50,7 +50,7 @@ pub enum MotionError {
         /// What was expected, in words: `7 as in times_s were`.
         expected: String,
     },
-    /// The robot leaves open what the file has to say then.
+    /// The robot lacks a limit, so that the file has to give the value.
     #[error(
         "{key}: nothing was found, but joint {joint} has no {limit} limit to go by, a value was expected"
     )]
@@ -60,7 +60,7 @@ pub enum MotionError {
         /// The joint.
         joint: String,
         /// The limit that the robot does not have.
-        limit: Quantity,
+        limit: LimitedQuantity,
     },
     /// The motion leaves what a joint may do.
     #[error(
@@ -73,7 +73,7 @@ pub enum MotionError {
         /// The joint.
         joint: String,
         /// Of which kind the limit is.
-        quantity: Quantity,
+        quantity: LimitedQuantity,
         /// When, since the beginning of the motion with this key (s).
         time_s: f64,
         /// The value at its worst.
@@ -131,14 +131,14 @@ pub enum MotionError {
 
 /// What is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum LimitedQuantity {
     /// Position (rad or m).
     Position,
     /// Velocity (rad/s or m/s).
     Velocity,
 }
 
-impl std::fmt::Display for Quantity {
+impl std::fmt::Display for LimitedQuantity {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Position => "position",

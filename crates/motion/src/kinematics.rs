@@ -66,10 +66,10 @@ impl<'a> Tip<'a> {
     /// dq = J^T (J J^T + d I)^-1 (e - J h) + h,   h = home - q,   d = |e|^2 + 1e-12
     /// ```
     ///
-    /// with `e` from the point to the target. At its rest `e = 0` and `h` lies in the rows
-    /// of `J`, which are the conditions of the nearest posture: a function of the target
-    /// alone, so a closed figure gives a closed motion. The damping goes with the error, so
-    /// nothing of it is left in the end. Returns the posture and the distance left (m).
+    /// with `e` from the point to the target. At convergence `e = 0` and `h` lies in the row space
+    /// of `J`: the conditions of the nearest posture. The posture depends on the target alone, so a
+    /// closed figure gives a closed motion. The damping vanishes with the error. Returns the
+    /// posture and the distance left (m).
     pub(crate) fn reach(
         &self,
         target: &Point3<f64>,

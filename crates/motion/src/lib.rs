@@ -44,9 +44,16 @@ mod site;
 mod spec;
 mod spline;
 
-pub use error::{MotionError, Quantity};
+pub use error::{LimitedQuantity, MotionError};
 pub use motion::{Motion, State};
-pub use spec::{
-    Chirp, Coefficients, Figure, Fourier, FourierJoint, FourierSeries, Growth, Hold, MotionSpec,
-    Plane, Ramp, Recorded, Rhythm, Sinusoids, Sweep, Via, Waypoints,
-};
+pub use rising_sine::Growth;
+pub use spec::chirp::Chirp;
+pub use spec::fourier::{Coefficients, Fourier, FourierJoint, FourierSeries};
+pub use spec::hold::Hold;
+pub use spec::motion_spec::MotionSpec;
+pub use spec::ramp::Ramp;
+pub use spec::recorded::Recorded;
+pub use spec::rhythm::{Figure, Plane, Rhythm};
+pub use spec::sinusoids::Sinusoids;
+pub use spec::sweep::Sweep;
+pub use spec::waypoints::{Via, Waypoints};

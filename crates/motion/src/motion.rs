@@ -11,14 +11,14 @@ pub struct State {
     pub qdd: Vec<f64>,
 }
 
-/// What the joints of a robot are asked to do, from time 0 to its end.
+/// The reference of all joints of a robot, from time 0 to its end.
 ///
 /// ```text
 /// q(t) = x(s(t)),   qd = x' s',   qdd = x'' s'^2 + x' s''
 /// ```
 ///
 /// with `x` a closed form and `s` its clock, which starts and stops smoothly where the
-/// motion fades in and out. Made by [`crate::MotionSpec::build`], so within the limits of
+/// motion fades in and out. Made by [`crate::spec::MotionSpec::build`], so within the limits of
 /// the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {

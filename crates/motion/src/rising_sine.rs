@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 
-use crate::spec::Growth;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// One sine whose frequency goes from `from_hz` to `to_hz` in `over_s`:
 ///
@@ -19,6 +20,17 @@ pub(crate) struct RisingSine {
     pub to_hz: f64,
     pub over_s: f64,
     pub growth: Growth,
+}
+
+/// How the frequency of a chirp changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Growth {
+    /// By the same difference in the same time.
+    #[default]
+    Linear,
+    /// By the same factor in the same time.
+    Logarithmic,
 }
 
 impl RisingSine {

@@ -6,10 +6,12 @@ use std::{
 
 use robot::{Joint, Robot};
 
-use crate::{
-    MotionError, Quantity, clock::Clock, curve::Curve, extremes::extremes, knots::Knots,
-    motion::Part,
-};
+use crate::clock::Clock;
+use crate::curve::Curve;
+use crate::error::{LimitedQuantity, MotionError};
+use crate::extremes::extremes;
+use crate::knots::Knots;
+use crate::motion::Part;
 
 /// Longest motion (s): a day.
 pub(crate) const LONGEST_S: f64 = 86_400.0;
@@ -98,7 +100,7 @@ impl<'a> Site<'a> {
         Ok(posture)
     }
 
-    /// Refuses a number outside a range, which says itself what was expected.
+    /// Refuses a number outside a range; the error states the range.
     pub(crate) fn number(
         &self,
         parts: &[&str],
@@ -130,7 +132,7 @@ impl<'a> Site<'a> {
         self.number(&[key], found_hz, above_up_to(0.0, highest_hz))
     }
 
-    /// Refuses a motion whose length follows from other values and is too much.
+    /// Refuses a motion that other values make too long.
     pub(crate) fn short_enough(&self, parts: &[&str], found_s: f64) -> Result<(), MotionError> {
         let short = found_s <= LONGEST_S;
         let key = || self.key(parts);
@@ -162,9 +164,9 @@ impl<'a> Site<'a> {
             let rotates = joint.kind.is_rotation();
             let (angle, rate) = if rotates { ("rad", "rad/s") } else { ("m", "m/s") };
             for (limits, quantity, extreme, unit) in [
-                (joint.limits.position, Quantity::Position, found.lowest, angle),
-                (joint.limits.position, Quantity::Position, found.highest, angle),
-                (speed, Quantity::Velocity, found.fastest, rate),
+                (joint.limits.position, LimitedQuantity::Position, found.lowest, angle),
+                (joint.limits.position, LimitedQuantity::Position, found.highest, angle),
+                (speed, LimitedQuantity::Velocity, found.fastest, rate),
             ] {
                 let (low, high) = limits.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
                 let slack = ROUNDING * low.abs().max(high.abs()).min(1e3);

@@ -30,10 +30,10 @@ pub struct Question<'a> {
     pub robot: &'a Robot,
     /// What the motion is wanted for, all of it by the same motion.
     pub goals: Vec<Goal>,
-    /// All causes that were named: those that a goal does not concern are free in it.
+    /// All causes that were named. Those that a goal does not concern have free sizes in it.
     pub findings: Vec<Hypothesis>,
-    /// Noise of each joint: variance of what is left of its effort times the autocorrelation
-    /// time ((N·m)² s or N² s). Joints for which it is zero or no number tell nothing.
+    /// Noise of each joint: variance of what is left of its effort times the autocorrelation time
+    /// ((N·m)² s or N² s). Joints whose noise is zero or not finite are left out.
     pub noise: Vec<f64>,
     /// Cut-off of the low-pass of the diagnosis (Hz).
     pub cutoff_hz: f64,
@@ -47,15 +47,15 @@ const SUPPOSED_NOISE: (f64, f64) = (0.01, 0.05);
 const SUPPOSED_CUTOFF_HZ: f64 = 5.0;
 
 impl<'a> Question<'a> {
-    /// A question before there is any log: nothing is found yet, the noise is supposed to be 1
-    /// per cent of the effort limits.
+    /// A question before there is any log: without findings, and with a noise of 1 per cent of the
+    /// effort limits.
     pub fn without_logs(robot: &'a Robot, goals: Vec<Goal>) -> Self {
         let (share, time_s) = SUPPOSED_NOISE;
         let noise = efforts(robot).into_iter().map(|effort| (share * effort).powi(2) * time_s);
         let noise = noise.collect();
         Self { robot, goals, findings: Vec::new(), noise, cutoff_hz: SUPPOSED_CUTOFF_HZ }
     }
-    /// Every hypothesis that has a part in it, once.
+    /// All hypotheses of findings and goals, each once.
     pub(crate) fn layout(&self) -> Layout {
         let mut hypotheses = self.findings.clone();
         for goal in &self.goals {
@@ -77,16 +77,16 @@ impl<'a> Question<'a> {
         Layout { hypotheses, widths, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
     }
 
-    /// Findings that are neither `one` nor `other`, nor change the same numbers.
-    fn besides(&self, one: Hypothesis, other: Hypothesis) -> Vec<Hypothesis> {
+    /// The findings that change other parameters than `one` and `other`.
+    fn other_findings(&self, one: Hypothesis, other: Hypothesis) -> Vec<Hypothesis> {
         let concerned =
             |h: &Hypothesis| [one, other].into_iter().any(|own| *h == own || h.excludes(own));
         self.findings.iter().copied().filter(|h| !concerned(h)).collect()
     }
 }
 
-/// The Coulomb friction that a cause shares with its rivals: of one that is asymmetric only the
-/// asymmetry is disputed, of one whose level varies only that it does.
+/// The Coulomb friction that a cause has in common with its rivals. Only the rest is in dispute:
+/// the asymmetry of an asymmetric friction, the variation of a friction whose level varies.
 fn shared_part(cause: Hypothesis) -> Option<Hypothesis> {
     cause.together().first().copied().or_else(|| cause.varies())
 }
@@ -97,17 +97,17 @@ fn friction(robot: &Robot, level: Hypothesis) -> f64 {
     link.map_or(0.0, |l| 0.5 * (l.actuator.coulomb_forward + l.actuator.coulomb_backward))
 }
 
-/// How much of the level of Coulomb friction varies where no log says it.
+/// Share of the Coulomb friction that is taken to vary where no log shows it.
 const VARYING: f64 = 0.5;
 
-/// One way to reach a goal that can be counted in nats.
+/// A criterion of a goal (nats).
 #[derive(Debug, Clone)]
 pub(crate) enum Aim<'a> {
-    /// That a model cannot imitate a cause: half the deviance it leaves.
-    Apart { truth: Vec<usize>, weights: DVector<f64>, model: Vec<usize> },
-    /// That weights are known, by the logs and a motion together: half the logarithm of the
-    /// determinant of `1 + S M S`, with `M` the information and `S` what is believed without any.
-    Sure { columns: Vec<usize>, others: Vec<usize>, prior: Vec<f64>, logs: &'a Information },
+    /// A model cannot imitate a cause: half of the deviance that it leaves.
+    Separate { truth: Vec<usize>, weights: DVector<f64>, model: Vec<usize> },
+    /// Weights are known from logs and motion together: `1/2 ln det(1 + S M S)`, with `M` the
+    /// information and `S` the prior standard deviations.
+    Determine { columns: Vec<usize>, others: Vec<usize>, prior: Vec<f64>, logs: &'a Information },
 }
 
 impl<'a> Aim<'a> {
@@ -116,27 +116,34 @@ impl<'a> Aim<'a> {
         match goal {
             Goal::Separate { finding, rival } => {
                 let shared = [finding, rival].into_iter().find_map(shared_part);
-                let mut besides = question.besides(finding, rival);
+                let mut besides = question.other_findings(finding, rival);
                 besides.extend(shared.filter(|s| !besides.contains(s)));
                 let ways = [[finding, rival], [rival, finding]].into_iter();
-                // Nothing shows that of one cause there is no more than another has as well.
+                // The shared friction is a special case of the rival, so no motion can show that it
+                // is the whole cause.
                 let ways = ways.filter(|[truth, _]| shared != Some(*truth));
-                ways.map(|way| Self::apart(way, &besides, (question, layout, known))).collect()
+                ways.map(|[truth, model]| {
+                    Self::separate(truth, model, &besides, question, layout, known)
+                })
+                .collect()
             }
-            Goal::Determine { finding } => vec![Self::Sure {
+            Goal::Determine { finding } => vec![Self::Determine {
                 columns: layout.columns(&[finding]),
-                others: layout.columns(&question.besides(finding, finding)),
+                others: layout.columns(&question.other_findings(finding, finding)),
                 prior: finding.prior(question.robot, &known.scale, &effects::Priors::default()),
                 logs: &known.information,
             }],
         }
     }
 
-    /// That `model`, and what is found besides, cannot imitate `truth`.
-    fn apart(
-        [truth, model]: [Hypothesis; 2],
+    /// The aim that `model` and the other findings cannot imitate `truth`.
+    fn separate(
+        truth: Hypothesis,
+        model: Hypothesis,
         besides: &[Hypothesis],
-        (question, layout, known): (&Question, &Layout, &Known),
+        question: &Question,
+        layout: &Layout,
+        known: &Known,
     ) -> Self {
         let of = |first| known.weights(layout, question.robot, &[&[first], besides].concat());
         let columns = layout.columns(&[truth]);
@@ -151,59 +158,70 @@ impl<'a> Aim<'a> {
         };
         let others: Vec<Hypothesis> = besides.iter().copied().filter(|h| *h != model).collect();
         let model = layout.columns(&[&[model], &others[..]].concat());
-        Self::Apart { truth: columns, weights, model }
+        Self::Separate { truth: columns, weights, model }
     }
 
-    /// What the logs have brought (nats).
+    /// What the logs tell (nats).
     pub fn nats_before(&self, logs: &Information) -> f64 {
         match self {
-            Self::Apart { .. } => self.nats(logs),
-            Self::Sure { columns, others, prior, logs } => learned(logs, columns, others, prior),
+            Self::Separate { .. } => self.nats(logs),
+            Self::Determine { columns, others, prior, logs } => {
+                information_gain(logs, columns, others, prior)
+            }
         }
     }
 
-    /// What a motion brings (nats).
+    /// What a motion tells (nats).
     pub fn nats(&self, motion: &Information) -> f64 {
         match self {
-            Self::Apart { truth, weights, model } => {
-                0.5 * motion.deviance(&motion.left(truth, weights, model))
+            Self::Separate { truth, weights, model } => {
+                0.5 * motion.deviance(&motion.residual_weights(truth, weights, model))
             }
-            Self::Sure { columns, others, prior, logs } => {
-                let both = Information::joined(&[(*logs).clone(), motion.clone()]);
-                both.map_or(0.0, |both| learned(&both, columns, others, prior))
+            Self::Determine { columns, others, prior, logs } => {
+                let both = Information::sum(&[(*logs).clone(), motion.clone()]);
+                both.map_or(0.0, |both| information_gain(&both, columns, others, prior))
             }
         }
     }
 
-    /// What is left of it without the stretch of the motion that brings most: what a single
-    /// stretch says may be chance.
-    pub fn spread_nats(&self, motion: &Information, stretches: &[Information]) -> f64 {
+    /// What a motion tells without its most informative stretch (nats), as a single stretch may be
+    /// chance.
+    pub fn nats_without_best_stretch(
+        &self,
+        motion: &Information,
+        stretches: &[Information],
+    ) -> f64 {
         match self {
-            Self::Apart { truth, weights, model } => {
-                let left = motion.left(truth, weights, model);
+            Self::Separate { truth, weights, model } => {
+                let left = motion.residual_weights(truth, weights, model);
                 let parts = stretches.iter().map(|part| part.deviance(&left));
                 0.5 * (motion.deviance(&left) - parts.fold(0.0, f64::max))
             }
-            Self::Sure { .. } => self.nats(motion),
+            Self::Determine { .. } => self.nats(motion),
         }
     }
 
     /// Share of the cause that no part of the model imitates in a motion.
-    pub fn unlike(&self, motion: &Information) -> f64 {
+    pub fn unimitated_share(&self, motion: &Information) -> f64 {
         match self {
-            Self::Apart { truth, weights, model } => {
-                let whole = motion.deviance(&motion.spread(truth, weights));
-                let left = motion.deviance(&motion.left(truth, weights, model));
+            Self::Separate { truth, weights, model } => {
+                let whole = motion.deviance(&motion.expand(truth, weights));
+                let left = motion.deviance(&motion.residual_weights(truth, weights, model));
                 if whole > 0.0 { left / whole } else { 0.0 }
             }
-            Self::Sure { .. } => 1.0,
+            Self::Determine { .. } => 1.0,
         }
     }
 }
 
-/// Half the logarithm of the determinant of `1 + S M S` (nats).
-fn learned(known: &Information, columns: &[usize], others: &[usize], prior: &[f64]) -> f64 {
-    let known = known.about(columns, others);
+/// Information gained on some weights, `1/2 ln det(1 + S M S)` (nats).
+fn information_gain(
+    known: &Information,
+    columns: &[usize],
+    others: &[usize],
+    prior: &[f64],
+) -> f64 {
+    let known = known.information_about(columns, others);
     let scaled =
         DMatrix::from_fn(prior.len(), prior.len(), |i, k| known[(i, k)] * prior[i] * prior[k]);
     let values = scaled.symmetric_eigenvalues();
@@ -218,6 +236,7 @@ mod tests {
 
     use super::*;
     use crate::testing::turntable;
+    use crate::trial_shapes::with_trial_shapes;
 
     fn at(kind: EffectKind) -> Hypothesis {
         Hypothesis { kind, place: Place::Joint(0) }
@@ -225,7 +244,7 @@ mod tests {
 
     /// Columns of truth and model of every aim of a pair, as hypotheses.
     fn aims(finding: EffectKind, rival: EffectKind) -> Vec<[Vec<EffectKind>; 2]> {
-        let robot = crate::sown(&turntable());
+        let robot = with_trial_shapes(&turntable());
         let goal = Goal::Separate { finding: at(finding), rival: at(rival) };
         let mut question = Question::without_logs(&robot, vec![goal]);
         question.findings = vec![at(finding), at(EffectKind::CableSpring)];
@@ -236,8 +255,8 @@ mod tests {
             layout.hypotheses.iter().filter(of).map(|h| h.kind).collect()
         };
         let both = |aim: Aim| match aim {
-            Aim::Apart { truth, model, .. } => [kinds(&truth), kinds(&model)],
-            Aim::Sure { columns, others, .. } => [kinds(&columns), kinds(&others)],
+            Aim::Separate { truth, model, .. } => [kinds(&truth), kinds(&model)],
+            Aim::Determine { columns, others, .. } => [kinds(&columns), kinds(&others)],
         };
         Aim::of(goal, &question, &layout, &known).into_iter().map(both).collect()
     }
@@ -273,18 +292,22 @@ mod tests {
     #[test]
     fn the_stretch_that_says_most_does_not_count_twice() {
         let weights = DVector::from_element(1, 3.0);
-        let aim = Aim::Apart { truth: vec![0], weights, model: vec![] };
+        let aim = Aim::Separate { truth: vec![0], weights, model: vec![] };
         let stretches = [power(1.0), power(6.0), power(2.0)];
         let whole = power(9.0);
         assert!((aim.nats(&whole) - 40.5).abs() < 1e-12);
-        assert!((aim.spread_nats(&whole, &stretches) - 13.5).abs() < 1e-12);
-        assert!((aim.unlike(&whole) - 1.0).abs() < 1e-12 && aim.unlike(&power(0.0)) <= 0.0);
+        assert!((aim.nats_without_best_stretch(&whole, &stretches) - 13.5).abs() < 1e-12);
+        assert!(
+            (aim.unimitated_share(&whole) - 1.0).abs() < 1e-12
+                && aim.unimitated_share(&power(0.0)) <= 0.0
+        );
     }
 
     #[test]
     fn what_logs_and_motion_tell_of_a_weight_is_added_before_it_is_counted() {
         let logs = power(3.0);
-        let aim = Aim::Sure { columns: vec![0], others: vec![], prior: vec![2.0], logs: &logs };
+        let aim =
+            Aim::Determine { columns: vec![0], others: vec![], prior: vec![2.0], logs: &logs };
         assert!((aim.nats_before(&logs) - 0.5 * 13.0_f64.ln()).abs() < 1e-12);
         assert!((aim.nats(&power(5.0)) - 0.5 * 33.0_f64.ln()).abs() < 1e-12);
     }

@@ -3,25 +3,25 @@ use std::ops::RangeInclusive;
 use logs::{Prepared, PreparedRun, of_run};
 use motion::{Motion, MotionSpec};
 
-use crate::aim::Aim;
+use crate::aim::{Aim, Goal, Question};
+use crate::error::NextMotionError;
 use crate::known::Known;
 use crate::limits::usable;
 use crate::search::Search;
-use crate::{Goal, NextMotionError, Question};
 
-/// Lengths of a motion (s): one that is to say more is run more than once.
+/// Lengths of a motion (s). More information comes from running it several times.
 const DURATION_S: RangeInclusive<f64> = 1.0..=120.0;
 
 /// How a motion is searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct DesignSettings {
     /// Length of the motion (s), 1 to 120.
     pub duration_s: f64,
     /// Seed of every random draw.
     pub seed: u64,
 }
 
-impl Default for Settings {
+impl Default for DesignSettings {
     fn default() -> Self {
         Self { duration_s: 20.0, seed: 1 }
     }
@@ -32,31 +32,31 @@ impl Default for Settings {
 pub struct Design {
     /// One entry a goal.
     pub prospects: Vec<Prospect>,
-    /// The motion, unless none helps any goal.
-    pub motion: Option<Designed>,
+    /// The motion; none where no motion helps any goal.
+    pub motion: Option<DesignedMotion>,
 }
 
 /// A motion that was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Designed {
-    /// As a scenario says it.
+pub struct DesignedMotion {
+    /// Its description in a scenario.
     pub spec: MotionSpec,
-    /// As it is run.
+    /// The motion itself.
     pub motion: Motion,
 }
 
-/// What the logs and the motion say of one goal.
+/// What the logs and the motion tell about one goal (nats).
 ///
-/// Of rivals, the expected log evidence against the wrong one (nats). Of a cause to determine,
-/// what is learned of its parameters (nats): every `ln 2` halves the width of one interval.
+/// For two rivals: the expected log evidence against the wrong one. For a cause to determine: the
+/// information gained on its parameters; every `ln 2` halves the width of one interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prospect {
     /// The goal.
     pub goal: Goal,
-    /// By the logs; 0 without any.
+    /// From the logs; 0 without logs.
     pub before: f64,
-    /// By the motion, of a cause to determine by both together; none where every motion leaves
-    /// it open.
+    /// From the motion; for a cause to determine, from logs and motion together. None where no
+    /// motion can settle the goal.
     pub after: Option<f64>,
 }
 
@@ -64,9 +64,9 @@ pub struct Prospect {
 ///
 /// With `D` twice the expected log evidence, what a log says is `D` with a standard deviation
 /// of `2 sqrt(D)`, and the diagnosis asks for twice that: `D - 1.64 2 sqrt(D) = 2 2 sqrt(D)`.
-pub const TELLS_APART: f64 = 26.6;
+pub const SEPARATING_NATS: f64 = 26.6;
 
-/// Most times that one would run a motion.
+/// Most repetitions of a motion that are proposed.
 const MOST_RUNS: f64 = 10.0;
 
 impl Prospect {
@@ -74,7 +74,7 @@ impl Prospect {
     pub fn runs(&self) -> Option<usize> {
         let after = self.after?;
         let runs = match self.goal {
-            Goal::Separate { .. } => (TELLS_APART / after).ceil(),
+            Goal::Separate { .. } => (SEPARATING_NATS / after).ceil(),
             // One interval of half the width.
             Goal::Determine { .. } if after - self.before >= std::f64::consts::LN_2 => 1.0,
             Goal::Determine { .. } => return None,
@@ -83,11 +83,11 @@ impl Prospect {
     }
 }
 
-/// The motion that serves the goals of a question best, the one served worst counting.
+/// The motion for which the goal of a question that it tells least about is told most.
 ///
-/// Rivals are taken at the sizes at which they explain `logs` best, without logs at a tenth of
-/// what is believed possible before there are any. The same input and seed
-/// give the same motion, whatever the number of threads.
+/// Rivals have the sizes at which they explain `logs` best; without logs, a tenth of their prior
+/// standard deviations. The same input and seed give the same motion, whatever the number of
+/// threads.
 ///
 /// # Errors
 ///
@@ -96,7 +96,7 @@ impl Prospect {
 pub fn design(
     question: &Question,
     logs: Option<&Prepared>,
-    settings: &Settings,
+    settings: &DesignSettings,
 ) -> Result<Design, NextMotionError> {
     check(question, logs, settings)?;
     let layout = question.layout();
@@ -118,7 +118,7 @@ pub fn design(
     let open: Vec<Vec<&Aim>> = aims.iter().map(|a| search.within_reach(a, &drawn)).collect();
     let all: Vec<&Aim> = open.iter().flatten().copied().collect();
     let best = if all.is_empty() { None } else { search.improve(&all, drawn)? };
-    let found = best.as_ref().map(|c| search.says(&c.motion)).transpose()?.flatten();
+    let found = best.as_ref().map(|c| search.information_of(&c.motion)).transpose()?.flatten();
     let prospect = |(goal, aims): (&Goal, &Vec<&Aim>)| {
         let before = aims.iter().map(|aim| aim.nats_before(&known.information)).reduce(f64::min);
         let after = |found| aims.iter().map(|aim| aim.nats(found)).reduce(f64::min);
@@ -130,14 +130,14 @@ pub fn design(
     };
     Ok(Design {
         prospects: question.goals.iter().zip(&open).map(prospect).collect(),
-        motion: best.map(|c| Designed { spec: c.spec, motion: c.motion }),
+        motion: best.map(|c| DesignedMotion { spec: c.spec, motion: c.motion }),
     })
 }
 
 fn check(
     question: &Question,
     logs: Option<&Prepared>,
-    settings: &Settings,
+    settings: &DesignSettings,
 ) -> Result<(), NextMotionError> {
     let expected = question.robot.joint_count();
     let wrong =
@@ -202,7 +202,7 @@ mod tests {
         }
     }
 
-    const SHORT: Settings = Settings { duration_s: 8.0, seed: 3 };
+    const SHORT: DesignSettings = DesignSettings { duration_s: 8.0, seed: 3 };
 
     #[test]
     fn a_motion_tells_viscous_from_coulomb_friction_and_moves_no_joint_in_vain() {
@@ -249,7 +249,7 @@ mod tests {
         let question = Question::without_logs(&robot, vec![friction(1)]);
         let found = design(&question, None, &SHORT).unwrap();
         let [prospect] = found.prospects.try_into().unwrap();
-        assert!(prospect.before <= 0.0 && prospect.after > Some(TELLS_APART), "{prospect:?}");
+        assert!(prospect.before <= 0.0 && prospect.after > Some(SEPARATING_NATS), "{prospect:?}");
         assert!(found.motion.is_some());
     }
 
@@ -259,7 +259,7 @@ mod tests {
         let logs = log(&robot, |v| 0.2 * v);
         let with = |threads: usize, seed: u64| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let settings = Settings { seed, ..SHORT };
+            let settings = DesignSettings { seed, ..SHORT };
             pool.install(|| design(&question(&robot, friction(0)), Some(&logs), &settings)).unwrap()
         };
         let one = with(1, 3);
@@ -316,7 +316,7 @@ mod tests {
         let robot = turntable();
         let logs = log(&robot, |v| v);
         let whole = question(&robot, friction(0));
-        let refused = |question: Question, logs: &Prepared, settings: Settings| {
+        let refused = |question: Question, logs: &Prepared, settings: DesignSettings| {
             design(&question, Some(logs), &settings).unwrap_err().to_string()
         };
         let none = Question { goals: vec![], ..whole.clone() };
@@ -328,7 +328,7 @@ mod tests {
         let empty = Prepared { runs: vec![], ..logs.clone() };
         assert!(refused(whole.clone(), &empty, SHORT).starts_with("no log was given"));
         for duration_s in [f64::NAN, 0.5, 1e9] {
-            let settings = Settings { duration_s, ..SHORT };
+            let settings = DesignSettings { duration_s, ..SHORT };
             assert!(refused(whole.clone(), &logs, settings).starts_with("duration: found"));
         }
         let still = Question { cutoff_hz: 0.0, ..whole };
@@ -338,7 +338,7 @@ mod tests {
     /// `D` and its standard deviation `2 sqrt(D)`: nineteen times in twenty above twice that.
     #[test]
     fn the_evidence_needed_is_where_the_margin_meets_the_test() {
-        let d = 2.0 * TELLS_APART;
+        let d = 2.0 * SEPARATING_NATS;
         assert!((d - 1.645 * 2.0 * d.sqrt() - 2.0 * 2.0 * d.sqrt()).abs() < 0.1);
         let goal = friction(0);
         let runs = |after| Prospect { goal, before: 1.0, after }.runs();

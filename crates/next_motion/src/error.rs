@@ -27,7 +27,7 @@ pub enum NextMotionError {
         /// Joints expected.
         expected: usize,
     },
-    /// A number is out of its range.
+    /// A setting is out of its range.
     #[error("{name}: found {found}, {expected} was expected")]
     Setting {
         /// The number.

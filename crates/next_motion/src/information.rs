@@ -7,10 +7,10 @@ use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 /// Order of the low-pass filter, before it runs forward and backward.
 pub(crate) const ORDER: usize = 4;
 
-/// Eigenvalue of the normalised normal equations below which a direction counts as none.
+/// Eigenvalue of the normalised normal equations below which a direction is left out.
 const RANK: f64 = 1e-10;
 
-/// The hypotheses of a question, and where their columns stand.
+/// The hypotheses of a question, and the positions of their columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
     /// The hypotheses.
@@ -44,16 +44,16 @@ impl Layout {
         places.flat_map(|at| start(at)..start(at + 1)).collect()
     }
 
-    /// What is known before any motion.
-    pub fn nothing(&self) -> Information {
+    /// The information of no motion: zeros.
+    pub fn no_information(&self) -> Information {
         let width = self.widths.iter().sum();
         Information { xx: DMatrix::zeros(width, width), xy: DVector::zeros(width) }
     }
 
-    /// What a motion says of the columns, in equal stretches of it; `measured` is the low-passed
-    /// effort of each joint, if there is any, of which they are to explain what the nominal
-    /// robot does not.
-    pub fn along(
+    /// The normal equations of a motion, one for each of its equal `stretches`. `measured` is the
+    /// low-passed effort of each joint, if there is any; the columns explain what the nominal robot
+    /// leaves of it.
+    pub fn information_along(
         &self,
         motion: &Motion,
         measured: Option<&[Vec<f64>]>,
@@ -68,7 +68,7 @@ impl Layout {
                 signals[part.joint].push((index, part.values));
             }
         }
-        let mut sums = vec![self.nothing(); stretches];
+        let mut sums = vec![self.no_information(); stretches];
         for (j, signals) in signals.iter().enumerate() {
             let Some(noise) = self.noise[j] else { continue };
             let target = measured.map(|measured| {
@@ -113,8 +113,8 @@ impl Information {
         }
     }
 
-    /// All motions one after the other, if there is any.
-    pub fn joined(all: &[Self]) -> Option<Self> {
+    /// The sum over all motions; none without motions.
+    pub fn sum(all: &[Self]) -> Option<Self> {
         let (first, rest) = all.split_first()?;
         Some(rest.iter().fold(first.clone(), |mut sum, other| {
             sum.xx += &other.xx;
@@ -138,17 +138,22 @@ impl Information {
         solved.component_mul(&scale)
     }
 
-    /// What is left, as weights of all columns, of the signal `columns[truth] weights` once the
-    /// columns `model` have explained all they can: `(w, -xx_mm^+ xx_mt w)`.
-    pub fn left(&self, truth: &[usize], weights: &DVector<f64>, model: &[usize]) -> DVector<f64> {
-        let signal = self.spread(truth, weights);
+    /// The weights, among all columns, of the signal `columns[truth] weights` minus its best fit by
+    /// the columns `model`: `(w, -xx_mm^+ xx_mt w)`.
+    pub fn residual_weights(
+        &self,
+        truth: &[usize],
+        weights: &DVector<f64>,
+        model: &[usize],
+    ) -> DVector<f64> {
+        let signal = self.expand(truth, weights);
         let seen = &self.xx * &signal;
         let fitted = Inverse::new(self, model).solve(&seen.select_rows(model));
-        signal - self.spread(model, &fitted)
+        signal - self.expand(model, &fitted)
     }
 
     /// Weights of some columns among those of all.
-    pub fn spread(&self, columns: &[usize], weights: &DVector<f64>) -> DVector<f64> {
+    pub fn expand(&self, columns: &[usize], weights: &DVector<f64>) -> DVector<f64> {
         let mut all = DVector::zeros(self.xy.len());
         columns.iter().zip(weights.iter()).for_each(|(&k, w)| all[k] += w);
         all
@@ -160,7 +165,7 @@ impl Information {
     }
 
     /// The information about `columns` that is left when the columns `others` are free.
-    pub fn about(&self, columns: &[usize], others: &[usize]) -> DMatrix<f64> {
+    pub fn information_about(&self, columns: &[usize], others: &[usize]) -> DMatrix<f64> {
         let block = |rows: &[usize], of: &[usize]| self.xx.select_rows(rows).select_columns(of);
         let inverse = Inverse::new(self, others);
         let cross = block(others, columns);
@@ -177,7 +182,7 @@ impl Information {
 /// The pseudo-inverse of a part of the normal equations, its columns scaled to one.
 struct Inverse {
     scale: DVector<f64>,
-    /// None of no columns.
+    /// None without columns.
     eigen: Option<SymmetricEigen<f64, Dyn>>,
 }
 
@@ -252,13 +257,14 @@ mod tests {
             cutoff_hz: 40.0,
         };
         let motion = record.evaluate(&turntable(), &frame);
-        let halves = layout.along(&motion, Some(&[motion.effort[0].clone()]), 2).unwrap();
+        let halves =
+            layout.information_along(&motion, Some(&[motion.effort[0].clone()]), 2).unwrap();
         halves.try_into().unwrap()
     }
 
     fn deviance(waves: &[(f64, f64)]) -> f64 {
-        let whole = Information::joined(&along(waves)).unwrap();
-        let left = whole.left(&[0], &DVector::from_element(1, SPRING), &[1]);
+        let whole = Information::sum(&along(waves)).unwrap();
+        let left = whole.residual_weights(&[0], &DVector::from_element(1, SPRING), &[1]);
         whole.deviance(&left)
     }
 
@@ -284,7 +290,7 @@ mod tests {
     #[test]
     fn stretches_add_up_to_the_whole() {
         let [first, second] = along(&[(0.8, 0.5), (0.3, 1.25)]);
-        let both = Information::joined(&[first.clone(), second.clone()]).unwrap();
+        let both = Information::sum(&[first.clone(), second.clone()]).unwrap();
         assert!((&both.xx - &first.xx - &second.xx).amax() < 1e-9 * both.xx.amax());
         assert!(first.xx[(0, 0)] > 0.0 && second.xx[(0, 0)] > 0.0);
     }
@@ -293,7 +299,7 @@ mod tests {
     /// `2 xx / (xx + 1/s^2)`.
     #[test]
     fn weights_are_drawn_to_zero_by_what_is_believed() {
-        let mut one = Information::joined(&along(&[(0.8, 0.5)])).unwrap();
+        let mut one = Information::sum(&along(&[(0.8, 0.5)])).unwrap();
         one.xy = one.xx.column(0) * 2.0;
         let power = one.xx[(0, 0)];
         for believed in [1e6, 1.0, power.recip().sqrt()] {
@@ -306,18 +312,18 @@ mod tests {
 
     #[test]
     fn what_is_known_of_one_column_is_less_by_what_the_other_takes() {
-        let whole = Information::joined(&along(&[(0.8, 0.5), (0.3, 1.25)])).unwrap();
+        let whole = Information::sum(&along(&[(0.8, 0.5), (0.3, 1.25)])).unwrap();
         let [a, b, c] = [whole.xx[(0, 0)], whole.xx[(0, 1)], whole.xx[(1, 1)]];
-        let found = whole.about(&[0], &[1])[(0, 0)];
+        let found = whole.information_about(&[0], &[1])[(0, 0)];
         assert!((found - (a - b * b / c)).abs() < 1e-9 * a);
-        assert!((whole.about(&[0], &[])[(0, 0)] - a).abs() < 1e-9 * a);
+        assert!((whole.information_about(&[0], &[])[(0, 0)] - a).abs() < 1e-9 * a);
     }
 
     #[test]
     fn signals_that_are_no_numbers_say_nothing_and_end() {
-        let mut whole = Information::joined(&along(&[(0.8, 0.5)])).unwrap();
+        let mut whole = Information::sum(&along(&[(0.8, 0.5)])).unwrap();
         whole.xx.fill(f64::NAN);
-        let left = whole.left(&[0], &DVector::from_element(1, 1.0), &[1]);
+        let left = whole.residual_weights(&[0], &DVector::from_element(1, 1.0), &[1]);
         assert!(whole.deviance(&left) <= 0.0);
     }
 }

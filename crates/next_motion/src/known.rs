@@ -3,26 +3,25 @@ use logs::{LowPass, Prepared, PreparedJoint};
 use nalgebra::DVector;
 use robot::Robot;
 
-use crate::NextMotionError;
+use crate::error::NextMotionError;
 use crate::information::{Information, Layout, ORDER};
 use crate::limits::{Usable, efforts, usable};
-use crate::record::Record;
-use crate::search::EVALUATION_RATE;
+use crate::record::{EVALUATION_RATE, Record};
 
-/// Share of what is believed possible of a cause that it is taken to have where no log says how
-/// large it is.
+/// Size of a cause that no log shows, as a share of its prior standard deviation.
 const SUPPOSED: f64 = 0.1;
 
-/// Share of its largest speed below which a joint counts as at rest in a motion that is not run yet.
+/// Share of its largest speed below which a joint counts as at rest in a motion that has not been
+/// run.
 const REST_SHARE: f64 = 1e-3;
 
 /// What is known before the motion.
 #[derive(Debug, Clone)]
 pub(crate) struct Known {
     pub frame: Frame,
-    /// How large things are.
+    /// Typical sizes of efforts, speeds and inertias.
     pub scale: Scale,
-    /// What the logs say, nothing where there are none.
+    /// Information from the logs; zero without logs.
     pub information: Information,
     source: Source,
 }
@@ -34,7 +33,7 @@ enum Source {
 }
 
 impl Known {
-    /// By logs.
+    /// From logs.
     pub fn of_logs(
         robot: &Robot,
         layout: &Layout,
@@ -47,7 +46,7 @@ impl Known {
         Ok(Self { frame, scale, information, source: Source::Logs })
     }
 
-    /// By what the joints can do, before there is any log.
+    /// From the limits of the joints, before there is any log.
     pub fn of_limits(robot: &Robot, layout: &Layout) -> Self {
         let usable = usable(robot);
         let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
@@ -58,14 +57,14 @@ impl Known {
                 reach: each(|u| u.half),
                 resolution: vec![0.0; usable.len()],
             },
-            scale: supposed(robot),
-            information: layout.nothing(),
+            scale: scale_of_limits(robot),
+            information: layout.no_information(),
             source: Source::Limits,
         }
     }
 
-    /// The weights of the columns of some causes: those that explain the logs best, or else a
-    /// tenth of what is believed possible.
+    /// The weights of the columns of some causes: those that explain the logs best or, without
+    /// logs, a tenth of their prior standard deviations.
     pub fn weights(&self, layout: &Layout, robot: &Robot, causes: &[Hypothesis]) -> DVector<f64> {
         let prior: Vec<f64> = causes
             .iter()
@@ -78,8 +77,8 @@ impl Known {
     }
 }
 
-/// How large things can be where no log says it.
-pub(crate) fn supposed(robot: &Robot) -> Scale {
+/// Sizes that the limits of the joints allow, for use without logs.
+pub(crate) fn scale_of_limits(robot: &Robot) -> Scale {
     let usable = usable(robot);
     let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
     let [link_mass, link_length] = Scale::of_links(robot);
@@ -95,7 +94,7 @@ pub(crate) fn supposed(robot: &Robot) -> Scale {
     }
 }
 
-/// What all runs together say of the columns and of the effort that they are to explain.
+/// The normal equations of the columns and the measured effort over all runs.
 fn along_logs(
     robot: &Robot,
     layout: &Layout,
@@ -113,9 +112,9 @@ fn along_logs(
             effort.into_iter().step_by(stride).collect::<Vec<f64>>()
         };
         let measured: Vec<Vec<f64>> = run.joints.iter().map(effort).collect();
-        all.extend(layout.along(&motion, Some(&measured), 1)?);
+        all.extend(layout.information_along(&motion, Some(&measured), 1)?);
     }
-    Information::joined(&all).ok_or(NextMotionError::NoRuns)
+    Information::sum(&all).ok_or(NextMotionError::NoRuns)
 }
 
 #[cfg(test)]

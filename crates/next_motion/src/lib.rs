@@ -21,12 +21,12 @@ mod known;
 mod limits;
 mod record;
 mod search;
-mod sown;
 mod steps;
 #[cfg(test)]
 mod testing;
+mod trial_shapes;
 
 pub use aim::{Goal, Question};
-pub use design::{Design, Designed, Prospect, Settings, TELLS_APART, design};
+pub use design::{Design, DesignSettings, DesignedMotion, Prospect, SEPARATING_NATS, design};
 pub use error::NextMotionError;
-pub use sown::sown;
+pub use trial_shapes::with_trial_shapes;

@@ -59,7 +59,7 @@ pub(crate) fn usable(robot: &Robot) -> Vec<Usable> {
     robot.links().iter().map(|link| Usable::of(&link.joint)).collect()
 }
 
-/// How strong the joints are (N·m or N).
+/// Effort limits of the joints (N·m or N), with a default for joints without one.
 pub(crate) fn efforts(robot: &Robot) -> Vec<f64> {
     let effort = |link: &Link| link.joint.limits.effort.unwrap_or(EFFORT);
     robot.links().iter().map(effort).collect()

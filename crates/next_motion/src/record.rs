@@ -2,6 +2,10 @@ use effects::{Frame, Motion};
 use logs::PreparedRun;
 use robot::Robot;
 
+/// Rate at which logs and the motion that is found are evaluated, in cut-off frequencies: that
+/// of the diagnosis.
+pub(crate) const EVALUATION_RATE: f64 = 16.0;
+
 /// Positions, velocities and accelerations of all joints on a uniform clock, recorded or
 /// planned, each `[joint][sample]`.
 #[derive(Debug, Clone, PartialEq)]

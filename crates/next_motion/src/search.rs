@@ -8,11 +8,11 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use robot::Robot;
 
-use crate::NextMotionError;
 use crate::aim::Aim;
+use crate::error::NextMotionError;
 use crate::information::{Information, Layout};
 use crate::limits::Usable;
-use crate::record::Record;
+use crate::record::{EVALUATION_RATE, Record};
 use crate::steps::Steps;
 
 /// Motions drawn at random.
@@ -22,15 +22,11 @@ const STARTS: usize = 8;
 /// Changes tried on each.
 const CHANGES: usize = 120;
 
-/// Share of what a motion brings that it must keep where a joint rests instead.
+/// Share of its worth that a motion must keep when a joint is put to rest.
 const CALM: f64 = 0.95;
 
-/// Stretches of a motion of which none may be all that counts.
+/// Stretches that a motion is divided into; the most informative one is not counted.
 const STRETCHES: usize = 5;
-
-/// Rate at which logs and the motion that is found are evaluated, in cut-off frequencies: that
-/// of the diagnosis.
-pub(crate) const EVALUATION_RATE: f64 = 16.0;
 
 /// Rate at which motions are compared, in cut-off frequencies.
 const SEARCH_RATE: f64 = 8.0;
@@ -38,7 +34,7 @@ const SEARCH_RATE: f64 = 8.0;
 /// Share of a cause below which a model counts as imitating it: what rounding leaves.
 const UNLIKE: f64 = 1e-6;
 
-/// What a motion is searched in.
+/// The robot, the limits and the settings of a search.
 #[derive(Debug)]
 pub(crate) struct Search<'a> {
     pub robot: &'a Robot,
@@ -49,32 +45,32 @@ pub(crate) struct Search<'a> {
     pub seed: u64,
 }
 
-/// A motion and what it brings.
+/// A motion and its information.
 #[derive(Debug, Clone)]
 pub(crate) struct Candidate {
     steps: Steps,
     pub spec: MotionSpec,
     pub motion: Motion,
-    outcome: Outcome,
+    feasibility: Feasibility,
 }
 
-/// Whether a motion can be run, and what it says then.
+/// Whether a motion can be run, and the information that it then gives.
 #[derive(Debug, Clone)]
-enum Outcome {
+enum Feasibility {
     /// Largest effort over what is usable.
     TooHeavy(f64),
-    /// What it says, in all and in stretches.
-    Says { whole: Box<Information>, stretches: Vec<Information> },
+    /// Information of the whole motion and of its stretches.
+    Feasible { whole: Box<Information>, stretches: Vec<Information> },
 }
 
 impl Candidate {
-    /// The least that it brings to any aim; a motion that cannot be run is worth less, the more
-    /// the more effort it needs.
+    /// The smallest number of nats over all aims. A motion that cannot be run has minus its largest
+    /// effort over the usable one.
     fn worth(&self, aims: &[&Aim]) -> f64 {
-        match &self.outcome {
-            Outcome::TooHeavy(share) => -share,
-            Outcome::Says { whole, stretches } => {
-                let nats = aims.iter().map(|aim| aim.spread_nats(whole, stretches));
+        match &self.feasibility {
+            Feasibility::TooHeavy(share) => -share,
+            Feasibility::Feasible { whole, stretches } => {
+                let nats = aims.iter().map(|aim| aim.nats_without_best_stretch(whole, stretches));
                 nats.fold(f64::INFINITY, f64::min)
             }
         }
@@ -82,17 +78,17 @@ impl Candidate {
 
     /// Largest effort over what is usable, 0 where it is not above.
     fn heaviest(&self) -> f64 {
-        match self.outcome {
-            Outcome::TooHeavy(share) => share,
-            Outcome::Says { .. } => 0.0,
+        match self.feasibility {
+            Feasibility::TooHeavy(share) => share,
+            Feasibility::Feasible { .. } => 0.0,
         }
     }
 
-    /// What it says, if it can be run.
+    /// Its information, if it can be run.
     fn information(&self) -> Option<&Information> {
-        match &self.outcome {
-            Outcome::TooHeavy(_) => None,
-            Outcome::Says { whole, .. } => Some(whole),
+        match &self.feasibility {
+            Feasibility::TooHeavy(_) => None,
+            Feasibility::Feasible { whole, .. } => Some(whole),
         }
     }
 }
@@ -113,15 +109,18 @@ impl Search<'_> {
     /// The aims that some of the motions reach.
     pub fn within_reach<'b>(&self, aims: &'b [Aim<'b>], drawn: &[Candidate]) -> Vec<&'b Aim<'b>> {
         let reaches = |aim: &&Aim| {
-            drawn.iter().filter_map(Candidate::information).any(|i| aim.unlike(i) > UNLIKE)
+            drawn
+                .iter()
+                .filter_map(Candidate::information)
+                .any(|i| aim.unimitated_share(i) > UNLIKE)
         };
         aims.iter().filter(reaches).collect()
     }
 
-    /// What a motion says at the rate of the diagnosis.
-    pub fn says(&self, motion: &Motion) -> Result<Option<Information>, LogError> {
+    /// The information of a motion at the rate of the diagnosis.
+    pub fn information_of(&self, motion: &Motion) -> Result<Option<Information>, LogError> {
         let along = self.along(motion, EVALUATION_RATE);
-        Ok(Information::joined(&self.layout.along(&along, None, 1)?))
+        Ok(Information::sum(&self.layout.information_along(&along, None, 1)?))
     }
 
     fn along(&self, motion: &Motion, rate: f64) -> Along {
@@ -129,7 +128,7 @@ impl Search<'_> {
         Record::of_motion(motion, rate_hz).evaluate(self.robot, self.frame)
     }
 
-    /// The best motion that comes of improving the best of those drawn.
+    /// Improves the best of the drawn motions, and returns the best result.
     pub fn improve(
         &self,
         aims: &[&Aim],
@@ -142,21 +141,22 @@ impl Search<'_> {
         let climbed: Result<Vec<(f64, Candidate)>, NextMotionError> = starts
             .into_par_iter()
             .enumerate()
-            .map(|(k, start)| self.climb(aims, start, DRAWS + k as u64))
+            .map(|(k, (worth, start))| self.climb(aims, worth, start, DRAWS + k as u64))
             .collect();
         // The first of equals, so that the order of the threads is no part of the answer.
         let best = climbed?.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a });
-        best.map(|best| self.calmed(aims, best)).transpose()
+        best.map(|(worth, best)| self.rest_needless_joints(aims, worth, best)).transpose()
     }
 
-    /// The same motion with every joint at rest that need not move.
-    fn calmed(
+    /// The same motion, with every joint at rest whose movement is not needed.
+    fn rest_needless_joints(
         &self,
         aims: &[&Aim],
-        (worth, mut best): (f64, Candidate),
+        worth: f64,
+        mut best: Candidate,
     ) -> Result<Candidate, NextMotionError> {
         for joint in 0..self.usable.len() {
-            let calmer = self.candidate(best.steps.without(joint))?;
+            let calmer = self.candidate(best.steps.with_joint_at_rest(joint))?;
             if calmer.worth(aims) > CALM * worth {
                 best = calmer;
             }
@@ -167,12 +167,13 @@ impl Search<'_> {
     fn climb(
         &self,
         aims: &[&Aim],
-        (mut worth, mut best): (f64, Candidate),
+        mut worth: f64,
+        mut best: Candidate,
         stream: u64,
     ) -> Result<(f64, Candidate), NextMotionError> {
         let mut rng = self.rng(stream);
         for _ in 0..CHANGES {
-            let next = self.candidate(best.steps.varied(&mut rng))?;
+            let next = self.candidate(best.steps.vary_one_move(&mut rng))?;
             let found = next.worth(aims);
             if found > worth {
                 (worth, best) = (found, next);
@@ -190,22 +191,24 @@ impl Search<'_> {
     fn candidate(&self, steps: Steps) -> Result<Candidate, NextMotionError> {
         let spec = steps.spec(self.robot, self.usable, self.duration_s);
         let motion = spec.build(self.robot, Path::new("."))?;
-        let outcome = self.outcome(&motion)?;
-        Ok(Candidate { steps, spec, motion, outcome })
+        let feasibility = self.feasibility(&motion)?;
+        Ok(Candidate { steps, spec, motion, feasibility })
     }
 
-    fn outcome(&self, motion: &Motion) -> Result<Outcome, LogError> {
+    fn feasibility(&self, motion: &Motion) -> Result<Feasibility, LogError> {
         let along = self.along(motion, SEARCH_RATE);
         let share = |(torque, usable): (&Vec<f64>, &Usable)| {
             torque.iter().fold(0.0, |m: f64, t| m.max(t.abs())) / usable.effort
         };
         let heaviest = along.torque.iter().zip(self.usable).map(share).fold(0.0, f64::max);
         if heaviest > 1.0 {
-            return Ok(Outcome::TooHeavy(heaviest));
+            return Ok(Feasibility::TooHeavy(heaviest));
         }
-        let stretches = self.layout.along(&along, None, STRETCHES)?;
-        let whole = Information::joined(&stretches).map(Box::new);
-        Ok(whole
-            .map_or(Outcome::TooHeavy(f64::INFINITY), |whole| Outcome::Says { whole, stretches }))
+        let stretches = self.layout.information_along(&along, None, STRETCHES)?;
+        let whole = Information::sum(&stretches).map(Box::new);
+        Ok(whole.map_or(Feasibility::TooHeavy(f64::INFINITY), |whole| Feasibility::Feasible {
+            whole,
+            stretches,
+        }))
     }
 }

@@ -52,15 +52,15 @@ impl Steps {
     /// A random motion for `joints` joints.
     pub fn draw(joints: usize, duration_s: f64, rng: &mut ChaCha8Rng) -> Self {
         // A part of the range about a place in it: steps in amplitude and in offset.
-        let reach = between(REACH, rng);
+        let reach = draw_between(REACH, rng);
         let about: Vec<f64> = posture(joints, 1.0 - reach, rng);
         let near = |rng: &mut ChaCha8Rng| {
             let mut to = posture(joints, reach, rng);
             to.iter_mut().zip(&about).for_each(|(to, about)| *to += about);
             to
         };
-        let spread = between(UNEVENNESS, rng);
-        let mean_s = between(MEAN_MOVE_S.map(f64::ln), rng).exp();
+        let spread = draw_between(UNEVENNESS, rng);
+        let mean_s = draw_between(MEAN_MOVE_S.map(f64::ln), rng).exp();
         let count = (duration_s / mean_s).ceil().max(2.0) as usize;
         let start = near(rng);
         let draw = |_| {
@@ -73,11 +73,11 @@ impl Steps {
 
     /// The same with one move changed: its time, whether it is a rest, or, as often as both,
     /// where it leads.
-    pub fn varied(&self, rng: &mut ChaCha8Rng) -> Self {
-        let mut varied = self.clone();
-        let k = rng.random_range(0..varied.moves.len());
+    pub fn vary_one_move(&self, rng: &mut ChaCha8Rng) -> Self {
+        let mut steps = self.clone();
+        let k = rng.random_range(0..steps.moves.len());
         let joints = self.start.len();
-        let own = &mut varied.moves[k];
+        let own = &mut steps.moves[k];
         match rng.random_range(0..4) {
             0 => own.log_time += CHANGE_OF_TIME * normal(rng),
             1 => {
@@ -93,11 +93,11 @@ impl Steps {
                 }
             }
         }
-        varied
+        steps
     }
 
     /// The same with a joint that stays where it begins.
-    pub fn without(&self, joint: usize) -> Self {
+    pub fn with_joint_at_rest(&self, joint: usize) -> Self {
         let mut calm = self.clone();
         for to in calm.moves.iter_mut().filter_map(|m| m.to.as_mut()) {
             to[joint] = self.start[joint];
@@ -115,18 +115,18 @@ impl Steps {
         let shared = duration_s - least * self.moves.len() as f64;
         let place = |share: f64, u: &Usable| u.middle + share * u.half;
         let mut here: Vec<f64> =
-            self.start.iter().zip(usable).map(|(s, u)| rounded(place(*s, u), 1e4)).collect();
+            self.start.iter().zip(usable).map(|(s, u)| round_to(place(*s, u), 1e4)).collect();
         let (mut times_s, mut positions) = (vec![0.0], vec![here.clone()]);
         let mut elapsed = 0.0;
         let mut before: f64 = 0.0;
         for own in &self.moves {
             elapsed += least + shared * own.log_time.exp() / total;
-            let time = rounded(elapsed, 1e3);
+            let time = round_to(elapsed, 1e3);
             if let Some(to) = &own.to {
                 for ((here, share), u) in here.iter_mut().zip(to).zip(usable) {
                     let farthest = u.farthest(time - before);
                     let step = (place(*share, u) - *here).clamp(-farthest, farthest);
-                    *here = rounded(*here + step, 1e4);
+                    *here = round_to(*here + step, 1e4);
                 }
             }
             times_s.push(time);
@@ -148,11 +148,11 @@ fn normal(rng: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(rng)
 }
 
-fn between([low, high]: [f64; 2], rng: &mut ChaCha8Rng) -> f64 {
+fn draw_between([low, high]: [f64; 2], rng: &mut ChaCha8Rng) -> f64 {
     rng.random_range(low..=high)
 }
 
-fn rounded(x: f64, steps: f64) -> f64 {
+fn round_to(x: f64, steps: f64) -> f64 {
     (x * steps).round() / steps
 }
 
@@ -173,7 +173,7 @@ mod tests {
         for seed in 0..40 {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let mut steps = Steps::draw(2, 12.0, &mut rng);
-            (0..seed).for_each(|_| steps = steps.varied(&mut rng));
+            (0..seed).for_each(|_| steps = steps.vary_one_move(&mut rng));
             let motion = steps.spec(&robot, &usable, 12.0).build(&robot, Path::new(".")).unwrap();
             assert!((motion.duration_s() - 12.0).abs() < 1e-9);
             let [first, last] = [0.0, 12.0].map(|t| motion.at(t));

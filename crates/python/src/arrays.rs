@@ -54,13 +54,13 @@ impl Columns<'_> {
 }
 
 /// Rows of numbers, one column a joint, as they lie in memory.
-pub struct Rows<'py> {
+pub struct SampleRows<'py> {
     array: PyReadonlyArray2<'py, f64>,
     /// Whether one row was given, and not a table of rows.
     pub is_single: bool,
 }
 
-impl<'py> Rows<'py> {
+impl<'py> SampleRows<'py> {
     /// The argument `name`, of the shape (samples, joints) or (joints,).
     ///
     /// Float64 whose rows lie one behind the other is read where it is; all other numbers are copied.
@@ -75,7 +75,7 @@ impl<'py> Rows<'py> {
         let n = match shape.last() {
             Some(n) if columns.fit(&shape) => *n,
             _ => {
-                let (shape, expected) = (shown(&shape), columns.words());
+                let (shape, expected) = (shape_words(&shape), columns.words());
                 return Err(PyValueError::new_err(format!(
                     "{name}: its shape is {shape}, {expected}"
                 )));
@@ -115,20 +115,20 @@ impl<'py> Rows<'py> {
 }
 
 /// Refuses arguments that do not have as many rows as the first.
-pub fn same_rows(rows: [(&str, &Rows<'_>); 3]) -> PyResult<()> {
+pub fn same_rows(rows: [(&str, &SampleRows<'_>); 3]) -> PyResult<()> {
     let [(first_name, first), ..] = rows;
     let other = rows.iter().find(|(_, r)| r.len() != first.len() || r.is_single != first.is_single);
     match other {
         None => Ok(()),
         Some((name, other)) => Err(PyValueError::new_err(format!(
             "{name}: its shape is {}, that of {first_name} is {}: both were expected to be alike",
-            shown(other.shape()),
-            shown(first.shape())
+            shape_words(other.shape()),
+            shape_words(first.shape())
         ))),
     }
 }
 
-impl Rows<'_> {
+impl SampleRows<'_> {
     fn shape(&self) -> &[usize] {
         if self.is_single { &self.array.shape()[1..] } else { self.array.shape() }
     }
@@ -138,11 +138,11 @@ impl Rows<'_> {
 ///
 /// # Errors
 ///
-/// As [`Rows::new`].
+/// As [`SampleRows::new`].
 pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = numbers(name, value)?;
     if array.ndim() != 1 {
-        let shape = shown(array.shape());
+        let shape = shape_words(array.shape());
         return Err(PyValueError::new_err(format!(
             "{name}: its shape is {shape}, (samples,) was expected"
         )));
@@ -232,7 +232,7 @@ pub fn type_name(value: &Bound<'_, PyAny>) -> String {
 }
 
 /// A shape as Python writes it.
-fn shown(shape: &[usize]) -> String {
+fn shape_words(shape: &[usize]) -> String {
     match shape {
         [only] => format!("({only},)"),
         all => format!("({})", all.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),

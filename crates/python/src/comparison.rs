@@ -1,19 +1,19 @@
 use pyo3::prelude::*;
 
-use crate::diagnosis::{Diagnosis, Question};
+use crate::diagnosis::{DiagnosisRequest, PyDiagnosis};
 use crate::error::raised;
-use crate::log::Log;
+use crate::log::PyLog;
 use crate::program::json_of;
-use crate::robot::Robot;
+use crate::robot::PyRobot;
 use crate::work::run;
 
 /// What changed from one set of logs to another.
-#[pyclass(frozen, module = "plumbline", get_all)]
-pub struct Comparison {
+#[pyclass(frozen, name = "Comparison", module = "plumbline", get_all)]
+pub struct PyComparison {
     /// What the first logs say of the robot.
-    before: Py<Diagnosis>,
+    before: Py<PyDiagnosis>,
     /// What the others say of the robot as the first found it: its findings are the changes.
-    after: Py<Diagnosis>,
+    after: Py<PyDiagnosis>,
     /// As JSON the findings that both show to the same size, which are no change.
     alike: String,
 }
@@ -27,15 +27,16 @@ pub struct Comparison {
 #[pyo3(signature = (robot, before, after, *, cutoff_hz=None, without=Vec::new(), progress=None))]
 pub fn compare(
     py: Python<'_>,
-    robot: &Robot,
-    before: Vec<PyRef<'_, Log>>,
-    after: Vec<PyRef<'_, Log>>,
+    robot: &PyRobot,
+    before: Vec<PyRef<'_, PyLog>>,
+    after: Vec<PyRef<'_, PyLog>>,
     cutoff_hz: Option<f64>,
     without: Vec<String>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Comparison> {
-    let asked = |logs| Question { asks: "compare", robot, logs, cutoff_hz, without: &without };
-    let (first, other) = (asked(before), asked(after));
+) -> PyResult<PyComparison> {
+    let request =
+        |logs| DiagnosisRequest { function: "compare", robot, logs, cutoff_hz, without: &without };
+    let (first, other) = (request(before), request(after));
     let (runs, settings) = ([first.runs()?, other.runs()?], first.settings()?);
     let origins = [first.provenance(&runs[0])?, other.provenance(&runs[1])?];
     let about = &robot.loaded.robot;
@@ -46,7 +47,7 @@ pub fn compare(
     let alike = json_of(&compared.alike)?;
     let extended = robot.extended(compared.before.extended.clone());
     let ([before, after], [origin, other]) = (runs, origins);
-    let before = Diagnosis::new(py, robot, (before, compared.before), None, origin)?;
-    let after = Diagnosis::new(py, &extended, (after, compared.after), None, other)?;
-    Ok(Comparison { before: Py::new(py, before)?, after: Py::new(py, after)?, alike })
+    let before = PyDiagnosis::new(py, robot, before, compared.before, None, origin)?;
+    let after = PyDiagnosis::new(py, &extended, after, compared.after, None, other)?;
+    Ok(PyComparison { before: Py::new(py, before)?, after: Py::new(py, after)?, alike })
 }

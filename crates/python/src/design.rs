@@ -1,21 +1,21 @@
 use std::path::{Path, PathBuf};
 
-use cli::{DiagnosisFile, SearchedMotion, WantedMotion};
-use next_motion::Settings;
+use cli::{DiagnosisFile, MotionDesign, MotionRequest};
+use next_motion::DesignSettings;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arguments::positive;
-use crate::diagnosis::Diagnosis;
+use crate::diagnosis::PyDiagnosis;
 use crate::error::raised;
-use crate::log::Log;
-use crate::robot::Robot;
+use crate::log::PyLog;
+use crate::robot::PyRobot;
 use crate::work::run;
 
 /// The motion that settles what a diagnosis left open.
-#[pyclass(frozen, module = "plumbline")]
-pub struct Design {
-    searched: SearchedMotion,
+#[pyclass(frozen, name = "Design", module = "plumbline")]
+pub struct PyDesign {
+    design: MotionDesign,
     robot_file: PathBuf,
 }
 
@@ -30,62 +30,62 @@ pub struct Design {
 ))]
 pub fn design(
     py: Python<'_>,
-    robot: &Robot,
-    diagnosis: Option<&Diagnosis>,
+    robot: &PyRobot,
+    diagnosis: Option<&PyDiagnosis>,
     separate: Option<[String; 2]>,
     duration_s: Option<f64>,
     seed: Option<u64>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Design> {
+) -> PyResult<PyDesign> {
     if diagnosis.is_none() && separate.is_none() {
         let words = "diagnosis: found None, one was expected where separate names no two causes";
         return Err(PyValueError::new_err(words));
     }
-    let defaults = Settings::default();
-    let settings = Settings {
+    let defaults = DesignSettings::default();
+    let settings = DesignSettings {
         duration_s: positive("duration_s", duration_s)?.unwrap_or(defaults.duration_s),
         seed: seed.unwrap_or(defaults.seed),
     };
-    let read = |diagnosis: &Diagnosis| {
+    let read = |diagnosis: &PyDiagnosis| {
         let name = Path::new("diagnosis");
         DiagnosisFile::parse(&diagnosis.json()?, name, &robot.loaded.robot).map_err(raised)
     };
     let file = diagnosis.map(read).transpose()?;
-    let wanted = WantedMotion {
+    let request = MotionRequest {
         loaded: &robot.loaded,
-        diagnosed: file.as_ref().zip(diagnosis.map(Diagnosis::runs)),
+        diagnosed: file.as_ref().zip(diagnosis.map(PyDiagnosis::runs)),
         separate: separate.as_ref().map(|pair| pair.each_ref().map(String::as_str)),
         settings,
     };
-    let searched = run(py, progress.as_ref(), |work| {
+    let design = run(py, progress.as_ref(), |work| {
         work.stage("searching a motion", 0);
-        SearchedMotion::new(&wanted).map_err(Box::new)
+        MotionDesign::new(&request).map_err(Box::new)
     })?;
-    let searched = searched.map_err(|error| raised(*error))?;
-    Ok(Design { searched, robot_file: robot.path.clone() })
+    let design = design.map_err(|error| raised(*error))?;
+    Ok(PyDesign { design, robot_file: robot.path.clone() })
 }
 
 #[pymethods]
-impl Design {
+impl PyDesign {
     /// What the program prints: what the motion is for, and what it brings.
     fn text(&self) -> &str {
-        self.searched.text()
+        self.design.text()
     }
 
     /// What is to be settled, and the log evidence (nats) of the logs at hand and of the motion.
     #[getter]
     fn worth(&self) -> Vec<(String, f64, Option<f64>)> {
-        self.searched.worth()
+        self.design.worth()
     }
 
     /// The motion, with the torque to expect; none where no motion helps.
     #[getter]
-    fn log(&self) -> Option<Log> {
-        self.searched.run().map(Log::of_run)
+    fn log(&self) -> Option<PyLog> {
+        self.design.run().map(PyLog::of_run)
     }
 
     /// Writes motion.csv, motion.parquet and motion.toml; says where, and nothing where no motion helps.
     fn save(&self, folder: PathBuf) -> PyResult<Option<String>> {
-        self.searched.write(&folder, &self.robot_file).map_err(raised)
+        self.design.write(&folder, &self.robot_file).map_err(raised)
     }
 }

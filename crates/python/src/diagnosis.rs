@@ -12,15 +12,15 @@ use report::{Provenance, Report};
 
 use crate::arguments::{effects, positive};
 use crate::error::raised;
-use crate::log::Log;
-use crate::robot::Robot;
+use crate::log::PyLog;
+use crate::robot::PyRobot;
 use crate::work::{Work, run};
 
 /// What a model gets wrong in logs.
-#[pyclass(frozen, module = "plumbline")]
-pub struct Diagnosis {
+#[pyclass(frozen, name = "Diagnosis", module = "plumbline")]
+pub struct PyDiagnosis {
     robot: Arc<::robot::Loaded>,
-    extended: Py<Robot>,
+    extended: Py<PyRobot>,
     runs: Vec<Run>,
     outcome: Outcome,
     forward: Option<ForwardGap>,
@@ -28,21 +28,21 @@ pub struct Diagnosis {
     doubts: Vec<String>,
 }
 
-/// What is asked of some logs.
-pub struct Question<'a> {
-    /// The function of Python that asks.
-    pub asks: &'static str,
+/// The arguments of a diagnosis that Python asks for.
+pub struct DiagnosisRequest<'a> {
+    /// Name of the function of Python.
+    pub function: &'static str,
     /// The robot.
-    pub robot: &'a Robot,
+    pub robot: &'a PyRobot,
     /// The logs.
-    pub logs: Vec<PyRef<'a, Log>>,
+    pub logs: Vec<PyRef<'a, PyLog>>,
     /// Cut-off of the low-pass (Hz).
     pub cutoff_hz: Option<f64>,
     /// Effects that are not looked for.
     pub without: &'a [String],
 }
 
-impl Question<'_> {
+impl DiagnosisRequest<'_> {
     /// The logs as runs of the robot.
     pub fn runs(&self) -> PyResult<Vec<Run>> {
         self.logs.iter().map(|log| log.run(&self.robot.loaded.robot)).collect()
@@ -71,9 +71,9 @@ impl Question<'_> {
         let same = files.filter(|files| files.windows(2).all(|pair| pair[0].1 == pair[1].1));
         let Some(files) = same else {
             let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
-            return vec![format!("plumbline.{}({robot}, [{}])", self.asks, names.join(", "))];
+            return vec![format!("plumbline.{}({robot}, [{}])", self.function, names.join(", "))];
         };
-        let mut command = vec!["plumbline".to_owned(), self.asks.to_owned()];
+        let mut command = vec!["plumbline".to_owned(), self.function.to_owned()];
         command.extend(["--robot".to_owned(), robot]);
         if let Some(joints) = &self.robot.asked {
             command.extend(["--joints".to_owned(), joints.join(",")]);
@@ -91,16 +91,17 @@ impl Question<'_> {
     }
 }
 
-impl Diagnosis {
+impl PyDiagnosis {
     /// The diagnosis that an outcome is.
     pub fn new(
         py: Python<'_>,
-        robot: &Robot,
-        (runs, outcome): (Vec<Run>, Outcome),
+        robot: &PyRobot,
+        runs: Vec<Run>,
+        outcome: Outcome,
         forward: Option<ForwardGap>,
         provenance: Provenance,
     ) -> PyResult<Self> {
-        let doubts = cli::doubts(&robot.loaded, &runs);
+        let doubts = cli::input_warnings(&robot.loaded, &runs);
         let extended = Py::new(py, robot.extended(outcome.extended.clone()))?;
         let loaded = Arc::clone(&robot.loaded);
         Ok(Self { robot: loaded, extended, runs, outcome, forward, provenance, doubts })
@@ -111,7 +112,7 @@ impl Diagnosis {
         &self.runs
     }
 
-    fn shown(&self) -> Report<'_> {
+    fn as_report(&self) -> Report<'_> {
         Report {
             forward: self.forward.as_ref(),
             ..Report::new(&self.outcome, &self.robot.robot, &self.provenance)
@@ -128,15 +129,16 @@ impl Diagnosis {
 #[pyo3(signature = (robot, logs, *, cutoff_hz=None, without=Vec::new(), progress=None))]
 pub fn diagnose(
     py: Python<'_>,
-    robot: &Robot,
-    logs: Vec<PyRef<'_, Log>>,
+    robot: &PyRobot,
+    logs: Vec<PyRef<'_, PyLog>>,
     cutoff_hz: Option<f64>,
     without: Vec<String>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Diagnosis> {
-    let question = Question { asks: "diagnose", robot, logs, cutoff_hz, without: &without };
-    let (runs, settings) = (question.runs()?, question.settings()?);
-    let provenance = question.provenance(&runs)?;
+) -> PyResult<PyDiagnosis> {
+    let request =
+        DiagnosisRequest { function: "diagnose", robot, logs, cutoff_hz, without: &without };
+    let (runs, settings) = (request.runs()?, request.settings()?);
+    let provenance = request.provenance(&runs)?;
     let about = &robot.loaded.robot;
     let found = run(py, progress.as_ref(), |work: &Work| {
         let outcome = ::diagnosis::diagnose(about, &runs, &settings, work)?;
@@ -148,14 +150,14 @@ pub fn diagnose(
         Ok::<_, ::diagnosis::DiagnosisError>((outcome, forward))
     })?;
     let (outcome, forward) = found.map_err(raised)?;
-    Diagnosis::new(py, robot, (runs, outcome), forward, provenance)
+    PyDiagnosis::new(py, robot, runs, outcome, forward, provenance)
 }
 
 #[pymethods]
-impl Diagnosis {
+impl PyDiagnosis {
     /// The robot with the findings in it.
     #[getter]
-    fn robot(&self, py: Python<'_>) -> Py<Robot> {
+    fn robot(&self, py: Python<'_>) -> Py<PyRobot> {
         self.extended.clone_ref(py)
     }
 
@@ -167,27 +169,27 @@ impl Diagnosis {
 
     /// `diagnosis.json`.
     pub fn json(&self) -> PyResult<String> {
-        report::json(&self.shown()).map_err(raised)
+        report::json(&self.as_report()).map_err(raised)
     }
 
     /// What the program prints.
     fn text(&self) -> String {
-        report::text(&self.shown())
+        report::text(&self.as_report())
     }
 
     /// `report.html`.
     fn html(&self) -> PyResult<String> {
-        report::html(&self.shown()).map_err(raised)
+        report::html(&self.as_report()).map_err(raised)
     }
 
     /// The first screen of the report.
     fn notebook(&self) -> PyResult<String> {
-        report::notebook(&self.shown()).map_err(raised)
+        report::notebook(&self.as_report()).map_err(raised)
     }
 
     /// `figure.svg`.
     fn figure(&self) -> PyResult<String> {
-        report::figure(&self.shown()).map_err(raised)
+        report::figure(&self.as_report()).map_err(raised)
     }
 
     /// Writes the files of the program's output folder.
@@ -199,9 +201,9 @@ impl Diagnosis {
         recording: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
-        let shown = self.shown();
-        let json = report::json(&shown).map_err(raised)?;
-        cli::write_diagnosis(&folder, &self.robot, &self.outcome, (&shown, &json), None)
+        let report = self.as_report();
+        let json = report::json(&report).map_err(raised)?;
+        cli::write_diagnosis(&folder, &self.robot, &self.outcome, &report, &json, None)
             .map_err(raised)?;
         if !recording {
             return Ok(());
@@ -210,7 +212,7 @@ impl Diagnosis {
             loaded: &self.robot,
             runs: self.outcome.read.as_deref().unwrap_or(&self.runs),
             outcome: &self.outcome,
-            verdict: &report::markdown(&shown),
+            verdict: &report::markdown(&report),
         };
         let recorded =
             run(py, progress.as_ref(), |work| cli::record_diagnosis(&folder, &diagnosed, work))?;

@@ -1,8 +1,8 @@
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use crate::arrays::{Columns, Rows, same_rows, table};
-use crate::robot::Robot;
+use crate::arrays::{Columns, SampleRows, same_rows, table};
+use crate::robot::PyRobot;
 
 /// The torque that moves the rigid bodies of `robot` so,
 ///
@@ -14,20 +14,20 @@ use crate::robot::Robot;
 ///
 /// # Errors
 ///
-/// Those of [`Rows::new`], and `ValueError` where the three arguments are not alike.
+/// Those of [`SampleRows::new`], and `ValueError` where the three arguments are not alike.
 #[pyfunction]
 pub fn inverse_dynamics<'py>(
     py: Python<'py>,
-    robot: &Robot,
+    robot: &PyRobot,
     q: &Bound<'py, PyAny>,
     qd: &Bound<'py, PyAny>,
     qdd: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let joints = robot.joints();
     let (n, columns) = (joints.len(), Columns::Joints(&joints));
-    let q = Rows::new("q", q, columns)?;
-    let qd = Rows::new("qd", qd, columns)?;
-    let qdd = Rows::new("qdd", qdd, columns)?;
+    let q = SampleRows::new("q", q, columns)?;
+    let qd = SampleRows::new("qd", qd, columns)?;
+    let qdd = SampleRows::new("qdd", qdd, columns)?;
     same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
     let mut tau = vec![0.0; q.len() * n];
     if n > 0 {

@@ -30,25 +30,25 @@ mod work;
 #[pyo3::pymodule]
 mod _plumbline {
     #[pymodule_export]
-    use crate::comparison::{Comparison, compare};
+    use crate::comparison::{PyComparison, compare};
     #[pymodule_export]
-    use crate::design::{Design, design};
+    use crate::design::{PyDesign, design};
     #[pymodule_export]
-    use crate::diagnosis::{Diagnosis, diagnose};
+    use crate::diagnosis::{PyDiagnosis, diagnose};
     #[pymodule_export]
     use crate::error::PlumblineError;
     #[pymodule_export]
     use crate::inverse_dynamics::inverse_dynamics;
     #[pymodule_export]
-    use crate::log::Log;
+    use crate::log::PyLog;
     #[pymodule_export]
-    use crate::model::{Model, learn};
+    use crate::model::{PyModel, learn};
     #[pymodule_export]
     use crate::program::main;
     #[pymodule_export]
-    use crate::robot::Robot;
+    use crate::robot::PyRobot;
     #[pymodule_export]
-    use crate::simulation::{Simulation, simulate};
+    use crate::simulation::{PySimulation, simulate};
     #[pymodule_export]
-    use crate::tracking::{Tracking, track};
+    use crate::tracking::{PyTracking, track};
 }

@@ -7,12 +7,12 @@ use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::{Columns, Rows, rows_of, table, type_name, vector};
+use crate::arrays::{Columns, SampleRows, rows_of, table, type_name, vector};
 use crate::error::raised;
 
 /// One recorded run.
-#[pyclass(frozen, module = "plumbline")]
-pub struct Log {
+#[pyclass(frozen, name = "Log", module = "plumbline")]
+pub struct PyLog {
     name: String,
     source: Source,
 }
@@ -30,7 +30,7 @@ enum Source {
 
 type Signals = BTreeMap<Channel, Vec<Vec<f64>>>;
 
-impl Log {
+impl PyLog {
     /// A run that is there.
     pub fn of_run(run: Run) -> Self {
         Self { name: run.name.clone(), source: Source::Run(Box::new(run)) }
@@ -47,8 +47,8 @@ impl Log {
         match &self.source {
             Source::File(columns, path) => {
                 let asked = columns.episodes_of(path).map_err(raised)?;
-                let [episode] = asked.each().collect::<Vec<_>>()[..] else {
-                    let found = asked.each().filter_map(|episode| episode.number).collect();
+                let [episode] = asked.iter().collect::<Vec<_>>()[..] else {
+                    let found = asked.iter().filter_map(|episode| episode.number).collect();
                     let path = path.clone();
                     return Err(raised(LogError::from(FormatError::Episode {
                         path,
@@ -174,7 +174,7 @@ fn joints_of(columns: &BTreeMap<String, Vec<f64>>) -> Vec<String> {
 }
 
 #[pymethods]
-impl Log {
+impl PyLog {
     #[new]
     #[pyo3(signature = (
         time, q, tau, qd=None, qdd=None, *, joints=None, q_desired=None, qd_desired=None,
@@ -222,7 +222,7 @@ impl Log {
         for (channel, value) in given {
             let Some(value) = value else { continue };
             let argument = argument(channel);
-            let rows = Rows::new(argument, value, columns)?;
+            let rows = SampleRows::new(argument, value, columns)?;
             if matches!(columns, Columns::Any) {
                 columns = Columns::Count(rows.width());
             }
@@ -281,7 +281,7 @@ impl Log {
 
     /// The log as it is read and checked for a robot.
     fn on(&self, robot: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let robot = robot.cast::<crate::robot::Robot>().map_err(|_| {
+        let robot = robot.cast::<crate::robot::PyRobot>().map_err(|_| {
             PyTypeError::new_err(format!("robot: found {}, a Robot was expected", type_name(robot)))
         })?;
         Ok(Self::of_run(self.run(&robot.get().loaded.robot)?))

@@ -11,20 +11,20 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arguments::positive;
-use crate::arrays::{Columns, Rows, same_rows, table};
+use crate::arrays::{Columns, SampleRows, same_rows, table};
 use crate::error::raised;
-use crate::log::Log;
-use crate::robot::Robot;
+use crate::log::PyLog;
+use crate::robot::PyRobot;
 use crate::work::run;
 
 /// A model of the torque.
-#[pyclass(frozen, module = "plumbline")]
-pub struct Model {
+#[pyclass(frozen, name = "Model", module = "plumbline")]
+pub struct PyModel {
     model: learner::Model,
     joints: Vec<String>,
 }
 
-impl Model {
+impl PyModel {
     fn new(model: learner::Model) -> Self {
         let joints = model.robot().joint_names().map(str::to_owned).collect();
         Self { model, joints }
@@ -37,7 +37,7 @@ impl Model {
         [q, qd, qdd]: [&Bound<'py, PyAny>; 3],
         tells: fn(&learner::Model, &Samples) -> Vec<f64>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let rows = |name, value| Rows::new(name, value, Columns::Joints(&self.joints));
+        let rows = |name, value| SampleRows::new(name, value, Columns::Joints(&self.joints));
         let (q, qd, qdd) = (rows("q", q)?, rows("qd", qd)?, rows("qdd", qdd)?);
         same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
         let states = [q.as_slice()?.to_vec(), qd.as_slice()?.to_vec(), qdd.as_slice()?.to_vec()];
@@ -58,14 +58,14 @@ impl Model {
 #[expect(clippy::too_many_arguments, reason = "they are those of Python, by name")]
 pub fn learn(
     py: Python<'_>,
-    robot: &Robot,
-    logs: Vec<PyRef<'_, Log>>,
+    robot: &PyRobot,
+    logs: Vec<PyRef<'_, PyLog>>,
     model: &str,
     points: Option<usize>,
-    named: Option<&Robot>,
+    named: Option<&PyRobot>,
     cutoff_hz: Option<f64>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Model> {
+) -> PyResult<PyModel> {
     let wrong = |reason: String| PyValueError::new_err(format!("model: {reason}"));
     let kind: ModelKind = model.parse().map_err(wrong)?;
     let about = &robot.loaded.robot;
@@ -90,14 +90,14 @@ pub fn learn(
         };
         Ok::<_, LearnerError>(training.fit(kind)?.model)
     })?;
-    Ok(Model::new(learned.map_err(raised)?))
+    Ok(PyModel::new(learned.map_err(raised)?))
 }
 
 #[pymethods]
-impl Model {
+impl PyModel {
     /// The model of a robot that `save`, `learn` or `track` has written.
     #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf, robot: &Robot) -> PyResult<Self> {
+    fn load(py: Python<'_>, path: PathBuf, robot: &PyRobot) -> PyResult<Self> {
         let about = &robot.loaded.robot;
         let model = run(py, None, |_| learner::Model::load(&path, about)?.with_variance())?;
         Ok(Self::new(model.map_err(raised)?))
@@ -105,7 +105,7 @@ impl Model {
 
     /// What the description of a robot expects, rotors, friction and all else that it says included.
     #[staticmethod]
-    fn described(robot: &Robot, rest_speed: f64) -> PyResult<Self> {
+    fn described(robot: &PyRobot, rest_speed: f64) -> PyResult<Self> {
         positive("rest_speed", Some(rest_speed))?;
         let about = robot.loaded.robot.clone();
         let n = about.joint_count();
@@ -159,7 +159,7 @@ impl Model {
     fn error<'py>(
         &self,
         py: Python<'py>,
-        logs: Vec<PyRef<'_, Log>>,
+        logs: Vec<PyRef<'_, PyLog>>,
         cutoff_hz: Option<f64>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let about = self.model.robot();

@@ -14,8 +14,8 @@ use crate::error::raised;
 use crate::program::json_of;
 
 /// A robot as its files describe it.
-#[pyclass(frozen, module = "plumbline")]
-pub struct Robot {
+#[pyclass(frozen, name = "Robot", module = "plumbline")]
+pub struct PyRobot {
     /// What was read, once for all that use it.
     pub loaded: Arc<Loaded>,
     /// The file that was named: a description, or a `robot.toml` that names one.
@@ -25,7 +25,7 @@ pub struct Robot {
     dynamics: Dynamics,
 }
 
-impl Robot {
+impl PyRobot {
     /// The robot of files that were read, with another one in the place of what they describe.
     pub fn extended(&self, robot: ::robot::Robot) -> Self {
         let loaded = Loaded { robot, ..(*self.loaded).clone() };
@@ -49,7 +49,7 @@ impl Robot {
 }
 
 #[pymethods]
-impl Robot {
+impl PyRobot {
     #[new]
     #[pyo3(signature = (path, joints=None, *, packages=Vec::new(), allow_outside=false))]
     fn load(
@@ -135,7 +135,7 @@ impl Robot {
     }
 }
 
-impl Robot {
+impl PyRobot {
     /// The text of the description.
     fn source(&self) -> PyResult<String> {
         if let Some(text) = &self.loaded.expanded {

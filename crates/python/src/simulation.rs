@@ -6,13 +6,13 @@ use simulator::LogFormat;
 use simulator::scenario::Scenario;
 
 use crate::error::raised;
-use crate::log::Log;
-use crate::robot::Robot;
+use crate::log::PyLog;
+use crate::robot::PyRobot;
 use crate::work::run;
 
 /// The runs of a scenario, simulated.
-#[pyclass(frozen, module = "plumbline")]
-pub struct Simulation {
+#[pyclass(frozen, name = "Simulation", module = "plumbline")]
+pub struct PySimulation {
     scenario: Scenario,
     simulation: simulator::Simulation,
 }
@@ -30,7 +30,7 @@ pub fn simulate(
     seed: Option<u64>,
     set: Vec<String>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Simulation> {
+) -> PyResult<PySimulation> {
     let mut document = Document::read(&scenario).map_err(raised)?;
     set.iter().try_for_each(|assignment| document.set(assignment)).map_err(raised)?;
     if let Some(seed) = seed {
@@ -42,21 +42,21 @@ pub fn simulate(
         work.stage("simulating (seconds of motion)", seconds as usize);
         simulator::simulate(&scenario, &|| work.step())
     })?;
-    Ok(Simulation { scenario, simulation: simulation.map_err(raised)? })
+    Ok(PySimulation { scenario, simulation: simulation.map_err(raised)? })
 }
 
 #[pymethods]
-impl Simulation {
+impl PySimulation {
     /// The logs, which tell nothing of what was put in.
     #[getter]
-    fn logs(&self) -> Vec<Log> {
-        self.simulation.runs.iter().cloned().map(Log::of_run).collect()
+    fn logs(&self) -> Vec<PyLog> {
+        self.simulation.runs.iter().cloned().map(PyLog::of_run).collect()
     }
 
     /// The robot as its files describe it, without what was put in.
     #[getter]
-    fn robot(&self) -> PyResult<Robot> {
-        Robot::read(self.scenario.robot_file())
+    fn robot(&self) -> PyResult<PyRobot> {
+        PyRobot::read(self.scenario.robot_file())
     }
 
     /// Writes the logs, the whole scenario and, apart from them, what was put in.

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use cli::{AskedTracking, TrackedMotion};
+use cli::{TrackingRequest, TrackingResult};
 use evaluation::FeedforwardKind;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -9,9 +9,9 @@ use crate::error::raised;
 use crate::work::run;
 
 /// A motion tracked by a simulated arm, with the torque of models fed forward.
-#[pyclass(frozen, module = "plumbline")]
-pub struct Tracking {
-    tracked: TrackedMotion,
+#[pyclass(frozen, name = "Tracking", module = "plumbline")]
+pub struct PyTracking {
+    result: TrackingResult,
     out: Option<PathBuf>,
 }
 
@@ -33,7 +33,7 @@ pub fn track(
     feedforward: Vec<String>,
     set: Vec<String>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Tracking> {
+) -> PyResult<PyTracking> {
     let command = command(&scenario, learned.as_deref(), &feedforward, &set);
     let kind = |name: &String| {
         let wrong = |reason: String| PyValueError::new_err(format!("feedforward: {reason}"));
@@ -41,7 +41,7 @@ pub fn track(
     };
     let feedforward: Vec<FeedforwardKind> =
         feedforward.iter().map(kind).collect::<PyResult<_>>()?;
-    let asked = AskedTracking {
+    let request = TrackingRequest {
         scenario: &scenario,
         set: &set,
         feedforward: &feedforward,
@@ -50,13 +50,13 @@ pub fn track(
         live: false,
         command: Some(command),
     };
-    let tracked =
-        run(py, progress.as_ref(), |work| TrackedMotion::new(&asked, work).map_err(Box::new))?;
-    let tracked = tracked.map_err(|error| raised(*error))?;
+    let result =
+        run(py, progress.as_ref(), |work| TrackingResult::new(&request, work).map_err(Box::new))?;
+    let result = result.map_err(|error| raised(*error))?;
     if let Some(out) = &out {
-        tracked.write(out).map_err(raised)?;
+        result.write(out).map_err(raised)?;
     }
-    Ok(Tracking { tracked, out })
+    Ok(PyTracking { result, out })
 }
 
 /// The command line of the program that does the same.
@@ -79,20 +79,20 @@ fn command(
 }
 
 #[pymethods]
-impl Tracking {
+impl PyTracking {
     /// `tracking.json`.
     fn json(&self) -> PyResult<String> {
-        self.tracked.comparison().json().map_err(raised)
+        self.result.comparison().json().map_err(raised)
     }
 
     /// What the program prints.
     fn text(&self) -> String {
-        self.tracked.comparison().text()
+        self.result.comparison().text()
     }
 
     /// `report.html`.
     fn html(&self) -> PyResult<String> {
-        self.tracked.comparison().page().map_err(raised)
+        self.result.comparison().page().map_err(raised)
     }
 
     /// The folder that was written, if one was.

@@ -1,15 +1,13 @@
 use colours::Rgb;
 use nalgebra::{Isometry3, Vector3};
-use rerun::{
-    EntityPath, EntityPathPart, LineStrips3D, RecordingStream, RecordingStreamResult, TimeColumn,
-    Transform3D,
-};
+use rerun::{EntityPath, LineStrips3D, RecordingStream, RecordingStreamResult, Transform3D};
 use robot::{Looks, Visual};
 
 use crate::colour::Paint;
-use crate::recorder::TIMELINE;
+use crate::entities::{part, time_column};
+use crate::scene::{Arm, Role};
 use crate::skeleton::Skeleton;
-use crate::{Arm, Role, colour, shapes};
+use crate::{colour, shapes};
 
 /// Parts of the reach: radius of the drawn path and of the ball at the tip.
 const PATH: f64 = 0.002;
@@ -68,8 +66,9 @@ impl ArmTrack {
             stream.log_static(path.clone(), &line)?;
         }
         if let Some(last) = links.get(skeleton.last) {
-            let ball = (BALL * skeleton.reach_m, Paint::solid(colour::rgb(arm.role)));
-            shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, ball)?;
+            let paint = Paint::solid(colour::rgb(arm.role));
+            let radius_m = BALL * skeleton.reach_m;
+            shapes::ball(stream, &below(last, "tip"), &skeleton.tip_in_last, radius_m, paint)?;
         }
         Ok(Self {
             links,
@@ -87,7 +86,8 @@ impl ArmTrack {
     pub fn push(
         &mut self,
         stream: &RecordingStream,
-        (time_s, q): (f64, &[f64]),
+        time_s: f64,
+        q: &[f64],
         skeleton: &Skeleton,
     ) -> RecordingStreamResult<()> {
         if !q.iter().all(|q| q.is_finite()) {
@@ -171,13 +171,13 @@ impl Brush<'_> {
         if self.shapes(path, visuals, own)? {
             return Ok(());
         }
-        let brush = (self.skeleton.stick_m(), Paint::on_arm(own, self.role));
-        let hub = (1.4 * self.skeleton.stick_m(), brush.1);
-        shapes::ball(self.stream, &below(path, "joint"), &Vector3::zeros(), hub)?;
+        let (radius_m, paint) = (self.skeleton.stick_m(), Paint::on_arm(own, self.role));
+        let hub = below(path, "joint");
+        shapes::ball(self.stream, &hub, &Vector3::zeros(), 1.4 * radius_m, paint)?;
         let far = joints.iter().filter(|to| to.norm() > self.skeleton.stick_m());
         for (i, to) in far.enumerate() {
             let ends = [Vector3::zeros(), *to];
-            shapes::stick(self.stream, &below(path, &format!("stick{i}")), ends, brush)?;
+            shapes::stick(self.stream, &below(path, &format!("stick{i}")), ends, radius_m, paint)?;
         }
         Ok(())
     }
@@ -187,10 +187,10 @@ impl Brush<'_> {
         if self.shapes(&path, visuals, colour::BASE)? {
             return Ok(());
         }
-        let brush = (self.skeleton.stick_m(), Paint::solid(colour::BASE));
+        let (radius_m, paint) = (self.skeleton.stick_m(), Paint::solid(colour::BASE));
         for (i, to) in self.skeleton.joints_on(None).into_iter().enumerate() {
             let ends = [Vector3::zeros(), to];
-            shapes::stick(self.stream, &below(&path, &format!("stick{i}")), ends, brush)?;
+            shapes::stick(self.stream, &below(&path, &format!("stick{i}")), ends, radius_m, paint)?;
         }
         Ok(())
     }
@@ -211,15 +211,6 @@ impl Brush<'_> {
         }
         Ok(drawn)
     }
-}
-
-pub(crate) fn time_column(time_s: &[f64]) -> TimeColumn {
-    TimeColumn::new_duration_secs(TIMELINE, time_s.iter().copied())
-}
-
-/// A name as one part of a path, whatever characters it has.
-pub(crate) fn part(name: &str) -> EntityPathPart {
-    EntityPathPart::new(if name.is_empty() { "unnamed" } else { name })
 }
 
 fn below(path: &EntityPath, name: &str) -> EntityPath {

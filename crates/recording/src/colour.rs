@@ -1,7 +1,7 @@
 use colours::Rgb;
 use rerun::{Color, FillMode};
 
-use crate::Role;
+use crate::scene::Role;
 
 /// Links that stand still.
 pub(crate) const BASE: Rgb = Rgb([0x6b, 0x72, 0x80]);

@@ -9,10 +9,10 @@ use rerun::external::re_log_encoding::{Decodable, DecoderApp, StreamFooter};
 use rerun::external::re_log_types::{LogMsg, StoreKind};
 use rerun::log::Chunk;
 
-use crate::RecordingError;
-use crate::recorder::TIMELINE;
+use crate::entities::TIMELINE;
+use crate::error::RecordingError;
 
-/// What a recording holds, read back: its numbers, and how much there is of everything else.
+/// The contents of a recording that was read back: its numbers, and the counts of everything else.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contents {
     /// By path, such as `/joints/elbow` or `/world/arms/measured/upper`; without the library's
@@ -22,11 +22,12 @@ pub struct Contents {
     pub layout_messages: usize,
     /// Times that a layout was put on the screen.
     pub layouts: usize,
-    /// Whether the file was ended properly and all of it can be read; not so after a kill.
+    /// Whether the file was closed properly and can be read to its end. A killed run leaves it
+    /// open.
     pub is_whole: bool,
 }
 
-/// What is known of one entity, in the order of the file.
+/// The rows of one entity, in the order of the file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Entity {
     /// Rows, with those that hold at all times.

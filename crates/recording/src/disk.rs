@@ -7,13 +7,12 @@ use rerun::external::re_log_encoding::{Encoder, EncodingOptions};
 use rerun::log::LogMsg;
 use rerun::sink::{LogSink, SinkFlushError};
 
-use crate::RecordingError;
-use crate::error::unwritable;
+use crate::error::{RecordingError, unwritable};
 
 /// The file of a recording, shared by the stream that writes it and the one who ends it.
 ///
-/// The library's own sink waits without end for a thread that the disk has stopped, and tells nobody why. This
-/// one keeps the first refusal, after which it takes messages and drops them.
+/// The library's own sink waits forever when a disk error has stopped its thread, and hides the
+/// error. This one keeps the first error, and drops all later messages.
 #[derive(Clone)]
 pub(crate) struct Disk {
     path: PathBuf,

@@ -2,7 +2,7 @@
 use std::path::Path;
 use std::path::PathBuf;
 
-/// Why something cannot be recorded, or a recording not be read.
+/// Why a recording cannot be written or read.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
@@ -86,13 +86,13 @@ pub enum RecordingError {
 }
 
 #[cfg(feature = "rerun")]
-/// A refusal of the library, which has an error for every part of it.
-pub(crate) fn refused(error: impl std::fmt::Display) -> RecordingError {
+/// An error of the library, of any of its parts.
+pub(crate) fn refusal(error: impl std::fmt::Display) -> RecordingError {
     RecordingError::Refused { reason: error.to_string() }
 }
 
 #[cfg(feature = "rerun")]
-/// What the disk refuses.
+/// An error of the disk.
 pub(crate) fn unwritable(path: &Path, reason: String) -> RecordingError {
     RecordingError::Unwritable { path: path.to_owned(), reason }
 }

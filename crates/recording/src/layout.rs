@@ -13,12 +13,13 @@ use rerun::external::re_sdk_types::blueprint::datatypes::{
 use rerun::external::re_sdk_types::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
 use rerun::{EntityPath, RecordingStream};
 
+use crate::bounds::Bounds;
+use crate::entities::{DOCUMENT, EVENTS, TIMELINE};
+use crate::error::RecordingError;
 use crate::plots::Plots;
 use crate::properties::Properties;
-use crate::recorder::{DOCUMENT, EVENTS, TIMELINE};
-use crate::seen::Seen;
+use crate::scene::Quantity;
 use crate::shapes::point;
-use crate::{Quantity, RecordingError};
 
 /// Room about the arms in the picture, as a part of the reach: links are thicker than their joints.
 const ROOM: f64 = 0.08;
@@ -44,7 +45,7 @@ pub(crate) struct Layout {
     pub title: String,
     pub reach_m: f64,
     /// Where the arms were.
-    pub seen: Seen,
+    pub seen: Bounds,
     pub plots: Plots,
     /// The bar charts, which are not known before they come.
     pub bars: Vec<Bars>,

@@ -21,18 +21,22 @@
 #[cfg(feature = "rerun")]
 mod arms;
 #[cfg(feature = "rerun")]
+mod bounds;
+#[cfg(feature = "rerun")]
 mod colour;
 #[cfg(feature = "rerun")]
 mod contents;
 #[cfg(feature = "rerun")]
 mod disk;
+#[cfg(feature = "rerun")]
+mod entities;
 mod error;
 #[cfg(feature = "rerun")]
 mod layout;
-#[cfg(not(feature = "rerun"))]
-mod left_out;
 #[cfg(feature = "rerun")]
 mod live;
+#[cfg(not(feature = "rerun"))]
+mod no_recorder;
 #[cfg(feature = "rerun")]
 mod pace;
 #[cfg(feature = "rerun")]
@@ -43,8 +47,6 @@ mod properties;
 mod recorder;
 mod rows;
 mod scene;
-#[cfg(feature = "rerun")]
-mod seen;
 #[cfg(feature = "rerun")]
 mod shapes;
 #[cfg(feature = "rerun")]
@@ -58,7 +60,7 @@ mod skeleton;
 pub use contents::{Contents, Entity};
 pub use error::RecordingError;
 #[cfg(not(feature = "rerun"))]
-pub use left_out::Recorder;
+pub use no_recorder::Recorder;
 #[cfg(feature = "rerun")]
 pub use recorder::Recorder;
 pub use rows::{Bar, Rows, Written};

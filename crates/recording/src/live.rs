@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use rerun::log::LogMsg;
 use rerun::sink::{GrpcSink, LogSink, SinkFlushError};
 
-use crate::{Listener, Live};
+use crate::scene::{Listener, Live};
 
 /// Longest wait for a viewer to answer.
 const GREETING: Duration = Duration::from_millis(200);

@@ -4,8 +4,9 @@ use rerun::external::re_sdk_types::{VisualizableArchetype, Visualizer};
 use rerun::{EntityPath, SeriesLines};
 use robot::JointKind;
 
-use crate::arms::part;
-use crate::{Quantity, Role, Signal, colour};
+use crate::colour;
+use crate::entities::part;
+use crate::scene::{Quantity, Role, Signal};
 
 /// What the plots of all joints have in common: the signals of the scene, without its data.
 #[derive(Debug, Clone)]
@@ -53,14 +54,14 @@ impl Plots {
         let joint = self.joints.iter().position(|(name, _)| name == joint)?;
         let all = self.sets.iter().flatten().zip(self.ends.iter().flatten());
         let own = all.filter(|(line, _)| line.quantity == quantity).map(|(_, ends)| ends[joint]);
-        shown(own, quantity)
+        axis_range(own, quantity)
     }
 
     /// The same of what [`Self::of_all`] shows.
     pub fn ends_of_all(&self, quantity: Quantity) -> Option<[f64; 2]> {
         let all = self.sets.first()?.iter().zip(self.ends.first()?);
         let own = all.filter(|(line, _)| line.quantity == quantity);
-        shown(own.flat_map(|(_, ends)| ends.iter().copied()), quantity)
+        axis_range(own.flat_map(|(_, ends)| ends.iter().copied()), quantity)
     }
 
     /// Adds signals with times of their own; returns their entities, one a joint.
@@ -115,7 +116,7 @@ impl Plots {
                 .with_colors(own().map(|line| colour::solid(colour::rgb(line.role))))
                 .with_widths(own().map(|line| width(line.role)));
             contents.push(path(joint, set).to_string());
-            view = view.with_override(path(joint, set), reading(&shown, quantity));
+            view = view.with_override(path(joint, set), with_column(&shown, quantity));
         }
         view.with_contents(contents)
     }
@@ -135,7 +136,7 @@ impl Plots {
                 .with_names(own.iter().map(|_| joint.as_str()))
                 .with_colors(own.iter().map(|_| color))
                 .with_widths((0..own.len()).map(|k| width_among(k, own.len())));
-            view = view.with_override(path(joint, 0), reading(&lines, quantity));
+            view = view.with_override(path(joint, 0), with_column(&lines, quantity));
         }
         view
     }
@@ -143,7 +144,7 @@ impl Plots {
     fn title_of_all(&self, quantity: Quantity, own: &[&Line]) -> String {
         let same = self.joints.windows(2).all(|w| w[0].1.is_rotation() == w[1].1.is_rotation());
         let kind = self.joints.first().filter(|_| same).map(|(_, kind)| *kind);
-        let title = kind.map_or_else(|| mixed(quantity), |kind| quantity.title(kind));
+        let title = kind.map_or_else(|| mixed_title(quantity), |kind| quantity.title(kind));
         let names: Vec<&str> = own.iter().map(|line| line.name.as_str()).collect();
         match names.len() {
             0 | 1 => format!("{title} of all joints"),
@@ -153,7 +154,7 @@ impl Plots {
 }
 
 /// All ends together, as they are shown.
-fn shown(ends: impl Iterator<Item = [f64; 2]>, quantity: Quantity) -> Option<[f64; 2]> {
+fn axis_range(ends: impl Iterator<Item = [f64; 2]>, quantity: Quantity) -> Option<[f64; 2]> {
     let [low, high] = ends.fold(NOTHING, |[low, high], [a, b]| [low.min(a), high.max(b)]);
     (low <= high).then_some([low, high].map(|end| quantity.scale() * end))
 }
@@ -172,7 +173,7 @@ fn path(joint: &str, set: usize) -> EntityPath {
 }
 
 /// The title of a plot that holds sliding joints beside rotating ones.
-fn mixed(quantity: Quantity) -> &'static str {
+fn mixed_title(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Position => "position (rad, m)",
         Quantity::Velocity => "velocity (rad/s, m/s)",
@@ -183,7 +184,7 @@ fn mixed(quantity: Quantity) -> &'static str {
 }
 
 /// Lines that take their numbers from the column of a quantity.
-fn reading(lines: &SeriesLines, quantity: Quantity) -> Visualizer {
+fn with_column(lines: &SeriesLines, quantity: Quantity) -> Visualizer {
     let column =
         VisualizerComponentMapping::new_source_component("Scalars:scalars", quantity.key());
     lines.visualizer().with_mappings([column.into()])

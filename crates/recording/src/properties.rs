@@ -4,8 +4,7 @@ use rerun::external::re_sdk_types::blueprint::archetypes::ContainerBlueprint;
 use rerun::log::Chunk;
 use rerun::{AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder};
 
-use crate::RecordingError;
-use crate::error::refused;
+use crate::error::{RecordingError, refusal};
 
 /// Properties of views, which the library's views have no methods for in this version.
 ///
@@ -39,30 +38,30 @@ impl Properties {
     /// Sends a layout with the properties of its views, and makes it the one that is shown.
     pub fn send(self, layout: &Blueprint, to: &RecordingStream) -> Result<(), RecordingError> {
         let activation = BlueprintActivation { make_active: true, make_default: true };
-        let info = to.store_info().ok_or_else(|| refused("it is turned off"))?;
+        let info = to.store_info().ok_or_else(|| refusal("it is turned off"))?;
         let draft = RecordingStreamBuilder::new(info.application_id().clone());
-        let (draft, messages) = draft.memory().map_err(refused)?;
-        layout.send(&draft, activation).map_err(refused)?;
-        draft.flush_blocking().map_err(refused)?;
+        let (draft, messages) = draft.memory().map_err(refusal)?;
+        layout.send(&draft, activation).map_err(refusal)?;
+        draft.flush_blocking().map_err(refusal)?;
         let of_layout = |m: &LogMsg| {
             let of_layout = m.store_id().kind() == StoreKind::Blueprint;
             of_layout && !matches!(m, LogMsg::BlueprintActivationCommand(_))
         };
         let mut layout: Vec<LogMsg> = messages.take().into_iter().filter(of_layout).collect();
-        let id = layout.first().ok_or_else(|| refused("the layout is empty"))?.store_id().clone();
+        let id = layout.first().ok_or_else(|| refusal("the layout is empty"))?.store_id().clone();
 
         let more = RecordingStreamBuilder::from_store_id(&id).send_properties(false);
-        let (more, messages) = more.memory().map_err(refused)?;
+        let (more, messages) = more.memory().map_err(refusal)?;
         more.set_time_sequence("blueprint", 0);
         for (path, property) in &self.of_views {
-            more.log(path.clone(), property.as_ref()).map_err(refused)?;
+            more.log(path.clone(), property.as_ref()).map_err(refusal)?;
         }
         let opened = self.opened.map(|names| names.map(|name| container(&layout, &name)));
         if let Some([Some(tabs), Some(tab)]) = opened {
             let active = ContainerBlueprint::update_fields().with_active_tab(tab.to_string());
-            more.log(tabs, &active).map_err(refused)?;
+            more.log(tabs, &active).map_err(refusal)?;
         }
-        more.flush_blocking().map_err(refused)?;
+        more.flush_blocking().map_err(refusal)?;
         let messages = messages.take().into_iter();
         layout.extend(messages.filter(|m| !matches!(m, LogMsg::SetStoreInfo(_))));
         let command =

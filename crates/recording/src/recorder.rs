@@ -6,23 +6,21 @@ use rerun::{
     ViewCoordinates,
 };
 
-use crate::arms::{ArmTrack, part, time_column};
+use crate::arms::ArmTrack;
+use crate::bounds::Bounds;
+use crate::colour;
 use crate::disk::Disk;
-use crate::error::{refused, unwritable};
+use crate::entities::{DOCUMENT, EVENTS, part, time_column};
+use crate::error::{RecordingError, refusal, unwritable};
 use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
 use crate::pace::Pace;
 use crate::plots::Plots;
-use crate::seen::Seen;
+use crate::rows::{Bar, Rows, Written};
+use crate::scene::{Level, Live, Scene, Signal};
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
-use crate::{Bar, Level, Live, RecordingError, Rows, Scene, Signal, Written, colour};
-
-/// The one timeline, in seconds.
-pub(crate) const TIMELINE: &str = "t";
-pub(crate) const DOCUMENT: &str = "verdict";
-pub(crate) const EVENTS: &str = "events";
 
 /// Rows wait up to this long, in their own time (s): every write costs some kilobytes.
 const WAIT_S: f64 = 1.9;
@@ -37,8 +35,8 @@ const BARS: f64 = 0.8;
 
 /// A recording that is being written.
 ///
-/// Dropped before [`Recorder::finish`], it ends the file properly without the rows that wait, and
-/// nobody is told of errors.
+/// A recorder that is dropped before [`Recorder::finish`] closes the file without the rows that
+/// wait, and reports no errors.
 pub struct Recorder {
     stream: RecordingStream,
     path: PathBuf,
@@ -62,15 +60,15 @@ impl Recorder {
     /// [`RecordingError::Unwritable`], [`RecordingError::TurnedOff`],
     /// [`RecordingError::NameTwice`] and [`RecordingError::Refused`].
     pub fn create(path: &Path, scene: &Scene<'_>, live: Live) -> Result<Self, RecordingError> {
-        distinct(scene)?;
+        refuse_repeated_names(scene)?;
         let (stream, disk, viewer) = open(path, scene.title, live)?;
         let skeleton = Skeleton::new(scene.robot, scene.looks);
-        let arms = draw(&stream, scene, &skeleton).map_err(refused)?;
+        let arms = draw(&stream, scene, &skeleton).map_err(refusal)?;
         let joints = scene.robot.links().iter().map(|l| (l.joint.name.clone(), l.joint.kind));
         let layout = Layout {
             title: scene.title.to_owned(),
             reach_m: skeleton.reach_m,
-            seen: Seen::default(),
+            seen: Bounds::default(),
             plots: Plots::new(joints.collect(), &scene.signals),
             bars: vec![],
             opened: None,
@@ -96,7 +94,7 @@ impl Recorder {
 
     /// Takes a block of rows; they are written when they make up two seconds.
     ///
-    /// It never waits for the disk or for a viewer: what they refuse, [`Recorder::finish`] tells.
+    /// It never waits for the disk or for a viewer; [`Recorder::finish`] returns their errors.
     ///
     /// # Errors
     ///
@@ -110,9 +108,9 @@ impl Recorder {
                 continue;
             }
             for ((_, arm), q) in self.arms.iter_mut().zip(rows.arms) {
-                let at = (time_s, &q[row * joints..][..joints]);
-                arm.push(&self.stream, at, &self.skeleton).map_err(refused)?;
-                let poses = self.skeleton.parent_from_child(at.1);
+                let q = &q[row * joints..][..joints];
+                arm.push(&self.stream, time_s, q, &self.skeleton).map_err(refusal)?;
+                let poses = self.skeleton.parent_from_child(q);
                 self.layout.seen.push(&self.skeleton.points_in_world(&poses));
             }
         }
@@ -120,7 +118,7 @@ impl Recorder {
         self.layout.plots.see(0, rows.signals);
         self.last_s = rows.time_s.last().copied().unwrap_or(self.last_s);
         self.rows += rows.time_s.len() as u64;
-        if self.signals.span_s() >= WAIT_S { self.write().map_err(refused) } else { Ok(()) }
+        if self.signals.span_s() >= WAIT_S { self.write().map_err(refusal) } else { Ok(()) }
     }
 
     /// Shows further signals in the plots of the joints, at times of their own (s), such as what
@@ -149,7 +147,7 @@ impl Recorder {
         self.layout.plots.see(self.layout.plots.last_set(), &values);
         let mut written = Signals::new(paths, &signals);
         written.push(time_s, &values);
-        written.flush(&self.stream).map_err(refused)
+        written.flush(&self.stream).map_err(refusal)
     }
 
     /// Notes that something happened at a time (s).
@@ -165,8 +163,8 @@ impl Recorder {
             .with_many_text([text])
             .with_many_level([level.label()])
             .columns_of_unit_batches();
-        let sent = columns.map_err(refused)?;
-        self.stream.send_columns(EVENTS, [time_column(&[time_s])], sent).map_err(refused)
+        let sent = columns.map_err(refusal)?;
+        self.stream.send_columns(EVENTS, [time_column(&[time_s])], sent).map_err(refusal)
     }
 
     /// Shows a text in Markdown beside the plots, instead of the one before.
@@ -176,7 +174,7 @@ impl Recorder {
     /// [`RecordingError::Refused`].
     pub fn document(&mut self, markdown: &str) -> Result<(), RecordingError> {
         let text = TextDocument::from_markdown(markdown);
-        self.stream.log_static(DOCUMENT, &text).map_err(refused)
+        self.stream.log_static(DOCUMENT, &text).map_err(refusal)
     }
 
     /// Shows a bar a joint for every series, side by side; the first joint stands at 1.
@@ -203,7 +201,7 @@ impl Recorder {
                 .with_widths(vec![width as f32; joints])
                 .with_color(colour::solid(colour::rgb(*role)));
             let path = path.join(&EntityPath::new(vec![part(&plain(name))]));
-            self.stream.log_static(path, &chart).map_err(refused)?;
+            self.stream.log_static(path, &chart).map_err(refusal)?;
         }
         let names = series.iter().map(|bar| bar.name.to_owned()).collect();
         self.layout.bars.retain(|bars| bars.path != path);
@@ -224,7 +222,7 @@ impl Recorder {
     /// [`RecordingError::Unwritable`], also for what the disk refused before, and
     /// [`RecordingError::Refused`].
     pub fn finish(mut self) -> Result<Written, RecordingError> {
-        self.write().map_err(refused)?;
+        self.write().map_err(refusal)?;
         let Layout { bars, plots, opened, .. } = &self.layout;
         if self.rows > 0 || !bars.is_empty() || plots.has_further() || opened.is_some() {
             self.layout.send(&self.stream)?;
@@ -294,7 +292,7 @@ fn length(thing: String, items: &'static str, found: usize, expected: usize) -> 
 }
 
 /// Two arms of one name would be drawn over one another.
-fn distinct(scene: &Scene<'_>) -> Result<(), RecordingError> {
+fn refuse_repeated_names(scene: &Scene<'_>) -> Result<(), RecordingError> {
     for (i, arm) in scene.arms.iter().enumerate() {
         if scene.arms[..i].iter().any(|other| other.name == arm.name) {
             return Err(RecordingError::NameTwice { name: arm.name.to_owned() });

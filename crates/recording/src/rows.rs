@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use crate::{Listener, Role};
+use crate::scene::{Listener, Role};
 
 /// Consecutive rows of a run.
 #[derive(Debug, Clone, Copy)]
@@ -14,7 +14,7 @@ pub struct Rows<'a> {
     pub signals: &'a [&'a [f64]],
 }
 
-/// A number a joint, as bars.
+/// One bar for each joint.
 #[derive(Debug, Clone, Copy)]
 pub struct Bar<'a> {
     /// Name in the legend.

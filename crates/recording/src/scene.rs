@@ -1,6 +1,6 @@
 use robot::{Looks, Robot};
 
-/// What a recording shows, said before the first row.
+/// What a recording shows; given before the first row.
 #[derive(Debug, Clone)]
 pub struct Scene<'a> {
     /// Name of the recording in the viewer.
@@ -36,7 +36,7 @@ pub struct Signal<'a> {
     pub role: Role,
 }
 
-/// What something is beside the rest; one colour everywhere, that of [`colours::Role`].
+/// The role of an arm or a signal. It decides the colour ([`colours::Role`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// Asked for.

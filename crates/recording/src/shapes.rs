@@ -42,7 +42,7 @@ pub(crate) fn draw(
         Shape::Capsule { radius_m, length_m } => {
             let half = Vector3::z() * (0.5 * length_m);
             let ends = [pose * Point3::from(-half), pose * Point3::from(half)];
-            stick(stream, &path, [ends[0].coords, ends[1].coords], (*radius_m, paint))?;
+            stick(stream, &path, [ends[0].coords, ends[1].coords], *radius_m, paint)?;
         }
         Shape::Mesh { file, scale } => {
             let Ok(mesh) = Asset3D::from_file_path(file) else { return Ok(false) };
@@ -64,7 +64,8 @@ pub(crate) fn stick(
     stream: &RecordingStream,
     path: &EntityPath,
     ends: [Vector3<f64>; 2],
-    (radius_m, paint): (f64, Paint),
+    radius_m: f64,
+    paint: Paint,
 ) -> RecordingStreamResult<()> {
     let along = ends[1] - ends[0];
     let turn = UnitQuaternion::rotation_between(&Vector3::z(), &along).unwrap_or_else(|| {
@@ -85,7 +86,8 @@ pub(crate) fn ball(
     stream: &RecordingStream,
     path: &EntityPath,
     center: &Vector3<f64>,
-    (radius_m, paint): (f64, Paint),
+    radius_m: f64,
+    paint: Paint,
 ) -> RecordingStreamResult<()> {
     let ball = Ellipsoids3D::from_centers_and_radii([point(center)], [radius_m as f32]);
     stream.log_static(path.clone(), &ball.with_colors([paint.color]).with_fill_mode(paint.fill))

@@ -6,8 +6,8 @@ use rerun::{
     SerializedComponentBatch, SerializedComponentColumn,
 };
 
-use crate::arms::time_column;
-use crate::{Quantity, Signal};
+use crate::entities::time_column;
+use crate::scene::{Quantity, Signal};
 
 /// The signals, and the rows of them that wait to be written.
 ///

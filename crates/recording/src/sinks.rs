@@ -4,9 +4,9 @@ use rerun::sink::LogSink;
 use rerun::{RecordingStream, RecordingStreamBuilder};
 
 use crate::disk::Disk;
-use crate::error::refused;
+use crate::error::{RecordingError, refusal};
 use crate::live::Viewer;
-use crate::{Live, RecordingError};
+use crate::scene::Live;
 
 /// The stream into the file, and into a viewer where one listens.
 pub(crate) fn open(
@@ -15,7 +15,7 @@ pub(crate) fn open(
     live: Live,
 ) -> Result<(RecordingStream, Disk, Viewer), RecordingError> {
     let builder = RecordingStreamBuilder::new("plumbline").recording_name(title);
-    let stream = builder.buffered().map_err(refused)?;
+    let stream = builder.buffered().map_err(refusal)?;
     if !stream.is_enabled() {
         let value = std::env::var("RERUN").unwrap_or_default();
         return Err(RecordingError::TurnedOff { path: path.to_owned(), value });

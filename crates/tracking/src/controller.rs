@@ -3,9 +3,12 @@ use std::f64::consts::TAU;
 use motion::State;
 use robot::{Gain, Reading};
 
-use crate::{Prediction, TorqueLimits, TrackingError, error};
+use crate::error;
+use crate::error::TrackingError;
+use crate::feedforward::Prediction;
+use crate::torque_limits::TorqueLimits;
 
-/// What a run is controlled with.
+/// Gains, limits and the error rate of a controller.
 ///
 /// ```text
 /// u = limit(u_FF + kp error + kd error_rate),   error = q_ref + q_lead - q
@@ -14,7 +17,7 @@ use crate::{Prediction, TorqueLimits, TrackingError, error};
 pub struct Controller {
     /// Gains of every joint.
     pub gains: Vec<Gain>,
-    /// What the motors can give.
+    /// Torque limits of the motors.
     pub limits: TorqueLimits,
     /// Where the rate of the error comes from.
     pub error_rate: ErrorRate,
@@ -48,7 +51,7 @@ impl Default for ErrorRate {
 }
 
 impl Controller {
-    /// Refuses what no machine of `joints` joints can be controlled with.
+    /// Refuses gains, limits or a cut-off that do not fit a machine of `joints` joints.
     pub(crate) fn check(&self, joints: usize) -> Result<(), TrackingError> {
         error::same_joints("the set of gains", self.gains.len(), joints)?;
         error::same_joints("the set of torque limits", self.limits.limits().len(), joints)?;

@@ -12,7 +12,7 @@ pub enum TrackingError {
         /// Joints of the machine.
         expected: usize,
     },
-    /// A number that nothing can be controlled with.
+    /// A number is out of its range.
     #[error("{quantity} is {found}, {expected} was expected")]
     OutOfRange {
         /// The quantity, with its joint and unit.
@@ -22,7 +22,7 @@ pub enum TrackingError {
         /// What was expected, in words.
         expected: &'static str,
     },
-    /// Two joints that no two motors can share.
+    /// Two joints that cannot share two motors.
     #[error("joints {first} and {second} cannot be a differential pair: {because}")]
     Pair {
         /// Index of the first joint.
@@ -64,7 +64,7 @@ pub(crate) fn positive(quantity: &str, found: f64) -> Result<(), TrackingError> 
     Err(TrackingError::OutOfRange { quantity: quantity.to_owned(), found, expected })
 }
 
-/// Refuses what no loop can have as its period (s).
+/// Refuses a period that no control loop can have (s).
 pub(crate) fn period(found: f64) -> Result<(), TrackingError> {
     if found > 0.0 && found <= LONGEST_PERIOD_S {
         return Ok(());
@@ -73,7 +73,7 @@ pub(crate) fn period(found: f64) -> Result<(), TrackingError> {
     Err(TrackingError::OutOfRange { quantity: quantity.to_owned(), found, expected })
 }
 
-/// No arm is controlled at a slower beat (s).
+/// Longest period of a control loop (s).
 const LONGEST_PERIOD_S: f64 = 60.0;
 
 #[cfg(test)]

@@ -2,7 +2,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use motion::Motion;
 
-/// What the reference needs, before any error is seen.
+/// The torque that the reference needs, without feedback.
 pub trait Feedforward: Send {
     /// Number of joints.
     fn joints(&self) -> usize;
@@ -10,21 +10,21 @@ pub trait Feedforward: Send {
     /// What it is, in words.
     fn words(&self) -> String;
 
-    /// Fills `prediction`, whose vectors have one entry a joint, with what the motion needs at
-    /// a time (s).
+    /// Fills `prediction`, whose vectors have one entry a joint, with the torque and leads that the
+    /// motion needs at a time (s).
     ///
-    /// It may take its time: the feedback does not wait for it. But it has to return in the end,
-    /// since a run is not over before. A panic is taken as the death of the predictor.
+    /// The feedback does not wait for it, so it may be slow. It has to return, as a run ends only
+    /// then. A panic ends the predictor.
     fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction);
 }
 
-/// What a feedforward asks for, one entry a joint.
+/// The output of a feedforward, one entry a joint.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Prediction {
     /// Torque (N m or N).
     pub tau: Vec<f64>,
-    /// By how much the motor has to be before the reference of its link (rad or m), as
-    /// backlash and elasticity ask for.
+    /// By how much the motor has to lead the reference of its link (rad or m), because of backlash
+    /// and elasticity.
     pub q_lead: Vec<f64>,
     /// The rate of that (rad/s or m/s).
     pub qd_lead: Vec<f64>,
@@ -67,7 +67,7 @@ impl Feedforward for NoFeedforward {
     }
 }
 
-/// Asks a feedforward; what it panicked with where it did.
+/// Asks a feedforward; the error is the message of a panic.
 pub(crate) fn ask(
     feedforward: &mut dyn Feedforward,
     motion: &Motion,

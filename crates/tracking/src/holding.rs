@@ -16,10 +16,9 @@ const STEP: f64 = 1e-4;
 /// diag(kp) + dg/dq(q_ref(t)) positive definite
 /// ```
 ///
-/// A feedforward of the reference knows nothing of where the arm is. Where the weight of the arm
-/// pulls it farther from the reference than `kp` pulls it back, as that of a pendulum held upright
-/// does, a standing arm falls, however true the feedforward: no comparison of feedforwards means
-/// much there.
+/// A feedforward does not depend on the position of the arm. Where the weight pulls the arm away
+/// from the reference by more than `kp` pulls it back, as on a pendulum held upright, the arm falls
+/// with any feedforward. A comparison of feedforwards means little there.
 ///
 /// # Panics
 ///

@@ -3,9 +3,9 @@ use std::{
     time::Duration,
 };
 
-/// A mailbox for one letter: the newest, the others are forgotten.
+/// A mailbox that keeps the newest letter and drops older ones.
 ///
-/// Letters are exchanged for what the other side holds, so none is ever allocated.
+/// Letters are swapped with the other side, so that nothing is allocated.
 #[derive(Debug)]
 pub(crate) struct Latest<T> {
     slot: Mutex<Slot<T>>,
@@ -20,7 +20,7 @@ struct Slot<T> {
 }
 
 impl<T> Latest<T> {
-    /// A mailbox without a letter, and what the first one is exchanged for.
+    /// An empty mailbox; `letter` is swapped for the first one.
     pub fn new(letter: T) -> Self {
         let slot = Slot { letter, is_new: false, is_closed: false };
         Self { slot: Mutex::new(slot), changed: Condvar::new() }
@@ -61,7 +61,7 @@ impl<T> Latest<T> {
         waited.unwrap_or_else(PoisonError::into_inner).0.take(letter)
     }
 
-    /// Nobody will leave a letter again.
+    /// Closes the mailbox: no more letters will come.
     pub fn close(&self) {
         self.slot().is_closed = true;
         self.changed.notify_all();

@@ -1,9 +1,11 @@
 use nalgebra::{Point3, distance};
 use robot::Robot;
 
-use crate::{Rows, Signal, TrackingError, error::same_joints, tip::tip_in_base};
+use crate::error::{TrackingError, same_joints};
+use crate::rows::{Signal, TrackingRows};
+use crate::tip::tip_in_base;
 
-/// How well a run tracked its motion, and what that took. A run without ticks has zeros.
+/// Tracking errors of a run, and the torque that they took. A run without ticks has zeros.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metrics {
     /// Joint by joint, in the order of the robot.
@@ -14,7 +16,7 @@ pub struct Metrics {
     pub end_effector_of_links: Option<Distance>,
 }
 
-/// How well one joint tracked, and what that took.
+/// Tracking errors of one joint, and its torque.
 ///
 /// ```text
 /// error = q_ref - q,   RMS(x) = sqrt(mean over the ticks of x²)
@@ -31,7 +33,7 @@ pub struct JointMetrics {
     pub link: Option<LinkMetrics>,
     /// RMS of the command (N m or N).
     pub command_rms: f64,
-    /// RMS of the feedback (N m or N): how far it had to work.
+    /// RMS of the feedback (N m or N).
     pub feedback_rms: f64,
     /// That over the RMS of the command; 0 without a command.
     pub feedback_share: f64,
@@ -57,7 +59,7 @@ pub struct LinkMetrics {
     pub max_error: f64,
 }
 
-/// How far a point was from another.
+/// Distance between two points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Distance {
     /// RMS over the ticks (m).
@@ -76,7 +78,7 @@ impl Metrics {
     ///
     /// [`TrackingError::JointCount`] when the run is of another number of joints.
     pub fn of(
-        rows: &Rows,
+        rows: &TrackingRows,
         robot: &Robot,
         point_in_link: &Point3<f64>,
     ) -> Result<Self, TrackingError> {
@@ -96,7 +98,7 @@ impl Metrics {
 }
 
 impl JointMetrics {
-    fn of(rows: &Rows, joint: usize) -> Self {
+    fn of(rows: &TrackingRows, joint: usize) -> Self {
         let signal = |signal| rows.column(signal, joint);
         let errors = LinkMetrics::of(rows, joint, Signal::Q);
         let feedforward = signal(Signal::Feedforward);
@@ -123,7 +125,7 @@ impl JointMetrics {
 }
 
 impl LinkMetrics {
-    fn of(rows: &Rows, joint: usize, actual: Signal) -> Self {
+    fn of(rows: &TrackingRows, joint: usize, actual: Signal) -> Self {
         let (q_ref, q) = (rows.column(Signal::QRef, joint), rows.column(actual, joint));
         let errors = q_ref.zip(q).map(|(q_ref, q)| q_ref - q);
         let first = rows.time_s().take_while(|time_s| *time_s < FIRST_S).count();
@@ -205,7 +207,8 @@ mod tests {
         let metrics = Metrics::of(&rows_of(&[], None), &slider(), &Point3::origin()).unwrap();
         assert_eq!(metrics.end_effector, Distance::default());
         assert_eq!((metrics.joints[0].rmse, metrics.joints[0].jump_max), (0.0, 0.0));
-        let error = Metrics::of(&Rows::new(2, 0), &slider(), &Point3::origin()).unwrap_err();
+        let error =
+            Metrics::of(&TrackingRows::new(2, 0), &slider(), &Point3::origin()).unwrap_err();
         assert_eq!(error.to_string(), "the run is for 2 joints, 1 were expected");
     }
 }

@@ -1,7 +1,7 @@
 use learner::{State, TorqueModel, Workspace};
 use motion::Motion;
 
-use crate::{Feedforward, Prediction};
+use crate::feedforward::{Feedforward, Prediction};
 
 /// The torque that a model expects along the reference.
 ///

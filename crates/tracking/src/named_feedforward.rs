@@ -2,18 +2,19 @@ use effects::{Compensated, Compensation, CompensationWorkspace};
 use motion::{Motion, State};
 use robot::Robot;
 
-use crate::{Feedforward, Prediction, TrackingError, error::same_joints};
+use crate::error::{TrackingError, same_joints};
+use crate::feedforward::{Feedforward, Prediction};
 
-/// What the drives of a robot have to be asked for so that its links follow the motion: rigid
-/// bodies, and the inverse of every effect that the description of the robot names.
+/// The commands with which the links of a robot follow the motion: rigid bodies, and the inverse of
+/// every effect that the description of the robot names.
 ///
 /// ```text
 /// tau(t)    = compensation(t + delay_j + lead_s)
 /// q_lead(t) = compensation(t)
 /// ```
 ///
-/// with [`effects::Compensation`], joint by joint with the joint's own delay: a torque is under
-/// way for that long, the reference of a motor is not.
+/// with [`effects::Compensation`], joint by joint with the joint's own delay. The delay holds for
+/// torques, and not for the reference of a motor.
 #[derive(Debug)]
 pub struct NamedFeedforward {
     compensation: Compensation,

@@ -3,7 +3,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::WallTiming;
+use crate::timing::WallClockTiming;
 
 /// How ticks follow one another.
 #[derive(Debug)]
@@ -33,7 +33,7 @@ pub(crate) struct WallPace {
     latest: Duration,
 }
 
-/// The end of a wait, spent awake: a thread that sleeps is woken up to this much late.
+/// Last part of a wait, in which the thread spins: a sleeping thread wakes up to this much late.
 const AWAKE: Duration = Duration::from_micros(200);
 
 impl Pace {
@@ -70,15 +70,15 @@ impl WallPace {
         self.due = Some(from + self.period);
     }
 
-    /// How the schedule was kept.
-    pub fn timing(&self) -> WallTiming {
+    /// Timing of the schedule so far.
+    pub fn timing(&self) -> WallClockTiming {
         let share = |count: usize| count as f64 / self.ticks.max(1) as f64;
-        WallTiming {
+        WallClockTiming {
             deadlines_missed: self.missed,
             deadlines_missed_share: share(self.missed),
             latest_s: self.latest.as_secs_f64(),
             late_share: share(self.late),
-            ..WallTiming::default()
+            ..WallClockTiming::default()
         }
     }
 }

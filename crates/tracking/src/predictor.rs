@@ -1,14 +1,15 @@
 use motion::Motion;
 
-use crate::{Ahead, Feedforward, Prediction, VirtualClock, feedforward::ask};
+use crate::feedforward::{Feedforward, Prediction, ask};
+use crate::settings::{Ahead, VirtualClock};
 
-/// What a predictor hands over.
+/// A prediction on its way to the loop.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Delivery {
     /// When the reference was taken (s).
     pub asked_s: f64,
     pub prediction: Prediction,
-    /// Why there will be no other, if so.
+    /// The reason why no prediction follows, if none does.
     pub died: Option<String>,
 }
 
@@ -23,7 +24,7 @@ pub(crate) trait Predictor {
     /// Predicts the first tick, before the run; whether `delivery` now holds it.
     fn first(&mut self, delivery: &mut Delivery) -> bool;
 
-    /// Whether `delivery` now holds what was not delivered before.
+    /// Whether `delivery` now holds a new prediction.
     fn newest(&mut self, tick: usize, delivery: &mut Delivery) -> bool;
 }
 
@@ -47,7 +48,7 @@ pub(crate) struct VirtualPredictor<'a> {
     work: Delivery,
 }
 
-/// Part of a period by which rounding may put a time behind its tick.
+/// Share of a period by which rounding may delay a time behind its tick.
 const ROUNDING: f64 = 1e-6;
 
 /// The first tick at or after a time (s).
@@ -75,7 +76,7 @@ impl<'a> VirtualPredictor<'a> {
         }
     }
 
-    /// Predicts into `work`; a death stays there.
+    /// Predicts into `work`, which keeps the message of a panic.
     fn predict(&mut self, asked_s: f64, ahead_periods: f64) {
         let time_s = asked_s + ahead_periods * self.period_s;
         self.work.asked_s = asked_s;
@@ -85,7 +86,7 @@ impl<'a> VirtualPredictor<'a> {
     }
 
     /// Ticks at which a prediction is used.
-    fn held(&self) -> f64 {
+    fn ticks_in_use(&self) -> f64 {
         self.ticks.max(1) as f64
     }
 
@@ -98,7 +99,7 @@ impl<'a> VirtualPredictor<'a> {
 
 impl Predictor for VirtualPredictor<'_> {
     fn first(&mut self, delivery: &mut Delivery) -> bool {
-        self.predict(0.0, self.ahead.periods(0.0, self.held()));
+        self.predict(0.0, self.ahead.periods(0.0, self.ticks_in_use()));
         self.deliver(delivery)
     }
 
@@ -115,7 +116,7 @@ impl Predictor for VirtualPredictor<'_> {
         if self.begun.is_some() {
             return done;
         }
-        let ahead = self.ahead.periods(self.ticks as f64, self.held());
+        let ahead = self.ahead.periods(self.ticks as f64, self.ticks_in_use());
         self.predict(tick as f64 * self.period_s, ahead);
         if self.ticks == 0 || self.dead {
             return self.deliver(delivery);

@@ -1,14 +1,14 @@
-use crate::Tick;
+use crate::watch::Tick;
 
 /// Every tick of a run, kept flat.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Rows {
+pub struct TrackingRows {
     joints: usize,
     width: usize,
     data: Vec<f64>,
 }
 
-/// What is kept of every joint in every tick.
+/// The signals of every joint that are kept in every tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Signal {
     /// Position asked for (rad or m).
@@ -23,13 +23,13 @@ pub enum Signal {
     Qd,
     /// Torque that the machine reported (N m or N).
     Effort,
-    /// By how much the motor was to be before the reference of its link (rad or m).
+    /// By how much the motor is to lead the reference of its link (rad or m).
     QLead,
     /// Torque of the feedforward (N m or N).
     Feedforward,
     /// Torque of the feedback (N m or N).
     Feedback,
-    /// Torque that the machine was told (N m or N).
+    /// Torque that the machine was commanded (N m or N).
     Command,
     /// 1 where the command was brought within the limits, 0 elsewhere.
     Limited,
@@ -40,10 +40,10 @@ pub enum Signal {
 /// Time, time of the reading and age of the prediction.
 const HEAD: usize = 3;
 const SIGNALS: usize = Signal::Link as usize + 1;
-/// Rows that room is made for before a run: ten minutes at 500 Hz.
+/// Rows that are allocated before a run: ten minutes at 500 Hz.
 const ROOM: usize = 300_000;
 
-impl Rows {
+impl TrackingRows {
     /// No rows yet of `joints` joints, and room for `ticks`.
     pub(crate) fn new(joints: usize, ticks: usize) -> Self {
         let width = HEAD + SIGNALS * joints;
@@ -136,11 +136,11 @@ pub(crate) mod tests {
     use robot::Reading;
 
     use super::*;
-    use crate::Prediction;
+    use crate::feedforward::Prediction;
 
     /// Rows of one joint at 1 Hz, from `[q_ref, q, feedforward, feedback]` and the link.
-    pub fn rows_of(ticks: &[[f64; 4]], link: Option<f64>) -> Rows {
-        let mut rows = Rows::new(1, ticks.len());
+    pub fn rows_of(ticks: &[[f64; 4]], link: Option<f64>) -> TrackingRows {
+        let mut rows = TrackingRows::new(1, ticks.len());
         for (k, &[q_ref, q, feedforward, feedback]) in ticks.iter().enumerate() {
             let reference = State { q: vec![q_ref], qd: vec![2.0], qdd: vec![3.0] };
             let time_s = k as f64 + 0.5;

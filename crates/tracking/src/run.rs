@@ -3,7 +3,9 @@ use std::{collections::BTreeMap, path::PathBuf};
 use logs::{Channels, Run};
 use robot::Robot;
 
-use crate::{Rows, Signal, Tracking, TrackingError, error::same_joints};
+use crate::error::{TrackingError, same_joints};
+use crate::rows::{Signal, TrackingRows};
+use crate::tracking::Tracking;
 
 impl Tracking {
     /// The run as a motion log with the name `name`, on the clock of the machine.
@@ -41,7 +43,7 @@ impl Tracking {
     }
 }
 
-fn channels(rows: &Rows, joint: usize, name: &str) -> Channels {
+fn channels(rows: &TrackingRows, joint: usize, name: &str) -> Channels {
     let signal = |signal| rows.column(signal, joint).collect::<Vec<f64>>();
     Channels {
         name: name.to_owned(),
@@ -62,15 +64,15 @@ mod tests {
     use logs::{ReadOptions, read_run, write_parquet};
 
     use super::*;
-    use crate::{
-        Settings, Signal, TrackingError,
-        testing::{Of, Plant, controller, pendulum, slider, swing},
-        track,
-    };
+    use crate::error::TrackingError;
+    use crate::rows::Signal;
+    use crate::settings::Settings;
+    use crate::testing::{Of, TestPlant, controller, pendulum, slider, swing};
+    use crate::track;
 
     fn tracking() -> Tracking {
         let motion = swing(&slider(), 3.0);
-        let mut machine = Plant::slider(&motion);
+        let mut machine = TestPlant::slider(&motion);
         machine.link = Some([0.0]);
         let (pd, usual) = (controller(90.0, 9.0), Settings::default());
         track(&mut machine, &motion, &pd, &mut Of(f64::cos), &usual, &mut ()).unwrap()
@@ -99,7 +101,7 @@ mod tests {
 
     #[test]
     fn a_robot_of_other_joints_is_refused() {
-        let two = Tracking { rows: Rows::new(2, 0), ..tracking() };
+        let two = Tracking { rows: TrackingRows::new(2, 0), ..tracking() };
         let error = two.to_run("swing", &pendulum()).unwrap_err();
         let expected = TrackingError::JointCount { what: "the run", got: 2, expected: 1 };
         assert_eq!(error, expected);

@@ -1,12 +1,13 @@
-use crate::{TrackingError, error};
+use crate::error;
+use crate::error::TrackingError;
 
-/// How a run goes on in time.
+/// Timing of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Which time it goes by.
+    /// The clock of the run.
     pub clock: Clock,
-    /// Time without a new prediction after which the last one is no longer trusted (s): longer
-    /// than a prediction takes, or each of them fades before the next.
+    /// Time without a new prediction after which the last one is no longer trusted (s). It must be
+    /// longer than a prediction takes.
     pub stall_s: f64,
     /// Time in which a prediction that is no longer trusted fades to zero, and in which one
     /// that is trusted again fades in (s).
@@ -16,14 +17,14 @@ pub struct Settings {
 /// Which time a run goes by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Clock {
-    /// That of the machine, as fast as it can be simulated, with a given time for a prediction:
-    /// the same run to the last bit whenever it is done.
+    /// The machine's time, as fast as it can be simulated, with a given time for a prediction.
+    /// Every run gives the same bits.
     Virtual(VirtualClock),
-    /// That on the wall, one tick a period of the machine, the predictor in its own thread.
+    /// Wall-clock time: one tick a period of the machine, and the predictor in its own thread.
     Wall(WallClock),
 }
 
-/// The predictor's time on a run that goes by the machine's.
+/// The predictor's timing in a run in the machine's time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct VirtualClock {
     /// Time that a prediction takes (s); 0 for none.
@@ -34,14 +35,14 @@ pub struct VirtualClock {
     pub stops_at_s: Option<f64>,
 }
 
-/// The predictor on a run that goes by the clock on the wall.
+/// The predictor's timing in a run in wall-clock time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct WallClock {
     /// Of which time the reference is predicted.
     pub ahead: Ahead,
 }
 
-/// Of which time the reference is that a prediction is asked for.
+/// The time whose reference a prediction is computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ahead {
     /// The tick at which the predictor starts.
@@ -54,8 +55,8 @@ pub enum Ahead {
     /// ```
     ///
     /// for a predictor that is started again as soon as it is done. On the wall's clock the
-    /// prediction time is a running mean of what was measured. That a command is held for
-    /// the period `T` is for the lead of the feedforward to know.
+    /// prediction time is a running mean of what was measured. The hold of a command over the
+    /// period `T` is not included: the lead of the feedforward accounts for it.
     Arrival,
 }
 
@@ -82,8 +83,8 @@ impl Settings {
 }
 
 impl Ahead {
-    /// By how many periods the reference is ahead, when its result is used from `wait` ticks
-    /// later on at `held` ticks.
+    /// Periods by which the reference is ahead, for a result that is used `wait` ticks later and
+    /// during `held` ticks.
     pub(crate) fn periods(self, wait: f64, held: f64) -> f64 {
         match self {
             Self::Now => 0.0,

@@ -4,7 +4,9 @@ use learner::{Mean, Model, ModelKind, RobotTorque};
 use motion::{Motion, MotionSpec};
 use robot::{Gain, Machine, MachineFault, Reading, Robot};
 
-use crate::{Controller, ErrorRate, Feedforward, Prediction, TorqueLimits};
+use crate::controller::{Controller, ErrorRate};
+use crate::feedforward::{Feedforward, Prediction};
+use crate::torque_limits::TorqueLimits;
 
 pub const PERIOD_S: f64 = 0.002;
 /// Mass of a slider, and of a pendulum at the end of a rod of `ROD_M` (kg).
@@ -72,14 +74,14 @@ pub fn rest(robot: &Robot, position: f64, duration_s: f64) -> Motion {
 }
 
 /// One joint that moves by `qdd = acceleration(q, tau)`, by Runge and Kutta's rule.
-pub struct Plant {
+pub struct TestPlant {
     acceleration: fn(f64, f64) -> f64,
     state: [f64; 2],
     ticks: usize,
     pub link: Option<[f64; 1]>,
 }
 
-impl Plant {
+impl TestPlant {
     /// At rest where the motion begins.
     pub fn new(acceleration: fn(f64, f64) -> f64, motion: &Motion) -> Self {
         Self { acceleration, state: [motion.at(0.0).q[0], 0.0], ticks: 0, link: None }
@@ -108,7 +110,7 @@ impl Plant {
     }
 }
 
-impl Machine for Plant {
+impl Machine for TestPlant {
     fn joint_count(&self) -> usize {
         1
     }

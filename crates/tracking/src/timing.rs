@@ -1,15 +1,15 @@
-/// How well the predictions and the ticks of a run kept their time.
+/// Timing of the predictions and the ticks of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Timing {
     /// Ticks that found no newer prediction than the one before.
     pub updates_missed: usize,
-    /// What was measured, on the clock on the wall.
-    pub wall: Option<WallTiming>,
+    /// Measured timing of a run in wall-clock time.
+    pub wall: Option<WallClockTiming>,
 }
 
-/// What the clock on the wall said.
+/// Timing that was measured in wall-clock time.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct WallTiming {
+pub struct WallClockTiming {
     /// Predictions made during the run.
     pub predictions: usize,
     /// Time from the tick that asks to the prediction (s), over those predictions.

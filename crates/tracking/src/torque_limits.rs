@@ -1,6 +1,6 @@
-use crate::TrackingError;
+use crate::error::TrackingError;
 
-/// What the motors can give.
+/// Torque limits of the motors.
 ///
 /// A joint with a motor of its own gives `|tau| <= limit`. Two joints `a`, `b` that share two
 /// motors through a differential, `A` and `B` the limits of either alone, give the diamond
@@ -9,7 +9,7 @@ use crate::TrackingError;
 /// x = tau_a / A,   y = tau_b / B,   m1 = x - y,   m2 = x + y,   |m1| <= 1,   |m2| <= 1
 /// ```
 ///
-/// A torque outside is brought in motor by motor, as the motors themselves would.
+/// A torque outside is clipped motor by motor, as the motors themselves would do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TorqueLimits {
     limits: Vec<f64>,

@@ -1,16 +1,18 @@
 use motion::{Motion, State};
 use robot::{Machine, MachineFault, Reading};
 
-use crate::{
-    Clock, Controller, End, Event, Feedforward, Level, Rows, Settings, Tick, Timing, Tracking,
-    TrackingError, Watch,
-    controller::Feedback,
-    error::{period, same_joints},
-    pace::Pace,
-    predictor::{Delivery, Predictor, VirtualPredictor, tick_from},
-    trust::Trust,
-    wall::on_the_wall,
-};
+use crate::controller::{Controller, Feedback};
+use crate::error::{TrackingError, period, same_joints};
+use crate::feedforward::Feedforward;
+use crate::pace::Pace;
+use crate::predictor::{Delivery, Predictor, VirtualPredictor, tick_from};
+use crate::rows::TrackingRows;
+use crate::settings::{Clock, Settings};
+use crate::timing::Timing;
+use crate::tracking::{End, Tracking};
+use crate::trust::Trust;
+use crate::wall::on_the_wall;
+use crate::watch::{Event, Level, Tick, Watch};
 
 /// Tracks `motion` with `machine` from its beginning to its end.
 ///
@@ -18,10 +20,10 @@ use crate::{
 /// u(t_k) = limit(u_FF(t_k) + kp error + kd error_rate),   t_k = k T
 /// ```
 ///
-/// with `u_FF` the newest prediction of `feedforward`, which is asked for the first tick before
-/// the run, so that the arm does not begin without it. The time of a run is the number of its
-/// ticks: a motion waits for a tick that is late, and the arm is never asked to jump. The
-/// machine should rest where the motion begins; nothing is commanded after the last tick.
+/// with `u_FF` the newest prediction of `feedforward`, which is asked for the first tick before the
+/// run, so that the arm does not begin without it. The time of a run is counted in ticks: the
+/// motion waits for a late tick, so that the reference never jumps. The machine should rest where
+/// the motion begins; nothing is commanded after the last tick.
 ///
 /// # Errors
 ///
@@ -58,7 +60,7 @@ pub fn track(
         torques: Torques::zero(joints),
         trust: Trust::new(settings, period_s, joints),
         delivery: Delivery::new(joints),
-        rows: Rows::new(joints, ticks),
+        rows: TrackingRows::new(joints, ticks),
         events: Vec::new(),
         updates_missed: 0,
     };
@@ -79,7 +81,7 @@ pub fn track(
     Ok(Tracking { period_s, feedforward: words, rows, events, timing, end })
 }
 
-/// A run as far as it has come.
+/// The state of a run.
 struct Run<'a> {
     machine: &'a mut dyn Machine,
     motion: &'a Motion,
@@ -94,7 +96,7 @@ struct Run<'a> {
     torques: Torques,
     trust: Trust,
     delivery: Delivery,
-    rows: Rows,
+    rows: TrackingRows,
     events: Vec<Event>,
     updates_missed: usize,
 }
@@ -146,7 +148,7 @@ impl Run<'_> {
 
         // u = limit(u_FF + kp error + kd error_rate)
         let Torques { feedback, command, limited } = &mut self.torques;
-        let lead = self.trust.used();
+        let lead = self.trust.feedforward();
         self.feedback.fill(&self.reference, lead, &self.reading, feedback);
         for (command, (ahead, back)) in command.iter_mut().zip(lead.tau.iter().zip(&*feedback)) {
             *command = ahead + back;
@@ -201,7 +203,7 @@ impl Run<'_> {
     }
 }
 
-/// A command that is no number: predictions are checked, so it is the reading that is none.
+/// The fault of a command that is not finite. Predictions are checked, so the reading is at fault.
 fn not_finite(time_s: f64, joint: usize, reading: &Reading) -> MachineFault {
     let (q, qd) = (reading.q[joint], reading.qd[joint]);
     MachineFault {
@@ -217,14 +219,16 @@ mod tests {
     use std::ops::ControlFlow;
 
     use super::*;
-    use crate::{
-        Ahead, ErrorRate, GravityFeedforward, ModelFeedforward, NoFeedforward, Signal,
-        TorqueLimits, VirtualClock,
-        testing::{
-            GRAVITY, MASS, Of, PERIOD_S, Plant, ROD_M, controller, model_of, pendulum, rest,
-            slider, swing,
-        },
+    use crate::controller::ErrorRate;
+    use crate::feedforward::NoFeedforward;
+    use crate::model_feedforward::{GravityFeedforward, ModelFeedforward};
+    use crate::rows::Signal;
+    use crate::settings::{Ahead, VirtualClock};
+    use crate::testing::{
+        GRAVITY, MASS, Of, PERIOD_S, ROD_M, TestPlant, controller, model_of, pendulum, rest,
+        slider, swing,
     };
+    use crate::torque_limits::TorqueLimits;
 
     const LEAD_S: f64 = 0.5 * PERIOD_S;
 
@@ -233,7 +237,7 @@ mod tests {
     }
 
     fn run(
-        mut machine: Plant,
+        mut machine: TestPlant,
         motion: &Motion,
         controller: &Controller,
         feedforward: &mut dyn Feedforward,
@@ -272,7 +276,7 @@ mod tests {
         let mut feedforward = ModelFeedforward::new(&model, LEAD_S);
         let low = controller(2.0, 0.3);
         let clock = VirtualClock::default();
-        let tracking = run(Plant::pendulum(&motion), &motion, &low, &mut feedforward, clock);
+        let tracking = run(TestPlant::pendulum(&motion), &motion, &low, &mut feedforward, clock);
         assert_eq!((tracking.end.clone(), tracking.rows.len()), (End::Complete, 3000));
         assert!(tracking.events.is_empty() && tracking.timing.updates_missed == 0);
         let most = largest(&errors(&tracking));
@@ -287,7 +291,7 @@ mod tests {
         let of = |lead_s| {
             let mut feedforward = ModelFeedforward::new(&model, lead_s);
             let clock = VirtualClock::default();
-            run(Plant::slider(&motion), &motion, &open, &mut feedforward, clock)
+            run(TestPlant::slider(&motion), &motion, &open, &mut feedforward, clock)
         };
         let (held, leads) = (of(0.0), of(LEAD_S));
         let speeds = held.rows.column(Signal::QdRef, 0);
@@ -304,14 +308,14 @@ mod tests {
         let clock = VirtualClock::default();
         let pd = controller(100.0, 10.0);
         let none = &mut NoFeedforward { joints: 1 };
-        let alone = run(Plant::pendulum(&motion), &motion, &pd, none, clock);
+        let alone = run(TestPlant::pendulum(&motion), &motion, &pd, none, clock);
         let last = alone.rows.len() - 1;
         let q = alone.rows.row(last, Signal::Q)[0];
         let expected = MASS * GRAVITY * ROD_M * q.sin() / 100.0;
         assert!((errors(&alone)[last] - expected).abs() < 1e-9, "{expected}");
         // With the load known nothing is left.
         let mut gravity = GravityFeedforward::new(&model, LEAD_S);
-        let helped = run(Plant::pendulum(&motion), &motion, &pd, &mut gravity, clock);
+        let helped = run(TestPlant::pendulum(&motion), &motion, &pd, &mut gravity, clock);
         assert!(largest(&errors(&helped)) < 1e-12);
     }
 
@@ -324,7 +328,7 @@ mod tests {
         let model = model_of(&robot);
         let motion = swing(&robot, 3.0);
         let mut gravity = GravityFeedforward::new(&model, 0.1);
-        let mut prediction = crate::Prediction::zero(1);
+        let mut prediction = crate::feedforward::Prediction::zero(1);
         gravity.predict(&motion, 1.3, &mut prediction);
         let expected = MASS * GRAVITY * ROD_M * motion.at(1.4).q[0].sin();
         assert!((prediction.tau[0] - expected).abs() < 1e-12, "{prediction:?}");
@@ -337,13 +341,13 @@ mod tests {
         let pd = controller(50.0, 10.0);
         let torque = |time_s: f64| MASS * (5.0 * time_s).sin();
         let slow = VirtualClock { prediction_time_s: 0.0135, ..VirtualClock::default() };
-        let slow = run(Plant::slider(&motion), &motion, &pd, &mut Of(torque), slow);
+        let slow = run(TestPlant::slider(&motion), &motion, &pd, &mut Of(torque), slow);
         let by_hand = |time_s: f64| {
             let tick = (time_s / PERIOD_S).round() as usize;
             torque((tick / N * N).saturating_sub(N) as f64 * PERIOD_S)
         };
         let at_once = VirtualClock::default();
-        let at_once = run(Plant::slider(&motion), &motion, &pd, &mut Of(by_hand), at_once);
+        let at_once = run(TestPlant::slider(&motion), &motion, &pd, &mut Of(by_hand), at_once);
         assert_eq!(bits(&slow), bits(&at_once));
         assert_eq!(slow.timing.updates_missed, 1000 - 1000 / N);
         let ages: Vec<f64> = slow.rows.age_s().map(|age| (age / PERIOD_S).round()).collect();
@@ -358,8 +362,13 @@ mod tests {
             let clock =
                 VirtualClock { prediction_time_s: time_s, ahead: Ahead::Arrival, stops_at_s: None };
             let feedforward = &mut Of(|time_s| time_s);
-            let tracking =
-                run(Plant::slider(&motion), &motion, &controller(50.0, 10.0), feedforward, clock);
+            let tracking = run(
+                TestPlant::slider(&motion),
+                &motion,
+                &controller(50.0, 10.0),
+                feedforward,
+                clock,
+            );
             let rows = &tracking.rows;
             let behind =
                 rows.time_s().zip(rows.column(Signal::Feedforward, 0)).map(|(t, of)| t - of);
@@ -383,7 +392,13 @@ mod tests {
                 stops_at_s: Some(2.0),
             };
             let mut feedforward = ModelFeedforward::new(&model, LEAD_S);
-            run(Plant::pendulum(&motion), &motion, &controller(5.0, 0.5), &mut feedforward, clock)
+            run(
+                TestPlant::pendulum(&motion),
+                &motion,
+                &controller(5.0, 0.5),
+                &mut feedforward,
+                clock,
+            )
         };
         let (first, second) = (of(), of());
         assert_eq!(bits(&first), bits(&second));
@@ -399,9 +414,9 @@ mod tests {
             assert!(time_s < 1.0, "out of memory");
             3.0
         };
-        let told = run(Plant::slider(&motion), &motion, &pd, &mut Of(|_| 3.0), told);
+        let told = run(TestPlant::slider(&motion), &motion, &pd, &mut Of(|_| 3.0), told);
         let by_itself = VirtualClock::default();
-        let by_itself = run(Plant::slider(&motion), &motion, &pd, &mut Of(panics), by_itself);
+        let by_itself = run(TestPlant::slider(&motion), &motion, &pd, &mut Of(panics), by_itself);
         assert_eq!(bits(&told), bits(&by_itself));
         assert_eq!(told.end, End::Complete);
         assert!(by_itself.events[0].words.contains("out of memory"), "{:?}", by_itself.events);
@@ -419,7 +434,7 @@ mod tests {
         let pd = controller(200.0, 30.0);
         let broken = |time_s: f64| if (1.0..1.5).contains(&time_s) { f64::NAN } else { 3.0 };
         let clock = VirtualClock::default();
-        let tracking = run(Plant::slider(&motion), &motion, &pd, &mut Of(broken), clock);
+        let tracking = run(TestPlant::slider(&motion), &motion, &pd, &mut Of(broken), clock);
         let levels: Vec<Level> = tracking.events.iter().map(|event| event.level).collect();
         assert_eq!(
             (tracking.end.clone(), levels),
@@ -427,7 +442,7 @@ mod tests {
         );
         assert!(tracking.rows.column(Signal::Command, 0).all(f64::is_finite));
         // From the beginning: never any feedforward.
-        let tracking = run(Plant::slider(&motion), &motion, &pd, &mut Of(|_| f64::NAN), clock);
+        let tracking = run(TestPlant::slider(&motion), &motion, &pd, &mut Of(|_| f64::NAN), clock);
         assert!(tracking.rows.column(Signal::Feedforward, 0).all(|tau| tau == 0.0));
         assert!(tracking.rows.age_s().all(f64::is_nan));
         assert_eq!((tracking.end, tracking.events.len()), (End::Complete, 1));
@@ -436,7 +451,7 @@ mod tests {
     #[test]
     fn a_reading_that_is_no_number_ends_the_run_before_it_is_answered() {
         let motion = swing(&slider(), 3.0);
-        let lost = Plant::new(|q, tau| if q > 0.35 { f64::NAN } else { tau / MASS }, &motion);
+        let lost = TestPlant::new(|q, tau| if q > 0.35 { f64::NAN } else { tau / MASS }, &motion);
         let clock = VirtualClock::default();
         let model = model_of(&slider());
         let mut feedforward = ModelFeedforward::new(&model, LEAD_S);
@@ -448,7 +463,7 @@ mod tests {
     }
 
     /// Stops in its fifty-first tick, or forgets a joint in it.
-    struct Faulty(Plant, usize, Lapse);
+    struct Faulty(TestPlant, usize, Lapse);
 
     #[derive(PartialEq)]
     enum Lapse {
@@ -485,7 +500,7 @@ mod tests {
     fn a_machine_that_stops_ends_the_run_and_its_last_tick_is_kept() {
         let motion = swing(&slider(), 3.0);
         let of = |lapse| {
-            let mut machine = Faulty(Plant::slider(&motion), 0, lapse);
+            let mut machine = Faulty(TestPlant::slider(&motion), 0, lapse);
             let (pd, usual) = (controller(9.0, 1.0), Settings::default());
             track(&mut machine, &motion, &pd, &mut Of(f64::sin), &usual, &mut ()).unwrap()
         };
@@ -517,7 +532,7 @@ mod tests {
     #[test]
     fn the_watch_sees_every_tick_and_event_and_ends_the_run() {
         let motion = swing(&slider(), 3.0);
-        let mut machine = Plant::slider(&motion);
+        let mut machine = TestPlant::slider(&motion);
         let mut watch = Impatient::default();
         let settings = settings(VirtualClock { stops_at_s: Some(0.1), ..VirtualClock::default() });
         let feedforward = &mut Of(f64::sin);
@@ -536,7 +551,7 @@ mod tests {
             Controller { limits, error_rate: ErrorRate::Reading, ..controller(50.0, 5.0) };
         let feedforward = &mut Of(|time_s: f64| 5.0 * (3.0 * time_s).sin());
         let clock = VirtualClock::default();
-        let rows = run(Plant::slider(&motion), &motion, &limited, feedforward, clock).rows;
+        let rows = run(TestPlant::slider(&motion), &motion, &limited, feedforward, clock).rows;
         let mut cut = 0;
         for tick in 0..rows.len() {
             let of = |signal| rows.row(tick, signal)[0];
@@ -553,7 +568,7 @@ mod tests {
         let model = model_of(&pendulum());
         let taken = |duration_s| {
             let motion = swing(&pendulum(), duration_s);
-            let mut machine = Plant::pendulum(&motion);
+            let mut machine = TestPlant::pendulum(&motion);
             machine.link = Some([0.0]);
             let mut feedforward = ModelFeedforward::new(&model, LEAD_S);
             let (pd, usual) = (controller(5.0, 0.5), Settings::default());
@@ -570,7 +585,7 @@ mod tests {
     fn parts_that_do_not_fit_are_refused() {
         let motion = swing(&slider(), 3.0);
         let of = |controller: &Controller, joints, settings: &Settings| {
-            let machine = &mut Plant::slider(&motion);
+            let machine = &mut TestPlant::slider(&motion);
             track(machine, &motion, controller, &mut NoFeedforward { joints }, settings, &mut ())
                 .unwrap_err()
                 .to_string()

@@ -1,8 +1,10 @@
 use robot::MachineFault;
 
-use crate::{Event, Rows, Timing};
+use crate::rows::TrackingRows;
+use crate::timing::Timing;
+use crate::watch::Event;
 
-/// A run: what was asked, what was done, and how it ended.
+/// A run: the reference, the response, and how it ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tracking {
     /// Time from one tick to the next (s).
@@ -10,7 +12,7 @@ pub struct Tracking {
     /// The feedforward, in words.
     pub feedforward: String,
     /// Every tick.
-    pub rows: Rows,
+    pub rows: TrackingRows,
     /// What happened.
     pub events: Vec<Event>,
     /// How well the predictions and the ticks kept their time.

@@ -1,4 +1,7 @@
-use crate::{Event, Level, Prediction, Settings, predictor::Delivery};
+use crate::feedforward::Prediction;
+use crate::predictor::Delivery;
+use crate::settings::Settings;
+use crate::watch::{Event, Level};
 
 /// The newest prediction and how far it is trusted.
 ///
@@ -25,7 +28,7 @@ enum Condition {
     Trusted,
     /// Nothing new for too long.
     Stalled,
-    /// Gave something else than finite numbers, last at this time (s).
+    /// The last prediction was not finite, at this time (s).
     Unusable(f64),
     Dead,
 }
@@ -51,7 +54,7 @@ impl Trust {
             Some(delivery) => self.take(0.0, delivery),
             None => {
                 self.condition = Condition::Stalled;
-                Some(self.distrusted(0.0, "there is no prediction to begin with"))
+                Some(self.distrust_event(0.0, "there is no prediction to begin with"))
             }
         };
         if self.condition == Condition::Trusted {
@@ -78,8 +81,8 @@ impl Trust {
         event
     }
 
-    /// What is to be used in this tick.
-    pub fn used(&self) -> &Prediction {
+    /// The feedforward of this tick.
+    pub fn feedforward(&self) -> &Prediction {
         &self.used
     }
 
@@ -91,18 +94,18 @@ impl Trust {
     fn take(&mut self, time_s: f64, delivery: &mut Delivery) -> Option<Event> {
         if let Some(because) = delivery.died.take() {
             self.condition = Condition::Dead;
-            return Some(self.distrusted(time_s, &format!("the predictor died ({because})")));
+            return Some(self.distrust_event(time_s, &format!("the predictor died ({because})")));
         }
         if !delivery.prediction.is_usable(self.newest.tau.len()) {
             let known = matches!(self.condition, Condition::Unusable(_));
             self.condition = Condition::Unusable(time_s);
             let words = "a prediction is not one finite number a joint";
-            return (!known).then(|| self.distrusted(time_s, words));
+            return (!known).then(|| self.distrust_event(time_s, words));
         }
         std::mem::swap(&mut self.newest, &mut delivery.prediction);
         self.asked_s = Some(delivery.asked_s);
         self.arrived_s = time_s;
-        (self.condition == Condition::Stalled).then(|| self.trusted(time_s))
+        (self.condition == Condition::Stalled).then(|| self.regain_trust(time_s))
     }
 
     /// What time alone changes.
@@ -114,17 +117,17 @@ impl Trust {
             Condition::Trusted if time_s - self.arrived_s > patience_s => {
                 self.condition = Condition::Stalled;
                 let words = format!("no new prediction for {stall_s} s");
-                Some(self.distrusted(time_s, &words))
+                Some(self.distrust_event(time_s, &words))
             }
             // As long without a bad prediction as a good one may take to come.
             Condition::Unusable(since) if time_s - since > patience_s && self.arrived_s > since => {
-                Some(self.trusted(time_s))
+                Some(self.regain_trust(time_s))
             }
             _ => None,
         }
     }
 
-    fn distrusted(&self, time_s: f64, found: &str) -> Event {
+    fn distrust_event(&self, time_s: f64, found: &str) -> Event {
         let Settings { fade_s, .. } = self.settings;
         let words = match self.asked_s {
             Some(_) => format!("{found}: the last fades to zero over {fade_s} s"),
@@ -133,7 +136,7 @@ impl Trust {
         Event { time_s, level: Level::Warning, words: words + ", the feedback goes on" }
     }
 
-    fn trusted(&mut self, time_s: f64) -> Event {
+    fn regain_trust(&mut self, time_s: f64) -> Event {
         self.condition = Condition::Trusted;
         let words = format!("predictions fade in over {} s", self.settings.fade_s);
         Event { time_s, level: Level::Info, words }
@@ -157,7 +160,7 @@ mod tests {
         let mut events = Vec::from_iter(trust.begin(Some(&mut delivery(2.0))));
         let mut tick = |k: usize| {
             events.extend(trust.tick(k as f64 * PERIOD_S, arrives(k).as_mut()));
-            trust.used().tau[0]
+            trust.feedforward().tau[0]
         };
         ((0..200).map(&mut tick).collect(), events)
     }
@@ -209,10 +212,10 @@ mod tests {
         let mut trust = Trust::new(&Settings::default(), PERIOD_S, 1);
         assert!(trust.begin(None).unwrap().words.contains("no prediction to begin with"));
         assert!(trust.tick(0.0, None).is_none());
-        assert_eq!((trust.used().tau[0], trust.age_s(0.0)), (0.0, None));
+        assert_eq!((trust.feedforward().tau[0], trust.age_s(0.0)), (0.0, None));
         assert!(trust.tick(0.01, Some(&mut delivery(2.0))).unwrap().words.contains("fade in"));
-        assert_eq!((trust.used().tau[0], trust.age_s(0.01)), (0.0, Some(0.01)));
+        assert_eq!((trust.feedforward().tau[0], trust.age_s(0.01)), (0.0, Some(0.01)));
         trust.tick(0.02, Some(&mut delivery(2.0)));
-        assert!((trust.used().tau[0] - 0.04).abs() < 1e-15);
+        assert!((trust.feedforward().tau[0] - 0.04).abs() < 1e-15);
     }
 }

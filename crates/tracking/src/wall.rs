@@ -5,13 +5,13 @@ use std::{
 
 use motion::Motion;
 
-use crate::{
-    Ahead, End, Feedforward, Latency, WallClock, WallTiming,
-    feedforward::ask,
-    latest::Latest,
-    pace::{Pace, WallPace},
-    predictor::{Delivery, Predictor},
-};
+use crate::feedforward::{Feedforward, ask};
+use crate::latest::Latest;
+use crate::pace::{Pace, WallPace};
+use crate::predictor::{Delivery, Predictor};
+use crate::settings::{Ahead, WallClock};
+use crate::timing::{Latency, WallClockTiming};
+use crate::tracking::End;
 
 /// Longest wait for the prediction before the run (s).
 const FIRST_S: f64 = 5.0;
@@ -33,7 +33,7 @@ pub(crate) fn on_the_wall(
     clock: WallClock,
     period_s: f64,
     go: impl FnOnce(&mut dyn Predictor, &mut Pace) -> End,
-) -> (End, WallTiming) {
+) -> (End, WallClockTiming) {
     let requests = Latest::new(Request::default());
     let answers = Latest::new(Delivery::new(motion.joint_count()));
     let mut pace = Pace::Wall(WallPace::new(Duration::from_secs_f64(period_s)));
@@ -55,10 +55,10 @@ pub(crate) fn on_the_wall(
     });
     let kept = match pace {
         Pace::Wall(pace) => pace.timing(),
-        Pace::Free => WallTiming::default(),
+        Pace::Free => WallClockTiming::default(),
     };
     let latency = Latency::of(&latencies_s);
-    (end, WallTiming { predictions: latencies_s.len(), latency, ..kept })
+    (end, WallClockTiming { predictions: latencies_s.len(), latency, ..kept })
 }
 
 struct Closing<'a>(&'a Latest<Request>);
@@ -145,11 +145,12 @@ mod tests {
     use robot::{Machine, MachineFault, Reading};
 
     use super::*;
-    use crate::{
-        Clock, Level, Settings, Signal, Tracking,
-        testing::{Of, PERIOD_S, Plant, controller, rest, slider},
-        track,
-    };
+    use crate::rows::Signal;
+    use crate::settings::{Clock, Settings};
+    use crate::testing::{Of, PERIOD_S, TestPlant, controller, rest, slider};
+    use crate::track;
+    use crate::tracking::Tracking;
+    use crate::watch::Level;
 
     const TICKS: usize = 200;
 
@@ -163,7 +164,7 @@ mod tests {
     }
 
     /// Says when its last tick is over.
-    struct Telling(Plant, usize, Sender<()>);
+    struct Telling(TestPlant, usize, Sender<()>);
 
     impl Machine for Telling {
         fn joint_count(&self) -> usize {
@@ -202,7 +203,7 @@ mod tests {
     #[test]
     fn the_feedback_does_not_wait_for_a_predictor_that_waits_for_the_end_of_the_run() {
         let ((tell, over), (in_vain, waited)) = (channel(), channel());
-        let mut machine = Telling(Plant::slider(&motion()), 0, tell);
+        let mut machine = Telling(TestPlant::slider(&motion()), 0, tell);
         let tracking = run(&mut machine, &mut Of(once(over, in_vain)), Ahead::Now);
         assert!(waited.try_recv().is_err(), "the feedback waited for the predictor");
         assert_eq!((tracking.end, tracking.rows.len()), (End::Complete, TICKS));
@@ -221,7 +222,7 @@ mod tests {
     fn a_tick_lasts_a_period_and_predictions_are_of_ticks_gone_by() {
         let motion = motion();
         let started = Instant::now();
-        let tracking = run(&mut Plant::slider(&motion), &mut Of(|time_s| time_s), Ahead::Now);
+        let tracking = run(&mut TestPlant::slider(&motion), &mut Of(|time_s| time_s), Ahead::Now);
         // Never faster; how much slower depends on what else the computer does.
         assert!(started.elapsed().as_secs_f64() > (TICKS - 2) as f64 * PERIOD_S);
         let rows = &tracking.rows;
@@ -239,7 +240,7 @@ mod tests {
     #[test]
     fn a_prediction_for_its_arrival_is_at_least_a_period_ahead() {
         let feedforward = &mut Of(|time_s| time_s);
-        let tracking = run(&mut Plant::slider(&motion()), feedforward, Ahead::Arrival);
+        let tracking = run(&mut TestPlant::slider(&motion()), feedforward, Ahead::Arrival);
         let rows = &tracking.rows;
         let predicted = rows.column(Signal::Feedforward, 0);
         let asked = rows.time_s().zip(rows.age_s()).map(|(time, age)| time - age);
@@ -256,7 +257,7 @@ mod tests {
             assert!(asked < 3, "no more");
             4.0
         };
-        let tracking = run(&mut Plant::slider(&motion()), &mut Of(dies), Ahead::Now);
+        let tracking = run(&mut TestPlant::slider(&motion()), &mut Of(dies), Ahead::Now);
         assert_eq!((tracking.end, tracking.rows.len()), (End::Complete, TICKS));
         assert_eq!(tracking.events.len(), 1, "{:?}", tracking.events);
         assert_eq!(tracking.events[0].level, Level::Warning);

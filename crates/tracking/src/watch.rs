@@ -15,7 +15,7 @@ pub struct Tick<'a> {
     /// Where the links are (rad or m), when the machine knows.
     pub link_positions: Option<&'a [f64]>,
     /// What the feedforward asked for, faded where it is not trusted.
-    pub feedforward: &'a crate::Prediction,
+    pub feedforward: &'a crate::feedforward::Prediction,
     /// Torque of the feedback (N m or N).
     pub feedback: &'a [f64],
     /// What the machine was told (N m or N).
@@ -32,13 +32,13 @@ pub struct Tick<'a> {
 pub struct Event {
     /// Time since the motion began (s).
     pub time_s: f64,
-    /// How bad it is.
+    /// Its severity.
     pub level: Level,
     /// What happened and what is done about it.
     pub words: String,
 }
 
-/// How bad an event is.
+/// Severity of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// As it should be.
@@ -49,8 +49,7 @@ pub enum Level {
     Error,
 }
 
-/// Who looks on while a run goes on, between one tick and the next: on the wall's clock it has
-/// to be quick.
+/// Observes a run between its ticks. In wall-clock time it has to be quick.
 pub trait Watch {
     /// A tick is over; [`ControlFlow::Break`] ends the run.
     fn tick(&mut self, tick: &Tick) -> ControlFlow<()>;
@@ -59,7 +58,7 @@ pub trait Watch {
     fn event(&mut self, event: &Event);
 }
 
-/// Nobody looks on.
+/// No observer.
 impl Watch for () {
     fn tick(&mut self, _: &Tick) -> ControlFlow<()> {
         ControlFlow::Continue(())

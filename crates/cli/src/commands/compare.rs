@@ -1,18 +1,19 @@
 use std::path::{Path, PathBuf};
 
-use diagnosis::{Comparison, Finding, Progress, Silent};
+use diagnosis::{Comparison, Finding};
 use logs::Run;
-use report::{Report, ReportError};
+use report::Report;
 use robot::Loaded;
 
 use super::diagnose;
-use crate::Outcome;
-use crate::columns::{ColumnArguments, LengthArguments};
-use crate::doubts::doubts;
+use crate::columns::LogArguments;
 use crate::error::CliError;
-use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{keep_inputs, print, shown, warn};
-use crate::progress::Bar;
+use crate::exit_status::ExitStatus;
+use crate::input::{RobotArguments, SearchArguments, hashes_of};
+use crate::input_warnings::input_warnings;
+use crate::messages::warn;
+use crate::output::{keep_inputs, print, refuse_file, shown};
+use crate::progress::with_bar;
 
 /// Columns of the text.
 const WIDTH: usize = 100;
@@ -20,11 +21,8 @@ const WIDTH: usize = 100;
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The robot: a robot.urdf, or a robot.toml that names one
-    #[arg(long, value_name = "FILE")]
-    robot: PathBuf,
     #[command(flatten)]
-    part: PartArguments,
+    robot: RobotArguments,
     /// The first logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     before: Vec<PathBuf>,
@@ -35,9 +33,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
-    columns: ColumnArguments,
-    #[command(flatten)]
-    length: LengthArguments,
+    reading: LogArguments,
     #[command(flatten)]
     search: SearchArguments,
     /// Print nothing but errors
@@ -52,36 +48,33 @@ const PAGE: &str = "report.html";
 const SIDES: [&str; 2] = ["before", "after"];
 
 /// Compares two sets of logs, writes a diagnosis of each and prints what changed.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let out = &arguments.out;
-    if out.exists() && !out.is_dir() {
-        return Err(ReportError::NotAFolder { path: out.clone() }.into());
-    }
-    let loaded = arguments.part.load(&arguments.robot)?;
-    let read = |paths| arguments.columns.read_runs(paths, &loaded.robot, arguments.length);
+    refuse_file(out)?;
+    let loaded = arguments.robot.load()?;
+    let read = |paths| arguments.reading.read_runs(paths, &loaded.robot);
     let runs = [read(&arguments.before)?, read(&arguments.after)?];
     if !arguments.quiet {
-        doubts(&loaded, runs.iter().flatten()).iter().for_each(|doubt| warn(doubt));
+        input_warnings(&loaded, runs.iter().flatten()).iter().for_each(|warning| warn(warning));
     }
-    let given = || [&arguments.robot, &loaded.urdf_path].into_iter().chain(&arguments.columns.map);
+    let robot_files = [&arguments.robot.robot, &loaded.urdf_path];
+    let given = || robot_files.into_iter().chain(&arguments.reading.columns.map);
     let inputs = || given().chain(&arguments.before).chain(&arguments.after).map(PathBuf::as_path);
     keep_inputs(out, &[PAGE], inputs())?;
     for side in SIDES {
         keep_inputs(&out.join(side), &diagnose::FILES, inputs())?;
     }
     let settings = arguments.search.settings(&loaded);
-    let bar = Bar::new();
-    let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
     let sets = [runs[0].as_slice(), runs[1].as_slice()];
-    let comparison = diagnosis::compare(&loaded.robot, sets, &settings, progress);
-    bar.finish();
-    let comparison = comparison?;
+    let comparison = with_bar(arguments.quiet, |progress| {
+        diagnosis::compare(&loaded.robot, sets, &settings, progress)
+    })?;
     write(arguments, &loaded, &runs, &comparison)?;
     if !arguments.quiet {
         print(&format!("{}\n{}", words(&comparison), closing(out)))?;
     }
     let changes = &comparison.after.diagnosis.findings;
-    Ok(if changes.is_empty() { Outcome::Good } else { Outcome::Gap })
+    Ok(if changes.is_empty() { ExitStatus::Good } else { ExitStatus::Gap })
 }
 
 /// Writes the diagnosis of each set of logs into a folder of its own.
@@ -95,8 +88,7 @@ fn write(
     let [before, after] = SIDES;
     let sides = [(before, loaded, &comparison.before), (after, &about, &comparison.after)];
     for ((name, loaded, outcome), runs) in sides.into_iter().zip(runs) {
-        let map = arguments.columns.map_file();
-        let mut provenance = provenance(&arguments.robot, loaded, map)?;
+        let mut provenance = arguments.robot.provenance(loaded, arguments.reading.map_file())?;
         provenance.files.extend(hashes_of(runs));
         let descriptions = diagnose::descriptions(loaded, outcome)?;
         let report = Report {
@@ -104,7 +96,7 @@ fn write(
             ..Report::new(outcome, &loaded.robot, &provenance)
         };
         let json = report::json(&report)?;
-        diagnose::write(&arguments.out.join(name), loaded, outcome, (&report, &json), None)?;
+        diagnose::write(&arguments.out.join(name), loaded, outcome, &report, &json, None)?;
         if name == after {
             let page = report::change_page(comparison, &report)?;
             report::write_folder(&arguments.out, &[(PAGE, page.as_bytes())])?;

@@ -1,8 +1,8 @@
-use clap::CommandFactory;
+use clap::Command;
 use clap_complete::Shell;
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::output::print;
 
 /// Arguments of `completions`.
@@ -13,12 +13,11 @@ pub struct Arguments {
     shell: Shell,
 }
 
-/// Prints the script with which a shell completes commands and options.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let mut command = crate::arguments::Arguments::command();
+/// Prints the script with which a shell completes the commands and options of the program.
+pub fn run(arguments: &Arguments, mut command: Command) -> Result<ExitStatus, CliError> {
     let name = command.get_name().to_owned();
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, name, &mut script);
     print(&String::from_utf8_lossy(&script))?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }

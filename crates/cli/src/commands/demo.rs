@@ -3,9 +3,9 @@ use std::path::{Path, PathBuf};
 use document::Document;
 use evaluation::Experiment;
 
-use crate::Outcome;
 use crate::commands::run::{Output, perform};
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 
 /// Files of the repository: where they are written, and what is in them.
 type Sources = [(&'static str, &'static [u8]); 4];
@@ -81,7 +81,7 @@ pub struct Arguments {
 }
 
 /// Hides two effects in a simulated arm, finds them in its logs and measures what that gains.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let out = arguments.output.out.clone().unwrap_or_else(|| PathBuf::from("out/demo"));
     let (source, sources) = (out.join("source"), arguments.robot.sources());
     report::write_folder(&source, &sources)?;

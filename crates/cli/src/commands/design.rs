@@ -1,24 +1,22 @@
 mod cause;
-mod diagnosis_file;
-mod error;
+pub(crate) mod diagnosis_file;
 mod files;
-mod searched;
+pub(crate) mod motion_design;
 
 use std::path::PathBuf;
 
 use logs::Run;
-use next_motion::Settings;
-use report::ReportError;
+use next_motion::DesignSettings;
 use robot::Loaded;
 
-pub use self::diagnosis_file::DiagnosisFile;
-pub use self::error::DesignError;
-pub use self::searched::{Searched, Wanted};
-use crate::Outcome;
-use crate::columns::{ColumnArguments, LengthArguments};
+use self::diagnosis_file::DiagnosisFile;
+use self::motion_design::{MotionDesign, MotionRequest};
+use crate::columns::LogArguments;
+use crate::design_error::DesignError;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, positive};
-use crate::output::print;
+use crate::output::{print, refuse_file};
 use crate::progress::Line;
 
 /// Arguments of `design`.
@@ -36,9 +34,7 @@ pub struct Arguments {
     #[arg(long = "log", value_name = "FILE", num_args = 1.., requires = "diagnosis")]
     logs: Vec<PathBuf>,
     #[command(flatten)]
-    columns: ColumnArguments,
-    #[command(flatten)]
-    length: LengthArguments,
+    reading: LogArguments,
     /// A cause to tell from that of --from, such as FR01@elbow or payload@hand, instead of what
     /// the diagnosis left open; also before there is a diagnosis
     #[arg(long, value_name = "EFFECT@PLACE", requires = "from")]
@@ -47,10 +43,10 @@ pub struct Arguments {
     #[arg(long, value_name = "EFFECT@PLACE", requires = "separate")]
     from: Option<String>,
     /// Length of the motion
-    #[arg(long, value_name = "S", default_value_t = Settings::default().duration_s, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = DesignSettings::default().duration_s, value_parser = positive, allow_negative_numbers = true)]
     duration_s: f64,
     /// Seed of every random draw
-    #[arg(long, default_value_t = Settings::default().seed)]
+    #[arg(long, default_value_t = DesignSettings::default().seed)]
     seed: u64,
     /// Folder for the motion
     #[arg(long, value_name = "DIR")]
@@ -61,54 +57,52 @@ pub struct Arguments {
 }
 
 /// Searches the motion that settles what a diagnosis left open, and writes it.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    if arguments.out.exists() && !arguments.out.is_dir() {
-        return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
-    }
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    refuse_file(&arguments.out)?;
     let loaded = arguments.part.load(&arguments.robot)?;
     let read = |path: &PathBuf| {
         let diagnosis = DiagnosisFile::read(path, &loaded.robot)?;
-        let runs = diagnosed(arguments, &diagnosis, &loaded)?;
+        let runs = read_diagnosed_runs(arguments, &diagnosis, &loaded)?;
         Ok::<_, CliError>((diagnosis, runs))
     };
     let diagnosed = arguments.diagnosis.as_ref().map(read).transpose()?;
-    let wanted = Wanted {
+    let request = MotionRequest {
         loaded: &loaded,
         diagnosed: diagnosed.as_ref().map(|(diagnosis, runs)| (diagnosis, runs.as_slice())),
         separate: arguments.separate.as_deref().zip(arguments.from.as_deref()).map(<[_; 2]>::from),
-        settings: Settings { duration_s: arguments.duration_s, seed: arguments.seed },
+        settings: DesignSettings { duration_s: arguments.duration_s, seed: arguments.seed },
     };
     let line = Line::new();
     if !arguments.quiet {
         line.say("searching a motion");
     }
-    let searched = Searched::new(&wanted);
+    let motion_design = MotionDesign::new(&request);
     line.finish();
-    let searched = match searched {
+    let motion_design = match motion_design {
         Err(CliError::Design(nothing @ DesignError::NothingOpen { .. })) => {
             if !arguments.quiet {
                 print(&format!("{nothing}\n"))?;
             }
-            return Ok(Outcome::Good);
+            return Ok(ExitStatus::Good);
         }
-        searched => searched?,
+        motion_design => motion_design?,
     };
-    let written = searched.write(&arguments.out, &arguments.robot)?;
+    let written = motion_design.write(&arguments.out, &arguments.robot)?;
     if !arguments.quiet {
-        print(&format!("{}{}", searched.text(), written.as_deref().unwrap_or_default()))?;
+        print(&format!("{}{}", motion_design.text(), written.as_deref().unwrap_or_default()))?;
     }
-    Ok(if written.is_some() { Outcome::Good } else { Outcome::Gap })
+    Ok(if written.is_some() { ExitStatus::Good } else { ExitStatus::Gap })
 }
 
 /// The logs that were diagnosed.
-fn diagnosed(
+fn read_diagnosed_runs(
     arguments: &Arguments,
     diagnosis: &DiagnosisFile,
     loaded: &Loaded,
 ) -> Result<Vec<Run>, CliError> {
     let named = diagnosis.logs();
     let paths = if arguments.logs.is_empty() { &named } else { &arguments.logs };
-    let runs = arguments.columns.read_runs(paths, &loaded.robot, arguments.length)?;
+    let runs = arguments.reading.read_runs(paths, &loaded.robot)?;
     match runs.iter().find(|run| !diagnosis.knows(&run.sha256)) {
         Some(other) => Err(DesignError::OtherLog { path: other.source.clone() }.into()),
         None => Ok(runs),

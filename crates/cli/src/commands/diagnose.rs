@@ -2,7 +2,7 @@ mod residual;
 
 use std::path::{Path, PathBuf};
 
-use diagnosis::{Diagnosis, Progress, Silent, Verdict};
+use diagnosis::{Diagnosis, Progress, Verdict};
 use evaluation::{Diagnosed, EvaluationError, ForwardGap};
 use exchange::{Export, Format};
 use logs::Run;
@@ -10,15 +10,16 @@ use recording::RecordingError;
 use report::{Report, ReportError};
 use robot::{Loaded, Robot};
 
-use residual::Learned;
+use residual::ResidualFile;
 
-use crate::Outcome;
-use crate::columns::{ColumnArguments, LengthArguments};
-use crate::doubts::doubts;
+use crate::columns::LogArguments;
 use crate::error::CliError;
-use crate::input::{PartArguments, SearchArguments, hashes_of, provenance};
-use crate::output::{keep_inputs, print, shown, tell, warn};
-use crate::progress::{Bar, Line};
+use crate::exit_status::ExitStatus;
+use crate::input::{RobotArguments, SearchArguments, hashes_of};
+use crate::input_warnings::input_warnings;
+use crate::messages::warn;
+use crate::output::{keep_inputs, print_answer, refuse_file, shown};
+use crate::progress::{Line, with_bar};
 
 /// Columns of a comment in `extended.toml`.
 const COMMENT_WIDTH: usize = 95;
@@ -32,11 +33,8 @@ const BEGUN: &str = ".plumbline-recording.rrd";
 /// Arguments of `diagnose`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The robot: a robot.urdf, or a robot.toml that names one
-    #[arg(long, value_name = "FILE")]
-    robot: PathBuf,
     #[command(flatten)]
-    part: PartArguments,
+    robot: RobotArguments,
     /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2, datasets of LeRobot), one run each, of the same robot
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
@@ -44,9 +42,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     #[command(flatten)]
-    columns: ColumnArguments,
-    #[command(flatten)]
-    length: LengthArguments,
+    reading: LogArguments,
     #[command(flatten)]
     search: SearchArguments,
     /// Learn a model of what the findings leave as well, and keep it where it predicts data that
@@ -84,24 +80,21 @@ enum ResidualKind {
 }
 
 /// Diagnoses the logs, writes the output folder and prints the verdict.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    if arguments.out.exists() && !arguments.out.is_dir() {
-        return Err(ReportError::NotAFolder { path: arguments.out.clone() }.into());
-    }
-    let loaded = arguments.part.load(&arguments.robot)?;
-    let runs = arguments.columns.read_runs(&arguments.logs, &loaded.robot, arguments.length)?;
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    refuse_file(&arguments.out)?;
+    let loaded = arguments.robot.load()?;
+    let runs = arguments.reading.read_runs(&arguments.logs, &loaded.robot)?;
     if !arguments.quiet {
-        doubts(&loaded, &runs).iter().for_each(|doubt| warn(doubt));
+        input_warnings(&loaded, &runs).iter().for_each(|warning| warn(warning));
     }
-    let given = [&arguments.robot, &loaded.urdf_path].into_iter().chain(&arguments.columns.map);
+    let given = [&arguments.robot.robot, &loaded.urdf_path];
+    let given = given.into_iter().chain(&arguments.reading.columns.map);
     let inputs = given.chain(&arguments.logs).map(PathBuf::as_path);
     keep_inputs(&arguments.out, &FILES, inputs)?;
     let settings = arguments.search.settings(&loaded);
-    let bar = Bar::new();
-    let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
-    let outcome = diagnosis::diagnose(&loaded.robot, &runs, &settings, progress);
-    bar.finish();
-    let outcome = outcome?;
+    let outcome = with_bar(arguments.quiet, |progress| {
+        diagnosis::diagnose(&loaded.robot, &runs, &settings, progress)
+    })?;
     let read = outcome.read.as_deref().unwrap_or(&runs);
 
     let forward = forward(arguments, &loaded, read, &outcome);
@@ -111,16 +104,16 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     };
     let residual = arguments.residual.map(learn).transpose()?;
 
-    let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map_file())?;
+    let mut provenance = arguments.robot.provenance(&loaded, arguments.reading.map_file())?;
     provenance.files.extend(hashes_of(&runs));
     let report = Report {
-        residual: residual.as_ref().map(|learned| &learned.said),
+        residual: residual.as_ref().map(|learned| &learned.model),
         forward: forward.as_ref(),
         descriptions: &descriptions(&loaded, &outcome)?,
         ..Report::new(&outcome, &loaded.robot, &provenance)
     };
     let json = report::json(&report)?;
-    write(&arguments.out, &loaded, &outcome, (&report, &json), residual.as_ref())?;
+    write(&arguments.out, &loaded, &outcome, &report, &json, residual.as_ref())?;
     let diagnosed = Diagnosed {
         loaded: &loaded,
         runs: read,
@@ -128,28 +121,29 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         verdict: &report::markdown(&report),
     };
     let recording = record(arguments, &diagnosed);
-    let shown = recording.as_ref().ok().and_then(Option::as_deref);
-    say(arguments, &report, &json, shown)?;
+    let written = recording.as_ref().ok().and_then(Option::as_deref);
+    say(arguments, &report, &json, written)?;
     recording?;
     Ok(match outcome.diagnosis.verdict {
-        Verdict::Consistent | Verdict::Explained => Outcome::Good,
-        Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => Outcome::Gap,
+        Verdict::Consistent | Verdict::Explained => ExitStatus::Good,
+        Verdict::PartlyExplained | Verdict::Unexplained | Verdict::DataInadequate => {
+            ExitStatus::Gap
+        }
     })
 }
 
-/// How far simulations drift from the logs; a robot that cannot be simulated is a warning, as its
-/// torque can be told all the same.
+/// How far simulations drift from the logs. A robot that cannot be simulated gives a warning, as
+/// the rest of the report does not need it.
 fn forward(
     arguments: &Arguments,
     loaded: &Loaded,
     runs: &[Run],
     outcome: &diagnosis::Outcome,
 ) -> Option<ForwardGap> {
-    let bar = Bar::new();
-    let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
     let (robots, data) = ([&loaded.robot, &outcome.extended], &outcome.diagnosis.data);
-    let gap = evaluation::forward_gap_of_logs(robots, runs, data.cutoff_hz, progress);
-    bar.finish();
+    let gap = with_bar(arguments.quiet, |progress| {
+        evaluation::forward_gap_of_logs(robots, runs, data.cutoff_hz, progress)
+    });
     gap.inspect_err(|error| warn(error)).ok()
 }
 
@@ -162,7 +156,7 @@ fn source(loaded: &Loaded) -> Result<Vec<u8>, ReportError> {
 }
 
 /// The extended robot in the file of another program.
-fn exported(
+fn export_extended(
     loaded: &Loaded,
     outcome: &diagnosis::Outcome,
     format: Format,
@@ -181,7 +175,7 @@ pub fn descriptions(
     outcome: &diagnosis::Outcome,
 ) -> Result<Vec<(Format, Export)>, CliError> {
     let all = [Format::Urdf, Format::Mjcf].into_iter();
-    all.map(|format| Ok((format, exported(loaded, outcome, format)?))).collect()
+    all.map(|format| Ok((format, export_extended(loaded, outcome, format)?))).collect()
 }
 
 /// Writes an output folder, all but the recording.
@@ -193,8 +187,9 @@ pub fn write(
     out: &Path,
     loaded: &Loaded,
     outcome: &diagnosis::Outcome,
-    (report, json): (&Report, &str),
-    residual: Option<&Learned>,
+    report: &Report,
+    json: &str,
+    residual: Option<&ResidualFile>,
 ) -> Result<(), CliError> {
     let extended = extended_toml(loaded, &outcome.extended, &outcome.diagnosis)?;
     let (html, figure) = (report::html(report)?, report::figure(report)?);
@@ -202,7 +197,7 @@ pub fn write(
     let extended_urdf = match report.descriptions.iter().find(|(format, _)| *format == Format::Urdf)
     {
         Some((_, export)) => export.text.clone(),
-        None => exported(loaded, outcome, Format::Urdf)?.text,
+        None => export_extended(loaded, outcome, Format::Urdf)?.text,
     };
     let mut files = vec![
         ("diagnosis.json", json.as_bytes()),
@@ -221,7 +216,8 @@ pub fn write(
     Ok(())
 }
 
-/// Writes the recording and names it; one that cannot be made is a warning, as all the rest is there.
+/// Writes the recording and returns its path. A recording that cannot be made gives a warning, as
+/// all other files are written.
 ///
 /// # Errors
 ///
@@ -232,10 +228,8 @@ fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<Pat
         let _ = std::fs::remove_file(arguments.out.join(RECORDING));
         return Ok(None);
     }
-    let bar = Bar::new();
-    let progress: &dyn Progress = if arguments.quiet { &Silent } else { &bar };
-    let recorded = recorded(&arguments.out, diagnosed, progress);
-    bar.finish();
+    let recorded =
+        with_bar(arguments.quiet, |progress| write_recording(&arguments.out, diagnosed, progress));
     match recorded {
         Ok(path) => Ok(Some(path)),
         Err(error) => match *error {
@@ -253,7 +247,7 @@ fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<Pat
 /// # Errors
 ///
 /// Those of [`evaluation::record_diagnosis`]; no recording is then there.
-pub fn recorded(
+pub fn write_recording(
     out: &Path,
     diagnosed: &Diagnosed<'_>,
     progress: &dyn Progress,
@@ -332,13 +326,6 @@ fn say(
         shown(&out.join("figure.svg")),
         shown(&out.join("extended.toml"))
     );
-    if arguments.json {
-        print(json)?;
-    }
-    match (arguments.quiet, arguments.json) {
-        (true, _) => {}
-        (false, true) => tell(&closing.trim_end()),
-        (false, false) => print(&format!("{}\n{closing}", report::text(report)))?,
-    }
-    Ok(())
+    let json = arguments.json.then_some(json);
+    print_answer(arguments.quiet, json, || report::text(report), &closing)
 }

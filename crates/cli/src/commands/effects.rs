@@ -1,10 +1,12 @@
 mod page;
+mod rows;
 
-use catalogue::{EffectKind, Family};
+use catalogue::Family;
 use serde::Serialize;
 
-use crate::Outcome;
+use self::rows::{EffectRow, rows};
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::output::{print, print_json, table};
 
 /// Arguments of `effects`.
@@ -19,7 +21,7 @@ pub struct Arguments {
 }
 
 /// Prints the list of all effects, family by family.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if arguments.json {
         print_json(&Document { schema: "plumbline.effects/1", effects: rows() })?;
     } else if arguments.markdown {
@@ -27,45 +29,14 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     } else {
         print(&text())?;
     }
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Document {
     schema: &'static str,
-    effects: Vec<Row>,
-}
-
-#[derive(Serialize)]
-struct Row {
-    #[serde(skip)]
-    kind: EffectKind,
-    code: &'static str,
-    name: &'static str,
-    family: Family,
-    summary: &'static str,
-    diagnosed: bool,
-    /// As every effect of the catalogue is.
-    simulated: bool,
-    compensated: bool,
-}
-
-/// The effects by family and code.
-fn rows() -> Vec<Row> {
-    let mut kinds = EffectKind::ALL;
-    kinds.sort_by_key(|kind| (kind.family(), kind.code()));
-    let row = |kind: EffectKind| Row {
-        kind,
-        code: kind.code(),
-        name: kind.name(),
-        family: kind.family(),
-        summary: kind.entry().summary,
-        diagnosed: diagnosis::diagnosed(kind).is_ok(),
-        simulated: true,
-        compensated: effects::remedy(kind).is_ok(),
-    };
-    kinds.map(row).into()
+    effects: Vec<EffectRow>,
 }
 
 fn text() -> String {
@@ -84,6 +55,8 @@ fn text() -> String {
 
 #[cfg(test)]
 mod tests {
+    use catalogue::EffectKind;
+
     use super::*;
 
     #[test]

@@ -3,8 +3,8 @@ use std::path::{Path, PathBuf};
 use exchange::{Export, Fated, Format};
 use serde::Serialize;
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::loss::{Loss, LossArguments};
 use crate::output::{create_folder, keep_inputs, print, print_json, shown, table};
@@ -75,8 +75,8 @@ struct Written {
 }
 
 /// Writes the robot in other formats and prints what became of every quantity, and what that costs on logs.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let path = described(&arguments.path)?;
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let path = description_file(&arguments.path)?;
     let loaded = arguments.part.load(&path)?;
     let source = std::fs::read_to_string(&loaded.urdf_path).map_err(|error| {
         CliError::Robot(robot::RobotError::Unreadable {
@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         exports.push((format.name(), shown(&folder.join(&name)), export));
     }
     let held = exports.iter().map(|(format, path, export)| (*format, path.clone(), export));
-    let loss = arguments.loss.measure((&path, &loaded), &arguments.part, held)?;
+    let loss = arguments.loss.measure(&path, &loaded, &arguments.part, held)?;
     let written =
         |(format, path, export): (_, _, Export)| Written { format, path, quantities: export.fates };
     let exports = Exports {
@@ -112,11 +112,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     } else {
         print(&text(&exports))?;
     }
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// The description of the robot in an output folder, or the file itself.
-fn described(path: &Path) -> Result<PathBuf, CliError> {
+fn description_file(path: &Path) -> Result<PathBuf, CliError> {
     if !path.is_dir() {
         return Ok(path.to_owned());
     }

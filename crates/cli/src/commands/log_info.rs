@@ -4,9 +4,9 @@ use logs::{Channel, JointInfo, LogError, LogInfo, ReadOptions, Run};
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 use serde::Serialize;
 
-use crate::Outcome;
 use crate::columns::ColumnArguments;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::output::{print, print_json, shown, table};
 
@@ -30,17 +30,17 @@ pub struct Arguments {
 }
 
 /// Prints what there is to know about each log before it is used.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let reader = arguments.columns.reader()?;
     let described = arguments.robot.as_deref().map(|path| arguments.part.load(path));
     let described = described.transpose()?;
     let mut runs: Vec<Run> = Vec::new();
     let mut infos = Vec::new();
-    let mut asked = Vec::new();
+    let mut selected = Vec::new();
     for path in &arguments.files {
-        asked.push((path, arguments.columns.episodes_of(path)?));
+        selected.push((path, arguments.columns.episodes_of(path)?));
     }
-    let each = asked.iter().flat_map(|(path, asked)| asked.each().map(move |e| (*path, e)));
+    let each = selected.iter().flat_map(|(path, runs)| runs.iter().map(move |e| (*path, e)));
     for (path, episode) in each {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         let blocks: Vec<String> = infos.iter().map(text).collect();
         print(&blocks.join("\n"))?;
     }
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// A file with what was found in it.
@@ -78,8 +78,8 @@ struct Info {
 /// A robot without limits whose joints are those of the log, to look at a log alone.
 fn robot_from_columns(path: &Path, options: &ReadOptions) -> Result<Robot, CliError> {
     // The log is asked for a joint that no log has; the answer lists those it has.
-    let asked = robot_of(&["\u{0}".to_owned()])?;
-    let joints = match logs::read_run(path, &asked, options) {
+    let nameless = robot_of(&["\u{0}".to_owned()])?;
+    let joints = match logs::read_run(path, &nameless, options) {
         Err(LogError::JointAbsent { found, .. }) => found.into_vec(),
         Err(other) => return Err(other.into()),
         Ok(_) => Vec::new(),

@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::output::create_folder;
 
 /// Arguments of `man`.
@@ -16,8 +16,7 @@ pub struct Arguments {
 }
 
 /// Writes a manual page for the program and for every command.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let mut command = crate::arguments::Arguments::command();
+pub fn run(arguments: &Arguments, mut command: Command) -> Result<ExitStatus, CliError> {
     // Gives every command the names of those above it, and the program its help.
     command.build();
     let mut pages = Vec::new();
@@ -26,7 +25,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let files: Vec<(&str, &[u8])> =
         pages.iter().map(|(name, page)| (name.as_str(), page.as_slice())).collect();
     report::write_folder(&arguments.out, &files)?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// The page of a command and those of the commands below it, by the names of their files.

@@ -5,11 +5,11 @@ use report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 use robot::{Gain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
-use crate::Outcome;
-use crate::columns::{ColumnArguments, LengthArguments};
-use crate::doubts::read_as_they_are;
+use crate::columns::LogArguments;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, hashes_of, positive, provenance};
+use crate::input_warnings::correct_runs;
 use crate::output::{create_folder, print, shown, table};
 
 /// Arguments of `replay`.
@@ -30,21 +30,19 @@ pub struct Arguments {
     #[arg(long, value_name = "MS", value_delimiter = ',', default_values_t = [50.0, 200.0, 1000.0], value_parser = positive, allow_negative_numbers = true)]
     window_ms: Vec<f64>,
     #[command(flatten)]
-    columns: ColumnArguments,
-    #[command(flatten)]
-    length: LengthArguments,
+    reading: LogArguments,
 }
 
 /// Rolls the simulation forward under recorded torque, lets it follow the recorded motion, and
 /// says how far both are from the record.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let loaded = arguments.part.load(&arguments.robot)?;
-    let given = arguments.columns.read_runs(&arguments.logs, &loaded.robot, arguments.length)?;
-    let read = read_as_they_are(&loaded, &given);
+    let given = arguments.reading.read_runs(&arguments.logs, &loaded.robot)?;
+    let read = correct_runs(&loaded, &given);
     let prepared = logs::prepare(read.as_ref().unwrap_or(&given), &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =
-        prepared.runs.iter().map(|record| Replay::of(arguments, &loaded, record)).collect();
+        prepared.runs.iter().map(|record| Replay::new(arguments, &loaded, record)).collect();
     let mut replayed = Vec::new();
     for (index, (record, replay)) in prepared.runs.iter().zip(&replays?).enumerate() {
         let namesakes = prepared.runs[..index].iter().filter(|r| r.name == record.name).count();
@@ -52,22 +50,22 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         let name = record.name.replace(' ', "_") + &ending;
         replay.write(&arguments.out, &name)?;
         print(&text(&loaded.robot, &name, record, replay))?;
-        replayed.push(replay.told(name, record));
+        replayed.push(replay.summary(name, record));
     }
-    let mut provenance = provenance(&arguments.robot, &loaded, arguments.columns.map_file())?;
+    let mut provenance = provenance(&arguments.robot, &loaded, arguments.reading.map_file())?;
     provenance.files.extend(hashes_of(&given));
     let report = ReplayReport {
         robot: loaded.robot.name().to_owned(),
         joints: loaded.robot.joint_names().map(str::to_owned).collect(),
         runs: replayed,
-        warnings: of_rows(&prepared).map(ToString::to_string).collect(),
+        warnings: clock_warnings(&prepared).map(ToString::to_string).collect(),
         provenance,
     };
     let (page, json) = (report.page()?, report.json()?);
     let files = [("report.html", page.as_bytes()), ("replay.json", json.as_bytes())];
     report::write_folder(&arguments.out, &files)?;
     print(&closing(arguments, &prepared))?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// What was simulated of one record.
@@ -78,7 +76,7 @@ struct Replay {
 }
 
 impl Replay {
-    fn of(
+    fn new(
         arguments: &Arguments,
         loaded: &Loaded,
         record: &PreparedRun,
@@ -95,7 +93,7 @@ impl Replay {
     }
 
     /// What a page tells of it.
-    fn told(&self, name: String, record: &PreparedRun) -> ReplayedRun {
+    fn summary(&self, name: String, record: &PreparedRun) -> ReplayedRun {
         let window = |f: &ForwardReplay| ReplayedWindow {
             window_ms: (1e6 * f.window_s).round() / 1e3,
             drift_rms: f.drift_rms.clone(),
@@ -147,7 +145,7 @@ const NO_GAINS: &str =
 ";
 
 /// What was done to the clocks of the logs.
-fn of_rows(prepared: &Prepared) -> impl Iterator<Item = &LogWarning> {
+fn clock_warnings(prepared: &Prepared) -> impl Iterator<Item = &LogWarning> {
     use LogWarning as W;
     let of_rows = |w: &&W| {
         matches!(w, W::Mended { .. } | W::Thinned { .. } | W::Resampled { .. } | W::Split { .. })
@@ -163,7 +161,7 @@ fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
          torque  simulated minus measured along the measured motion, RMS, beside the RMS of the\n        \
          measured (N·m or N)\n",
     );
-    for warning in of_rows(prepared) {
+    for warning in clock_warnings(prepared) {
         text.push_str(&format!("warning: {warning}\n"));
     }
     text + &format!(

@@ -4,8 +4,8 @@ use dynamics::{ColumnSet, base_parameter_count};
 use robot::{Actuator, JointKind, Link, Loaded, LockedJoint, RobotWarning};
 use serde::Serialize;
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::output::{print, print_json, shown, table};
 
@@ -25,7 +25,7 @@ pub struct Arguments {
 }
 
 /// Prints what a robot description says and whether its inertias are possible.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let loaded = arguments.part.load(&arguments.file)?;
     let check = Check::new(&loaded, shown(&arguments.file));
     if arguments.json {
@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     }
     let has_defect = loaded.warnings.iter().any(|w| matches!(w, RobotWarning::Inertia { .. }))
         || check.joints.iter().any(|j| !j.link_defects.is_empty());
-    Ok(if has_defect { Outcome::Gap } else { Outcome::Good })
+    Ok(if has_defect { ExitStatus::Gap } else { ExitStatus::Good })
 }
 
 /// What is printed.

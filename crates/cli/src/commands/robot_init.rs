@@ -1,6 +1,7 @@
 mod excitation;
 mod guess;
 mod path;
+mod quote;
 mod text;
 
 use std::path::PathBuf;
@@ -11,10 +12,11 @@ use simulator::scenario::Scenario;
 
 use self::excitation::Excitation;
 use self::guess::{Drive, drives};
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
-use crate::output::{create_folder, print, shown, table, warn};
+use crate::messages::warn;
+use crate::output::{create_folder, print, shown, table};
 
 /// Rate of a control loop that the robot does not say (Hz), as the simulator has it.
 const RATE_HZ: f64 = 500.0;
@@ -38,7 +40,7 @@ pub struct Arguments {
 }
 
 /// Writes a robot.toml with what the file cannot say, guessed, and a scenario that moves the robot.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let loaded = arguments.part.load(&arguments.file)?;
     let toml = arguments.out.join("robot.toml");
     if toml.exists() && !arguments.force {
@@ -48,19 +50,19 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     loaded.warnings.iter().for_each(|warning| warn(warning));
     let rate_hz = loaded.control.rate_hz.unwrap_or(RATE_HZ);
     let drives = drives(&loaded.robot, &loaded.control.gains, rate_hz);
-    let driven = guess::driven(&loaded.robot, &drives);
+    let driven = guess::with_rotors(&loaded.robot, &drives);
     let excitation = Excitation::within_limits(&driven);
     if !excitation.fits {
         warn(&"the limits of effort leave no room for the motion: its weight alone may reach them");
     }
-    let model = path::seen_from(&arguments.out, &loaded.urdf_path);
+    let model = path::relative_to(&arguments.out, &loaded.urdf_path);
     let described = text::robot_toml(&loaded, &model, &drives, rate_hz);
     let scenario = text::scenario_toml(&driven, &excitation);
     let files = [("robot.toml", described.as_bytes()), ("scenario.toml", scenario.as_bytes())];
     report::write_folder(&arguments.out, &files)?;
     try_out(arguments)?;
     print(&summary(arguments, &loaded, &drives))?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// Reads both files as `simulate` does and moves the arm for a few seconds; an arm that runs away is

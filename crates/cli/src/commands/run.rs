@@ -10,10 +10,11 @@ use document::Document;
 use evaluation::{Experiment, FigureScenario, FigureSpec};
 use report::{Provenance, RunReport};
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::input::{hash, provenance};
-use crate::output::{create_folder, print, shown, tell};
+use crate::messages::tell;
+use crate::output::{create_folder, print_answer, shown};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -58,21 +59,14 @@ impl Output {
 
     /// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
     fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
-        if self.json {
-            print(json)?;
-        }
-        match (self.quiet, self.json) {
-            (true, _) => {}
-            (false, true) => tell(&closing.trim_end()),
-            (false, false) => print(&format!("{text}\n{closing}"))?,
-        }
-        Ok(())
+        let json = self.json.then_some(json);
+        print_answer(self.quiet, json, || text.to_owned(), closing)
     }
 }
 
 /// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains, or
 /// draws the figure that it asks for.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let mut document = Document::read(&arguments.scenario)?;
     for assignment in &arguments.set {
         document.set(assignment)?;
@@ -98,7 +92,7 @@ pub fn perform(
     scenario: &Path,
     out: &Path,
     output: &Output,
-) -> Result<Outcome, CliError> {
+) -> Result<ExitStatus, CliError> {
     create_folder(out)?;
     let watch = Watch::of_all((!output.quiet).then(Line::new));
     let made = Stages { experiment, out, scenario, watch: &watch, drawn: OnceCell::new() }.all();
@@ -115,7 +109,7 @@ pub fn perform(
     };
     write(experiment, &report, out)?;
     say(&report, out, output)?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// This program and the files that the run was made from.

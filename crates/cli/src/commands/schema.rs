@@ -4,8 +4,8 @@ use schemars::{Schema, json_schema, schema_for};
 use serde_json::{Value, json};
 use simulator::scenario::ScenarioSpec;
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::output::print_json;
 
 /// Arguments of `schema`.
@@ -32,7 +32,7 @@ enum Kind {
 /// Prints the JSON schema of scenario files, which editors complete and check keys with.
 ///
 /// It is that of one file, which may extend others and leave to them what a scenario needs.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let mut schema = match arguments.command {
         Kind::Simulate => schema_for!(ScenarioSpec),
         Kind::Track => schema_for!(TrackingSpec),
@@ -51,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         properties.insert("extends".to_owned(), extends.into());
     }
     print_json(&schema)?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// A campaign of either form: its keys are those of both, and a population leaves out the others.

@@ -6,8 +6,8 @@ use logs::Run;
 use simulator::LogFormat;
 use simulator::scenario::Scenario;
 
-use crate::Outcome;
 use crate::error::CliError;
+use crate::exit_status::ExitStatus;
 use crate::output::{create_folder, print, shown, table};
 use crate::progress::Bar;
 
@@ -46,7 +46,7 @@ impl Arguments {
 }
 
 /// Simulates every run of a scenario and writes the logs and, apart from them, the truth.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let mut document = Document::read(&arguments.scenario)?;
     for assignment in &arguments.set {
         document.set(assignment)?;
@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     if !arguments.quiet {
         print(&summary(arguments, &scenario, &simulation.runs))?;
     }
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// What was written. Says nothing of the effects: whoever diagnoses the logs has not seen them.

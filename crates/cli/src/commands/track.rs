@@ -1,19 +1,18 @@
-mod comparison;
-mod tracked;
+pub(super) mod comparison;
+pub(crate) mod tracking_result;
 
 use std::path::{Path, PathBuf};
 
-use evaluation::{FeedforwardKind, TrackedRun, TrackingScenario};
-use report::{ReportError, TrackingComparison};
+use evaluation::FeedforwardKind;
+use report::TrackingComparison;
 
-use crate::Outcome;
 use crate::error::CliError;
-use crate::output::{print, shown, tell};
+use crate::exit_status::ExitStatus;
+use crate::output::{print_answer, shown};
 use crate::progress::Line;
 use crate::watch::Watch;
 
-pub(super) use self::comparison::comparison;
-pub use self::tracked::{Asked, Tracked};
+use self::tracking_result::{TrackingRequest, TrackingResult};
 
 /// Arguments of `track`.
 #[derive(Debug, clap::Args)]
@@ -48,8 +47,8 @@ pub struct Arguments {
 }
 
 /// Tracks the motion of a scenario with every feedforward and compares them.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    let asked = Asked {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
+    let request = TrackingRequest {
         scenario: &arguments.scenario,
         set: &arguments.set,
         feedforward: &arguments.feedforward,
@@ -59,49 +58,17 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         command: None,
     };
     let watch = Watch::new((!arguments.quiet).then(Line::new))?;
-    let tracked = Tracked::new(&asked, &watch);
+    let result = TrackingResult::new(&request, &watch);
     watch.finish();
-    let tracked = tracked?;
+    let result = result?;
     // A full disk does not keep a long run from being told.
-    let written = tracked.write(&arguments.out);
-    say(arguments, tracked.comparison())?;
+    let written = result.write(&arguments.out);
+    say(arguments, result.comparison())?;
     written?;
-    match tracked.problems().into_iter().next() {
-        None => Ok(Outcome::Good),
+    match result.problems().into_iter().next() {
+        None => Ok(ExitStatus::Good),
         Some(problem) => Err(CliError::Incomplete { problem }),
     }
-}
-
-/// What of the runs could not be written.
-pub(super) fn problems(runs: &[TrackedRun]) -> impl Iterator<Item = &String> {
-    runs.iter().filter_map(|run| run.written.as_ref()).flat_map(|written| &written.problems)
-}
-
-/// Writes an output folder, all but the logs, recordings and models.
-pub(super) fn write(
-    out: &Path,
-    scenario: &TrackingScenario,
-    comparison: &TrackingComparison,
-) -> Result<(), ReportError> {
-    let mut files = vec![
-        ("scenario.toml", scenario.resolved().to_owned()),
-        ("tracking.json", comparison.json()?),
-        ("report.html", comparison.page()?),
-        ("errors.svg", comparison.error_figure()?),
-        ("motion.svg", comparison.motion_figure(&elbow_and_wrist(scenario))?),
-    ];
-    if let Some(figure) = comparison.sweep_figure()? {
-        files.push(("gains.svg", figure));
-    }
-    let files: Vec<(&str, &[u8])> =
-        files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
-    report::write_folder(out, &files)
-}
-
-/// The joints of figure 4 of Nguyen-Tuong & Peters 2010, 4 to 6, as far as there are so many.
-fn elbow_and_wrist(scenario: &TrackingScenario) -> Vec<usize> {
-    let joints = scenario.robot().joint_count();
-    if joints >= 6 { vec![3, 4, 5] } else { (0..joints.min(3)).collect() }
 }
 
 /// Table or JSON on the standard output; with JSON, where the files lie on the standard error.
@@ -114,13 +81,6 @@ fn say(arguments: &Arguments, comparison: &TrackingComparison) -> Result<(), Cli
         String::new()
     };
     let closing = format!("report         {}\n{recordings}", of("report.html"));
-    if arguments.json {
-        print(&comparison.json()?)?;
-    }
-    match (arguments.quiet, arguments.json) {
-        (true, _) => {}
-        (false, true) => tell(&closing.trim_end()),
-        (false, false) => print(&format!("{}\n{closing}", comparison.text()))?,
-    }
-    Ok(())
+    let json = arguments.json.then(|| comparison.json()).transpose()?;
+    print_answer(arguments.quiet, json.as_deref(), || comparison.text(), &closing)
 }

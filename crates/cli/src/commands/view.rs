@@ -3,17 +3,14 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::Outcome;
-use crate::error::CliError;
-use crate::output::{print, shown, warn};
+use crate::error::{CliError, VIEWER_INSTALLATION};
+use crate::exit_status::ExitStatus;
+use crate::messages::warn;
+use crate::output::{print, shown};
 
 /// The viewer of recordings, and the version that they are written for.
 const VIEWER: &str = "rerun";
 const VERSION: &str = "0.36";
-
-/// How to get that version.
-pub const INSTALLATION: &str =
-    "pip install rerun-sdk==0.36.3, or cargo install rerun-cli --version 0.36.3 --locked";
 
 /// Names of a folder that a message lists.
 const MOST_NAMES: usize = 8;
@@ -30,11 +27,11 @@ pub struct Arguments {
 }
 
 /// Opens the report of a folder in the browser and its recordings in the viewer.
-pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let found = Found::in_folder(&arguments.folder)?;
     if arguments.print {
         print(&found.text())?;
-        return Ok(Outcome::Good);
+        return Ok(ExitStatus::Good);
     }
     if !found.recordings.is_empty() {
         match view(&found.recordings) {
@@ -49,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         })?;
     }
     print(&found.text())?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// What there is to look at.
@@ -132,7 +129,7 @@ fn doubt(answer: &str) -> Option<String> {
     match version {
         Some(version) if is_right(version) => None,
         Some(version) => Some(format!(
-            "{VIEWER} {version} was found, the recordings are written for {VERSION}: {INSTALLATION}"
+            "{VIEWER} {version} was found, the recordings are written for {VERSION}: {VIEWER_INSTALLATION}"
         )),
         None => Some(format!(
             "{VIEWER} does not tell its version, the recordings are written for {VERSION}"

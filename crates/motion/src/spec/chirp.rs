@@ -1,8 +1,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ByJoint, two_seconds};
-use crate::{MotionError, curve::Curve, motion::Part, rising_sine::RisingSine, site::Site};
+use crate::curve::Curve;
+use crate::error::MotionError;
+use crate::motion::Part;
+use crate::rising_sine::{Growth, RisingSine};
+use crate::site::Site;
+use crate::spec::defaults::{ByJoint, two_seconds};
 
 /// Sines in step at one or more joints, whose frequency changes from one end of a band to
 /// the other.
@@ -27,17 +31,6 @@ pub struct Chirp {
     /// between the middles of both.
     #[serde(default = "two_seconds")]
     pub fade_s: f64,
-}
-
-/// How the frequency of a chirp changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Growth {
-    /// By the same difference in the same time.
-    #[default]
-    Linear,
-    /// By the same factor in the same time.
-    Logarithmic,
 }
 
 impl Chirp {

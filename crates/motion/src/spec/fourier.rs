@@ -6,14 +6,12 @@ use std::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::two_seconds;
-use crate::{
-    MotionError,
-    curve::Curve,
-    harmonics::{Harmonics, Series, Term},
-    motion::Part,
-    site::Site,
-};
+use crate::curve::Curve;
+use crate::error::MotionError;
+use crate::harmonics::{Harmonics, Series, Term};
+use crate::motion::Part;
+use crate::site::Site;
+use crate::spec::defaults::two_seconds;
 
 /// A Fourier series at every joint (Swevers 1997). With `w = 2 pi base_hz`,
 ///

@@ -1,8 +1,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ByJoint;
-use crate::{MotionError, knots::Knots, motion::Part, site::Site};
+use crate::error::MotionError;
+use crate::knots::Knots;
+use crate::motion::Part;
+use crate::site::Site;
+use crate::spec::defaults::ByJoint;
 
 /// Rest in a posture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,13 +1,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ByJoint;
-use crate::{
-    MotionError,
-    knots::Knots,
-    motion::Part,
-    site::{Site, above_up_to},
-};
+use crate::error::MotionError;
+use crate::knots::Knots;
+use crate::motion::Part;
+use crate::site::{Site, above_up_to};
+use crate::spec::defaults::ByJoint;
 
 /// From one posture to another at constant speed.
 ///

@@ -4,8 +4,13 @@ use logs::{ColumnMap, PrepareSettings, PreparedRun, ReadOptions, prepare, read_r
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::two_seconds;
-use crate::{MotionError, curve::Curve, knots::Knots, motion::Part, site::Site, spline::smoothest};
+use crate::curve::Curve;
+use crate::error::MotionError;
+use crate::knots::Knots;
+use crate::motion::Part;
+use crate::site::Site;
+use crate::spec::defaults::two_seconds;
+use crate::spline::smoothest;
 
 /// The positions of a recorded log, low-passed, from its first sample to its last.
 ///

@@ -4,15 +4,13 @@ use nalgebra::{DVector, Point3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ByJoint, two_seconds};
-use crate::{
-    MotionError,
-    curve::Curve,
-    harmonics::{Harmonics, Series},
-    kinematics::{REACHED_M, Tip},
-    motion::Part,
-    site::{Site, above},
-};
+use crate::curve::Curve;
+use crate::error::MotionError;
+use crate::harmonics::{Harmonics, Series};
+use crate::kinematics::{REACHED_M, Tip};
+use crate::motion::Part;
+use crate::site::{Site, above};
+use crate::spec::defaults::{ByJoint, two_seconds};
 
 /// A point of the robot's last link follows a figure in a plane again and again, around
 /// where it is in a posture. Its orientation is left free.
@@ -98,7 +96,7 @@ impl Rhythm {
                 return site.part(Curve::Harmonics(curve), clock);
             }
             if count >= POSTURES[1] {
-                return Err(self.unreachable(site, &centre, worst));
+                return Err(self.unreachable(site, &centre, worst.0, worst.1));
             }
             count *= 2;
         }
@@ -119,7 +117,7 @@ impl Rhythm {
             let share = k as f64 / count as f64;
             let (posture, miss) = tip.reach(&self.point(&centre, share), &q, home);
             if miss > REACHED_M {
-                return Err(self.unreachable(site, &centre, (share, miss)));
+                return Err(self.unreachable(site, &centre, share, miss));
             }
             q = posture;
             samples.iter_mut().zip(q.iter()).for_each(|(list, &q)| list.push(q));
@@ -167,7 +165,8 @@ impl Rhythm {
         &self,
         site: &Site,
         centre: &Point3<f64>,
-        (share, miss_m): (f64, f64),
+        share: f64,
+        miss_m: f64,
     ) -> MotionError {
         let point_m = self.point(centre, share).coords.into();
         MotionError::Unreachable { key: site.key(&["radius_m"]), point_m, share, miss_m }

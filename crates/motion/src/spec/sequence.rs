@@ -1,10 +1,7 @@
-use super::MotionSpec;
-use crate::{
-    MotionError,
-    knots::{Knots, glide_s},
-    motion::Part,
-    site::Site,
-};
+use crate::error::MotionError;
+use crate::knots::{Knots, glide_s};
+use crate::motion::Part;
+use crate::site::Site;
 
 /// Speed of a move between two motions, as a share of a joint's velocity limit.
 const SPEED_SHARE: f64 = 0.5;
@@ -15,30 +12,38 @@ const ACCELERATION: f64 = 2.0;
 /// The shortest move (s).
 const SHORTEST_S: f64 = 0.5;
 
-/// The parts of all motions with the moves between them.
+/// Refuses a sequence without a motion.
+pub(super) fn check(count: usize, site: &Site) -> Result<(), MotionError> {
+    if count > 0 {
+        return Ok(());
+    }
+    let expected = "at least 1 was".to_owned();
+    Err(MotionError::WrongLength { key: site.key(&[]), found: 0, expected })
+}
+
+/// Adds the next motion of a sequence, behind a move that leads to it.
 ///
-/// A move is one polynomial of degree five from the last state of a motion to the first of
-/// the next, so that position, velocity and acceleration are continuous. Where both are
-/// the same state there is none.
-pub(super) fn parts(specs: &[MotionSpec], site: &Site) -> Result<Vec<Part>, MotionError> {
-    if specs.is_empty() {
-        let expected = "at least 1 was".to_owned();
-        return Err(MotionError::WrongLength { key: site.key(&[]), found: 0, expected });
+/// The move is one polynomial of degree five from the last state of the motion before to the first
+/// state of the next, so that position, velocity and acceleration are continuous. Equal states
+/// need no move.
+pub(super) fn append(
+    parts: &mut Vec<Part>,
+    next: Vec<Part>,
+    site: &Site,
+) -> Result<(), MotionError> {
+    if let (Some(last), Some(first)) = (parts.last(), next.first())
+        && let Some(knots) = join(site, last, first)
+    {
+        parts.extend(site.evenly(knots)?);
     }
-    let mut parts: Vec<Part> = Vec::new();
-    for (k, spec) in specs.iter().enumerate() {
-        let site = site.within(&k.to_string());
-        let next = spec.parts(&site)?;
-        if let (Some(last), Some(first)) = (parts.last(), next.first())
-            && let Some(knots) = join(&site, last, first)
-        {
-            parts.extend(site.evenly(knots)?);
-        }
-        parts.extend(next);
-    }
+    parts.extend(next);
+    Ok(())
+}
+
+/// Refuses a sequence that lasts too long.
+pub(super) fn check_length(parts: &[Part], site: &Site) -> Result<(), MotionError> {
     let duration: f64 = parts.iter().map(|part| part.clock.duration_s()).sum();
-    site.short_enough(&[], duration)?;
-    Ok(parts)
+    site.short_enough(&[], duration)
 }
 
 /// Speeds of a move, joint by joint (rad/s or m/s).

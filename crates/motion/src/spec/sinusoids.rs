@@ -5,15 +5,13 @@ use rand_chacha::ChaCha8Rng;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ByJoint, four_fifths, two_seconds};
-use crate::{
-    MotionError, Quantity,
-    curve::Curve,
-    extremes::extremes,
-    harmonics::{Harmonics, Series, Term},
-    motion::Part,
-    site::{Site, above},
-};
+use crate::curve::Curve;
+use crate::error::{LimitedQuantity, MotionError};
+use crate::extremes::extremes;
+use crate::harmonics::{Harmonics, Series, Term};
+use crate::motion::Part;
+use crate::site::{Site, above};
+use crate::spec::defaults::{ByJoint, four_fifths, two_seconds};
 
 /// A superposition of sinusoids at every joint, drawn from a seed:
 ///
@@ -128,7 +126,7 @@ impl Sinusoids {
     fn room(&self, site: &Site, index: usize, centre: f64) -> Result<f64, MotionError> {
         let joint = site.joint(index);
         let Some((low, high)) = joint.limits.position else {
-            return Err(missing(site, "amplitude_rad", index, Quantity::Position));
+            return Err(missing(site, "amplitude_rad", index, LimitedQuantity::Position));
         };
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low) * self.position_share);
         site.number(&["centre_rad", &joint.name], centre, middle - half..=middle + half)?;
@@ -145,11 +143,11 @@ impl Sinusoids {
         let own = site.joint(index).limits.velocity.map(|limit| self.velocity_share * limit);
         let asked = largest.copied();
         let lowest = own.into_iter().chain(asked).reduce(f64::min);
-        lowest.ok_or_else(|| missing(site, "max_speed_rad_per_s", index, Quantity::Velocity))
+        lowest.ok_or_else(|| missing(site, "max_speed_rad_per_s", index, LimitedQuantity::Velocity))
     }
 }
 
-fn missing(site: &Site, key: &str, joint: usize, limit: Quantity) -> MotionError {
+fn missing(site: &Site, key: &str, joint: usize, limit: LimitedQuantity) -> MotionError {
     let joint = site.joint(joint).name.clone();
     MotionError::Missing { key: site.key(&[key, &joint]), joint, limit }
 }

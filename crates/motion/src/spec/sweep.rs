@@ -3,13 +3,11 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ByJoint, four_fifths};
-use crate::{
-    MotionError, Quantity,
-    knots::{Knots, blend_s, fastest, glide_s},
-    motion::Part,
-    site::{LONGEST_S, Site, above, above_up_to},
-};
+use crate::error::{LimitedQuantity, MotionError};
+use crate::knots::{Knots, blend_s, fastest, glide_s};
+use crate::motion::Part;
+use crate::site::{LONGEST_S, Site, above, above_up_to};
+use crate::spec::defaults::{ByJoint, four_fifths};
 
 /// One joint after the other back and forth over its range, once at each constant speed,
 /// while the others rest.
@@ -103,7 +101,7 @@ impl Sweep {
         let (low, high) = joint.limits.position.ok_or_else(|| MotionError::Missing {
             key: site.key(&["range_rad", &joint.name]),
             joint: joint.name.clone(),
-            limit: Quantity::Position,
+            limit: LimitedQuantity::Position,
         })?;
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low) * self.position_share);
         Ok([middle - half, middle + half])

@@ -3,13 +3,11 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    MotionError,
-    knots::Knots,
-    motion::Part,
-    site::{LONGEST_S, Site, above_up_to},
-    spline::smoothest,
-};
+use crate::error::MotionError;
+use crate::knots::Knots;
+use crate::motion::Part;
+use crate::site::{LONGEST_S, Site, above_up_to};
+use crate::spline::smoothest;
 
 /// Through given positions at given times, from rest to rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -2,14 +2,14 @@ use catalogue::EffectKind;
 use effects::{Hypothesis, Place, hypotheses};
 use robot::Robot;
 
-use super::error::DesignError;
-use crate::commands::explain;
+use crate::design_error::DesignError;
+use crate::effect_name::find_effect;
 use crate::error::CliError;
 
 /// A cause as it is typed: `FR01@elbow`, `payload@hand`, `gravity_direction`.
-pub fn typed(text: &str, robot: &Robot) -> Result<Hypothesis, CliError> {
+pub fn parse(text: &str, robot: &Robot) -> Result<Hypothesis, CliError> {
     let (effect, place) = text.split_once('@').map_or((text, None), |(e, p)| (e, Some(p)));
-    Ok(at(explain::find(effect)?, place, robot)?)
+    Ok(at(find_effect(effect)?, place, robot)?)
 }
 
 /// An effect at a joint or a link of this name, or at the base.

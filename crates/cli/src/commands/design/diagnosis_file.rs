@@ -9,7 +9,7 @@ use robot::Robot;
 use serde::Deserialize;
 
 use super::cause;
-use super::error::DesignError;
+use crate::design_error::DesignError;
 
 /// Half-width of an interval, as a share of the change that it is of, from which on a size is
 /// to be determined.

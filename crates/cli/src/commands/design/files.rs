@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use effects::{Frame, Motion as Along};
 use logs::{Channels, Prepared, Run};
 use motion::{MotionSpec, State};
-use next_motion::{Design, Designed, Goal, Prospect, TELLS_APART};
+use next_motion::{Design, DesignedMotion, Goal, Prospect, SEPARATING_NATS};
 use robot::Robot;
 use serde::Serialize;
 
@@ -53,7 +53,7 @@ fn titles(goal: Goal, robot: &Robot) -> (String, &'static str) {
 }
 
 fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> String {
-    let shown = |nats: f64| report::significant(nats, 2);
+    let digits = |nats: f64| report::significant(nats, 2);
     let before = prospect.before;
     let Some(after) = prospect.after else {
         return match prospect.goal {
@@ -72,21 +72,21 @@ fn sentence(prospect: &Prospect, [logged, length]: [f64; 2], help: &str) -> Stri
     match (prospect.goal, prospect.runs()) {
         (Goal::Separate { .. }, None) => format!(
             "no motion of {length:.0} s within the robot's limits was found that tells them apart: \
-             {sizes} the best is worth {} nats of log evidence, {TELLS_APART} are needed. What may \
+             {sizes} the best is worth {} nats of log evidence, {SEPARATING_NATS} are needed. What may \
              help: {help}",
-            shown(after)
+            digits(after)
         ),
         (Goal::Separate { .. }, Some(runs)) => format!(
             "this motion tells them apart{}: its {length:.0} s are worth {} nats of log evidence \
-             {sizes}, {TELLS_APART} are needed{}",
+             {sizes}, {SEPARATING_NATS} are needed{}",
             if runs > 1 { format!(", run {runs} times") } else { String::new() },
-            shown(after),
+            digits(after),
             if before > 0.0 {
                 let [same, times] = [before * length / logged, after / before * logged / length];
                 format!(
                     "; {length:.0} s of the logs were worth {} ({} times less)",
-                    shown(same),
-                    shown(times)
+                    digits(same),
+                    digits(times)
                 )
             } else {
                 String::new()
@@ -113,31 +113,45 @@ struct OneRun<'a> {
     motion: &'a MotionSpec,
 }
 
-/// Writes the motion as a log of what is asked for and as a scenario, and says where.
-pub fn write(
-    out: &Path,
-    (robot, robot_file): (&Robot, &Path),
-    text: &str,
-    (designed, run, rate_hz): (&Designed, &Run, f64),
-) -> Result<String, CliError> {
-    create_folder(out)?;
-    logs::write_csv(&out.join(FILES[0]), run)?;
-    logs::write_parquet(&out.join(FILES[1]), run)?;
-    let path = robot_file.canonicalize().unwrap_or_else(|_| robot_file.to_owned());
-    let scenario =
-        Scenario { robot: path, run: [OneRun { name: "motion", motion: &designed.spec }] };
-    let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
-    let comment: String = text.lines().map(|line| format!("# {line}\n")).collect();
-    logs::replace_file(&out.join(FILES[2]), |file| Ok(write!(file, "{comment}\n{toml}")?))?;
-    let [csv, parquet, toml] = FILES.map(|name| shown(&out.join(name)));
-    Ok(format!(
-        "\n{}\nObstacles are not known here: look at the motion before it is run.\n\n\
-         motion    {csv} and {parquet}:\n          \
-         position, velocity, acceleration and the effort to expect, {rate_hz:.0} Hz\n\
-         scenario  {toml} (plumbline simulate)\n\
-         then      plumbline diagnose, its log together with those there are\n",
-        summary(robot, run),
-    ))
+/// A motion and what is written beside it.
+pub struct MotionFiles<'a> {
+    /// The robot that moves.
+    pub robot: &'a Robot,
+    /// The file that describes it.
+    pub robot_file: &'a Path,
+    /// What the motion is for and what it brings.
+    pub text: &'a str,
+    /// The motion.
+    pub designed: &'a DesignedMotion,
+    /// The same as a log.
+    pub run: &'a Run,
+    /// Samples of the log per second (Hz).
+    pub rate_hz: f64,
+}
+
+impl MotionFiles<'_> {
+    /// Writes the motion as a log of the reference and as a scenario, and says where.
+    pub fn write(&self, out: &Path) -> Result<String, CliError> {
+        create_folder(out)?;
+        logs::write_csv(&out.join(FILES[0]), self.run)?;
+        logs::write_parquet(&out.join(FILES[1]), self.run)?;
+        let path = self.robot_file.canonicalize().unwrap_or_else(|_| self.robot_file.to_owned());
+        let scenario =
+            Scenario { robot: path, run: [OneRun { name: "motion", motion: &self.designed.spec }] };
+        let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
+        let comment: String = self.text.lines().map(|line| format!("# {line}\n")).collect();
+        logs::replace_file(&out.join(FILES[2]), |file| Ok(write!(file, "{comment}\n{toml}")?))?;
+        let [csv, parquet, toml] = FILES.map(|name| shown(&out.join(name)));
+        Ok(format!(
+            "\n{}\nObstacles are not known here: look at the motion before it is run.\n\n\
+             motion    {csv} and {parquet}:\n          \
+             position, velocity, acceleration and the effort to expect, {:.0} Hz\n\
+             scenario  {toml} (plumbline simulate)\n\
+             then      plumbline diagnose, its log together with those there are\n",
+            summary(self.robot, self.run),
+            self.rate_hz,
+        ))
+    }
 }
 
 /// Where each joint goes, how fast, and with how much effort.
@@ -162,7 +176,7 @@ fn summary(robot: &Robot, run: &Run) -> String {
 
 /// The motion as a log: positions, velocities, accelerations and the effort that the robot as
 /// described needs.
-pub fn sampled(robot: &Robot, designed: &Designed, rate_hz: f64) -> Run {
+pub fn run_of(robot: &Robot, designed: &DesignedMotion, rate_hz: f64) -> Run {
     let samples = (designed.motion.duration_s() * rate_hz).floor() as usize + 1;
     let time: Vec<f64> = (0..samples).map(|k| k as f64 / rate_hz).collect();
     let states: Vec<State> = time.iter().map(|&t| designed.motion.at(t)).collect();

@@ -11,8 +11,8 @@ use crate::progress::Line;
 use crate::watch::Watch;
 
 /// A residual model: what is said of it, and its file.
-pub struct Learned {
-    pub said: ResidualModel,
+pub struct ResidualFile {
+    pub model: ResidualModel,
     pub bytes: Vec<u8>,
 }
 
@@ -20,46 +20,50 @@ pub struct Learned {
 pub const FILE: &str = "models/named-gp.parquet";
 
 /// Learns the process of what the findings of a diagnosis leave.
-pub fn learn(robot: &Robot, outcome: &Outcome, line: Option<Line>) -> Result<Learned, CliError> {
+pub fn learn(
+    robot: &Robot,
+    outcome: &Outcome,
+    line: Option<Line>,
+) -> Result<ResidualFile, CliError> {
     let watch = Watch::new(line)?;
-    let learned = learn_residual(robot, outcome, &watch);
+    let residual = learn_residual(robot, outcome, &watch);
     watch.finish();
-    let learned = learned?;
-    Ok(Learned { said: said(outcome, &learned), bytes: bytes(&learned.model)? })
+    let residual = residual?;
+    Ok(ResidualFile { model: model(outcome, &residual), bytes: bytes(&residual.model)? })
 }
 
-fn said(outcome: &Outcome, learned: &Residual) -> ResidualModel {
-    let joints = outcome.diagnosis.joints.iter().zip(&learned.joints);
+fn model(outcome: &Outcome, residual: &Residual) -> ResidualModel {
+    let joints = outcome.diagnosis.joints.iter().zip(&residual.joints);
     let mut remarks = effects::left_out(&outcome.extended);
-    if learned.is_cut_short {
+    if residual.is_cut_short {
         remarks.push("Ctrl-C ended searches of it before they converged".to_owned());
     }
     ResidualModel {
-        model: learned.model.kind.name(),
-        words: learned.model.kind.words(),
+        model: residual.model.kind.name(),
+        words: residual.model.kind.words(),
         file: FILE.to_owned(),
-        points: learned.model.process.as_ref().map_or(0, |process| process.sum.len()),
-        parts: learned.parts,
-        joints: joints.map(|(joint, learned)| said_of(joint, learned)).collect(),
+        points: residual.model.process.as_ref().map_or(0, |process| process.sum.len()),
+        parts: residual.parts,
+        joints: joints.map(|(joint, residual)| joint_of(joint, residual)).collect(),
         remarks,
     }
 }
 
-fn said_of(joint: &diagnosis::JointReport, learned: &evaluation::ResidualJoint) -> ResidualJoint {
+fn joint_of(joint: &diagnosis::JointReport, residual: &evaluation::ResidualJoint) -> ResidualJoint {
     // Where everything has a name, nothing is to be said of what it bends with.
     let is_left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
-    let scales = learned.relevance.iter().filter(|_| is_left);
+    let scales = residual.relevance.iter().filter(|_| is_left);
     let scale = |r: &evaluation::Relevance| LengthScale {
         signal: r.signal.clone(),
         share_of_range: r.share_of_range,
     };
     ResidualJoint {
         name: joint.name.clone(),
-        extended_rms_nm: learned.extended_rms,
-        with_residual_rms_nm: learned.with_process_rms,
-        share: learned.share(),
-        better_in: learned.better_in,
-        is_used: learned.is_used,
+        extended_rms_nm: residual.extended_rms,
+        with_residual_rms_nm: residual.with_process_rms,
+        share: residual.share(),
+        better_in: residual.better_in,
+        is_used: residual.is_used,
         length_scales: scales.map(scale).collect(),
     }
 }

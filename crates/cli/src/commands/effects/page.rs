@@ -1,10 +1,10 @@
 use catalogue::{EffectKind, Family};
 
-use super::Row;
-use crate::commands::explain;
+use super::rows::EffectRow;
+use crate::effect_facts::facts;
 
 /// The catalogue as a page in Markdown: a table of all effects, then each with what `explain` says of it.
-pub(super) fn page(rows: &[Row]) -> String {
+pub(super) fn page(rows: &[EffectRow]) -> String {
     let mut page = format!(
         "# The effects\n\nThe {} causes that Plumbline knows. All can be simulated; the table says which a diagnosis \
          names, and which a feedforward compensates. On the command line `plumbline explain CODE` says the same.\n\n\
@@ -34,11 +34,11 @@ pub(super) fn page(rows: &[Row]) -> String {
 }
 
 /// An effect: its heading, and a list of what is known of it.
-fn section(row: &Row) -> String {
+fn section(row: &EffectRow) -> String {
     let entry = row.kind.entry();
     let mut text = format!("\n### {}\n\n`{}`\n\n", row.kind.label(), row.name);
     let parameters: Vec<&str> = entry.parameters.iter().map(|p| p.name).collect();
-    for (name, value) in explain::facts(entry) {
+    for (name, value) in facts(entry) {
         let value = value.replace('\n', "; ");
         let line = match name {
             "family" => continue,
@@ -70,7 +70,7 @@ fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::effects::rows;
+    use crate::commands::effects::rows::rows;
 
     #[test]
     fn the_page_has_a_section_for_every_effect_and_a_link_to_it() {

@@ -12,7 +12,6 @@ use super::timing::{median_query_us, median_us};
 use super::{Arguments, peers};
 use crate::Outcome;
 use crate::error::CliError;
-use crate::input::provenance;
 use crate::output::{print, shown};
 use crate::watch::Watch;
 
@@ -54,7 +53,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
         machine: machine(),
         curves,
         remarks,
-        provenance: provenance(&arguments.robot, loaded, None)?,
+        provenance: arguments.robot.provenance(loaded, None)?,
     };
     let json = times.json()?;
     if let Some(out) = &arguments.out {

@@ -8,23 +8,22 @@ use learner::{
 use report::{ComparedJoint, Comparison, ModelRow};
 use robot::{Loaded, Robot};
 
-use super::Arguments;
+use super::arguments::Arguments;
 use super::data::Data;
 use super::row::row;
 use super::timing::median_query_us;
-use crate::Outcome;
 use crate::error::CliError;
-use crate::input::provenance;
-use crate::output::{create_folder, print, shown, tell};
+use crate::exit_status::ExitStatus;
+use crate::output::{create_folder, print_answer, shown};
 use crate::watch::Watch;
 
 /// A file of the output folder, and what it holds.
 type NamedFile = (String, Vec<u8>);
 
 /// Learns the models, compares them, and writes them with the comparison.
-pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outcome, CliError> {
+pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<ExitStatus, CliError> {
     let robot = &loaded.robot;
-    let named = arguments.named.as_deref().map(|path| named(path, robot)).transpose()?;
+    let named = arguments.named.as_deref().map(|path| read_named(path, robot)).transpose()?;
     settings(arguments, Vec::new()).check()?;
     let data = Data::read(arguments, loaded)?;
     let out = arguments.out.as_deref().unwrap_or(Path::new("."));
@@ -44,7 +43,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
         cutoff_hz: data.cutoff_hz,
         models,
         warnings,
-        provenance: provenance(&arguments.robot, loaded, arguments.names.map.as_deref())?,
+        provenance: arguments.robot.provenance(loaded, arguments.reading.columns.map.as_deref())?,
     };
     files.push(("learning.json".to_owned(), comparison.json()?.into_bytes()));
     files.push(("figure.svg".to_owned(), comparison.figure()?.into_bytes()));
@@ -53,11 +52,11 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Outc
         files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
     report::write_folder(out, &files)?;
     say(arguments, out, &comparison)?;
-    Ok(Outcome::Good)
+    Ok(ExitStatus::Good)
 }
 
 /// The robot with named effects, which must be the same robot.
-fn named(path: &Path, robot: &Robot) -> Result<Robot, CliError> {
+fn read_named(path: &Path, robot: &Robot) -> Result<Robot, CliError> {
     let named = Robot::load(path)?.robot;
     if named.joint_names().eq(robot.joint_names()) {
         return Ok(named);
@@ -100,9 +99,9 @@ impl Learning<'_> {
         if let Some(named) = self.named {
             training = training.with_named(named);
         }
-        let tested = self.data.tested();
+        let tested = self.data.test_samples();
         let (mut rows, mut files) = (Vec::new(), Vec::new());
-        for kind in distinct(&self.arguments.models) {
+        for kind in without_repeats(&self.arguments.models) {
             let (mut row, file) = self.model(&mut training, kind, &tested, out)?;
             if kind == ModelKind::Rbd {
                 row.training_s += regression_s;
@@ -148,17 +147,17 @@ impl Learning<'_> {
 }
 
 /// Every kind once, in the order of the first mention.
-fn distinct(kinds: &[ModelKind]) -> Vec<ModelKind> {
-    let mut distinct = Vec::new();
+fn without_repeats(kinds: &[ModelKind]) -> Vec<ModelKind> {
+    let mut kept = Vec::new();
     for kind in kinds {
-        if !distinct.contains(kind) {
-            distinct.push(*kind);
+        if !kept.contains(kind) {
+            kept.push(*kind);
         }
     }
-    distinct
+    kept
 }
 
-/// What the regression could not tell.
+/// A remark on parameters that the regression could not determine.
 fn remark_of_fit(fit: &RigidBodyFit) -> Option<String> {
     (!fit.undetermined.is_empty()).then(|| {
         format!(
@@ -189,13 +188,6 @@ fn say(arguments: &Arguments, out: &Path, comparison: &Comparison) -> Result<(),
         shown(&out.join("figure.svg")),
         shown(&out.join("models"))
     );
-    if arguments.json {
-        print(&comparison.json()?)?;
-    }
-    match (arguments.quiet, arguments.json) {
-        (true, _) => {}
-        (false, true) => tell(&closing.trim_end()),
-        (false, false) => print(&format!("{}\n{closing}", comparison.text()))?,
-    }
-    Ok(())
+    let json = arguments.json.then(|| comparison.json()).transpose()?;
+    print_answer(arguments.quiet, json.as_deref(), || comparison.text(), &closing)
 }

@@ -5,10 +5,10 @@ use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, rest_s
 use report::{DataSet, FileHash};
 use robot::Loaded;
 
-use super::Arguments;
-use crate::doubts::doubts;
+use super::arguments::Arguments;
 use crate::error::CliError;
 use crate::input::hashes_of;
+use crate::input_warnings::input_warnings;
 use crate::output::shown;
 
 /// What a log is for, behind its name in warnings.
@@ -20,7 +20,7 @@ const REGRESSION: &str = "regression";
 /// as long as a thousand predictions.
 const MOST_TESTED: usize = 5000;
 
-/// What models learn from and what they are tested on, all through one filter.
+/// The data that models learn from and are tested on, all through one filter.
 pub struct Data {
     /// What Gaussian processes learn from.
     pub train: Set,
@@ -48,7 +48,7 @@ impl Data {
     /// Reads the logs, and refuses one that a model would be trained and tested on.
     pub fn read(arguments: &Arguments, loaded: &Loaded) -> Result<Self, CliError> {
         let read = |role: &str, paths: &[PathBuf]| -> Result<Vec<Run>, CliError> {
-            let mut runs = arguments.names.read_runs(paths, &loaded.robot, arguments.length)?;
+            let mut runs = arguments.reading.read_runs(paths, &loaded.robot)?;
             runs.iter_mut().for_each(|run| run.name = format!("{} ({role})", run.name));
             Ok(runs)
         };
@@ -70,7 +70,7 @@ impl Data {
             samples: Samples::new(&parts[which]),
         };
         let (test, train, regression) = (set(0), set(1), set(2));
-        let mut warnings = doubts(loaded, &runs);
+        let mut warnings = input_warnings(loaded, &runs);
         warnings.extend(prepared.warnings.iter().map(ToString::to_string));
         Ok(Self {
             rest_speeds: rest_speeds(&parts[1]),
@@ -88,7 +88,7 @@ impl Data {
     }
 
     /// The samples that the models are tested on.
-    pub fn tested(&self) -> Samples {
+    pub fn test_samples(&self) -> Samples {
         self.test.samples.thinned(MOST_TESTED)
     }
 }

@@ -3,7 +3,7 @@ use learner::{Fitted, JointFit, ModelKind, Score};
 use report::{KernelRow, ModelRow};
 use robot::Robot;
 
-/// What was learned, as it is reported, and how it did on the test.
+/// The row of the report of a model: what was learned, and its errors on the test.
 pub fn row(fitted: &Fitted, score: Score, robot: &Robot) -> ModelRow {
     let model = &fitted.model;
     let kernels: Option<Vec<KernelRow>> =
@@ -57,7 +57,8 @@ fn input_names(robot: &Robot) -> impl Iterator<Item = String> {
     })
 }
 
-/// How its searches ended, where they did not converge, and what else is no matter of course.
+/// Remarks on a model: searches that did not converge, jitter, inducing points without a
+/// likelihood, and the lambdas of cross-validation.
 fn remarks(fitted: &Fitted, robot: &Robot) -> Vec<String> {
     let joints = || robot.joint_names().zip(&fitted.joints);
     let mut remarks = Vec::new();

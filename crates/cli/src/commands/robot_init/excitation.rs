@@ -4,6 +4,8 @@ use dynamics::Dynamics;
 use motion::MotionSpec;
 use robot::Robot;
 
+use super::quote::key;
+
 /// Highest frequencies that are tried, the liveliest first (Hz).
 const FREQUENCIES_HZ: [f64; 4] = [0.6, 0.4, 0.25, 0.15];
 /// Shares of the position range that are tried.
@@ -70,8 +72,7 @@ impl Excitation {
             if pairs.is_empty() {
                 return String::new();
             }
-            let pair =
-                |(joint, value): &(String, f64)| format!("{} = {value:?}", super::text::key(joint));
+            let pair = |(joint, value): &(String, f64)| format!("{} = {value:?}", key(joint));
             let pairs: Vec<String> = pairs.iter().map(pair).collect();
             format!(", {name} = {{ {} }}", pairs.join(", "))
         };

@@ -60,7 +60,7 @@ pub fn drives(robot: &Robot, known: &[Option<Gain>], rate_hz: f64) -> Vec<Drive>
             let given = link.actuator.rotor_inertia;
             let by_effort = ROTOR_PER_EFFORT * link.joint.limits.effort.unwrap_or(0.0);
             let guessed = by_effort.max(LEAST_ROTOR_SHARE * largest(j)).max(1e-5);
-            if given > 0.0 { given } else { rounded(guessed) }
+            if given > 0.0 { given } else { round(guessed) }
         })
         .collect();
     let least = least_inertias(&masses, &rotors);
@@ -74,7 +74,7 @@ pub fn drives(robot: &Robot, known: &[Option<Gain>], rate_hz: f64) -> Vec<Drive>
             let given = known.get(j).copied().flatten();
             Drive {
                 rotor: rotors[j],
-                gain: given.unwrap_or(Gain { kp: rounded(kp), kd: rounded(kd) }),
+                gain: given.unwrap_or(Gain { kp: round(kp), kd: round(kd) }),
                 rotor_guessed: robot.links()[j].actuator.rotor_inertia <= 0.0,
                 gain_guessed: given.is_none(),
             }
@@ -83,7 +83,7 @@ pub fn drives(robot: &Robot, known: &[Option<Gain>], rate_hz: f64) -> Vec<Drive>
 }
 
 /// The robot with these rotors.
-pub fn driven(robot: &Robot, drives: &[Drive]) -> Robot {
+pub fn with_rotors(robot: &Robot, drives: &[Drive]) -> Robot {
     let mut robot = robot.clone();
     for (index, drive) in drives.iter().enumerate() {
         if let Some(link) = robot.link_mut(index) {
@@ -126,7 +126,7 @@ fn posture(robot: &Robot, k: usize) -> Vec<f64> {
 }
 
 /// Two digits: a guess is no more exact.
-fn rounded(value: f64) -> f64 {
+fn round(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 

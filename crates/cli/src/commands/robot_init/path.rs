@@ -3,7 +3,7 @@ use std::path::{Component, Path, PathBuf};
 /// A file as it is named from a folder, both of which are there.
 ///
 /// Whole paths come back where the two share nothing or cannot be resolved.
-pub fn seen_from(folder: &Path, file: &Path) -> PathBuf {
+pub fn relative_to(folder: &Path, file: &Path) -> PathBuf {
     let (Ok(from), Ok(to)) = (folder.canonicalize(), file.canonicalize()) else {
         return file.to_owned();
     };
@@ -28,8 +28,8 @@ mod tests {
         std::fs::create_dir_all(at("robots/mine")).unwrap();
         std::fs::write(at("arm.urdf"), "").unwrap();
         std::fs::write(at("robots/mine/arm.urdf"), "").unwrap();
-        assert_eq!(seen_from(&at("robots/mine"), &at("arm.urdf")), Path::new("../../arm.urdf"));
-        let beside = seen_from(&at("robots/mine"), &at("robots/mine/arm.urdf"));
+        assert_eq!(relative_to(&at("robots/mine"), &at("arm.urdf")), Path::new("../../arm.urdf"));
+        let beside = relative_to(&at("robots/mine"), &at("robots/mine/arm.urdf"));
         assert_eq!(beside, Path::new("arm.urdf"));
     }
 }

@@ -7,6 +7,7 @@ use robot::{Link, Loaded, Robot};
 
 use super::excitation::{Excitation, SEEDS};
 use super::guess::Drive;
+use super::quote::{key, quote};
 
 const OTHERS: &str = "\
 # More that a joint may say, each at its own place below ([joint.NAME]):
@@ -23,10 +24,10 @@ pub fn robot_toml(loaded: &Loaded, model: &Path, drives: &[Drive], rate_hz: f64)
     let mut text = format!(
         "# {}: what its description cannot say. Replace what is called a guess.\nurdf = {}\n",
         robot.name().replace(['\n', '\r'], " "),
-        quoted(&model.to_string_lossy())
+        quote(&model.to_string_lossy())
     );
     if let Some(joints) = &loaded.part.joints {
-        let names: Vec<String> = joints.iter().map(|name| quoted(name)).collect();
+        let names: Vec<String> = joints.iter().map(|name| quote(name)).collect();
         let _ = writeln!(text, "# The joints that move; the others are locked at zero.");
         let _ = writeln!(text, "joints = [{}]", names.join(", "));
     }
@@ -93,7 +94,7 @@ pub fn scenario_toml(robot: &Robot, excitation: &Excitation) -> String {
         "# plumbline effects lists what can be put in; this is dry friction.\n# [[effect]]\n",
     );
     if let Some(name) = robot.joint_names().next() {
-        let name = quoted(name).replace('\n', " ");
+        let name = quote(name).replace('\n', " ");
         let _ = writeln!(text, "# coulomb_friction = {{ joint = {name}, level_nm = 1.0 }}\n");
     }
     text.push_str("[sensors]\nlog_rate_hz = 250.0\n# position_resolution_rad = { JOINT = 1e-4 }    step of the encoder\n# effort_noise_nm = { JOINT = 0.1 }\n");
@@ -103,39 +104,4 @@ pub fn scenario_toml(robot: &Robot, excitation: &Excitation) -> String {
             write!(text, "\n[[run]]\nname = \"run_{}\"\nmotion.sinusoids = {motion}\n", index + 1);
     }
     text
-}
-
-/// A key of TOML: bare where it can be.
-pub fn key(name: &str) -> String {
-    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { quoted(name) }
-}
-
-/// A string of TOML on one line, in double quotes.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
-            }
-            c => quoted.push(c),
-        }
-    }
-    quoted + "\""
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn any_name_is_a_key_that_is_read_again() {
-        for name in ["a", "a b", "a\"b\\c", "line\nbreak", "\u{7f}", "", "élan", "a.b"] {
-            let text = format!("{} = 1", key(name));
-            let table: toml::Table = toml::from_str(&text).unwrap();
-            assert_eq!(table.keys().next().map(String::as_str), Some(name), "{text}");
-        }
-    }
 }

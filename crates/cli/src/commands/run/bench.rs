@@ -118,7 +118,7 @@ impl Bench<'_> {
             ..Report::new(&outcome, &loaded.robot, &provenance)
         };
         let json = report::json(&report)?;
-        diagnose::write(&self.out.join(folder), loaded, &outcome, (&report, &json), None)?;
+        diagnose::write(&self.out.join(folder), loaded, &outcome, &report, &json, None)?;
         let (verdict, told) = (report::markdown(&report), report::told(&report)?);
         Ok(DiagnosedRuns { outcome, verdict, told })
     }

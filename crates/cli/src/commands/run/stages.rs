@@ -13,7 +13,9 @@ use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 
 use super::bench::{self, Bench, DiagnosedRuns, diagnosis_files};
-use crate::commands::{diagnose, track};
+use crate::commands::diagnose;
+use crate::commands::track::comparison::{comparison, problems};
+use crate::commands::track::tracking_result::write_comparison;
 use crate::error::CliError;
 use crate::output::create_folder;
 use crate::watch::Watch;
@@ -111,7 +113,8 @@ impl Stages<'_> {
                 self.bench().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
             let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             if recording::IS_BUILT {
-                diagnose::recorded(self.out, &diagnosed, self.watch).map_err(|error| *error)?;
+                diagnose::write_recording(self.out, &diagnosed, self.watch)
+                    .map_err(|error| *error)?;
             }
             let sealed = Sealed::open(&self.out.join(LOGS))?;
             let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
@@ -183,21 +186,21 @@ impl Stages<'_> {
             let outputs = Outputs { logs, recordings, live: Live::Off };
             let scenario = self.experiment.held(self.drawn()?, &self.extended()?);
             let runs = track_all(&scenario, &learned, Some(&outputs), self.watch)?;
-            self.tracked(&scenario, &learned, &runs)
+            self.write_tracking(&scenario, &learned, &runs)
         })
     }
 
     /// Writes the comparison of the runs.
-    fn tracked(
+    fn write_tracking(
         &self,
         scenario: &TrackingScenario,
         learned: &Learned,
         runs: &[TrackedRun],
     ) -> Result<Product<Tracked>, CliError> {
         let swept = evaluation::sweep(scenario, learned, self.watch)?;
-        let comparison = track::comparison(self.scenario, scenario, runs, swept.as_ref())?;
-        track::write(&self.out.join(TRACKING), scenario, &comparison)?;
-        if let Some(problem) = track::problems(runs).next() {
+        let comparison = comparison(self.scenario, scenario, runs, swept.as_ref())?;
+        write_comparison(&self.out.join(TRACKING), scenario, &comparison)?;
+        if let Some(problem) = problems(runs).next() {
             return Err(CliError::Incomplete { problem: problem.clone() });
         }
         let pages = ["report.html", "tracking.json"].map(|name| Path::new(TRACKING).join(name));
@@ -208,7 +211,8 @@ impl Stages<'_> {
         let runs_files = runs_files.map(|name| Path::new(TRACKING).join(name));
         let errors = runs.iter().map(TrackedError::of).collect();
         let gains = scenario.gains_name().to_owned();
-        let value = Tracked { gains, errors, motion: compared(comparison).motion_in_page()? };
+        let value =
+            Tracked { gains, errors, motion: with_page_names(comparison).motion_in_page()? };
         Ok(Product { value, files: pages.into_iter().chain(runs_files).collect() })
     }
 
@@ -258,7 +262,7 @@ impl Stages<'_> {
 
 /// The runs with the robot as described and with the extended one alone, under the names that they have
 /// wherever a page compares the two.
-fn compared(comparison: TrackingComparison) -> TrackingComparison {
+fn with_page_names(comparison: TrackingComparison) -> TrackingComparison {
     let named = [("named", "extended"), ("cad", "nominal")].into_iter();
     let models = named.filter_map(|(kind, name)| {
         let run = comparison.models.iter().find(|model| model.name == kind)?;

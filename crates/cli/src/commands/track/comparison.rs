@@ -33,15 +33,20 @@ pub fn comparison(
         gains: gains(scenario.gains_name(), scenario.gains()),
         clock: clock(scenario),
         duration_s: scenario.motion().duration_s(),
-        models: runs.iter().map(tracked).collect(),
+        models: runs.iter().map(tracked_model).collect(),
         sweep: swept.map(sweep),
-        warnings: super::problems(runs).cloned().chain(unseen(runs)).collect(),
+        warnings: problems(runs).cloned().chain(viewer_warning(runs)).collect(),
         provenance,
     })
 }
 
+/// Why logs and recordings of the runs could not be written.
+pub fn problems(runs: &[TrackedRun]) -> impl Iterator<Item = &String> {
+    runs.iter().filter_map(|run| run.written.as_ref()).flat_map(|written| &written.problems)
+}
+
 /// What a viewer that was asked for did not see.
-fn unseen(runs: &[TrackedRun]) -> Option<String> {
+fn viewer_warning(runs: &[TrackedRun]) -> Option<String> {
     let listeners = || runs.iter().filter_map(|run| Some(run.written.as_ref()?.listener));
     if listeners().any(|listener| listener == Listener::Nobody) {
         return Some("no viewer listened on 127.0.0.1:9876 (--live): start rerun first".into());
@@ -83,7 +88,7 @@ fn clock(scenario: &TrackingScenario) -> String {
     format!("predicted beside the loop, {time}, {moment}")
 }
 
-fn tracked(run: &TrackedRun) -> TrackedModel {
+fn tracked_model(run: &TrackedRun) -> TrackedModel {
     let TrackedRun { kind, tracking, metrics, .. } = run;
     let joints = &metrics.joints;
     let tip = metrics.end_effector_of_links.unwrap_or(metrics.end_effector);

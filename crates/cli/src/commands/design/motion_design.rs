@@ -1,54 +1,56 @@
 use std::path::Path;
 
 use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare};
-use next_motion::{Design, Designed, Goal, Prospect, Question, Settings};
+use next_motion::{Design, DesignSettings, DesignedMotion, Goal, Prospect, Question};
 use robot::{Loaded, Robot};
 
+use super::cause;
 use super::diagnosis_file::DiagnosisFile;
-use super::{DesignError, cause, files};
+use super::files::{self, MotionFiles};
+use crate::design_error::DesignError;
 use crate::error::CliError;
 
 /// Rate of a motion where neither log nor robot says one (Hz).
 const RATE_HZ: f64 = 500.0;
 
 /// What a motion is searched for.
-pub struct Wanted<'a> {
+pub struct MotionRequest<'a> {
     /// The robot that was diagnosed.
     pub loaded: &'a Loaded,
-    /// A diagnosis and the logs that it is of, where there is one.
+    /// A diagnosis and its logs, where there is one.
     pub diagnosed: Option<(&'a DiagnosisFile, &'a [Run])>,
     /// Two causes to tell apart, such as `FR01@elbow`, instead of what the diagnosis left open.
     pub separate: Option<[&'a str; 2]>,
     /// Length and seed.
-    pub settings: Settings,
+    pub settings: DesignSettings,
 }
 
-/// What was found: the motion, where one is worth running, and what it brings.
-pub struct Searched {
+/// The result of a search: the motion, where one is worth running, and its information.
+pub struct MotionDesign {
     robot: Robot,
     design: Design,
     text: String,
     rate_hz: f64,
 }
 
-impl Searched {
-    /// Searches the motion that settles what is wanted.
+impl MotionDesign {
+    /// Searches the motion that reaches the goals of a request.
     ///
     /// # Errors
     ///
     /// [`CliError::Design`] where there is nothing to settle or a cause has no place, and what the logs refuse.
-    pub fn new(wanted: &Wanted) -> Result<Self, CliError> {
-        let robot = next_motion::sown(&wanted.loaded.robot);
-        let asked = match wanted.separate {
+    pub fn new(request: &MotionRequest) -> Result<Self, CliError> {
+        let robot = next_motion::with_trial_shapes(&request.loaded.robot);
+        let goals = match request.separate {
             None => Vec::new(),
-            Some(pair) => vec![pair_of(pair, &robot)?],
+            Some(pair) => vec![goal_of_pair(pair, &robot)?],
         };
-        let (question, logs) = match wanted.diagnosed {
-            None => (Question::without_logs(&robot, asked), None),
+        let (question, logs) = match request.diagnosed {
+            None => (Question::without_logs(&robot, goals), None),
             Some((diagnosis, runs)) => {
                 let question = Question {
                     robot: &robot,
-                    goals: if asked.is_empty() { diagnosis.goals(&robot)? } else { asked },
+                    goals: if goals.is_empty() { diagnosis.goals(&robot)? } else { goals },
                     findings: diagnosis.findings(&robot)?,
                     noise: diagnosis.noise(),
                     cutoff_hz: diagnosis.cutoff_hz(),
@@ -56,13 +58,13 @@ impl Searched {
                 if question.goals.is_empty() {
                     return Err(DesignError::NothingOpen { path: diagnosis.path() }.into());
                 }
-                (question, Some(prepared(wanted.loaded, diagnosis, runs)?))
+                (question, Some(prepare_logs(request.loaded, diagnosis, runs)?))
             }
         };
-        let design = next_motion::design(&question, logs.as_ref(), &wanted.settings);
+        let design = next_motion::design(&question, logs.as_ref(), &request.settings);
         let design = design.map_err(DesignError::from)?;
         let text = files::words(&design, &robot, logs.as_ref());
-        let rate_hz = rate_hz(wanted.loaded, logs.as_ref());
+        let rate_hz = rate_hz(request.loaded, logs.as_ref());
         Ok(Self { robot, design, text, rate_hz })
     }
 
@@ -81,44 +83,51 @@ impl Searched {
     /// The motion as a log: positions, velocities, accelerations (rad or m, s) and the effort to expect (N m or N);
     /// none where no motion would settle anything.
     pub fn run(&self) -> Option<Run> {
-        Some(files::sampled(&self.robot, self.motion()?, self.rate_hz))
+        Some(files::run_of(&self.robot, self.motion()?, self.rate_hz))
     }
 
-    /// Writes the motion as a log of what is asked for and as a scenario of the robot in a file, and says where; nothing
-    /// where there is none.
+    /// Writes the motion as a log of the reference and as a scenario of the robot in a file, and
+    /// says where. Returns none where there is no motion.
     ///
     /// # Errors
     ///
     /// [`CliError::Folder`], and what the disk refuses.
     pub fn write(&self, out: &Path, robot_file: &Path) -> Result<Option<String>, CliError> {
         let (Some(designed), Some(run)) = (self.motion(), self.run()) else { return Ok(None) };
-        let motion = (designed, &run, self.rate_hz);
-        files::write(out, (&self.robot, robot_file), &self.text, motion).map(Some)
+        let files = MotionFiles {
+            robot: &self.robot,
+            robot_file,
+            text: &self.text,
+            designed,
+            run: &run,
+            rate_hz: self.rate_hz,
+        };
+        files.write(out).map(Some)
     }
 
     /// The motion, where running it tells something.
-    fn motion(&self) -> Option<&Designed> {
+    fn motion(&self) -> Option<&DesignedMotion> {
         let is_useful = self.design.prospects.iter().any(|p| p.runs().is_some());
         self.design.motion.as_ref().filter(|_| is_useful)
     }
 }
 
 /// Two causes that are to be told apart.
-fn pair_of([one, other]: [&str; 2], robot: &Robot) -> Result<Goal, CliError> {
-    let [finding, rival] = [cause::typed(one, robot)?, cause::typed(other, robot)?];
+fn goal_of_pair([one, other]: [&str; 2], robot: &Robot) -> Result<Goal, CliError> {
+    let [finding, rival] = [cause::parse(one, robot)?, cause::parse(other, robot)?];
     Ok(Goal::Separate { finding, rival })
 }
 
 /// The logs that were diagnosed, prepared as they were then.
-fn prepared(
+fn prepare_logs(
     loaded: &Loaded,
     diagnosis: &DiagnosisFile,
     runs: &[Run],
 ) -> Result<Prepared, CliError> {
     let settings = PrepareSettings { cutoff_hz: Some(diagnosis.cutoff_hz()) };
-    let mut prepared = prepare(runs, &settings)?;
-    centre_commands(&loaded.robot, &mut prepared.runs, loaded.control.rate_hz);
-    Ok(prepared)
+    let mut prepare_logs = prepare(runs, &settings)?;
+    centre_commands(&loaded.robot, &mut prepare_logs.runs, loaded.control.rate_hz);
+    Ok(prepare_logs)
 }
 
 /// Rate at which the motion is written (Hz): that of the logs, or else of the controller.

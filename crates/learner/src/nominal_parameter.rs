@@ -2,7 +2,7 @@ use dynamics::Column;
 use robot::Robot;
 
 /// The parameter of `column` as the robot is described.
-pub(crate) fn described(robot: &Robot, column: Column) -> f64 {
+pub(crate) fn nominal_parameter(robot: &Robot, column: Column) -> f64 {
     let actuator = |joint: usize| &robot.links()[joint].actuator;
     match column {
         Column::Inertial { link, parameter } => robot.links()[link].inertia.parameters()[parameter],
@@ -18,8 +18,8 @@ pub(crate) fn described(robot: &Robot, column: Column) -> f64 {
     }
 }
 
-/// By how much the parameter of `column` may differ from its description before the two have
-/// nothing in common: the bounds that the pseudo-inertia `[S h; h' m]` sets,
+/// The scale of the parameter of `column`: an error as large as this makes the description useless.
+/// For inertial parameters it is the bound that the pseudo-inertia `[S h; h' m]` sets,
 ///
 /// ```text
 /// m for the mass,   sqrt(m tr S) for first moments,   tr S for second moments
@@ -38,7 +38,7 @@ pub(crate) fn size(robot: &Robot, column: Column) -> f64 {
                 _ => spread,
             }
         }
-        Column::Rotor { .. } => described(robot, column),
+        Column::Rotor { .. } => nominal_parameter(robot, column),
         Column::Viscous { .. } | Column::Coulomb { .. } | Column::Offset { .. } => 1.0,
     };
     if size > 0.0 { size } else { 1.0 }

@@ -2,34 +2,34 @@ use inspection::Mended;
 use logs::Run;
 use robot::{Loaded, LockedJoint, RobotWarning};
 
-use crate::output::warn;
+use crate::messages::warn;
 
-/// Distance from the place of a locked joint within which a log confirms it (rad or m).
+/// Distance from the position of a locked joint within which a log confirms it (rad or m).
 const NEAR: f64 = 0.01;
 
-/// What a diagnosis holds of one sample of one joint (bytes), as measured on logs of 7 joints with two threads.
+/// Memory that a diagnosis takes for one sample of one joint (bytes), as measured on logs of 7 joints with two threads.
 const BYTES_PER_SAMPLE: f64 = 430.0;
 
 const GIGA: f64 = 1e9;
 
-/// What the description of a robot leaves out of its motion, locked joints that a log has
-/// somewhere else, and logs that may need more memory than is free.
-pub fn doubts<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Run>) -> Vec<String> {
+/// Warnings about the input of a diagnosis: what the robot's description leaves out of its motion,
+/// locked joints that a log has at another position, and logs that need more memory than is free.
+pub fn input_warnings<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Run>) -> Vec<String> {
     let of_motion = loaded.warnings.iter().filter(|warning| warning.is_about_motion());
-    let mut doubts: Vec<String> = of_motion.map(RobotWarning::to_string).collect();
+    let mut warnings: Vec<String> = of_motion.map(RobotWarning::to_string).collect();
     let mut all = 0;
     for run in runs {
-        doubts.extend(loaded.locked.iter().filter_map(|lock| elsewhere(lock, run)));
-        all += samples(run);
+        warnings.extend(loaded.locked.iter().filter_map(|lock| locked_joint_warning(lock, run)));
+        all += joint_samples(run);
     }
-    doubts.extend(learner::available_bytes().and_then(|free| too_long(all, free)));
-    doubts
+    warnings.extend(learner::available_bytes().and_then(|free| memory_warning(all, free)));
+    warnings
 }
 
-/// The runs as a diagnosis reads them, where that is otherwise than they are told: says what raises doubts about the
-/// input, and what of the logs is read differently.
-pub fn read_as_they_are(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
-    doubts(loaded, runs).iter().for_each(|doubt| warn(doubt));
+/// The runs with those errors corrected that the inspection can correct; none without errors.
+/// Prints the warnings about the input, and each correction.
+pub fn correct_runs(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
+    input_warnings(loaded, runs).iter().for_each(|warning| warn(warning));
     let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, runs);
     for seen in &mended {
         let sentence = seen.sentence(&loaded.robot, runs);
@@ -38,26 +38,26 @@ pub fn read_as_they_are(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
     read
 }
 
-/// What a diagnosis of runs holds (GB), in digits.
+/// Memory that a diagnosis of the runs takes (GB), in digits.
 pub fn needed_gb(runs: &[Run]) -> String {
-    short(needed(runs.iter().map(samples).sum()) / GIGA)
+    short(needed_bytes(runs.iter().map(joint_samples).sum()) / GIGA)
 }
 
-/// Samples of single joints.
-fn samples(run: &Run) -> usize {
+/// Samples of a run, counted for each joint.
+fn joint_samples(run: &Run) -> usize {
     run.time.len() * run.joints.len()
 }
 
-/// What a diagnosis of samples of single joints holds (bytes).
-fn needed(samples: usize) -> f64 {
-    BYTES_PER_SAMPLE * samples as f64
+/// Memory that a diagnosis of so many samples of single joints takes (bytes).
+fn needed_bytes(joint_samples: usize) -> f64 {
+    BYTES_PER_SAMPLE * joint_samples as f64
 }
 
-/// Says what samples of single joints need where that is more than is free (bytes).
-fn too_long(samples: usize, free: f64) -> Option<String> {
-    let needed = needed(samples);
-    let [needed_gb, free_gb] = [needed, free].map(|bytes| short(bytes / GIGA));
-    (needed > free).then(|| {
+/// Warns of samples that need more memory than is free (bytes).
+fn memory_warning(joint_samples: usize, free: f64) -> Option<String> {
+    let needed_bytes = needed_bytes(joint_samples);
+    let [needed_gb, free_gb] = [needed_bytes, free].map(|bytes| short(bytes / GIGA));
+    (needed_bytes > free).then(|| {
         format!(
             "the logs need about {needed_gb} GB of memory and {free_gb} GB are free: \
              read less of them with --from-s and --to-s, or give fewer logs, or logs of a lower rate"
@@ -65,8 +65,8 @@ fn too_long(samples: usize, free: f64) -> Option<String> {
     })
 }
 
-/// Says where a log has a joint that is locked at another place.
-fn elsewhere(lock: &LockedJoint, run: &Run) -> Option<String> {
+/// Warns of a log that has a locked joint at another position.
+fn locked_joint_warning(lock: &LockedJoint, run: &Run) -> Option<String> {
     let LockedJoint { joint, position, .. } = lock;
     let logged = run.extra.get(&format!("{joint}.position"))?;
     let known = || logged.iter().copied().filter(|q| q.is_finite());
@@ -74,7 +74,7 @@ fn elsewhere(lock: &LockedJoint, run: &Run) -> Option<String> {
     if low > position - NEAR && high < position + NEAR {
         return None;
     }
-    let [at, low_said, high_said] = [*position, low, high].map(short);
+    let [at, low_words, high_words] = [*position, low, high].map(short);
     let advice = if high - low < 2.0 * NEAR {
         let middle = short(0.5 * (low + high));
         format!("locked = {{ {joint} = {middle} }} in a robot.toml locks it there")
@@ -82,7 +82,7 @@ fn elsewhere(lock: &LockedJoint, run: &Run) -> Option<String> {
         "what its motion does to the torque of the others is left out".to_owned()
     };
     Some(format!(
-        "{}: joint {joint} is locked at {at}, the log has it from {low_said} to {high_said}: {advice}",
+        "{}: joint {joint} is locked at {at}, the log has it from {low_words} to {high_words}: {advice}",
         run.name
     ))
 }
@@ -97,8 +97,8 @@ mod tests {
 
     #[test]
     fn logs_that_need_more_than_is_free_are_told() {
-        assert_eq!(too_long(2_000_000, 1e9), None);
-        let told = too_long(10_000_000, 1e9).unwrap();
+        assert_eq!(memory_warning(2_000_000, 1e9), None);
+        let told = memory_warning(10_000_000, 1e9).unwrap();
         assert!(
             told.contains(
                 "need about 4.30 GB of memory and 1.00 GB are free: read less of them with --from-s"
@@ -119,7 +119,7 @@ mod tests {
             joints: vec![],
             extra: [("grip.position".to_owned(), logged.to_vec())].into(),
         };
-        elsewhere(&lock, &run)
+        locked_joint_warning(&lock, &run)
     }
 
     #[test]

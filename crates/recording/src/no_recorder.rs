@@ -1,6 +1,8 @@
 use std::path::Path;
 
-use crate::{Bar, Level, Live, RecordingError, Rows, Scene, Signal, Written};
+use crate::error::RecordingError;
+use crate::rows::{Bar, Rows, Written};
+use crate::scene::{Level, Live, Scene, Signal};
 
 /// A recording that is being written: there is none, as the crate is built without its feature `rerun`.
 pub enum Recorder {}

@@ -43,12 +43,12 @@ impl Source {
 ///
 /// Displays as `file.toml:12:9`, or as the whole `--set path=value`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place {
+pub struct SourceSpan {
     pub(crate) source: Arc<Source>,
     span: Range<usize>,
 }
 
-impl Place {
+impl SourceSpan {
     /// A span that reaches over the end, or into a character, is cut back.
     pub(crate) fn new(source: &Arc<Source>, span: Range<usize>) -> Self {
         let start = source.text.floor_char_boundary(span.start);
@@ -85,7 +85,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for SourceSpan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.source.name() {
             Some(name) => write!(f, "{name}:{}:{}", self.line(), self.column()),
@@ -94,7 +94,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// A text with control characters, which a terminal would obey, by their number.
+/// A text whose control characters are written as numbers, so that a terminal does not obey them.
 pub(crate) fn printable(text: &str) -> String {
     let shown = |c: char| if c.is_control() { c.escape_debug().to_string() } else { c.to_string() };
     text.chars().map(shown).collect()
@@ -109,10 +109,10 @@ mod tests {
         let text = "a = 1\nμ = 'é'  x\n".to_owned();
         let at = text.find('x').unwrap();
         let source = Arc::new(Source { origin: Origin::Text("notes".to_owned()), text });
-        assert_eq!(Place::new(&source, at..at + 1).to_string(), "notes:2:10");
-        assert_eq!(Place::new(&source, 0..1).to_string(), "notes:1:1");
-        assert_eq!(Place::new(&source, 900..901).to_string(), "notes:3:1");
+        assert_eq!(SourceSpan::new(&source, at..at + 1).to_string(), "notes:2:10");
+        assert_eq!(SourceSpan::new(&source, 0..1).to_string(), "notes:1:1");
+        assert_eq!(SourceSpan::new(&source, 900..901).to_string(), "notes:3:1");
         // Inside the two bytes of the first letter of line 2.
-        assert_eq!(Place::new(&source, 7..7).to_string(), "notes:2:1");
+        assert_eq!(SourceSpan::new(&source, 7..7).to_string(), "notes:2:1");
     }
 }

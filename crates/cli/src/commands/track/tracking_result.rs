@@ -8,12 +8,12 @@ use evaluation::{
 use recording::Live;
 use report::{ReportError, TrackingComparison};
 
-use super::comparison;
+use super::comparison::{comparison, problems};
 use crate::error::CliError;
 use crate::output::create_folder;
 
-/// What is tracked.
-pub struct Asked<'a> {
+/// What is to be tracked, and how.
+pub struct TrackingRequest<'a> {
     /// The file of the scenario.
     pub scenario: &'a Path,
     /// Values in the place of the scenario's, as `key=value`.
@@ -31,34 +31,34 @@ pub struct Asked<'a> {
 }
 
 /// A motion tracked with every feedforward, and how they compare.
-pub struct Tracked {
+pub struct TrackingResult {
     scenario: TrackingScenario,
     runs: Vec<TrackedRun>,
     comparison: TrackingComparison,
 }
 
-impl Tracked {
+impl TrackingResult {
     /// Learns what is asked for, tracks the motion with each model, and compares them.
     ///
     /// # Errors
     ///
     /// [`CliError`] for a scenario, models or an arm that cannot be used, and for files that cannot be written.
-    pub fn new(asked: &Asked, progress: &dyn Progress) -> Result<Self, CliError> {
-        let scenario = TrackingScenario::from_document(&document(asked)?)?;
-        let outputs = asked.out.map(|out| Outputs {
+    pub fn new(request: &TrackingRequest, progress: &dyn Progress) -> Result<Self, CliError> {
+        let scenario = TrackingScenario::from_document(&document(request)?)?;
+        let outputs = request.out.map(|out| Outputs {
             logs: out.join("logs"),
             recordings: recording::IS_BUILT.then(|| out.join("recordings")),
-            live: if asked.live { Live::On } else { Live::Off },
+            live: if request.live { Live::On } else { Live::Off },
         });
-        if let (Some(out), Some(outputs)) = (asked.out, &outputs) {
+        if let (Some(out), Some(outputs)) = (request.out, &outputs) {
             let folders = [out, outputs.logs.as_path()].into_iter();
             folders.chain(outputs.recordings.as_deref()).try_for_each(create_folder)?;
         }
-        let learned = models(asked, &scenario, progress)?;
+        let learned = models(request, &scenario, progress)?;
         let runs = track_all(&scenario, &learned, outputs.as_ref(), progress)?;
         let swept = sweep(&scenario, &learned, progress)?;
-        let mut comparison = comparison(asked.scenario, &scenario, &runs, swept.as_ref())?;
-        if let Some(command) = &asked.command {
+        let mut comparison = comparison(request.scenario, &scenario, &runs, swept.as_ref())?;
+        if let Some(command) = &request.command {
             comparison.provenance.command.clone_from(command);
         }
         Ok(Self { scenario, runs, comparison })
@@ -71,7 +71,7 @@ impl Tracked {
 
     /// What of the logs and recordings could not be written, in sentences that name the file.
     pub fn problems(&self) -> Vec<String> {
-        super::problems(&self.runs).cloned().collect()
+        problems(&self.runs).cloned().collect()
     }
 
     /// Writes report, figures, numbers and the scenario.
@@ -80,16 +80,16 @@ impl Tracked {
     ///
     /// [`ReportError`].
     pub fn write(&self, out: &Path) -> Result<(), ReportError> {
-        super::write(out, &self.scenario, &self.comparison)
+        write_comparison(out, &self.scenario, &self.comparison)
     }
 }
 
-fn document(asked: &Asked) -> Result<Document, CliError> {
-    let mut document = Document::read(asked.scenario)?;
-    asked.set.iter().try_for_each(|assignment| document.set(assignment))?;
-    if !asked.feedforward.is_empty() {
+fn document(request: &TrackingRequest) -> Result<Document, CliError> {
+    let mut document = Document::read(request.scenario)?;
+    request.set.iter().try_for_each(|assignment| document.set(assignment))?;
+    if !request.feedforward.is_empty() {
         let names: Vec<String> =
-            asked.feedforward.iter().map(|kind| format!("{:?}", kind.name())).collect();
+            request.feedforward.iter().map(|kind| format!("{:?}", kind.name())).collect();
         document.set(&format!("feedforward=[{}]", names.join(",")))?;
     }
     Ok(document)
@@ -97,18 +97,45 @@ fn document(asked: &Asked) -> Result<Document, CliError> {
 
 /// The models, from a folder or from logs that are simulated for them.
 fn models(
-    asked: &Asked,
+    request: &TrackingRequest,
     scenario: &TrackingScenario,
     progress: &dyn Progress,
 ) -> Result<Learned, CliError> {
-    if let Some(folder) = asked.learned {
+    if let Some(folder) = request.learned {
         return Ok(Learned::load(scenario, folder)?);
     }
     let logs = simulated_logs(scenario, progress)?;
     let learned = Learned::learn(scenario, &logs, None, progress)?;
-    if let Some(folder) = asked.out.map(|out| out.join("models")) {
+    if let Some(folder) = request.out.map(|out| out.join("models")) {
         create_folder(&folder)?;
         learned.save(&folder)?;
     }
     Ok(learned)
+}
+
+/// Writes an output folder, all but the logs, recordings and models.
+pub fn write_comparison(
+    out: &Path,
+    scenario: &TrackingScenario,
+    comparison: &TrackingComparison,
+) -> Result<(), ReportError> {
+    let mut files = vec![
+        ("scenario.toml", scenario.resolved().to_owned()),
+        ("tracking.json", comparison.json()?),
+        ("report.html", comparison.page()?),
+        ("errors.svg", comparison.error_figure()?),
+        ("motion.svg", comparison.motion_figure(&elbow_and_wrist(scenario))?),
+    ];
+    if let Some(figure) = comparison.sweep_figure()? {
+        files.push(("gains.svg", figure));
+    }
+    let files: Vec<(&str, &[u8])> =
+        files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    report::write_folder(out, &files)
+}
+
+/// The joints of figure 4 of Nguyen-Tuong & Peters 2010, 4 to 6, as far as there are so many.
+fn elbow_and_wrist(scenario: &TrackingScenario) -> Vec<usize> {
+    let joints = scenario.robot().joint_count();
+    if joints >= 6 { vec![3, 4, 5] } else { (0..joints.min(3)).collect() }
 }

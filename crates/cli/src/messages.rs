@@ -1,0 +1,18 @@
+use std::fmt::Display;
+use std::io::Write;
+
+use anstyle::AnsiColor;
+
+/// Prints a line on the standard error, its colours only where they are wanted.
+///
+/// A line that cannot be written, as on a full disk, is left out; the answer and the exit code do
+/// not depend on it.
+pub fn tell(what: &dyn Display) {
+    let _ = writeln!(anstream::stderr().lock(), "{what}");
+}
+
+/// Prints a warning on the standard error.
+pub fn warn(what: &dyn Display) {
+    let yellow = AnsiColor::Yellow.on_default();
+    tell(&format_args!("{yellow}warning:{yellow:#} {what}"));
+}
