@@ -11,7 +11,6 @@ const RINGED: [&str; 10] = [
     "cli",
     "dynamics",
     "effects",
-    "evaluation",
     "exchange",
     "inspection",
     "next_motion",

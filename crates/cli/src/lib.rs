@@ -5,7 +5,8 @@
 //! ```
 //!
 //! [`main`] is the program, whoever starts it. The rest is how files are read, how a diagnosis is
-//! written and recorded, and what `design` and `track` do, for whoever has them in memory.
+//! written and recorded, and what `design` and `track` do, for whoever has them in memory; and what
+//! `plumbline-bench` shares: the command line, the output folder, progress and errors.
 
 mod arguments;
 mod columns;
@@ -26,7 +27,7 @@ use clap::Parser;
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
     compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
-    replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
+    replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, view,
 };
 
 pub use crate::columns::{ColumnArguments, ExcerptArguments, LengthArguments};
@@ -35,10 +36,24 @@ pub use crate::commands::design::{
 };
 pub use crate::commands::diagnose::{recorded as record_diagnosis, write as write_diagnosis};
 pub use crate::commands::explain::find as find_effect;
+pub use crate::commands::learn::timing::{median_query_us, median_us};
+pub use crate::commands::run::Output as RunOutput;
+pub use crate::commands::run::run_folder::{
+    DiagnosedRuns, EXTENDED, RunFolder, diagnosis_files, log_file,
+};
+pub use crate::commands::schema::print_schema;
 pub use crate::commands::track::{Asked as AskedTracking, Tracked as TrackedMotion};
 pub use crate::doubts::doubts;
 pub use crate::error::CliError;
-pub use crate::input::{PartArguments, SearchArguments, hashes_of, provenance_of};
+pub use crate::input::{
+    PartArguments, SearchArguments, hash, hashes_of, provenance, provenance_of,
+};
+pub use crate::invocation::{
+    keep as keep_command_line, name as program_name, program as program_file,
+};
+pub use crate::output::{create_folder, print, print_error, print_json, shown};
+pub use crate::progress::Line;
+pub use crate::watch::Watch;
 
 /// How a command that ran to its end turned out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,7 +70,7 @@ enum Outcome {
 /// A command line that cannot be understood, or that asks for help, ends the process.
 pub fn main(command_line: Vec<OsString>) -> u8 {
     let arguments = Arguments::parse_from(&command_line);
-    invocation::keep(command_line);
+    invocation::keep("plumbline", command_line);
     match run(&arguments) {
         Ok(Outcome::Good) => 0,
         Ok(Outcome::Gap) => 1,
@@ -83,7 +98,6 @@ fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
         Command::Replay(arguments) => replay::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Track(arguments) => track::run(arguments),
-        Command::Trials(action) => trials::run(action),
         Command::View(arguments) => view::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
         Command::Completions(arguments) => completions::run(arguments),

@@ -2,7 +2,7 @@ use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-use anstyle::AnsiColor;
+use anstyle::{AnsiColor, Style};
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
@@ -64,6 +64,16 @@ pub fn tell(what: &dyn Display) {
 pub fn warn(what: &dyn Display) {
     let yellow = AnsiColor::Yellow.on_default();
     tell(&format_args!("{yellow}warning:{yellow:#} {what}"));
+}
+
+/// Prints an error, and advice where there is any, on the standard error.
+pub fn print_error(error: &dyn Display, help: Option<&str>) {
+    let red: Style = AnsiColor::Red.on_default().bold();
+    let cyan: Style = AnsiColor::Cyan.on_default().bold();
+    tell(&format_args!("{red}error:{red:#} {error}"));
+    if let Some(help) = help {
+        tell(&format_args!("{cyan}help:{cyan:#} {help}"));
+    }
 }
 
 /// The file as it was given, for messages and provenance.

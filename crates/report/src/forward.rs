@@ -1,4 +1,4 @@
-use evaluation::{Drift, ForwardGap, ForwardWindow};
+use experiment::{Drift, ForwardGap, ForwardWindow};
 
 use crate::numbers::significant;
 use crate::{Axis, Chart, Report, ReportError, Series, Shape};

@@ -9,8 +9,8 @@
 //! ReplayReport { runs, .. } of logs in simulation      -> json(), page()
 //! diagnosis::Comparison of two sets of logs            -> change_page()
 //! LearningFigureReport, PredictionTimeFigureReport     -> json(), page(), figures, text()
-//! evaluation::Merged { counts, tally, power } of trials -> trials_page()
-//! evaluation::MergedPanel { counts, tally } of trials   -> panel_page()
+//! benchmark::Merged { counts, tally, power } of trials -> trials_page()
+//! benchmark::MergedPanel { counts, tally } of trials   -> panel_page()
 //! ```
 //!
 //! None of them holds a date or a random number: the same input gives the same
@@ -103,7 +103,7 @@ pub struct Report<'a> {
     /// The model of what the findings leave, where one was learned.
     pub residual: Option<&'a ResidualModel>,
     /// How far simulations drift from the logs, where that was measured.
-    pub forward: Option<&'a evaluation::ForwardGap>,
+    pub forward: Option<&'a experiment::ForwardGap>,
     /// The extended robot in files of other programs, and what became of every quantity.
     pub descriptions: &'a [(exchange::Format, exchange::Export)],
     /// Where the answer comes from.

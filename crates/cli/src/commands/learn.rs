@@ -1,10 +1,7 @@
-pub(super) mod benchmark;
 mod compare;
 mod data;
-mod peers;
-mod regressor_kernel;
 mod row;
-mod timing;
+pub mod timing;
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -40,10 +37,10 @@ pub struct Arguments {
     #[command(flatten)]
     part: PartArguments,
     /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2) to learn from, one run each
-    #[arg(long, value_name = "LOG", num_args = 1.., required_unless_present = "benchmark")]
+    #[arg(long, value_name = "LOG", num_args = 1.., required = true)]
     train: Vec<PathBuf>,
     /// Files to measure the errors on, none of which is learned from
-    #[arg(long, value_name = "LOG", num_args = 1.., required_unless_present = "benchmark")]
+    #[arg(long, value_name = "LOG", num_args = 1.., required = true)]
     test: Vec<PathBuf>,
     /// Files for the parameters of the rigid bodies; those of --train when left out
     #[arg(long, value_name = "LOG", num_args = 1..)]
@@ -81,13 +78,9 @@ pub struct Arguments {
     names: ColumnArguments,
     #[command(flatten)]
     length: LengthArguments,
-    /// Time one prediction against the number of points instead of learning
-    #[arg(long, conflicts_with_all = ["train", "test", "regression", "named"])]
-    benchmark: bool,
-    /// Folder for report.html, learning.json, figure.svg and the models; of the benchmark, for
-    /// prediction_times.json and figure1.svg
-    #[arg(long, value_name = "DIR", required_unless_present = "benchmark")]
-    out: Option<PathBuf>,
+    /// Folder for report.html, learning.json, figure.svg and the models
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
     /// Print the JSON instead of the table
     #[arg(long)]
     json: bool,
@@ -113,16 +106,13 @@ fn prior(text: &str) -> Result<PriorSpread, String> {
     }
 }
 
-/// Learns models and compares them on the logs of `--test`, or times them.
+/// Learns models and compares them on the logs of `--test`.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
-    if let Some(out) = arguments.out.as_deref().filter(|out| out.exists() && !out.is_dir()) {
-        return Err(ReportError::NotAFolder { path: out.to_owned() }.into());
+    let out = &arguments.out;
+    if out.exists() && !out.is_dir() {
+        return Err(ReportError::NotAFolder { path: out.clone() }.into());
     }
     let loaded = arguments.part.load(&arguments.robot)?;
     let watch = Watch::new((!arguments.quiet).then(Line::new))?;
-    if arguments.benchmark {
-        benchmark::run(arguments, &loaded, &watch)
-    } else {
-        compare::run(arguments, &loaded, &watch)
-    }
+    compare::run(arguments, &loaded, &watch)
 }

@@ -1,14 +1,14 @@
-mod bench;
-mod learning_figure;
-mod prediction_time_figure;
+pub mod run_folder;
 mod stages;
 
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use document::Document;
-use evaluation::{Experiment, FigureScenario, FigureSpec};
+use experiment::Experiment;
 use report::{Provenance, RunReport};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use crate::Outcome;
 use crate::error::CliError;
@@ -45,7 +45,7 @@ pub struct Output {
     json: bool,
     /// Print nothing but errors, and the JSON if it is asked for
     #[arg(long)]
-    quiet: bool,
+    pub quiet: bool,
 }
 
 impl Output {
@@ -57,7 +57,11 @@ impl Output {
     }
 
     /// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
-    fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Output`].
+    pub fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
         if self.json {
             print(json)?;
         }
@@ -70,8 +74,13 @@ impl Output {
     }
 }
 
-/// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains, or
-/// draws the figure that it asks for.
+/// What tells the scenario of a figure from others.
+#[derive(Deserialize)]
+struct Kind {
+    figure: Option<IgnoredAny>,
+}
+
+/// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains.
 pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     let mut document = Document::read(&arguments.scenario)?;
     for assignment in &arguments.set {
@@ -79,14 +88,8 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, CliError> {
     }
     let stem = arguments.scenario.file_stem().unwrap_or_default();
     let out = arguments.output.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
-    if FigureScenario::is_meant(&document)? {
-        let scenario: FigureScenario = document.parse()?;
-        return match scenario.figure {
-            FigureSpec::PredictionTime(_) => {
-                prediction_time_figure::run(arguments, &document, &out)
-            }
-            FigureSpec::Learning(_) => learning_figure::run(arguments, &document, &out),
-        };
+    if document.parse::<Kind>()?.figure.is_some() {
+        return Err(CliError::Figure { path: arguments.scenario.clone() });
     }
     let experiment = Experiment::from_document(&document, arguments.seed)?;
     perform(&experiment, &arguments.scenario, &out, &arguments.output)

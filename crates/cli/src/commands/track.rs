@@ -3,7 +3,7 @@ mod tracked;
 
 use std::path::{Path, PathBuf};
 
-use evaluation::{FeedforwardKind, TrackedRun, TrackingScenario};
+use experiment::{FeedforwardKind, TrackedRun, TrackingScenario};
 use report::{ReportError, TrackingComparison};
 
 use crate::Outcome;

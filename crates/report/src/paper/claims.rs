@@ -1,6 +1,6 @@
 use std::ops::RangeInclusive;
 
-use evaluation::{Claim, ClaimCase, Verdict};
+use experiment::{Claim, ClaimCase, Verdict};
 
 use crate::grid::DIGITS;
 use crate::numbers::significant;
@@ -131,7 +131,7 @@ pub(crate) fn claim_text(claims: &[Claim], quantity: Quantity) -> String {
 
 #[cfg(test)]
 mod tests {
-    use evaluation::Scope;
+    use experiment::Scope;
 
     use super::*;
     use crate::terminal::without_escapes;

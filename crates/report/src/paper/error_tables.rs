@@ -1,4 +1,4 @@
-use evaluation::{LearningErrors, ModelErrors};
+use benchmark::{LearningErrors, ModelErrors};
 
 use crate::ReportError;
 use crate::dots::{Dots, JointDots};

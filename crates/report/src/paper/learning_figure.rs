@@ -1,4 +1,5 @@
-use evaluation::{Claim, LearningErrors};
+use benchmark::LearningErrors;
+use experiment::Claim;
 use serde::Serialize;
 
 use super::claims::{Quantity, claim_text, claims_sentence};

@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::Claim;
+use experiment::Claim;
 
 use super::claims::{ClaimRow, Quantity, claim_rows, claims_sentence};
 use crate::grid::Column;

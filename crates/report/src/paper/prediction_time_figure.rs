@@ -1,4 +1,5 @@
-use evaluation::{Claim, ModelTime};
+use benchmark::ModelTime;
+use experiment::Claim;
 use serde::Serialize;
 
 use super::claims::{Quantity, claim_text, claims_sentence};
@@ -99,7 +100,8 @@ impl PredictionTimes {
 
 #[cfg(test)]
 mod tests {
-    use evaluation::{Verdict, time_claims};
+    use benchmark::time_claims;
+    use experiment::Verdict;
 
     use super::*;
     use crate::learning::sample;

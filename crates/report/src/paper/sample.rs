@@ -1,6 +1,7 @@
 //! Small results made by hand, for the tests of this module.
 
-use evaluation::{Claim, ClaimCase, LearningErrors, ModelErrors, Scope};
+use benchmark::{LearningErrors, ModelErrors};
+use experiment::{Claim, ClaimCase, Scope};
 
 use super::LearningFigureReport;
 use crate::Provenance;

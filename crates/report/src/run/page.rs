@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::ForwardWindow;
+use experiment::ForwardWindow;
 
 use super::RunReport;
 use super::charts::GainChart;

@@ -1,4 +1,4 @@
-use evaluation::{ForwardWindow, Gain, Metrics};
+use experiment::{ForwardWindow, Gain, Metrics};
 
 use crate::forward::drifts;
 use crate::numbers::significant;

@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::{Confusion, Group};
+use benchmark::{Confusion, Group};
 
 use crate::ReportError;
 use crate::chart::Ink;

@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::{PanelRow, PanelTally, Rate, Share};
+use benchmark::{PanelRow, PanelTally, Rate, Share};
 
 use crate::ReportError;
 use crate::chart::Ink;

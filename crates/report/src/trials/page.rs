@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::{Failure, Group, KindCount, Merged};
+use benchmark::{Failure, Group, KindCount, Merged};
 
 use super::confusion_figure::confusion_figure;
 use super::table::table;
@@ -81,8 +81,8 @@ fn sentence(merged: &Merged) -> String {
 
 #[cfg(test)]
 mod tests {
+    use benchmark::{Gained, Lessened, MERGED_SCHEMA, Power, Row, Share, SizeClass, Tally};
     use catalogue::EffectKind::{Backlash, CoulombFriction};
-    use evaluation::{Gained, Lessened, MERGED_SCHEMA, Power, Row, Share, SizeClass, Tally};
 
     use super::*;
 

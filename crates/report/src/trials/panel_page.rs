@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::{Failure, KindCount, MergedPanel};
+use benchmark::{Failure, KindCount, MergedPanel};
 
 use super::corner_figure::corner_figure;
 use super::table::table;
@@ -85,7 +85,7 @@ fn sentence(merged: &MergedPanel) -> String {
 
 #[cfg(test)]
 mod tests {
-    use evaluation::{PANEL_SCHEMA, PanelTally};
+    use benchmark::{PANEL_SCHEMA, PanelTally};
 
     use super::*;
 

@@ -1,4 +1,4 @@
-use evaluation::TextTable;
+use benchmark::TextTable;
 
 use crate::ReportError;
 use crate::grid::Cell;

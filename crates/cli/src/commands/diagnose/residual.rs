@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use diagnosis::{Outcome, Verdict};
-use evaluation::{Residual, learn_residual};
+use experiment::{Residual, learn_residual};
 use learner::Model;
 use report::{LengthScale, ResidualJoint, ResidualModel};
 use robot::Robot;
@@ -45,11 +45,11 @@ fn said(outcome: &Outcome, learned: &Residual) -> ResidualModel {
     }
 }
 
-fn said_of(joint: &diagnosis::JointReport, learned: &evaluation::ResidualJoint) -> ResidualJoint {
+fn said_of(joint: &diagnosis::JointReport, learned: &experiment::ResidualJoint) -> ResidualJoint {
     // Where everything has a name, nothing is to be said of what it bends with.
     let is_left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
     let scales = learned.relevance.iter().filter(|_| is_left);
-    let scale = |r: &evaluation::Relevance| LengthScale {
+    let scale = |r: &experiment::Relevance| LengthScale {
         signal: r.signal.clone(),
         share_of_range: r.share_of_range,
     };
