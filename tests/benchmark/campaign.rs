@@ -4,7 +4,8 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use benchmark::{
-    Campaign, CampaignFolder, Crew, Hidden, Part, Record, TrialLogs, WorkProgress, finished, work,
+    Campaign, CampaignFolder, Hidden, Part, Record, TrialLogs, WorkProgress, Workers,
+    read_finished, work,
 };
 use catalogue::EffectKind::CoulombFriction;
 use document::Document;
@@ -59,12 +60,12 @@ struct OnlyOne(Mutex<Vec<usize>>);
 impl WorkProgress for OnlyOne {
     fn begin(&self, _: usize) {}
 
-    fn made(&self, record: &Record, took: Duration) {
+    fn finish_trial(&self, record: &Record, took: Duration) {
         assert!(took > Duration::ZERO);
         self.0.lock().unwrap().push(record.task);
     }
 
-    fn remade(&self, _: &Path, _: &str) {}
+    fn report_remade(&self, _: &Path, _: &str) {}
 
     fn is_stopped(&self) -> bool {
         !self.0.lock().unwrap().is_empty()
@@ -112,12 +113,12 @@ fn planned(root: &Path) -> CampaignFolder {
 fn work_that_is_stopped_ends_after_the_trial_and_keeps_logs_where_they_are_wanted() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
-    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Kept, store: None };
+    let workers = Workers { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Kept, store: None };
     let progress = OnlyOne::default();
-    work(&folder, &crew, &progress).unwrap();
+    work(&folder, &workers, &progress).unwrap();
     assert_eq!(*progress.0.lock().unwrap(), [0]);
-    assert_eq!(folder.left(Part::WHOLE).unwrap(), [1]);
-    let record = folder.made().unwrap().records.remove(&0).unwrap();
+    assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [1]);
+    let record = folder.manifest().unwrap().records.remove(&0).unwrap();
     assert_eq!((record.hidden, record.seed), folder.campaign().task(0));
     let score = record.scored().unwrap();
     assert!(score.exactly && score.seed == record.seed, "{}", score.words());
@@ -133,13 +134,13 @@ fn a_trial_that_another_process_makes_is_left_to_it() {
     fs::create_dir(root.path().join("work")).unwrap();
     let held = fs::File::create(root.path().join("work/00000.lock")).unwrap();
     held.lock().unwrap();
-    let crew =
-        Crew { jobs: 1, part: "1/2".parse().unwrap(), logs: TrialLogs::Removed, store: None };
-    work(&folder, &crew, &OnlyOne::default()).unwrap();
-    assert_eq!(folder.left(Part::WHOLE).unwrap(), [0, 1]);
+    let workers =
+        Workers { jobs: 1, part: "1/2".parse().unwrap(), logs: TrialLogs::Removed, store: None };
+    work(&folder, &workers, &OnlyOne::default()).unwrap();
+    assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [0, 1]);
     drop(held);
-    work(&folder, &crew, &OnlyOne::default()).unwrap();
-    assert_eq!(folder.left(Part::WHOLE).unwrap(), [1]);
+    work(&folder, &workers, &OnlyOne::default()).unwrap();
+    assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [1]);
     assert_eq!(fs::read_dir(root.path().join("work")).unwrap().count(), 0);
 }
 
@@ -149,12 +150,12 @@ struct Unlocking<'a>(&'a Path);
 impl WorkProgress for Unlocking<'_> {
     fn begin(&self, _: usize) {}
 
-    fn made(&self, record: &Record, _: Duration) {
+    fn finish_trial(&self, record: &Record, _: Duration) {
         let lock = self.0.join(format!("work/{:05}.lock", record.task));
         fs::remove_file(lock).unwrap();
     }
 
-    fn remade(&self, _: &Path, _: &str) {}
+    fn report_remade(&self, _: &Path, _: &str) {}
 
     fn is_stopped(&self) -> bool {
         false
@@ -165,9 +166,9 @@ impl WorkProgress for Unlocking<'_> {
 fn a_lock_whose_file_is_gone_is_no_reason_to_end_the_work() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
-    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store: None };
-    work(&folder, &crew, &Unlocking(root.path())).unwrap();
-    assert_eq!(folder.left(Part::WHOLE).unwrap(), [0; 0]);
+    let workers = Workers { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store: None };
+    work(&folder, &workers, &Unlocking(root.path())).unwrap();
+    assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [0; 0]);
 }
 
 /// Scenarios have their logs kept by other means, and an option that does nothing is none.
@@ -176,10 +177,10 @@ fn a_store_is_for_populations_alone() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
     let store = Some(root.path().join("store"));
-    let crew = Crew { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store };
-    let refused = work(&folder, &crew, &OnlyOne::default()).unwrap_err().to_string();
+    let workers = Workers { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store };
+    let refused = work(&folder, &workers, &OnlyOne::default()).unwrap_err().to_string();
     assert!(refused.contains("a store holds logs of populations"), "{refused}");
-    assert_eq!(folder.left(Part::WHOLE).unwrap(), [0, 1]);
+    assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [0, 1]);
     assert!(!root.path().join("store").exists());
 }
 
@@ -199,7 +200,7 @@ fn a_population_is_planned_and_its_folder_refuses_trials_of_another_kind() {
     assert!(!root.path().join("scenario.toml").exists());
     let again = CampaignFolder::open(root.path()).unwrap();
     assert_eq!(again.hash(), folder.hash());
-    assert_eq!(again.left(Part::WHOLE).unwrap(), [0, 1, 2]);
+    assert_eq!(again.remaining(Part::WHOLE).unwrap(), [0, 1, 2]);
     for other in ["seed = 6", "seed = 5\nstrangers = 0.5", "seed = 5\ncauses = [0, 1]"] {
         assert_ne!(population(other).hash(), folder.hash());
     }
@@ -213,11 +214,11 @@ fn a_population_is_planned_and_its_folder_refuses_trials_of_another_kind() {
     };
     let table = root.path().join("scenario.parquet");
     Record::write(&table, std::slice::from_ref(&shard)).unwrap();
-    let refused = finished(folder.campaign(), &table).unwrap_err().to_string();
+    let refused = read_finished(folder.campaign(), &table).unwrap_err().to_string();
     assert!(refused.contains("its trials are of another campaign"), "{refused}");
     fs::create_dir_all(root.path().join("shards")).unwrap();
     Record::write(&folder.shard(0), &[shard]).unwrap();
-    assert_eq!(folder.made().unwrap().broken[0].reason, "it is of another campaign");
+    assert_eq!(folder.manifest().unwrap().broken[0].reason, "it is of another campaign");
     let refused = CampaignFolder::plan(root.path(), population("seed = 5")).unwrap_err();
     assert!(refused.to_string().contains("an empty folder was expected"), "{refused}");
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use benchmark::{
-    Campaign, CampaignFolder, Crew, Judgement, PanelTally, Part, Record, TrialLogs, WorkProgress,
-    work,
+    Campaign, CampaignFolder, Judgement, PanelTally, Part, Record, TrialLogs, WorkProgress,
+    Workers, work,
 };
 use checks::arms::workspace_root;
 use document::Document;
@@ -16,8 +16,8 @@ struct Quiet;
 
 impl WorkProgress for Quiet {
     fn begin(&self, _: usize) {}
-    fn made(&self, _: &Record, _: Duration) {}
-    fn remade(&self, _: &Path, _: &str) {}
+    fn finish_trial(&self, _: &Record, _: Duration) {}
+    fn report_remade(&self, _: &Path, _: &str) {}
     fn is_stopped(&self) -> bool {
         false
     }
@@ -37,10 +37,10 @@ fn the_small_panel_is_judged_as_well_as_today() {
     let folder = tempfile::tempdir().unwrap();
     let campaign = Campaign::from_document(&document).unwrap();
     let folder = CampaignFolder::plan(&folder.path().join("panel"), campaign).unwrap();
-    let crew = Crew { jobs: 2, part: Part::WHOLE, logs: TrialLogs::Removed, store: None };
-    work(&folder, &crew, &Quiet).unwrap();
+    let workers = Workers { jobs: 2, part: Part::WHOLE, logs: TrialLogs::Removed, store: None };
+    work(&folder, &workers, &Quiet).unwrap();
 
-    let records = folder.made().unwrap().records;
+    let records = folder.manifest().unwrap().records;
     assert_eq!(records.len(), 40);
     let failed: Vec<_> =
         records.values().filter_map(|record| record.score.as_ref().err()).collect();

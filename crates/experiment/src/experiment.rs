@@ -55,11 +55,11 @@ impl Experiment {
     /// for, and [`ExperimentError::NoGains`].
     pub fn from_document(document: &Document, seed: Option<u64>) -> Result<Self, ExperimentError> {
         if document.parse::<Kind>()?.plant.is_none() {
-            return Self::of_arm(&seeded(document.clone(), seed)?);
+            return Self::of_arm(&with_seed(document.clone(), seed)?);
         }
         let (plant, file) = plant_of(document)?;
-        let plant = Scenario::from_document(&seeded(plant, seed)?)?;
-        let document = &compared(document)?;
+        let plant = Scenario::from_document(&with_seed(plant, seed)?)?;
+        let document = &add_compared(document)?;
         let scenario = TrackingScenario::new(document, plant, file)?;
         let resolved = with_plant(document, scenario.spec(), PathBuf::from(PLANT));
         let experiment = Self { scenario, resolved, chooses_gains: false };
@@ -191,7 +191,7 @@ impl Experiment {
 }
 
 /// A tracking scenario that feeds forward [`COMPARED`] before what else it does.
-fn compared(document: &Document) -> Result<Document, ExperimentError> {
+fn add_compared(document: &Document) -> Result<Document, ExperimentError> {
     let spec: TrackingSpec = document.parse()?;
     let others = spec.feedforward.iter().filter(|kind| !COMPARED.contains(kind));
     let names: Vec<String> =
@@ -217,7 +217,7 @@ struct Kind {
 /// # Errors
 ///
 /// [`ExperimentError::Document`] when the document cannot take it.
-pub fn seeded(mut document: Document, seed: Option<u64>) -> Result<Document, ExperimentError> {
+pub fn with_seed(mut document: Document, seed: Option<u64>) -> Result<Document, ExperimentError> {
     if let Some(seed) = seed {
         document.set(&format!("seed={seed}"))?;
     }

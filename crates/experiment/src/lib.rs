@@ -34,7 +34,7 @@ pub use claims::claim::{Claim, ClaimCase, Scope, Verdict};
 pub use claims::paper_models::{PAPER_MODELS, PROCESSES, SEMIPARAMETRIC};
 pub use claims::tracking_claims::tracking_claims;
 pub use error::ExperimentError;
-pub use experiment::{Experiment, seeded};
+pub use experiment::{Experiment, with_seed};
 pub use gain::{Gain, Gains};
 pub use metrics::Metrics;
 pub use models::learned::{Learned, Lesson};

@@ -74,7 +74,7 @@ impl Inputs {
     ///
     /// [`ExperimentError::Stage`].
     pub fn and_file(self, path: &Path) -> Result<Self, ExperimentError> {
-        Ok(self.and(&std::fs::read(path).map_err(refused(path))?))
+        Ok(self.and(&std::fs::read(path).map_err(stage_error(path))?))
     }
 
     fn hash(self) -> String {
@@ -105,7 +105,7 @@ impl Stage {
         E: From<ExperimentError>,
     {
         let inputs = inputs.hash();
-        if let Some(Stored { files, value, .. }) = self.stored(&inputs) {
+        if let Some(Stored { files, value, .. }) = self.read_stored(&inputs) {
             return Ok(Staged { value, files, is_kept: true });
         }
         self.begin()?;
@@ -124,7 +124,7 @@ impl Stage {
     }
 
     /// What was made before from these inputs, where nothing of it is missing or changed.
-    fn stored<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
+    fn read_stored<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
         let text = std::fs::read_to_string(&self.file).ok()?;
         let stored: Stored<T> = serde_json::from_str(&text).ok()?;
         let is_whole = |(file, hash): (&PathBuf, &String)| {
@@ -136,18 +136,18 @@ impl Stage {
     /// Takes away what says that it was made.
     fn begin(&self) -> Result<(), ExperimentError> {
         if let Some(folder) = self.file.parent() {
-            std::fs::create_dir_all(folder).map_err(refused(folder))?;
+            std::fs::create_dir_all(folder).map_err(stage_error(folder))?;
         }
         match std::fs::remove_file(&self.file) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                Err(refused(&self.file)(error))
+                Err(stage_error(&self.file)(error))
             }
             _ => Ok(()),
         }
     }
 }
 
-fn refused(path: &Path) -> impl Fn(std::io::Error) -> ExperimentError {
+fn stage_error(path: &Path) -> impl Fn(std::io::Error) -> ExperimentError {
     |error| ExperimentError::Stage { path: path.to_owned(), reason: error.to_string() }
 }
 
@@ -158,10 +158,10 @@ fn refused(path: &Path) -> impl Fn(std::io::Error) -> ExperimentError {
 /// [`ExperimentError::Stage`].
 pub fn sha256(path: &Path) -> Result<String, ExperimentError> {
     let mut hasher = Sha256::new();
-    let mut file = std::fs::File::open(path).map_err(refused(path))?;
+    let mut file = std::fs::File::open(path).map_err(stage_error(path))?;
     let mut buffer = vec![0; 1 << 16];
     loop {
-        match std::io::Read::read(&mut file, &mut buffer).map_err(refused(path))? {
+        match std::io::Read::read(&mut file, &mut buffer).map_err(stage_error(path))? {
             0 => return Ok(hexadecimal(hasher)),
             read => hasher.update(&buffer[..read]),
         }

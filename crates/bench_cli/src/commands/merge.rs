@@ -12,7 +12,7 @@ use crate::exit_status::ExitStatus;
 pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
     let root = arguments.folder.as_path();
     let folder = CampaignFolder::open(root)?;
-    let made = folder.made()?;
+    let made = folder.manifest()?;
     let doubts = missing(&made, &KindCount::all(&folder, &made));
     let provenance = provenance(&folder)?;
     let (text, json, page) = match folder.campaign() {

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use benchmark::{KindCount, Made};
+use benchmark::{KindCount, Manifest};
 use cli::shown;
 
 /// Arguments of `status` and `merge`.
@@ -12,7 +12,7 @@ pub struct Folder {
 }
 
 /// What is missing, in sentences.
-pub fn missing(made: &Made, counts: &[KindCount]) -> Vec<String> {
+pub fn missing(made: &Manifest, counts: &[KindCount]) -> Vec<String> {
     let broken = made
         .broken
         .iter()

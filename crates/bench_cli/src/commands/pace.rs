@@ -9,7 +9,7 @@ pub struct Pace {
 
 impl Pace {
     /// One more is made.
-    pub fn made(&mut self, took: Duration) {
+    pub fn add(&mut self, took: Duration) {
         self.made += 1;
         self.took += took;
     }
@@ -45,9 +45,9 @@ mod tests {
     fn what_is_left_takes_as_long_as_what_is_made() {
         let mut pace = Pace::default();
         assert_eq!(pace.left(10, 2), None);
-        pace.made(Duration::from_secs(10));
+        pace.add(Duration::from_secs(10));
         assert_eq!((pace.left(10, 2), pace.left(10, 1)), (None, Some(Duration::from_secs(100))));
-        pace.made(Duration::from_secs(20));
+        pace.add(Duration::from_secs(20));
         assert_eq!(pace.left(10, 2), Some(Duration::from_secs(75)));
         assert_eq!(pace.left(1, 2), Some(Duration::from_secs(15)));
         assert_eq!(pace.left(0, 2), Some(Duration::ZERO));

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use benchmark::{Campaign, CampaignFolder, Record, finished};
+use benchmark::{Campaign, CampaignFolder, Record, read_finished};
 use cli::{create_folder, print, shown};
 use document::Document;
 
@@ -29,8 +29,9 @@ pub struct Arguments {
 /// Plans a campaign and takes over the trials that are made already.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
     let campaign = Campaign::from_document(&Document::read(&arguments.campaign)?)?;
-    let read =
-        |table: &PathBuf| -> Result<Vec<Record>, BenchError> { Ok(finished(&campaign, table)?) };
+    let read = |table: &PathBuf| -> Result<Vec<Record>, BenchError> {
+        Ok(read_finished(&campaign, table)?)
+    };
     let made: Result<Vec<_>, BenchError> = arguments.made.iter().map(read).collect();
     let made = made?.concat();
     create_folder(&arguments.out)?;

@@ -8,7 +8,7 @@ use crate::exit_status::ExitStatus;
 /// Prints how many trials are made, failed, broken and left.
 pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
     let folder = CampaignFolder::open(&arguments.folder)?;
-    let made = folder.made()?;
+    let made = folder.manifest()?;
     let counts = KindCount::all(&folder, &made);
     print(&KindCount::table(&counts).text(1))?;
     let doubts = missing(&made, &counts);

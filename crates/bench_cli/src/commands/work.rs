@@ -2,7 +2,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 
-use benchmark::{CampaignFolder, Crew, Part, TrialLogs, work};
+use benchmark::{CampaignFolder, Part, TrialLogs, Workers, work};
 use cli::{Line, print};
 
 use crate::commands::work_line::WorkLine;
@@ -35,10 +35,10 @@ pub struct Arguments {
 
 impl Arguments {
     /// Who makes which trials.
-    fn workers(&self) -> Crew {
+    fn workers(&self) -> Workers {
         let jobs = self.jobs.or(available_parallelism().ok()).map_or(1, NonZeroUsize::get);
         let logs = if self.keep { TrialLogs::Kept } else { TrialLogs::Removed };
-        Crew { jobs, part: self.part, logs, store: self.store.clone() }
+        Workers { jobs, part: self.part, logs, store: self.store.clone() }
     }
 }
 
@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
     let worked = work(&folder, &workers, &line);
     line.finish();
     worked?;
-    let left = folder.left(workers.part)?.len();
+    let left = folder.remaining(workers.part)?.len();
     if !arguments.quiet {
         print(&format!("{}\n", line.summary(left)))?;
     }

@@ -77,15 +77,15 @@ impl WorkProgress for WorkLine {
         self.say(&count);
     }
 
-    fn made(&self, record: &Record, took: Duration) {
+    fn finish_trial(&self, record: &Record, took: Duration) {
         let mut count = self.count();
         count.made += 1;
         count.failed += usize::from(record.score.is_err());
-        count.pace.made(took);
+        count.pace.add(took);
         self.say(&count);
     }
 
-    fn remade(&self, entry: &Path, reason: &str) {
+    fn report_remade(&self, entry: &Path, reason: &str) {
         self.count().remade.push(format!("{}: it was made again, {reason}", shown(entry)));
     }
 

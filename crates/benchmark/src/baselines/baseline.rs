@@ -2,10 +2,10 @@ use diagnosis::EffectAt;
 use logs::{PrepareSettings, PreparedJoint, PreparedRun, Run};
 use robot::Robot;
 
-use crate::baselines::prepared::prepared;
+use crate::baselines::prepare_runs::prepare_runs;
+use crate::baselines::run_columns::RunColumns;
 use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
-use crate::baselines::sight::Sight;
 use crate::error::BenchmarkError;
 use experiment::{Band, TurningError};
 
@@ -56,14 +56,14 @@ impl Baseline {
     ///
     /// When the robot is not the one that it was made for, or the run is another robot's.
     pub fn predict(&self, robot: &Robot, run: &PreparedRun) -> Vec<Vec<f64>> {
-        let sight = Sight::new(robot, &self.scales, run, 1);
+        let run_columns = RunColumns::new(robot, &self.scales, run, 1);
         let shapes: Vec<Vec<Shape>> =
             self.weights.iter().map(|w| w.iter().map(|w| w.shape).collect()).collect();
         let mut efforts = match self.nominal {
-            Nominal::Kept => sight.nominal.clone(),
-            Nominal::Replaced => vec![vec![0.0; sight.samples()]; robot.joint_count()],
+            Nominal::Kept => run_columns.nominal.clone(),
+            Nominal::Replaced => vec![vec![0.0; run_columns.samples()]; robot.joint_count()],
         };
-        let columns = sight.columns(&shapes);
+        let columns = run_columns.columns(&shapes);
         for ((effort, weights), columns) in efforts.iter_mut().zip(&self.weights).zip(columns) {
             for (Weighted { weight, .. }, column) in weights.iter().zip(columns) {
                 effort.iter_mut().zip(column).for_each(|(effort, x)| *effort += weight * x);
@@ -93,7 +93,7 @@ impl Baseline {
         control_rate_hz: Option<f64>,
         runs: &[Run],
     ) -> Result<Vec<Option<f64>>, BenchmarkError> {
-        let test = prepared(robot, control_rate_hz, runs, &PrepareSettings::default())?;
+        let test = prepare_runs(robot, control_rate_hz, runs, &PrepareSettings::default())?;
         let mut errors = TurningError::new(robot.joint_count());
         for run in &test.runs {
             let band = Band::new(test.cutoff_hz, run.rate_hz)?;

@@ -1,6 +1,6 @@
 use crate::baselines::candidate::Candidate;
+use crate::baselines::dataset::{Dataset, Joint};
 use crate::baselines::fit::{fit, square_left};
-use crate::baselines::gathered::{Gathered, Joint};
 use crate::baselines::memory::memory;
 
 /// Error that a nearly noiseless log is taken to have, as a share of the torque.
@@ -39,17 +39,17 @@ pub(super) struct Change {
 
 /// The joints of some logs and what is asked of them.
 pub(super) struct Contest<'a> {
-    gathered: &'a Gathered,
+    dataset: &'a Dataset,
 }
 
 impl<'a> Contest<'a> {
-    /// A contest over the columns that were gathered.
-    pub fn new(gathered: &'a Gathered) -> Self {
-        Self { gathered }
+    /// A contest over the columns that were dataset.
+    pub fn new(dataset: &'a Dataset) -> Self {
+        Self { dataset }
     }
 
     fn joint(&self, j: usize) -> &'a Joint {
-        &self.gathered.joints[j]
+        &self.dataset.joints[j]
     }
 
     /// Where the columns of a part are.
@@ -72,7 +72,7 @@ impl<'a> Contest<'a> {
         Standing {
             rank: fitted.rank,
             mean: self.mean(j, fitted.square),
-            memory: memory(&left, &self.gathered.runs),
+            memory: memory(&left, &self.dataset.runs),
             held_out: self.held_out(j, &columns),
             columns,
         }
@@ -109,7 +109,7 @@ impl<'a> Contest<'a> {
     }
 
     /// The first question: does the log prefer the effort with the candidate's columns?
-    pub fn asked(&self, candidate: &Candidate, part: usize, standing: &Standing) -> Change {
+    pub fn ask(&self, candidate: &Candidate, part: usize, standing: &Standing) -> Change {
         let of = &candidate.parts[part];
         let (j, places) = (of.0, self.places(of));
         let joint = self.joint(j);
@@ -127,14 +127,14 @@ impl<'a> Contest<'a> {
         // With every sample for itself it is at its largest: most candidates end here.
         let at_most = self.evidence(j, 1.0, means, 0.0);
         let memory = match possible && at_most > 1.0 {
-            true => memory(&joint.left(&columns, &fitted.weights), &self.gathered.runs),
+            true => memory(&joint.left(&columns, &fitted.weights), &self.dataset.runs),
             false => 1.0,
         };
         Change { evidence: self.evidence(j, memory, means, more), possible, ..nothing }
     }
 
     /// The second question: do the names predict samples that took no part better with it?
-    pub fn predicted(&self, candidate: &Candidate, part: usize, standing: &Standing) -> Change {
+    pub fn predict(&self, candidate: &Candidate, part: usize, standing: &Standing) -> Change {
         let of = &candidate.parts[part];
         let (j, joint) = (of.0, self.joint(of.0));
         let columns = Self::union(&standing.columns, &self.places(of));

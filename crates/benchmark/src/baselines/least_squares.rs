@@ -6,10 +6,10 @@ use logs::{PrepareSettings, Run};
 use robot::Robot;
 
 use crate::baselines::baseline::{Baseline, Nominal, Weighted};
+use crate::baselines::dataset::{Dataset, Joint, Target};
 use crate::baselines::fit::{fit, square_left};
-use crate::baselines::gathered::{Gathered, Joint, Target};
 use crate::baselines::memory::memory;
-use crate::baselines::prepared::prepared;
+use crate::baselines::prepare_runs::prepare_runs;
 use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
 use crate::error::BenchmarkError;
@@ -47,16 +47,16 @@ pub fn least_squares(
     control_rate_hz: Option<f64>,
     runs: &[Run],
 ) -> Result<Baseline, BenchmarkError> {
-    let logs = prepared(robot, control_rate_hz, runs, &PrepareSettings::default())?;
+    let logs = prepare_runs(robot, control_rate_hz, runs, &PrepareSettings::default())?;
     let scales = Scales::of(robot, &logs);
     let base = base_parameters(robot, ColumnSet::ALL);
     let columns: Vec<Column> = base.independent.iter().map(|&c| base.columns[c]).collect();
     let columns: Vec<Column> = columns.into_iter().filter(|c| shows(c, &scales)).collect();
     let at_joint = |j: usize| columns.iter().filter_map(|c| shape(robot, j, c)).collect();
     let shapes = (0..robot.joint_count()).map(at_joint).collect();
-    let gathered = Gathered::of((robot, &scales), &logs, shapes, Target::Effort)?;
-    let mut fit = Fitted { robot, gathered, columns, deviations: Vec::new(), parameters: vec![] };
-    fit.deviations = fit.gathered.joints.iter().map(|j| j.torque_rms).collect();
+    let dataset = Dataset::of((robot, &scales), &logs, shapes, Target::Effort)?;
+    let mut fit = Fitted { robot, dataset, columns, deviations: Vec::new(), parameters: vec![] };
+    fit.deviations = fit.dataset.joints.iter().map(|j| j.torque_rms).collect();
     fit.solve();
     fit.deviations = (0..robot.joint_count()).map(|j| fit.left_rms(j)).collect();
     fit.solve();
@@ -91,7 +91,7 @@ fn shape(robot: &Robot, j: usize, column: &Column) -> Option<Shape> {
 
 struct Fitted<'a> {
     robot: &'a Robot,
-    gathered: Gathered,
+    dataset: Dataset,
     columns: Vec<Column>,
     /// What a joint's rows are divided by.
     deviations: Vec<f64>,
@@ -110,7 +110,7 @@ impl Fitted<'_> {
     fn sums(&self) -> Mat<f64> {
         let width = self.columns.len();
         let mut sums = Mat::zeros(width + 1, width + 1);
-        for (j, joint) in self.gathered.joints.iter().enumerate() {
+        for (j, joint) in self.dataset.joints.iter().enumerate() {
             let mut places = self.places(j);
             places.push(width);
             let scale = |i: usize| joint.scales.get(i).copied().unwrap_or(1.0);
@@ -132,13 +132,13 @@ impl Fitted<'_> {
 
     /// Parameters in the units of the joint's scaled columns.
     fn scaled(&self, j: usize) -> Vec<f64> {
-        let scales = &self.gathered.joints[j].scales;
+        let scales = &self.dataset.joints[j].scales;
         self.places(j).iter().zip(scales).map(|(&at, scale)| self.parameters[at] * scale).collect()
     }
 
     /// RMS of what is left at joint `j`, with the floor.
     fn left_rms(&self, j: usize) -> f64 {
-        let joint = &self.gathered.joints[j];
+        let joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
         let square = square_left(&joint.total, &own, &self.scaled(j), joint.target());
         let mean = square / joint.samples.max(1) as f64;
@@ -146,28 +146,28 @@ impl Fitted<'_> {
     }
 
     fn weights(&self, j: usize) -> Vec<Weighted> {
-        let shapes = self.gathered.joints[j].shapes.iter().zip(self.places(j));
+        let shapes = self.dataset.joints[j].shapes.iter().zip(self.places(j));
         let weighted = |(&shape, at)| Weighted { shape, weight: self.parameters[at] };
         shapes.map(weighted).collect()
     }
 
     /// Samples at joint `j` that tell as much as one.
     fn memory(&self, j: usize) -> f64 {
-        let joint: &Joint = &self.gathered.joints[j];
+        let joint: &Joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
-        memory(&joint.left(&own, &self.scaled(j)), &self.gathered.runs)
+        memory(&joint.left(&own, &self.scaled(j)), &self.dataset.runs)
     }
 
     fn names(&self) -> Vec<EffectAt> {
         let sums = self.sums();
-        let memories: Vec<f64> = (0..self.gathered.joints.len()).map(|j| self.memory(j)).collect();
+        let memories: Vec<f64> = (0..self.dataset.joints.len()).map(|j| self.memory(j)).collect();
         let mut named: Vec<(f64, EffectAt)> = Vec::new();
         for (at, column) in self.columns.iter().enumerate() {
             let Some((effect, j, nominal)) = drive(self.robot, column) else { continue };
             let others: Vec<usize> = (0..self.columns.len()).filter(|c| *c != at).collect();
             let left = fit(&sums, &others, at).square;
             let off = self.parameters[at] - nominal;
-            let joint = &self.gathered.joints[j];
+            let joint = &self.dataset.joints[j];
             let own = joint.shapes.iter().position(|s| Some(*s) == shape(self.robot, j, column));
             let share = own.map_or(0.0, |own| off.abs() * joint.scales[own] / joint.torque_rms);
             let is_known = left > KNOWN * sums[(at, at)];

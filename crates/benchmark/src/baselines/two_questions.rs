@@ -4,9 +4,9 @@ use robot::Robot;
 use crate::baselines::baseline::{Baseline, Nominal, Weighted};
 use crate::baselines::candidate::{Candidate, candidates};
 use crate::baselines::contest::{Change, Contest, Standing};
+use crate::baselines::dataset::{Dataset, Target};
 use crate::baselines::fit::fit;
-use crate::baselines::gathered::{Gathered, Target};
-use crate::baselines::prepared::{prepared, slowest_rate_hz};
+use crate::baselines::prepare_runs::{prepare_runs, slowest_rate_hz};
 use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
 use crate::error::BenchmarkError;
@@ -61,15 +61,15 @@ pub fn two_questions(
 ) -> Result<Baseline, BenchmarkError> {
     let cutoff_hz = CUTOFF_HZ.min(CUTOFF_SHARE * slowest_rate_hz(runs));
     let settings = PrepareSettings { cutoff_hz: Some(cutoff_hz) };
-    let logs = prepared(robot, control_rate_hz, runs, &settings)?;
+    let logs = prepare_runs(robot, control_rate_hz, runs, &settings)?;
     let scales = Scales::of(robot, &logs);
     let candidates = candidates(robot, &scales);
     let shapes = shapes(robot.joint_count(), &candidates);
-    let gathered = Gathered::of((robot, &scales), &logs, shapes, Target::Gap)?;
-    let mut search = Search::new(&gathered, &candidates);
+    let dataset = Dataset::of((robot, &scales), &logs, shapes, Target::Gap)?;
+    let mut search = Search::new(&dataset, &candidates);
     search.run();
     let names = search.strongest_first().into_iter().map(|c| candidates[c].at.clone()).collect();
-    let weights = (0..robot.joint_count()).map(|j| weights(&gathered, j, &search)).collect();
+    let weights = (0..robot.joint_count()).map(|j| weights(&dataset, j, &search)).collect();
     Ok(Baseline::new(names, weights, (Nominal::Kept, scales)))
 }
 
@@ -87,8 +87,8 @@ fn shapes(joints: usize, candidates: &[Candidate]) -> Vec<Vec<Shape>> {
 }
 
 /// The weights of what was chosen at a joint, fitted to all samples.
-fn weights(gathered: &Gathered, j: usize, search: &Search) -> Vec<Weighted> {
-    let (joint, columns) = (&gathered.joints[j], &search.standings[j].columns);
+fn weights(dataset: &Dataset, j: usize, search: &Search) -> Vec<Weighted> {
+    let (joint, columns) = (&dataset.joints[j], &search.standings[j].columns);
     let fitted = fit(&joint.total, columns, joint.target()).weights;
     let weighted = |(&column, weight): (&usize, f64)| Weighted {
         shape: joint.shapes[column],
@@ -109,9 +109,9 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(gathered: &'a Gathered, candidates: &'a [Candidate]) -> Self {
-        let contest = Contest::new(gathered);
-        let standings = (0..gathered.joints.len()).map(|j| contest.standing(j, Vec::new()));
+    fn new(dataset: &'a Dataset, candidates: &'a [Candidate]) -> Self {
+        let contest = Contest::new(dataset);
+        let standings = (0..dataset.joints.len()).map(|j| contest.standing(j, Vec::new()));
         let unknown: Vec<Vec<Option<Change>>> =
             candidates.iter().map(|c| vec![None; c.parts.len()]).collect();
         Self {
@@ -174,7 +174,7 @@ impl<'a> Search<'a> {
         let mut evidence = -candidate.price;
         for (part, known) in self.asked[c].iter_mut().enumerate() {
             let standing = &self.standings[candidate.parts[part].0];
-            let ask = || self.contest.asked(candidate, part, standing);
+            let ask = || self.contest.ask(candidate, part, standing);
             let change = *known.get_or_insert_with(ask);
             evidence += change.possible.then_some(change.evidence)?;
         }
@@ -187,7 +187,7 @@ impl<'a> Search<'a> {
         let mut gain = 0.0;
         for (part, known) in self.predicted[c].iter_mut().enumerate() {
             let standing = &self.standings[candidate.parts[part].0];
-            let ask = || self.contest.predicted(candidate, part, standing);
+            let ask = || self.contest.predict(candidate, part, standing);
             let change = *known.get_or_insert_with(ask);
             gain += (!change.is_worse).then_some(change.gain)?;
         }

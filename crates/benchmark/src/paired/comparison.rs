@@ -90,7 +90,7 @@ impl Comparison {
 fn records(path: &Path) -> Result<BTreeMap<usize, Record>, BenchmarkError> {
     let merged = path.join("trials.parquet");
     if path.is_dir() && (path.join("campaign.toml").exists() || !merged.exists()) {
-        return Ok(CampaignFolder::open(path)?.made()?.records);
+        return Ok(CampaignFolder::open(path)?.manifest()?.records);
     }
     let table = if path.is_dir() { merged } else { path.to_owned() };
     let unreadable =

@@ -79,18 +79,17 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
         Err(BenchmarkError::Experiment(ExperimentError::Log(refusal))) => {
             // Where the folder lies is no part of the answer.
             let why = refusal.to_string().replace(&format!("{}/", folder.display()), "");
-            return Ok(refused(why, nominal, logs_s));
+            return Ok(answers_without_logs(why, nominal, logs_s));
         }
         Err(error) => return Err(error),
     };
     let settings = Settings { control_rate_hz: rate_hz, ..Settings::default() };
     restart_peak();
-    let (diagnosed, diagnosis_s) = timed(|| {
-        unless_it_gives_up(|| diagnosis::diagnose(&robot.robot, &given, &settings, &Silent))
-    });
+    let (diagnosed, diagnosis_s) =
+        time(|| catch_panic(|| diagnosis::diagnose(&robot.robot, &given, &settings, &Silent)));
     let peak_memory_mb = peak_mb();
-    let (plain, least_squares_s) = timed(|| least_squares(&robot.robot, rate_hz, &given));
-    let (asked, two_questions_s) = timed(|| two_questions(&robot.robot, rate_hz, &given));
+    let (plain, least_squares_s) = time(|| least_squares(&robot.robot, rate_hz, &given));
+    let (asked, two_questions_s) = time(|| two_questions(&robot.robot, rate_hz, &given));
     let of = |baseline: &Result<Baseline, BenchmarkError>| {
         baseline.as_ref().ok()?.held_out_error(&robot.robot, rate_hz, &held_out).ok()
     };
@@ -114,7 +113,7 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
 }
 
 /// What a diagnosis says; in words why it says nothing. A panic is no answer either, and counts as such.
-fn unless_it_gives_up(
+fn catch_panic(
     diagnose: impl FnOnce() -> Result<Outcome, DiagnosisError>,
 ) -> Result<Outcome, String> {
     match catch_unwind(AssertUnwindSafe(diagnose)) {
@@ -124,7 +123,7 @@ fn unless_it_gives_up(
 }
 
 /// The answers to logs that cannot be read: nobody names anything, and every robot stays as described.
-fn refused(why: String, nominal: Option<Vec<Option<f64>>>, logs_s: f64) -> Answers {
+fn answers_without_logs(why: String, nominal: Option<Vec<Option<f64>>>, logs_s: f64) -> Answers {
     Answers {
         diagnosis: Err(why),
         held_out: HeldOut {
@@ -146,7 +145,7 @@ fn nominal(folder: &Path) -> Result<Loaded, BenchmarkError> {
     Ok(Robot::load(file)?)
 }
 
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+fn time<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let start = Instant::now();
     let result = work();
     (result, seconds(start.elapsed()))

@@ -22,7 +22,7 @@ pub struct Side {
 
 impl Side {
     /// Judgements by side: all of them, then by each thing in turn. A trial is in one side of each.
-    pub(crate) fn sorted(judgements: &[Judgement]) -> Vec<(Self, Vec<&Judgement>)> {
+    pub(crate) fn by_side(judgements: &[Judgement]) -> Vec<(Self, Vec<&Judgement>)> {
         let mut sides: BTreeMap<Self, Vec<&Judgement>> = BTreeMap::new();
         for judgement in judgements {
             for side in Self::of(judgement) {

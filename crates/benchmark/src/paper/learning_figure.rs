@@ -11,7 +11,7 @@ use crate::error::BenchmarkError;
 use crate::paper::figure_spec::{DataSpec, FigureScenario, FigureSpec, LearningFigureSpec};
 use crate::paper::learning_errors::ModelErrors;
 use experiment::{
-    Learned, Lesson, PAPER_MODELS, Progress, document_at, known_runs, motion_at, seeded,
+    Learned, Lesson, PAPER_MODELS, Progress, document_at, known_runs, motion_at, with_seed,
 };
 
 /// What the rigid bodies of the figure are: the links and, as rigid as they, the rotors.
@@ -290,7 +290,7 @@ impl Checker<'_> {
         for setting in &spec.settings {
             said.set(setting)?;
         }
-        let whole = Scenario::from_document(&seeded(said, self.seed)?)?;
+        let whole = Scenario::from_document(&with_seed(said, self.seed)?)?;
         let lists = [
             (key("learn").key("train"), &self.spec.learn.train),
             (key("learn").key("regression"), &self.spec.learn.regression),

@@ -19,16 +19,16 @@ pub struct Gained {
     /// Trials with such runs.
     pub trials: usize,
     /// Of the torque.
-    pub torque: Lessened,
+    pub torque: Reduction,
     /// Of the simulation, in [`Gains::WINDOW_S`].
-    pub drift: Lessened,
+    pub drift: Reduction,
     /// Of the tracking.
-    pub tracking: Lessened,
+    pub tracking: Reduction,
 }
 
 /// How many times less an error is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Lessened {
+pub struct Reduction {
     /// In the trial in the middle.
     pub median: Option<f64>,
     /// In the worst trial.
@@ -41,14 +41,14 @@ pub struct Lessened {
 impl Gained {
     /// One for every group of trials in which gains were measured.
     pub fn all(scores: &[Score]) -> Vec<Self> {
-        let groups = Group::sorted(scores).into_iter();
+        let groups = Group::by_group(scores).into_iter();
         groups.filter_map(|(put_in, members)| Self::of(put_in, &members)).collect()
     }
 
     fn of(put_in: Group, scores: &[&Score]) -> Option<Self> {
         let measured: Vec<(&Score, Gains)> =
             scores.iter().filter_map(|score| Some((*score, score.gains?))).collect();
-        let lessened = |of: fn(&Gains) -> Option<Gain>| Lessened::of(&measured, of);
+        let lessened = |of: fn(&Gains) -> Option<Gain>| Reduction::of(&measured, of);
         (!measured.is_empty()).then(|| Self {
             put_in,
             trials: measured.len(),
@@ -65,7 +65,7 @@ impl Gained {
         let row = |gained: &Self| {
             let errors = [&gained.torque, &gained.drift, &gained.tracking];
             let mut cells = vec![gained.put_in.to_string(), gained.trials.to_string()];
-            cells.extend(errors.map(Lessened::words));
+            cells.extend(errors.map(Reduction::words));
             cells.extend(errors.map(|e| format!("{} of {}", e.halved.count, e.halved.of)));
             cells
         };
@@ -80,7 +80,7 @@ impl Gained {
     }
 }
 
-impl Lessened {
+impl Reduction {
     fn of(measured: &[(&Score, Gains)], of: fn(&Gains) -> Option<Gain>) -> Self {
         let times = |(_, gains): &(&Score, Gains)| of(gains).map(|gain| gain.times());
         let all: Vec<f64> = measured.iter().filter_map(times).collect();

@@ -4,7 +4,7 @@ use crate::statistics::text_table::TextTable;
 use crate::tables::gained::Gained;
 use crate::tables::power::{Power, SizeClass};
 use crate::tables::tally::Tally;
-use crate::trials::campaign_folder::{CampaignFolder, Made};
+use crate::trials::campaign_folder::{CampaignFolder, Manifest};
 use crate::trials::failure::Failure;
 use crate::trials::kind_count::KindCount;
 use experiment::Score;
@@ -35,7 +35,7 @@ pub struct Merged {
 
 impl Merged {
     /// What has been made of a campaign, whoever made it and in whatever order.
-    pub fn new(folder: &CampaignFolder, made: &Made) -> Self {
+    pub fn new(folder: &CampaignFolder, made: &Manifest) -> Self {
         let scores: Vec<Score> =
             made.records.values().filter_map(|record| record.scored().cloned()).collect();
         Self {

@@ -2,7 +2,7 @@ use serde::Serialize;
 
 use crate::panel::judgement::Judgement;
 use crate::tables::panel_tally::PanelTally;
-use crate::trials::campaign_folder::{CampaignFolder, Made};
+use crate::trials::campaign_folder::{CampaignFolder, Manifest};
 use crate::trials::failure::Failure;
 use crate::trials::kind_count::KindCount;
 
@@ -27,7 +27,7 @@ pub struct MergedPanel {
 
 impl MergedPanel {
     /// What has been made of a campaign, whoever made it and in whatever order.
-    pub fn new(folder: &CampaignFolder, made: &Made) -> Self {
+    pub fn new(folder: &CampaignFolder, made: &Manifest) -> Self {
         let judged = made.records.values().filter_map(|record| record.judged().cloned());
         Self {
             schema: PANEL_SCHEMA,

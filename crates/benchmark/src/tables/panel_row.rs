@@ -92,7 +92,7 @@ impl PanelRow {
             refused: all.iter().filter(|one| one.refused.is_some()).count(),
             worse: share(|one| one.prediction.worse()),
             ratios: Ratios::new(all),
-            nine_of_ten_s: nine_of_ten(&times),
+            nine_of_ten_s: percentile_90(&times),
             median_s: median(times),
             logs_s: median(made),
             peak_memory_mb: memory.max_by(f64::total_cmp),
@@ -127,7 +127,7 @@ impl Ratios {
 }
 
 /// The least number that nine of ten do not exceed.
-fn nine_of_ten(numbers: &[f64]) -> Option<f64> {
+fn percentile_90(numbers: &[f64]) -> Option<f64> {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.get((9 * sorted.len()).div_ceil(10).checked_sub(1)?).copied()
@@ -138,11 +138,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nine_of_ten_keep_to_it() {
-        assert_eq!(nine_of_ten(&[]), None);
-        assert_eq!(nine_of_ten(&[3.0]), Some(3.0));
+    fn percentile_90_keep_to_it() {
+        assert_eq!(percentile_90(&[]), None);
+        assert_eq!(percentile_90(&[3.0]), Some(3.0));
         let ten: Vec<f64> = (1..=10).rev().map(f64::from).collect();
-        assert_eq!(nine_of_ten(&ten), Some(9.0));
-        assert_eq!(nine_of_ten(&[1.0, 2.0, 3.0]), Some(3.0));
+        assert_eq!(percentile_90(&ten), Some(9.0));
+        assert_eq!(percentile_90(&[1.0, 2.0, 3.0]), Some(3.0));
     }
 }

@@ -26,7 +26,7 @@ impl PanelTally {
     pub fn of(judgements: &[Judgement]) -> Self {
         let mut sorted = judgements.to_vec();
         sorted.sort_by_key(|judgement| judgement.seed);
-        let sides = Side::sorted(&sorted);
+        let sides = Side::by_side(&sorted);
         Self {
             rows: sides.into_iter().map(|(side, own)| PanelRow::new(side, &own)).collect(),
             kinds: KindRow::all(&sorted),

@@ -79,7 +79,7 @@ pub struct SizeTally {
 impl Tally {
     /// The tally of some scores, whatever their order.
     pub fn of(scores: &[Score]) -> Self {
-        let groups = Group::sorted(scores);
+        let groups = Group::by_group(scores);
         Self {
             rows: groups.into_iter().map(|(group, members)| Row::new(group, &members)).collect(),
         }
@@ -88,7 +88,7 @@ impl Tally {
 
 impl Group {
     /// Scores by group, in the order of the rows of a tally.
-    pub(super) fn sorted(scores: &[Score]) -> Vec<(Self, Vec<&Score>)> {
+    pub(super) fn by_group(scores: &[Score]) -> Vec<(Self, Vec<&Score>)> {
         let mut groups: Vec<(Self, Vec<&Score>)> = Vec::new();
         for score in scores {
             for group in Self::all_of(score) {

@@ -110,7 +110,9 @@ impl Campaign {
                 let (hidden, seed) = campaign.task(task);
                 (Some(hidden), seed)
             }
-            Self::Population(campaign) => (None, mixed(campaign.population.seed, POPULATION, task)),
+            Self::Population(campaign) => {
+                (None, seed_of(campaign.population.seed, POPULATION, task))
+            }
         }
     }
 
@@ -153,7 +155,7 @@ impl Campaign {
 }
 
 /// Up to the largest whole number of TOML.
-pub(super) fn mixed(seed: u64, kind: &str, number: usize) -> u64 {
+pub(super) fn seed_of(seed: u64, kind: &str, number: usize) -> u64 {
     let digest = Sha256::digest(format!("{seed}/{kind}/{number}"));
     digest.iter().take(8).fold(0, |bits, byte| bits << 8 | u64::from(*byte)) >> 1
 }

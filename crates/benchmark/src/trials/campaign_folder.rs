@@ -35,7 +35,7 @@ pub struct CampaignFolder {
 
 /// What there is of a campaign.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Made {
+pub struct Manifest {
     /// The finished trials by task, those that failed among them.
     pub records: BTreeMap<usize, Record>,
     /// Files among the shards that are none of this campaign, by path.
@@ -127,8 +127,8 @@ impl CampaignFolder {
     /// # Errors
     ///
     /// [`BenchmarkError::TrialFolder`] when the folder of the shards cannot be listed.
-    pub fn made(&self) -> Result<Made, BenchmarkError> {
-        let mut made = Made { records: BTreeMap::new(), broken: Vec::new() };
+    pub fn manifest(&self) -> Result<Manifest, BenchmarkError> {
+        let mut made = Manifest { records: BTreeMap::new(), broken: Vec::new() };
         for path in self.shards()? {
             match self.read(&path) {
                 Ok(record) => {
@@ -145,8 +145,8 @@ impl CampaignFolder {
     /// # Errors
     ///
     /// As [`made`](Self::made).
-    pub fn left(&self, part: Part) -> Result<Vec<usize>, BenchmarkError> {
-        let made = self.made()?.records;
+    pub fn remaining(&self, part: Part) -> Result<Vec<usize>, BenchmarkError> {
+        let made = self.manifest()?.records;
         let all = (0..self.campaign.trials()).filter(|task| part.holds(*task));
         Ok(all.filter(|task| !made.contains_key(task)).collect())
     }
@@ -215,7 +215,7 @@ impl CampaignFolder {
 /// # Errors
 ///
 /// [`BenchmarkError::UnreadableTrials`] and [`BenchmarkError::OtherTrials`].
-pub fn finished(campaign: &Campaign, table: &Path) -> Result<Vec<Record>, BenchmarkError> {
+pub fn read_finished(campaign: &Campaign, table: &Path) -> Result<Vec<Record>, BenchmarkError> {
     let path = || table.to_owned();
     let unreadable = |reason| BenchmarkError::UnreadableTrials { path: path(), reason };
     let records = Record::read(table).map_err(unreadable)?;

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::trials::campaign_folder::Made;
+use crate::trials::campaign_folder::Manifest;
 
 /// Trials that failed alike.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -17,7 +17,7 @@ pub struct Failure {
 
 impl Failure {
     /// One for each kind and reason.
-    pub(crate) fn all(made: &Made) -> Vec<Self> {
+    pub(crate) fn all(made: &Manifest) -> Vec<Self> {
         let mut failures: BTreeMap<(String, String), Vec<u64>> = BTreeMap::new();
         for record in made.records.values() {
             if let Err(error) = &record.score {

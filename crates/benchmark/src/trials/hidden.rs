@@ -14,7 +14,7 @@ pub enum Hidden {
     Unknown(EffectKind),
     /// The same, and what the catalogue says it is confused with is not looked for either: nothing that is
     /// looked for is like it.
-    Strange(EffectKind),
+    WithoutRelatives(EffectKind),
     /// Two effects, each drawn from the two kinds: it may be one kind at two places.
     Two(EffectKind, EffectKind),
     /// Two effects of any kinds that the scenario draws from.
@@ -32,7 +32,7 @@ impl Hidden {
         let drawn = match self {
             Self::Nothing => return vec!["hidden.count=[0, 0]".to_owned()],
             Self::AnyTwo => return vec!["hidden.count=[2, 2]".to_owned()],
-            Self::One(kind) | Self::Unknown(kind) | Self::Strange(kind) => vec![kind],
+            Self::One(kind) | Self::Unknown(kind) | Self::WithoutRelatives(kind) => vec![kind],
             Self::Two(a, b) => vec![a, b],
         };
         let (count, names) = (drawn.len(), drawn.iter().map(|kind| format!("'{kind}'")));
@@ -47,7 +47,7 @@ impl Hidden {
     pub(super) fn without(self) -> Vec<EffectKind> {
         match self {
             Self::Unknown(kind) => vec![kind],
-            Self::Strange(kind) => {
+            Self::WithoutRelatives(kind) => {
                 std::iter::once(kind).chain(kind.entry().confused_with.iter().copied()).collect()
             }
             _ => Vec::new(),
@@ -55,7 +55,7 @@ impl Hidden {
     }
 
     /// The same whichever of two effects is named first.
-    pub(super) fn sorted(self) -> Self {
+    pub(super) fn in_order(self) -> Self {
         match self {
             Self::Two(a, b) if b < a => Self::Two(b, a),
             other => other,
@@ -71,7 +71,7 @@ impl fmt::Display for Hidden {
             Self::Nothing => f.write_str(CLEAN),
             Self::AnyTwo => f.write_str(ANY_TWO),
             Self::Unknown(kind) => write!(f, "{UNKNOWN}{kind}"),
-            Self::Strange(kind) => write!(f, "{STRANGE}{kind}"),
+            Self::WithoutRelatives(kind) => write!(f, "{STRANGE}{kind}"),
             Self::One(kind) => write!(f, "{kind}"),
             Self::Two(a, b) => write!(f, "{a}+{b}"),
         }
@@ -87,7 +87,7 @@ impl FromStr for Hidden {
             None if text == CLEAN => Ok(Self::Nothing),
             None => match (text.strip_prefix(UNKNOWN), text.strip_prefix(STRANGE)) {
                 (Some(kind), _) => Ok(Self::Unknown(kind.parse()?)),
-                (_, Some(kind)) => Ok(Self::Strange(kind.parse()?)),
+                (_, Some(kind)) => Ok(Self::WithoutRelatives(kind.parse()?)),
                 (None, None) => Ok(Self::One(text.parse()?)),
             },
             Some(_) if text == ANY_TWO => Ok(Self::AnyTwo),
@@ -105,19 +105,19 @@ mod tests {
         use EffectKind::{Backlash, Payload};
         let two = [Hidden::Two(Backlash, Payload), Hidden::AnyTwo];
         let one = [Hidden::Nothing, Hidden::One(Backlash)];
-        let unknown = [Hidden::Unknown(Backlash), Hidden::Strange(Backlash)];
+        let unknown = [Hidden::Unknown(Backlash), Hidden::WithoutRelatives(Backlash)];
         for hidden in one.into_iter().chain(unknown).chain(two) {
             assert_eq!(hidden.to_string().parse(), Ok(hidden));
         }
         assert_eq!("TR01".parse(), Ok(Hidden::One(Backlash)));
-        assert_eq!("strange_TR01".parse(), Ok(Hidden::Strange(Backlash)));
+        assert_eq!("strange_TR01".parse(), Ok(Hidden::WithoutRelatives(Backlash)));
         assert_eq!("backlash+no".parse::<Hidden>(), Err(UnknownEffect("no".to_owned())));
     }
 
     #[test]
     fn of_what_is_strange_nothing_like_it_is_looked_for() {
         use EffectKind::{ActuatorDelay, ActuatorLag, Payload};
-        let without = Hidden::Strange(ActuatorDelay).without();
+        let without = Hidden::WithoutRelatives(ActuatorDelay).without();
         assert!(without.contains(&ActuatorDelay) && without.contains(&ActuatorLag));
         assert!(!without.contains(&Payload));
         assert_eq!(Hidden::Unknown(ActuatorDelay).without(), [ActuatorDelay]);

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use crate::statistics::text_table::TextTable;
-use crate::trials::campaign_folder::{CampaignFolder, Made};
+use crate::trials::campaign_folder::{CampaignFolder, Manifest};
 use crate::trials::hidden::Hidden;
 
 /// How far the trials of a kind are.
@@ -21,7 +21,7 @@ pub struct KindCount {
 
 impl KindCount {
     /// One for every kind of a campaign, in its order, and one for all of them; of a population that alone.
-    pub fn all(folder: &CampaignFolder, made: &Made) -> Vec<Self> {
+    pub fn all(folder: &CampaignFolder, made: &Manifest) -> Vec<Self> {
         let campaign = folder.campaign();
         let of = |hidden: Option<Hidden>| {
             let name = hidden.map_or("all".to_owned(), |hidden| hidden.to_string());

@@ -14,7 +14,7 @@ pub struct Part {
 /// A text that names no part.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?}: a part such as 1/4 was expected, the first number from 1 to the second")]
-pub struct NoPart(String);
+pub struct BadPart(String);
 
 impl Part {
     /// All of it.
@@ -37,14 +37,14 @@ impl Part {
 }
 
 impl FromStr for Part {
-    type Err = NoPart;
+    type Err = BadPart;
 
-    fn from_str(text: &str) -> Result<Self, NoPart> {
+    fn from_str(text: &str) -> Result<Self, BadPart> {
         let numbers = text.split_once('/').and_then(|(number, of)| {
             let (number, of) = (number.parse().ok()?, of.parse().ok()?);
             (1..=of).contains(&number).then_some(Self { number, of })
         });
-        numbers.ok_or_else(|| NoPart(text.to_owned()))
+        numbers.ok_or_else(|| BadPart(text.to_owned()))
     }
 }
 
@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn a_part_is_one_of_as_many_as_there_are() {
         for text in ["0/4", "5/4", "1/0", "1", "", "1/4/2", "-1/4", "a/b"] {
-            assert_eq!(text.parse::<Part>(), Err(NoPart(text.to_owned())));
+            assert_eq!(text.parse::<Part>(), Err(BadPart(text.to_owned())));
         }
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use simulator::scenario::{Scenario, ScenarioSpec};
 
 use crate::error::BenchmarkError;
-use crate::trials::campaign::{hexadecimal, mixed};
+use crate::trials::campaign::{hexadecimal, seed_of};
 use crate::trials::hidden::Hidden;
 use crate::trials::trial::Trial;
 use experiment::{ExperimentError, sha256};
@@ -152,7 +152,7 @@ impl ScenarioCampaign {
     /// The kind and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
     pub fn task(&self, task: usize) -> (Hidden, u64) {
         let hidden = self.kinds[task % self.kinds.len()];
-        (hidden, mixed(self.seed, &hidden.to_string(), task / self.kinds.len()))
+        (hidden, seed_of(self.seed, &hidden.to_string(), task / self.kinds.len()))
     }
 
     /// The trial of a task, which starts from the scenario in a file.
@@ -166,16 +166,16 @@ impl ScenarioCampaign {
 fn kinds(document: &Document, spec: &CampaignSpec) -> Result<Vec<Hidden>, DocumentError> {
     let path = KeyPath::root().key("hidden");
     let mut kinds: Vec<Hidden> = Vec::new();
-    let each = |hide: fn(EffectKind) -> Hidden| drawn(spec).map(hide).collect();
+    let each = |hide: fn(EffectKind) -> Hidden| drawn_kinds(spec).map(hide).collect();
     for (i, name) in spec.hidden.iter().enumerate() {
         let path = path.index(i);
         let named: Vec<Hidden> = match name.as_str() {
             EACH => each(Hidden::One),
             WITHOUT_EACH => each(Hidden::Unknown),
-            STRANGE_EACH => each(Hidden::Strange),
+            STRANGE_EACH => each(Hidden::WithoutRelatives),
             name => {
                 let unknown = |_| document.unknown_name(&path, "kind of trial", name, &names());
-                vec![name.parse::<Hidden>().map_err(unknown)?.sorted()]
+                vec![name.parse::<Hidden>().map_err(unknown)?.in_order()]
             }
         };
         if let Some(twice) = named.iter().find(|kind| kinds.contains(kind)) {
@@ -192,7 +192,7 @@ fn kinds(document: &Document, spec: &CampaignSpec) -> Result<Vec<Hidden>, Docume
 }
 
 /// The kinds that effects are drawn from where no kind is said.
-fn drawn(spec: &CampaignSpec) -> impl Iterator<Item = EffectKind> {
+fn drawn_kinds(spec: &CampaignSpec) -> impl Iterator<Item = EffectKind> {
     EffectKind::ALL.into_iter().filter(|kind| !spec.except.contains(kind))
 }
 
@@ -230,7 +230,7 @@ fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, Benchmar
         scenario.set(&setting)?;
     }
     if !spec.except.is_empty() {
-        let from: Vec<String> = drawn(spec).map(|kind| format!("'{kind}'")).collect();
+        let from: Vec<String> = drawn_kinds(spec).map(|kind| format!("'{kind}'")).collect();
         scenario.set(&format!("hidden.from=[{}]", from.join(", ")))?;
     }
     for setting in &spec.settings {

@@ -69,7 +69,7 @@ impl Trial {
         let is_learned = |run: &Run| experiment.learned().any(|name| name == run.name);
         let (learned, test): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(is_learned);
         let answer = answer(&robot, &learned, &without)?;
-        let score = scored(folder, &answer, &without)?;
+        let score = score_answer(folder, &answer, &without)?;
         let place = match &score.put_in[..] {
             [one] => {
                 robot.robot.joint_names().position(|name| one.at.joint.as_deref() == Some(name))
@@ -113,7 +113,7 @@ pub fn judge(
     without: &[EffectKind],
 ) -> Result<Score, BenchmarkError> {
     let answer = answer(robot, &read_runs(folder, &robot.robot)?, without)?;
-    scored(folder, &answer, without)
+    score_answer(folder, &answer, without)
 }
 
 /// What a diagnosis that has nothing but the logs comes to.
@@ -127,7 +127,7 @@ fn answer(robot: &Loaded, runs: &[Run], without: &[EffectKind]) -> Result<Outcom
 }
 
 /// Opens the truth about a folder and scores the answer.
-fn scored(
+fn score_answer(
     folder: &Path,
     answer: &Outcome,
     without: &[EffectKind],

@@ -23,7 +23,7 @@ use crate::trials::record::Record;
 
 /// Who makes which trials of a campaign, and what they leave.
 #[derive(Debug, Clone)]
-pub struct Crew {
+pub struct Workers {
     /// Trials made at a time; none counts as one.
     pub jobs: usize,
     /// The part of the campaign that is made.
@@ -49,10 +49,10 @@ pub trait WorkProgress: Sync {
     fn begin(&self, left: usize);
 
     /// A trial has its shard; it took so long.
-    fn made(&self, record: &Record, took: Duration);
+    fn finish_trial(&self, record: &Record, took: Duration);
 
     /// An entry of the store could not be used, for this reason, and was made again.
-    fn remade(&self, entry: &Path, reason: &str);
+    fn report_remade(&self, entry: &Path, reason: &str);
 
     /// Whether no further trial is to be begun.
     fn is_stopped(&self) -> bool;
@@ -75,19 +75,19 @@ pub trait WorkProgress: Sync {
 /// that are being made are finished as far as possible, and every shard stays.
 pub fn work(
     folder: &CampaignFolder,
-    crew: &Crew,
+    workers: &Workers,
     progress: &dyn WorkProgress,
 ) -> Result<(), BenchmarkError> {
-    if let (Some(store), Campaign::Scenario(_)) = (&crew.store, folder.campaign()) {
+    if let (Some(store), Campaign::Scenario(_)) = (&workers.store, folder.campaign()) {
         return Err(BenchmarkError::NoStore { path: store.clone() });
     }
-    let store = crew.store.as_deref().map(Store::open).transpose()?;
-    let left = folder.left(crew.part)?;
+    let store = workers.store.as_deref().map(Store::open).transpose()?;
+    let left = folder.remaining(workers.part)?;
     progress.begin(left.len());
-    let jobs = crew.jobs.clamp(1, left.len().max(1));
-    let shift = Shift {
+    let jobs = workers.jobs.clamp(1, left.len().max(1));
+    let worker_run = WorkerRun {
         folder,
-        logs: crew.logs,
+        logs: workers.logs,
         store: store.as_ref(),
         progress,
         left: &left,
@@ -98,10 +98,10 @@ pub fn work(
     let pools = (0..jobs).map(|_| pool(jobs)).collect::<Result<Vec<_>, _>>()?;
     std::thread::scope(|scope| {
         for pool in &pools {
-            scope.spawn(|| shift.worker(pool));
+            scope.spawn(|| worker_run.worker(pool));
         }
     });
-    shift.failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+    worker_run.failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
 }
 
 /// The threads of one worker: an equal share of the processors.
@@ -111,7 +111,7 @@ fn pool(jobs: usize) -> Result<ThreadPool, BenchmarkError> {
     pool.map_err(|error| BenchmarkError::NoThreads { reason: error.to_string() })
 }
 
-struct Shift<'a> {
+struct WorkerRun<'a> {
     folder: &'a CampaignFolder,
     logs: TrialLogs,
     store: Option<&'a Store>,
@@ -123,7 +123,7 @@ struct Shift<'a> {
     failure: Mutex<Option<BenchmarkError>>,
 }
 
-impl Shift<'_> {
+impl WorkerRun<'_> {
     fn worker(&self, pool: &ThreadPool) {
         while !self.ended.load(Ordering::Relaxed) && !self.progress.is_stopped() {
             let place = self.next.fetch_add(1, Ordering::Relaxed);
@@ -157,9 +157,9 @@ impl Shift<'_> {
             }
             let start = Instant::now();
             let make = || campaign.make(task, &scenario, &logs, self.store);
-            let made = told(catch_unwind(AssertUnwindSafe(|| pool.install(make))))?;
+            let made = outcome_of(catch_unwind(AssertUnwindSafe(|| pool.install(make))))?;
             if let Ok((_, Some(remade))) = &made {
-                self.progress.remade(&remade.path, &remade.reason);
+                self.progress.report_remade(&remade.path, &remade.reason);
             }
             let score = made.map(|(score, _)| score);
             let (hidden, seed) = campaign.task(task);
@@ -169,20 +169,20 @@ impl Shift<'_> {
             if self.logs == TrialLogs::Removed {
                 clear(&logs)?;
             }
-            self.progress.made(&record, start.elapsed());
+            self.progress.finish_trial(&record, start.elapsed());
         }
         // Whoever made it may have removed the file that this lock is on.
-        unless_missing(std::fs::remove_file(&lock_file), &lock_file)
+        ignore_missing(std::fs::remove_file(&lock_file), &lock_file)
     }
 }
 
 /// Removes the logs of a trial, whole or not.
 fn clear(logs: &Path) -> Result<(), BenchmarkError> {
-    unless_missing(std::fs::remove_dir_all(logs), logs)
+    ignore_missing(std::fs::remove_dir_all(logs), logs)
 }
 
 /// What came of a removal, for which it is as well that nothing was there.
-fn unless_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), BenchmarkError> {
+fn ignore_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), BenchmarkError> {
     match removed {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(unusable(path)(error)),
         _ => Ok(()),
@@ -190,7 +190,7 @@ fn unless_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), Bench
 }
 
 /// What came of a trial: its score or in words why it has none; an error where the disk failed.
-fn told<T>(
+fn outcome_of<T>(
     outcome: Result<Result<T, BenchmarkError>, Box<dyn Any + Send>>,
 ) -> Result<Result<T, String>, BenchmarkError> {
     match outcome {

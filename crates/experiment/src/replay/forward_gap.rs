@@ -115,7 +115,7 @@ impl Sum {
     fn of(robot: &Robot, records: &[PreparedRun], window_s: f64, progress: &dyn Progress) -> Self {
         let mut sum = Self { joints: vec![0.0; robot.joint_count()], ..Self::default() };
         for record in records {
-            match replayed(robot, record, window_s) {
+            match replay(robot, record, window_s) {
                 Ok(replay) => sum.add(robot, record, &replay),
                 Err(SimulatorError::TooShort { .. }) => {}
                 Err(error) => sum.trouble = Some(error.to_string()),
@@ -134,7 +134,7 @@ impl Sum {
         }
         for courses in courses(replay, record) {
             for (sum, [a, b]) in self.tip.iter_mut().zip(courses) {
-                *sum += apart(robot, &a, &b).powi(2);
+                *sum += distance(robot, &a, &b).powi(2);
             }
         }
     }
@@ -153,7 +153,7 @@ impl Sum {
 }
 
 /// A record rolled forward, in steps that the springs of the drives bear.
-fn replayed(
+fn replay(
     robot: &Robot,
     record: &PreparedRun,
     window_s: f64,
@@ -191,7 +191,7 @@ fn courses<'a>(
 }
 
 /// Distance of the origin of the last link between two positions of the joints (m).
-fn apart(robot: &Robot, a: &[f64], b: &[f64]) -> f64 {
+fn distance(robot: &Robot, a: &[f64], b: &[f64]) -> f64 {
     let [a, b] = [a, b].map(|q| tracking::tip_in_base(robot, &Point3::origin(), q));
     (a - b).norm()
 }

@@ -64,7 +64,7 @@ pub fn record_diagnosis(
     let mut recorder = Recorder::create(path, &scene(&title, loaded), Live::Off)?;
     let replayed = Replayed::of([&loaded.robot, &outcome.extended], &records, progress);
     recorder.document(&format!("{}\n{}", diagnosed.verdict, legend(outcome, &replayed)))?;
-    found(&mut recorder, outcome)?;
+    record_findings(&mut recorder, outcome)?;
     let first = outcome.diagnosis.findings.iter().find_map(|f| f.at.joint.as_deref());
     let at = |name: &str| loaded.robot.joint_names().position(|joint| joint == name);
     if let Some(joint) = first.and_then(at) {
@@ -128,7 +128,7 @@ fn legend(outcome: &Outcome, replayed: &Replayed) -> String {
 }
 
 /// Findings and warnings, and the errors as bars.
-fn found(recorder: &mut Recorder, outcome: &Outcome) -> Result<(), ExperimentError> {
+fn record_findings(recorder: &mut Recorder, outcome: &Outcome) -> Result<(), ExperimentError> {
     let diagnosis = &outcome.diagnosis;
     for finding in &diagnosis.findings {
         let words = finding.at.words();
@@ -179,7 +179,7 @@ impl Shown<'_> {
         let ghost = |g: &[f64]| g[sample * self.record.joints.len() + j];
         let [nominal_q, extended_q] = self.ghosts.map(ghost);
         let time_s = self.record.time[sample];
-        let at = |values: &[f64]| interpolated(&self.traces.time, values, time_s);
+        let at = |values: &[f64]| interpolate(&self.traces.time, values, time_s);
         let [tau, nominal, extended] =
             [&traces.measured, &traces.nominal, &traces.extended].map(|values| at(values));
         [
@@ -224,7 +224,7 @@ fn write(recorder: &mut Recorder, start_s: f64, shown: &Shown<'_>) -> Result<f64
 }
 
 /// The straight line between two samples; NaN outside of them.
-fn interpolated(time: &[f64], values: &[f64], time_s: f64) -> f64 {
+fn interpolate(time: &[f64], values: &[f64], time_s: f64) -> f64 {
     let next = time.partition_point(|t| *t < time_s);
     let at = |i: usize| time.get(i).copied().zip(values.get(i).copied());
     match (next.checked_sub(1).and_then(at), at(next)) {
@@ -241,11 +241,11 @@ mod tests {
     #[test]
     fn numbers_between_samples_lie_on_a_line_and_there_are_none_outside() {
         let (time, values) = ([1.0, 2.0, 4.0], [10.0, 20.0, 0.0]);
-        let at = |time_s| interpolated(&time, &values, time_s);
+        let at = |time_s| interpolate(&time, &values, time_s);
         for (time_s, expected) in [(1.0, 10.0), (1.5, 15.0), (2.0, 20.0), (3.5, 5.0), (4.0, 0.0)] {
             assert!((at(time_s) - expected).abs() < 1e-12, "{time_s} s: {}", at(time_s));
         }
         assert!(at(0.999).is_nan() && at(4.001).is_nan() && at(f64::NAN).is_nan());
-        assert!(interpolated(&time, &[], 1.5).is_nan());
+        assert!(interpolate(&time, &[], 1.5).is_nan());
     }
 }

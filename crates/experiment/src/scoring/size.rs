@@ -45,15 +45,15 @@ impl Size {
     pub fn all(truth: &Truth, estimates: &[Estimate]) -> Vec<Self> {
         let size = |(name, &value): (&String, &f64)| {
             let of = estimates.iter().find(|estimate| estimate.name == name);
-            let estimate = of.map(|estimate| estimated(truth, value, estimate));
+            let estimate = of.map(|estimate| on_truth_scale(truth, value, estimate));
             Self { name: name.clone(), truth: value, estimate }
         };
         truth.parameters.iter().map(size).collect()
     }
 }
 
-fn estimated(truth: &Truth, value: f64, estimate: &Estimate) -> Estimated {
-    let put_in = |number: f64| match stated(truth.effect, estimate.name) {
+fn on_truth_scale(truth: &Truth, value: f64, estimate: &Estimate) -> Estimated {
+    let put_in = |number: f64| match statement_of(truth.effect, estimate.name) {
         Stated::Added => number - estimate.nominal,
         Stated::Factor => number / estimate.nominal,
         Stated::Whole => number,
@@ -85,7 +85,7 @@ enum Stated {
     Whole,
 }
 
-fn stated(effect: EffectKind, parameter: &str) -> Stated {
+fn statement_of(effect: EffectKind, parameter: &str) -> Stated {
     use EffectKind as E;
     match (effect, parameter) {
         (E::TorqueConstant, "gain") | (E::TransmissionRatio, "ratio") => Stated::Factor,
@@ -105,12 +105,12 @@ fn stated(effect: EffectKind, parameter: &str) -> Stated {
 
 /// How much of a parameter was put in: the length of a vector, the distance of a factor from 1, or
 /// the number, of a breakaway level that beyond the Coulomb level; none of one that was not.
-pub(super) fn added(truth: &Truth, name: &str) -> Option<f64> {
+pub(super) fn injected_amount(truth: &Truth, name: &str) -> Option<f64> {
     let value = *truth.parameters.get(name)?;
     if (truth.effect, name) == (EffectKind::StribeckFriction, "breakaway") {
         return Some(value - truth.parameters.get("coulomb")?);
     }
-    Some(match stated(truth.effect, name) {
+    Some(match statement_of(truth.effect, name) {
         Stated::Factor => (value - 1.0).abs(),
         Stated::Added | Stated::Whole => magnitude(truth, name),
     })

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use diagnosis::{EffectAt, RuledOut};
 use simulator::Truth;
 
-use crate::scoring::size::{Size, added};
+use crate::scoring::size::{Size, injected_amount};
 
 /// Smallest detectable size over half a 95 per cent interval: 3.65 standard errors, at which a
 /// two-sided test at level 0.005 finds four of five, over 1.96.
@@ -30,10 +30,10 @@ pub(super) fn of_smallest(
         let estimate = size.estimate.as_ref().filter(|estimate| estimate.determined)?;
         let [low, high] = estimate.noise95.unwrap_or(estimate.ci95);
         let half = 0.5 * (high - low);
-        Some(added(truth, &size.name)? / (SMALLEST_OVER_HALF * half))
+        Some(injected_amount(truth, &size.name)? / (SMALLEST_OVER_HALF * half))
     });
     let missed = ruled_out.iter().filter(|r| r.at == *at).filter_map(|ruled_out| {
-        let size = added(truth, ruled_out.parameter)?;
+        let size = injected_amount(truth, ruled_out.parameter)?;
         Some(match ruled_out.smallest_detectable {
             Some(largest) if truth.effect == EffectKind::JointElasticity => largest / size,
             Some(smallest) => size / smallest,

@@ -63,7 +63,7 @@ pub fn sweep(
     let errors: Result<Vec<Vec<f64>>, ExperimentError> = runs
         .into_par_iter()
         .map(|(kind, scale)| {
-            let controller = controller(scenario, &scaled(gains, scale))?;
+            let controller = controller(scenario, &scale_gains(gains, scale))?;
             let parts = Parts { scenario, learned, kind, controller: &controller };
             let mut watch = Until { end_s: duration_s, second: 0.0, progress };
             let run = parts.run(&mut watch)?;
@@ -81,7 +81,7 @@ pub fn sweep(
     Ok(Some(GainSweep { gains, duration_s, scales, models }))
 }
 
-fn scaled(gains: &[Gain], scale: f64) -> Vec<Gain> {
+fn scale_gains(gains: &[Gain], scale: f64) -> Vec<Gain> {
     gains.iter().map(|g| Gain { kp: scale * g.kp, kd: scale.sqrt() * g.kd }).collect()
 }
 

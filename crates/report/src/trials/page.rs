@@ -81,7 +81,7 @@ fn sentence(merged: &Merged) -> String {
 
 #[cfg(test)]
 mod tests {
-    use benchmark::{Gained, Lessened, MERGED_SCHEMA, Power, Row, Share, SizeClass, Tally};
+    use benchmark::{Gained, Reduction, MERGED_SCHEMA, Power, Row, Share, SizeClass, Tally};
     use catalogue::EffectKind::{Backlash, CoulombFriction};
 
     use super::*;
@@ -141,9 +141,9 @@ mod tests {
 
     fn gained() -> Gained {
         let halved = Share::new(3, 4);
-        let torque = Lessened { median: Some(11.7), least: Some(0.4), halved };
-        let drift = Lessened { median: Some(2.0), ..torque.clone() };
-        let tracking = Lessened { median: None, least: None, halved: Share::new(0, 0) };
+        let torque = Reduction { median: Some(11.7), least: Some(0.4), halved };
+        let drift = Reduction { median: Some(2.0), ..torque.clone() };
+        let tracking = Reduction { median: None, least: None, halved: Share::new(0, 0) };
         Gained { put_in: Group::Kind(Backlash), trials: 4, torque, drift, tracking }
     }
 

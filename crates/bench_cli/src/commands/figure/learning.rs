@@ -122,7 +122,7 @@ impl Stages<'_> {
         self.run.logs((&format!("{name}_logs"), &logs), plant, arm.loaded(), || Ok(plant))?;
         self.diagnosis(arm, [&logs, &diagnosis])?;
         self.models(arm, [&logs, &diagnosis, &models])?;
-        self.tested(arm, [&logs, &models])
+        self.test(arm, [&logs, &models])
     }
 
     /// Names the causes from the logs that models are learned from.
@@ -172,7 +172,7 @@ impl Stages<'_> {
     }
 
     /// Tests the models on the runs that took no part.
-    fn tested(&self, arm: &PaperPlant, [logs, folder]: [&Path; 2]) -> Result<Errors, BenchError> {
+    fn test(&self, arm: &PaperPlant, [logs, folder]: [&Path; 2]) -> Result<Errors, BenchError> {
         let (learned, test) = (self.figure.learned(), self.figure.test());
         let outside: &[&str] = match arm.data() {
             PaperData::Simulated => &[],

@@ -24,7 +24,7 @@ pub fn run(
     let figure = PredictionTimeFigure::from_document(document, arguments.seed)?;
     create_folder(out)?;
     let watch = Watch::of_all((!arguments.output.quiet).then(Line::new));
-    let measured = measured(&figure, RunFolder { out, watch: &watch });
+    let measured = measure(&figure, RunFolder { out, watch: &watch });
     watch.finish();
     let loaded = figure.loaded();
     let mut provenance = provenance(figure.robot_file(), loaded, None)?;
@@ -59,7 +59,7 @@ pub fn run(
 }
 
 /// The times on this machine, measured now or before.
-fn measured(figure: &PredictionTimeFigure, run: RunFolder) -> Result<Vec<Curve>, BenchError> {
+fn measure(figure: &PredictionTimeFigure, run: RunFolder) -> Result<Vec<Curve>, BenchError> {
     let (points, seed) = (figure.points(), figure.seed());
     let said = format!("{points:?} {seed} {}", machine());
     let inputs = RunFolder::inputs(figure.robot_file(), figure.loaded(), &said)?;

@@ -52,7 +52,7 @@ enum Engine {
 /// Writes the job that makes what is left, and submits it.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
     let folder = CampaignFolder::open(&arguments.folder)?;
-    let left = folder.left(Part::WHOLE)?;
+    let left = folder.remaining(Part::WHOLE)?;
     if left.is_empty() {
         print("0 trials left, nothing is submitted\n")?;
         return Ok(ExitStatus::Good);

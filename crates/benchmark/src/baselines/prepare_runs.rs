@@ -3,7 +3,7 @@ use robot::{Robot, TorqueSource};
 
 /// Runs on a uniform clock, commands at the time of their samples and no larger than the joint's
 /// limit, as `diagnosis::left_over` reads them.
-pub(super) fn prepared(
+pub(super) fn prepare_runs(
     robot: &Robot,
     control_rate_hz: Option<f64>,
     runs: &[Run],

@@ -8,7 +8,7 @@ use robot::Robot;
 use crate::baselines::folds::folds;
 use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
-use crate::baselines::sight::Sight;
+use crate::baselines::run_columns::RunColumns;
 use experiment::Band;
 
 /// What is left out at both ends of a run behind the low-pass: periods of the cut-off, and at
@@ -44,7 +44,7 @@ pub(super) struct Joint {
 }
 
 /// The columns of every joint in the band, at the rate of the regression.
-pub(super) struct Gathered {
+pub(super) struct Dataset {
     /// By joint.
     pub joints: Vec<Joint>,
     /// Samples of each run.
@@ -58,7 +58,7 @@ struct Growing {
     rate_hz: f64,
 }
 
-impl Gathered {
+impl Dataset {
     /// Evaluates `shapes`, listed by joint, along logs.
     ///
     /// With `N` samples at 2.5 cut-offs and `m` columns at a joint, the low-pass takes about
@@ -91,7 +91,7 @@ impl Growing {
         target: Target,
     ) -> Result<(), LogError> {
         let band = Band::new(cutoff_hz, run.rate_hz)?;
-        let sight = Sight::new(robot, scales, run, band.stride);
+        let run_columns = RunColumns::new(robot, scales, run, band.stride);
         let start = self.runs.last().map_or(0, |last| last.end);
         self.rate_hz = run.rate_hz / band.whole_stride() as f64;
         let mut added = 0;
@@ -102,13 +102,13 @@ impl Growing {
             into.extend_from_slice(&values[end..values.len() - end]);
             added = values.len() - 2 * end;
         };
-        for (j, columns) in sight.columns(shapes).into_iter().enumerate() {
+        for (j, columns) in run_columns.columns(shapes).into_iter().enumerate() {
             let all = &mut self.columns[j];
             for (into, column) in all.iter_mut().zip(columns) {
                 put(into, &band.of_column(column));
             }
             let effort = band.of_log(run.joints[j].effort.clone());
-            let nominal = band.of_column(sight.nominal[j].clone());
+            let nominal = band.of_column(run_columns.nominal[j].clone());
             let gap: Vec<f64> = effort.iter().zip(nominal).map(|(e, n)| e - n).collect();
             let width = shapes[j].len();
             put(&mut all[width], if target == Target::Gap { &gap } else { &effort });

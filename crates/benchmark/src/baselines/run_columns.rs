@@ -14,7 +14,7 @@ const STEP: f64 = 1e-4;
 type Signals = Vec<Vec<f64>>;
 
 /// The motion of a run and all that columns along it are made of.
-pub(super) struct Sight<'a> {
+pub(super) struct RunColumns<'a> {
     robot: &'a Robot,
     scales: &'a Scales,
     dynamics: Dynamics,
@@ -26,7 +26,7 @@ pub(super) struct Sight<'a> {
     pub nominal: Signals,
 }
 
-impl<'a> Sight<'a> {
+impl<'a> RunColumns<'a> {
     /// Every `stride`-th sample of a run, as a robot sees it: `q = ratio (q_reported - offset)`.
     pub fn new(robot: &'a Robot, scales: &'a Scales, run: &PreparedRun, stride: usize) -> Self {
         let n = robot.joint_count();
@@ -42,7 +42,7 @@ impl<'a> Sight<'a> {
         }
         let speeds = state[1].iter().zip(&scales.sign_speed);
         let sign = speeds.map(|(qd, s)| qd.iter().map(|v| (v / s).tanh()).collect()).collect();
-        let mut sight = Self {
+        let mut run_columns = Self {
             robot,
             scales,
             dynamics: Dynamics::new(robot),
@@ -52,8 +52,8 @@ impl<'a> Sight<'a> {
             body: vec![Vec::new(); n],
             nominal: vec![Vec::new(); n],
         };
-        sight.evaluate();
-        sight
+        run_columns.evaluate();
+        run_columns
     }
 
     /// Number of samples.
