@@ -1,10 +1,9 @@
 use serde::{Serialize, Serializer};
 
-use crate::json::with_schema;
-use crate::{FileHash, Provenance, ReportError};
+use pages::{FileHash, Provenance, ReportError, with_schema};
 
 /// Name and version of the schema of `learning.json`.
-pub const LEARNING_SCHEMA: &str = "plumbline.learning/1";
+const SCHEMA: &str = "plumbline.learning/1";
 
 /// Models of the torque side by side: how far off they are on logs that took no part, how
 /// sure they are of it, what they cost.
@@ -124,14 +123,14 @@ fn by_name<S: Serializer>(scales: &[(String, f64)], serializer: S) -> Result<S::
 }
 
 impl Comparison {
-    /// `learning.json`, in the schema [`LEARNING_SCHEMA`]. A number that is not finite is
+    /// `learning.json`, in the schema `plumbline.learning/1`. A number that is not finite is
     /// `null`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(LEARNING_SCHEMA, self)
+        with_schema(SCHEMA, self)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Small results made by hand, for the tests of this module.
 
-use super::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
-use super::times::{Curve, Maker, PredictionTimes, TimePoint};
-use crate::{FileHash, Provenance};
+use crate::learning::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
+use crate::learning::times::{Curve, Maker, PredictionTimes, TimePoint};
+use pages::{FileHash, Provenance};
 
 /// Rigid bodies, a Gaussian process and both, for two joints; nothing is known of the rigid
 /// bodies at the elbow.

@@ -2,12 +2,10 @@ use benchmark::ModelTime;
 use experiment::Claim;
 use serde::Serialize;
 
-use super::claims::{Quantity, claim_text, claims_sentence};
 use super::page::{Contents, Drawing, page, table};
-use crate::inks::Place;
-use crate::json::with_schema;
-use crate::terminal::BOLD;
-use crate::{PredictionTimes, ReportError};
+use crate::learning::times::PredictionTimes;
+use crate::run::claims::{Quantity, claim_text, claims_sentence};
+use pages::{BOLD, Medium, ReportError, with_schema};
 
 /// Name and version of the schema of the `metrics.json` of figure 1.
 pub const PREDICTION_TIME_FIGURE_SCHEMA: &str = "plumbline.figure_prediction_time/1";
@@ -46,7 +44,7 @@ impl PredictionTimeFigureReport<'_> {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let provenance = self.times.provenance.without_places();
+        let provenance = self.times.provenance.without_folders();
         let times = &PredictionTimes { provenance, ..self.times.clone() };
         let (labels, columns) = times.table();
         let drawing = Drawing {
@@ -56,7 +54,7 @@ impl PredictionTimeFigureReport<'_> {
                  are logarithmic.",
                 times.joints, times.machine
             ),
-            svg: times.drawn(Place::Page)?,
+            svg: times.draw(Medium::Page)?,
             table: table("Training points (time in µs)", &labels, &columns)?,
         };
         page(Contents {
@@ -105,7 +103,7 @@ mod tests {
 
     use super::*;
     use crate::learning::sample;
-    use crate::terminal::without_escapes;
+    use pages::without_escapes;
 
     #[test]
     fn claims_are_judged_by_the_curves_and_told_above_the_table() {

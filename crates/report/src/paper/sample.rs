@@ -3,8 +3,8 @@
 use benchmark::{LearningErrors, ModelErrors};
 use experiment::{Claim, ClaimCase, Scope};
 
-use super::LearningFigureReport;
-use crate::Provenance;
+use super::learning_figure::LearningFigureReport;
+use pages::Provenance;
 
 /// What a [`LearningFigureReport`] borrows.
 pub struct Sample {

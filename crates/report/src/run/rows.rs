@@ -1,7 +1,7 @@
 use experiment::{ForwardWindow, Gain, Metrics};
 
-use crate::forward::drifts;
-use crate::numbers::significant;
+use crate::diagnosis::forward::drifts;
+use pages::significant;
 
 /// Length of time after which the drift is told joint by joint (s).
 pub(crate) const TOLD_S: f64 = 0.2;

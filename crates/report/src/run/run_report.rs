@@ -1,13 +1,12 @@
 use experiment::Metrics;
 use robot::Robot;
 
-use super::Told;
-use crate::json::with_schema;
-use crate::paper::Quantity;
-use crate::{Provenance, ReportError};
+use crate::run::claims::Quantity;
+use crate::run::told::Told;
+use pages::{Provenance, ReportError, with_schema};
 
 /// Name and version of the schema of `metrics.json`.
-pub const RUN_SCHEMA: &str = "plumbline.run/1";
+const SCHEMA: &str = "plumbline.run/1";
 
 /// Everything that the report of a run shows.
 #[derive(Debug, Clone, Copy)]
@@ -42,12 +41,12 @@ impl RunReport<'_> {
         Quantity { scale: 1e3, unit: self.position_units()[1] }
     }
 
-    /// `metrics.json`, in the schema [`RUN_SCHEMA`].
+    /// `metrics.json`, in the schema `plumbline.run/1`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(RUN_SCHEMA, self.metrics)
+        with_schema(SCHEMA, self.metrics)
     }
 }

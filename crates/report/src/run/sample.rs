@@ -6,7 +6,8 @@ use experiment::{
     TrackedError,
 };
 
-use super::{RunReport, Told, told};
+use crate::run::run_report::RunReport;
+use crate::run::told::{Told, told};
 use crate::sample::Sample as Diagnosed;
 
 /// What a [`RunReport`] borrows.

@@ -1,9 +1,10 @@
 use serde::{Deserialize, Serialize};
 
-use crate::html::sections_of;
-use crate::sentence::{bottom_line, verdict_sentence};
-use crate::tables::{class_of, known_floor};
-use crate::{Report, ReportError};
+use crate::diagnosis::page::found_sections;
+use crate::diagnosis::report::Report;
+use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
+use crate::diagnosis::tables::{class_of, known_floor};
+use pages::ReportError;
 
 /// A diagnosis as the report of a run tells it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,6 +44,6 @@ pub fn told(report: &Report) -> Result<Told, ReportError> {
         warnings: diagnosis.warnings.clone(),
         motions,
         noise_floor_nm: diagnosis.joints.iter().map(known_floor).collect(),
-        sections: sections_of(report)?,
+        sections: found_sections(report)?,
     })
 }

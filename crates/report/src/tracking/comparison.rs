@@ -1,11 +1,10 @@
 use serde::Serialize;
 
-use crate::decimate::columns;
-use crate::json::with_schema;
-use crate::{ComparedJoint, Provenance, ReportError};
+use crate::learning::comparison::ComparedJoint;
+use pages::{Provenance, ReportError, column_extremes, with_schema};
 
 /// Name and version of the schema of `tracking.json`.
-pub const TRACKING_SCHEMA: &str = "plumbline.tracking/1";
+const SCHEMA: &str = "plumbline.tracking/1";
 
 /// One motion followed with several feedforwards and the same feedback.
 ///
@@ -150,7 +149,7 @@ impl FirstSeconds {
         let drawn = |signals: &[&[f64]]| {
             let points = |signal: &&[f64]| {
                 let pairs = time_s.iter().zip(signal.iter()).take_while(|(t, _)| **t <= end);
-                columns(&pairs.map(|(&t, &x)| [t, x]).collect::<Vec<_>>(), COLUMNS)
+                column_extremes(&pairs.map(|(&t, &x)| [t, x]).collect::<Vec<_>>(), COLUMNS)
             };
             signals.iter().map(points).collect()
         };
@@ -159,14 +158,14 @@ impl FirstSeconds {
 }
 
 impl TrackingComparison {
-    /// `tracking.json`, in the schema [`TRACKING_SCHEMA`]. A number that is not finite is
+    /// `tracking.json`, in the schema `plumbline.tracking/1`. A number that is not finite is
     /// `null`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(TRACKING_SCHEMA, self)
+        with_schema(SCHEMA, self)
     }
 }
 

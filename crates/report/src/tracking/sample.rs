@@ -1,7 +1,10 @@
 //! A small result made by hand, for the tests of this module.
 
-use super::comparison::{FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison};
-use crate::{ComparedJoint, Provenance};
+use crate::learning::comparison::ComparedJoint;
+use crate::tracking::comparison::{
+    FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison,
+};
+use pages::Provenance;
 
 /// A hinge and a slide that follow a sine of 1 rad and 1 m with no feedforward, which the slide
 /// loses its encoder with, with rigid bodies, and with both rigid bodies and a process.

@@ -1,5 +1,5 @@
-use super::comparison::{TrackedModel, TrackingComparison};
-use crate::numbers::significant;
+use crate::tracking::comparison::{TrackedModel, TrackingComparison};
+use pages::significant;
 
 /// The error that runs are ranked by.
 enum Measure {
