@@ -6,13 +6,20 @@
 //! Sheet, Answers --> Judgement --many--> PanelTally
 //! two results of the same trials --> Comparison
 //! LearningFigure --simulate, diagnose, learn--> LearningErrors --judge--> Claims
+//! Merged, MergedPanel, LearningErrors, PredictionTimes --> pages, drawings, text, JSON
 //! ```
+//!
+//! - `panel` judges one trial of a population by its truth, `trials` plans and makes campaigns;
+//! - `tables` adds trials up, `paired` compares two results of the same trials;
+//! - `baselines` are two plain methods, `statistics` shares and rates with their intervals;
+//! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
 mod baselines;
 mod error;
 mod paired;
 mod panel;
 mod paper;
+mod reports;
 mod statistics;
 mod tables;
 mod trial_folder;
@@ -41,6 +48,13 @@ pub use paper::learning_errors::{LearningErrors, ModelErrors};
 pub use paper::learning_figure::{LearningFigure, PaperData, PaperPlant};
 pub use paper::prediction_time_figure::PredictionTimeFigure;
 pub use paper::time_claims::{ModelTime, time_claims};
+pub use reports::paper::learning_figure::{LEARNING_FIGURE_SCHEMA, LearningFigureReport};
+pub use reports::paper::prediction_time_figure::{
+    PREDICTION_TIME_FIGURE_SCHEMA, PredictionTimeFigureReport,
+};
+pub use reports::times::prediction_times::{Curve, Maker, PredictionTimes, TimePoint};
+pub use reports::trials::page::trials_page;
+pub use reports::trials::panel_page::panel_page;
 pub use statistics::rate::{Fraction, Rate};
 pub use statistics::share::Share;
 pub use statistics::text_table::TextTable;

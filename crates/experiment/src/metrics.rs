@@ -6,8 +6,8 @@ use crate::scoring::score::Score;
 use crate::torque::torque_error::TorqueError;
 use crate::tracking::tracked_error::TrackedError;
 
-/// What came of an [`Experiment`](crate::Experiment): what was put in and found, and what finding
-/// it gains on runs that took no part in it.
+/// Results of an [`Experiment`](crate::Experiment): the injected effects and the findings, and what
+/// the findings gain on held-out runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Metrics {
     /// Name of the robot.

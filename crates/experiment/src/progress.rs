@@ -1,4 +1,4 @@
-/// Told what a run of a scenario is doing; may end it.
+/// Hears what a run of a scenario is doing, and may stop it.
 pub trait Progress: learner::Progress {
     /// Something new begins.
     fn begin(&self, what: &str);

@@ -8,14 +8,14 @@ use sha2::{Digest, Sha256};
 
 use crate::error::ExperimentError;
 
-/// A part of a run that is made once, and again when what it is made from has changed.
+/// A part of a run that is made once, and made again when its inputs change.
 ///
 /// ```text
 /// inputs --make--> files, value --last--> stages/NAME.json: hash of inputs, hashes of files, value
 /// ```
 ///
-/// What is killed on the way leaves no such file; a file that was changed since is not of its hash.
-/// In both cases it is made again.
+/// A stage that was killed has no such file, and a file that was changed since has another hash:
+/// both are made again.
 #[derive(Debug, Clone)]
 pub struct Stage {
     folder: PathBuf,
@@ -89,8 +89,8 @@ impl Stage {
         Self { folder: folder.to_owned(), file }
     }
 
-    /// What the stage makes of its inputs: what it made before where that is whole, and what
-    /// `make` makes otherwise.
+    /// The product of the stage: the stored one where it is whole and of these inputs, otherwise
+    /// what `make` returns.
     ///
     /// # Errors
     ///
@@ -123,7 +123,7 @@ impl Stage {
         Ok(Staged { value: stored.value, files: stored.files, is_kept: false })
     }
 
-    /// What was made before from these inputs, where nothing of it is missing or changed.
+    /// The stored product of these inputs, unless a file is missing or changed.
     fn read_stored<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
         let text = std::fs::read_to_string(&self.file).ok()?;
         let stored: Stored<T> = serde_json::from_str(&text).ok()?;

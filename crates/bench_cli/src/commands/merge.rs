@@ -18,12 +18,12 @@ pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
     let (text, json, page) = match folder.campaign() {
         Campaign::Scenario(_) => {
             let merged = Merged::new(&folder, &made);
-            let page = report::trials_page(&merged, &doubts, &provenance)?;
+            let page = benchmark::trials_page(&merged, &doubts, &provenance)?;
             (merged.text(), serde_json::to_string_pretty(&merged), page)
         }
         Campaign::Population(_) => {
             let merged = MergedPanel::new(&folder, &made);
-            let page = report::panel_page(&merged, &doubts, &provenance)?;
+            let page = benchmark::panel_page(&merged, &doubts, &provenance)?;
             (merged.text(), serde_json::to_string_pretty(&merged), page)
         }
     };

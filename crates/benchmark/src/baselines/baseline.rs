@@ -1,4 +1,5 @@
 use diagnosis::EffectAt;
+use experiment::{Band, TurningError};
 use logs::{PrepareSettings, PreparedJoint, PreparedRun, Run};
 use robot::Robot;
 
@@ -7,7 +8,6 @@ use crate::baselines::run_columns::RunColumns;
 use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
 use crate::error::BenchmarkError;
-use experiment::{Band, TurningError};
 
 /// What a plain method makes of logs.
 #[derive(Debug, Clone, PartialEq)]

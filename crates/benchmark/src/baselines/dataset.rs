@@ -1,15 +1,15 @@
 use std::ops::Range;
 
 use dynamics::add_gram;
+use experiment::Band;
 use faer::{Mat, MatRef};
 use logs::{LogError, Prepared, PreparedRun};
 use robot::Robot;
 
 use crate::baselines::folds::folds;
+use crate::baselines::run_columns::RunColumns;
 use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
-use crate::baselines::run_columns::RunColumns;
-use experiment::Band;
 
 /// What is left out at both ends of a run behind the low-pass: periods of the cut-off, and at
 /// least as many seconds, in which a controller that was just started settles.

@@ -1,12 +1,12 @@
 use std::fmt;
 
 use diagnosis::Verdict;
+use experiment::Score;
 use serde::Serialize;
 
 use crate::panel::judgement::Judgement;
 use crate::trials::record::Record;
 use crate::trials::scored::Scored;
-use experiment::Score;
 
 /// What a trial is asked that has a yes or a no.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

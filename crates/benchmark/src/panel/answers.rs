@@ -1,7 +1,7 @@
 use diagnosis::{Diagnosis, EffectAt};
 use serde::{Deserialize, Serialize};
 
-/// What is said of the logs of one trial: by the diagnosis and by two baselines.
+/// The answers of the diagnosis and of two baselines to the logs of one trial.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answers {
     /// The diagnosis; in words why it refuses the logs.
@@ -16,8 +16,8 @@ pub struct Answers {
     pub costs: Costs,
 }
 
-/// RMS error of the torque of a log that took no part (N m or N), joint by joint in the order of the
-/// sheet and while the joint moves; none of what could not be measured.
+/// RMS error of predicted torque on a held-out log (N m or N), by joint in the order of the sheet,
+/// while the joint moves. None where it could not be measured.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct HeldOut {
     /// Of the robot as described.

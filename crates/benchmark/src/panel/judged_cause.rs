@@ -1,10 +1,10 @@
 use diagnosis::{EffectAt, Finding};
+use experiment::{Size, stored};
 use population::{Cause, Role, Strength};
 use serde::{Deserialize, Serialize};
 
 use crate::panel::dry_friction::DryFriction;
 use crate::panel::judged_finding::BaselineClaim;
-use experiment::{Size, stored};
 
 /// A cause that is in the data, and who names it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,8 +74,8 @@ pub(super) fn place(cause: &Cause) -> EffectAt {
     EffectAt { effect: cause.truth.effect, joint, link }
 }
 
-/// A strength that JSON can hold: without noise a cause is seen with certainty, and what is no number is
-/// not seen.
+/// A strength that JSON can hold: an infinite one, of a cause without noise, becomes the largest
+/// number; one that is not a number becomes zero.
 pub(super) fn finite(strength: Strength) -> Strength {
     let held = |number: f64| if number.is_nan() { 0.0 } else { number.clamp(0.0, f64::MAX) };
     Strength {

@@ -1,9 +1,8 @@
 use std::collections::BTreeSet;
 
 use diagnosis::{EffectAt, Finding};
-use serde::{Deserialize, Serialize};
-
 use experiment::stored;
+use serde::{Deserialize, Serialize};
 
 /// A finding of a diagnosis, and whether it is true.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -17,7 +16,8 @@ pub struct JudgedFinding {
     /// What it may as well be.
     #[serde(deserialize_with = "stored::places")]
     pub not_separable_from: Vec<EffectAt>,
-    /// Whether it is in the data, says a rival that is, or is a rival of a finding that is.
+    /// Whether the cause is in the data, or one of its rivals is, or it is a rival of a finding
+    /// whose cause is.
     pub is_true: bool,
 }
 

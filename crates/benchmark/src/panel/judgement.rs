@@ -1,4 +1,5 @@
 use diagnosis::{EffectAt, Finding, Verdict};
+use experiment::stored;
 use population::{Corner, Knowledge, Sheet, Unnamed};
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +8,6 @@ use crate::panel::judged_cause::{JudgedCause, finite, place};
 use crate::panel::judged_finding::{BaselineClaim, JudgedFinding};
 use crate::panel::prediction::Prediction;
 use crate::statistics::rate::Fraction;
-use experiment::stored;
 
 /// How well one trial of a population was answered.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,7 +24,7 @@ pub struct Judgement {
     /// Why the diagnosis refuses the logs, where it does; it then names nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refused: Option<String>,
-    /// What was named, the largest share first.
+    /// The findings, the largest share of the gap first.
     pub findings: Vec<JudgedFinding>,
     /// The causes that are in the data.
     pub causes: Vec<JudgedCause>,
@@ -80,41 +80,42 @@ impl Judgement {
         self.visible().next().is_some() || self.hides_strangers()
     }
 
-    /// True findings of all of them, none where not all that is in the data is known.
+    /// Share of the findings that are true; none where the data hold causes that nobody knows.
     pub fn precision(&self) -> Option<Fraction> {
         self.of_findings(|_| 1.0)
     }
 
-    /// The same, each with its share of the gap's power as weight.
+    /// The same, each finding weighted by its share of the gap's power.
     pub fn precision_by_torque(&self) -> Option<Fraction> {
         self.of_findings(JudgedFinding::weight)
     }
 
-    /// Visible causes that a finding or a rival of one names, of all of them.
+    /// Share of the visible causes that a finding or one of its rivals names.
     pub fn recall(&self) -> Fraction {
         Fraction::of(self.visible().map(|cause| (cause.named(), 1.0)))
     }
 
-    /// The same, each with its torque as weight, at most that of its joints: a nominal friction that is a hundred
-    /// times too large counts as one that is all there is.
+    /// The same, each cause weighted by its torque, at most that of its joints: a nominal friction
+    /// that is a hundred times too large weighs as much as the whole effort.
     pub fn recall_by_torque(&self) -> Fraction {
         let weight = |cause: &JudgedCause| cause.strength.torque.min(1.0);
         Fraction::of(self.visible().map(|cause| (cause.named(), weight(cause))))
     }
 
-    /// True names of all that a baseline names, none where not all that is in the data is known.
+    /// Share of a baseline's names that are true; none where the data hold causes that nobody
+    /// knows.
     pub(crate) fn precision_of(&self, claims: &[BaselineClaim]) -> Option<Fraction> {
         self.known().then(|| Fraction::of(claims.iter().map(|claim| (claim.is_true, 1.0))))
     }
 
-    /// Visible causes that a baseline names, of all of them.
+    /// Share of the visible causes that a baseline names.
     pub(crate) fn recall_of(&self, names: impl Fn(&JudgedCause) -> bool) -> Fraction {
         Fraction::of(self.visible().map(|cause| (names(cause), 1.0)))
     }
 
-    /// Whether it says "consistent" or "explained" where it is not, none where nothing that an oracle sees is
-    /// in the data: "consistent" in any case, "explained" with a visible cause that is not named, or
-    /// with a visible effect of no catalogue.
+    /// Whether the verdict calls a visible gap closed: "consistent", or "explained" although a
+    /// visible cause has no name or an effect outside the catalogue is visible. None where an
+    /// oracle sees no cause.
     pub fn false_assurance(&self) -> Option<bool> {
         let missed = || self.visible().any(|cause| !cause.named()) || self.hides_strangers();
         self.hides().then(|| match self.verdict {
@@ -124,15 +125,15 @@ impl Judgement {
         })
     }
 
-    /// Whether it names what is not there or leaves structure open, none where something that an oracle
-    /// sees is in the data, or something that nobody knows.
+    /// Whether the diagnosis names an absent cause or leaves structure open in data without a
+    /// cause. None where an oracle sees a cause, or where not all causes are known.
     pub fn false_alarm(&self) -> Option<bool> {
         let alarm = || self.names_falsely() || self.is_open();
         (self.known() && !self.hides()).then(alarm)
     }
 
-    /// Whether all visible causes are named, and nothing false where that can be known; none for logs of
-    /// which nothing is known.
+    /// Whether every visible cause is named and, where all causes are known, no false one. None for
+    /// logs whose causes are unknown.
     pub fn right(&self) -> Option<bool> {
         let right = || self.visible().all(JudgedCause::named);
         match self.knowledge {
@@ -147,7 +148,7 @@ impl Judgement {
         matches!(self.verdict, Verdict::Unexplained | Verdict::PartlyExplained)
     }
 
-    /// Whether a finding is not true, as far as that can be known.
+    /// Whether a finding is false, where all causes are known.
     pub fn names_falsely(&self) -> bool {
         self.known() && self.findings.iter().any(|finding| !finding.is_true)
     }

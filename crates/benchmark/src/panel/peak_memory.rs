@@ -6,8 +6,8 @@ pub(super) fn restart_peak() {
     let _ = fs::write("/proc/self/clear_refs", "5");
 }
 
-/// Largest memory that this process has had since (MB), every trial at the same time included; none where the
-/// system does not tell.
+/// Largest memory of this process since then (MB), over all trials that run at the same time; none
+/// where the system does not report it.
 pub(super) fn peak_mb() -> Option<f64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -3,6 +3,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use diagnosis::{DiagnosisError, Outcome, Settings, Silent};
+use experiment::{ExperimentError, robot_error};
 use population::{Came, Origin, PopulationSpec, Remade, Sheet, Store};
 use robot::{Loaded, Robot};
 
@@ -14,7 +15,6 @@ use crate::panel::answers::{Answers, Costs, HeldOut};
 use crate::panel::judgement::Judgement;
 use crate::panel::peak_memory::{peak_mb, restart_peak};
 use crate::trial_folder::read_runs;
-use experiment::{ExperimentError, robot_error};
 
 /// A judged trial, and what was wrong with its entry in the store.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,7 +112,7 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
     })
 }
 
-/// What a diagnosis says; in words why it says nothing. A panic is no answer either, and counts as such.
+/// The answer of a diagnosis, or in words why it has none. A panic counts as no answer.
 fn catch_panic(
     diagnose: impl FnOnce() -> Result<Outcome, DiagnosisError>,
 ) -> Result<Outcome, String> {
@@ -122,7 +122,7 @@ fn catch_panic(
     }
 }
 
-/// The answers to logs that cannot be read: nobody names anything, and every robot stays as described.
+/// The answers to unreadable logs: no method names anything, and every robot stays as described.
 fn answers_without_logs(why: String, nominal: Option<Vec<Option<f64>>>, logs_s: f64) -> Answers {
     Answers {
         diagnosis: Err(why),

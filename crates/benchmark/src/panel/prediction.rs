@@ -1,7 +1,7 @@
+use experiment::stored;
 use serde::{Deserialize, Serialize};
 
 use crate::panel::answers::HeldOut;
-use experiment::stored;
 
 /// Errors of torque on a log that took no part, over the torque of the trial.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -1,13 +1,13 @@
 use std::path::PathBuf;
 
 use document::Document;
+use experiment::LearnSpec;
 use motion::MotionSpec;
 use schemars::JsonSchema;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::error::BenchmarkError;
-use experiment::LearnSpec;
 
 /// A scenario that draws a figure of Nguyen-Tuong & Peters 2010.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,7 +1,7 @@
+use experiment::{Claim, ClaimCase, PROCESSES, SEMIPARAMETRIC, Scope};
 use learner::ModelKind;
 
 use crate::paper::learning_errors::{LearningErrors, ModelErrors};
-use experiment::{Claim, ClaimCase, PROCESSES, SEMIPARAMETRIC, Scope};
 
 /// The largest error that counts as near zero, and the most that one may lie above another and
 /// still be close to it: what cannot be told from zero in the bars of figure 2.

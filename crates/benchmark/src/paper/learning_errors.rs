@@ -1,8 +1,7 @@
+use experiment::{Learned, PAPER_MODELS, PROCESSES};
 use learner::{ModelKind, Samples, Score};
 use logs::Prepared;
 use serde::{Deserialize, Serialize};
-
-use experiment::{Learned, PAPER_MODELS, PROCESSES};
 
 /// What came of figure 2: the errors of every model, data by data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

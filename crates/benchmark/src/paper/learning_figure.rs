@@ -2,6 +2,9 @@ use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
 use dynamics::ColumnSet;
+use experiment::{
+    Learned, Lesson, PAPER_MODELS, Progress, document_at, known_runs, motion_at, with_seed,
+};
 use logs::Run;
 use motion::Motion;
 use robot::{Loaded, Robot};
@@ -10,9 +13,6 @@ use simulator::scenario::{RunSpec, Scenario, ScenarioSpec};
 use crate::error::BenchmarkError;
 use crate::paper::figure_spec::{DataSpec, FigureScenario, FigureSpec, LearningFigureSpec};
 use crate::paper::learning_errors::ModelErrors;
-use experiment::{
-    Learned, Lesson, PAPER_MODELS, Progress, document_at, known_runs, motion_at, with_seed,
-};
 
 /// What the rigid bodies of the figure are: the links and, as rigid as they, the rotors.
 const RIGID_BODIES: ColumnSet = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };

@@ -1,9 +1,9 @@
+use experiment::{Gain, Gains, Score};
 use serde::Serialize;
 
 use crate::statistics::share::Share;
 use crate::statistics::text_table::TextTable;
 use crate::tables::tally::{Group, median};
-use experiment::{Gain, Gains, Score};
 
 /// Share of the gap above which naming an effect is to make an error [`ENOUGH`] times less.
 const LARGE: f64 = 0.6;

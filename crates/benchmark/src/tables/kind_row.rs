@@ -1,11 +1,11 @@
 use catalogue::EffectKind;
+use experiment::Estimated;
 use serde::Serialize;
 
 use crate::panel::judged_cause::JudgedCause;
 use crate::panel::judgement::Judgement;
 use crate::statistics::rate::{Fraction, Rate};
 use crate::tables::tally::SizeTally;
-use experiment::Estimated;
 
 /// Causes of one kind over the trials of a population.
 #[derive(Debug, Clone, PartialEq, Serialize)]

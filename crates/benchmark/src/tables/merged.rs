@@ -1,3 +1,4 @@
+use experiment::Score;
 use serde::Serialize;
 
 use crate::statistics::text_table::TextTable;
@@ -7,7 +8,6 @@ use crate::tables::tally::Tally;
 use crate::trials::campaign_folder::{CampaignFolder, Manifest};
 use crate::trials::failure::Failure;
 use crate::trials::kind_count::KindCount;
-use experiment::Score;
 
 /// The schema that `tally.json` follows.
 pub const MERGED_SCHEMA: &str = "plumbline.trials/1";

@@ -1,9 +1,9 @@
 use catalogue::{EffectKind, Parameter};
+use experiment::{PutIn, Score};
 use serde::Serialize;
 
 use crate::statistics::share::Share;
 use crate::tables::tally::Group;
-use experiment::{PutIn, Score};
 
 /// Classes by size.
 const CLASSES: usize = 3;

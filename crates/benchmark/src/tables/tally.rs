@@ -3,10 +3,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use catalogue::EffectKind;
+use experiment::{Estimated, Score};
 use serde::{Serialize, Serializer};
 
 use crate::statistics::share::Share;
-use experiment::{Estimated, Score};
 
 /// What the first finding is called where there is none.
 pub(super) const NOTHING: &str = "nothing";

@@ -61,7 +61,8 @@ impl Campaign {
         Ok(Self::Population(PopulationCampaign { population }))
     }
 
-    /// The campaign as one text, beside a scenario that is called so where it starts from one.
+    /// The campaign as one text; `scenario` is the name of the scenario file beside it, if it
+    /// starts from one.
     pub(super) fn resolved(&self, scenario: &str) -> String {
         match self {
             Self::Scenario(campaign) => campaign.resolved(scenario),
@@ -94,7 +95,7 @@ impl Campaign {
         }
     }
 
-    /// What tells it from other campaigns: SHA-256 of all that its scores follow from, save recorded
+    /// Identity of the campaign: SHA-256 of everything that its scores depend on, without recorded
     /// logs of a population and this program.
     pub fn hash(&self) -> String {
         match self {

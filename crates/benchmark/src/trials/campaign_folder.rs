@@ -25,7 +25,7 @@ const SHARD: &str = "parquet";
 /// slurm/                         job of `plumbline-bench submit` and what its tasks have said
 /// ```
 ///
-/// The campaign less its shards is what is left.
+/// The trials without a shard are left to make.
 #[derive(Debug, Clone)]
 pub struct CampaignFolder {
     root: PathBuf,
@@ -33,16 +33,16 @@ pub struct CampaignFolder {
     hash: String,
 }
 
-/// What there is of a campaign.
+/// The finished trials of a campaign, and files that count as none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Manifest {
     /// The finished trials by task, those that failed among them.
     pub records: BTreeMap<usize, Record>,
-    /// Files among the shards that are none of this campaign, by path.
+    /// Files among the shards that do not belong to this campaign, by path.
     pub broken: Vec<BrokenShard>,
 }
 
-/// A file among the shards that is none of this campaign.
+/// A file among the shards that does not belong to this campaign.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BrokenShard {
     /// The file.

@@ -12,8 +12,8 @@ pub enum Hidden {
     One(EffectKind),
     /// One effect of a kind that the diagnosis does not look for: to it, something unknown.
     Unknown(EffectKind),
-    /// The same, and what the catalogue says it is confused with is not looked for either: nothing that is
-    /// looked for is like it.
+    /// The same, and the diagnosis does not look for the effects that the catalogue confuses it
+    /// with either.
     WithoutRelatives(EffectKind),
     /// Two effects, each drawn from the two kinds: it may be one kind at two places.
     Two(EffectKind, EffectKind),
@@ -27,7 +27,7 @@ const STRANGE: &str = "strange_";
 const ANY_TWO: &str = "any+any";
 
 impl Hidden {
-    /// What a scenario is told, as `--set` takes it; other keys of its `hidden` stay.
+    /// The settings of a scenario, as `--set` takes them; other keys of its `hidden` stay.
     pub fn settings(self) -> Vec<String> {
         let drawn = match self {
             Self::Nothing => return vec!["hidden.count=[0, 0]".to_owned()],
@@ -43,7 +43,7 @@ impl Hidden {
         ]
     }
 
-    /// What the diagnosis is not to look for.
+    /// The effects that the diagnosis does not look for.
     pub(super) fn without(self) -> Vec<EffectKind> {
         match self {
             Self::Unknown(kind) => vec![kind],

@@ -5,6 +5,7 @@ use std::path::Path;
 use arrow_array::cast::AsArray;
 use arrow_array::types::UInt64Type;
 use arrow_array::{Array, RecordBatch};
+use experiment::Score;
 use logs::LogError;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
@@ -12,7 +13,6 @@ use crate::panel::judgement::Judgement;
 use crate::trials::hidden::Hidden;
 use crate::trials::record_columns;
 use crate::trials::scored::Scored;
-use experiment::Score;
 
 /// What came of one trial of a campaign: a row of a table.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt64Array};
+use experiment::Score;
 
 use crate::panel::judgement::Judgement;
 use crate::trials::record::Record;
-use experiment::Score;
 
 /// A column and its name.
 pub(super) type Named = (&'static str, ArrayRef);

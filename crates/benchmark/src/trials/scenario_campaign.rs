@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use catalogue::EffectKind;
 use document::{Document, DocumentError, KeyPath};
+use experiment::{ExperimentError, sha256};
 use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,7 +12,6 @@ use crate::error::BenchmarkError;
 use crate::trials::campaign::{hexadecimal, seed_of};
 use crate::trials::hidden::Hidden;
 use crate::trials::trial::Trial;
-use experiment::{ExperimentError, sha256};
 
 /// Every kind of the catalogue, one effect each.
 const EACH: &str = "each";
@@ -19,7 +19,7 @@ const EACH: &str = "each";
 const WITHOUT_EACH: &str = "without_each";
 /// The same, with all that it is confused with.
 const STRANGE_EACH: &str = "strange_each";
-/// How the content of a campaign is put into words, which another way would make other campaigns of all.
+/// Version of the text that is hashed: another version gives every campaign another identity.
 const IDENTITY: &str = "campaign by content/1\n";
 /// Most trials of a kind.
 const MOST_SEEDS: usize = 1_000_000;
@@ -143,8 +143,8 @@ impl ScenarioCampaign {
         self.kinds.len() * self.seeds
     }
 
-    /// What tells it from other campaigns: SHA-256 of all that its scores follow from, save this program;
-    /// of files the content counts, wherever they lie.
+    /// Identity of the campaign: SHA-256 of everything that its scores depend on, without this
+    /// program. Files count by content, wherever they lie.
     pub fn hash(&self) -> String {
         hexadecimal(&[IDENTITY, &self.resolved(""), "\n", &self.identity].concat())
     }

@@ -1,8 +1,8 @@
+use experiment::Score;
 use serde::Serialize;
 
 use crate::panel::judgement::Judgement;
 use crate::trials::hidden::Hidden;
-use experiment::Score;
 
 /// How well a trial was answered.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 use catalogue::EffectKind;
 use diagnosis::{Outcome, Settings, Silent};
 use document::Document;
+use experiment::{Experiment, Score, Sealed};
 use logs::Run;
 use robot::{Loaded, Robot};
 use simulator::LogFormat;
@@ -11,7 +12,6 @@ use simulator::scenario::{Scenario, ScenarioSpec};
 use crate::error::BenchmarkError;
 use crate::trial_folder::{read_runs, unusable};
 use crate::trials::hidden::Hidden;
-use experiment::{Experiment, Score, Sealed};
 
 /// One blind trial: an arm in which something is hidden, logged, diagnosed and scored.
 ///
@@ -21,8 +21,7 @@ use experiment::{Experiment, Score, Sealed};
 /// with gains: diagnosis --> extended robot --torque, replay, tracking of the last run--> Gains
 /// ```
 ///
-/// The score follows from these fields alone, so that a trial may be made anywhere, at any time
-/// and again.
+/// The score depends on these fields alone: a trial can be made anywhere, at any time, and again.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Trial {
     /// The scenario to start from: the arm, its sensors and its runs.
@@ -100,9 +99,9 @@ impl Trial {
     }
 }
 
-/// Diagnoses the logs of a folder as `plumbline diagnose` does, `robot` being the nominal one,
-/// and only then opens `truth.json` and scores the answer; `without` are effects that it does not
-/// look for.
+/// Diagnoses the logs of a folder as `plumbline diagnose` does, then opens `truth.json` and scores
+/// the answer. `robot` is the nominal one, `without` lists effects that the diagnosis does not look
+/// for.
 ///
 /// # Errors
 ///
@@ -138,7 +137,7 @@ fn score_answer(
     Ok(Score { looked_for: !unknown, ..score })
 }
 
-/// Whether a folder holds the logs of this scenario, whole: the truth is the last to appear.
+/// Whether a folder holds all logs of this scenario: the truth is written last.
 fn holds(folder: &Path, scenario: &Scenario) -> bool {
     let spec = |document: Document| document.parse::<ScenarioSpec>().ok();
     let said = |document| spec(document).map(|spec| ScenarioSpec { robot: PathBuf::new(), ..spec });

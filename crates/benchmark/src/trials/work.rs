@@ -21,7 +21,7 @@ use crate::trials::campaign_folder::CampaignFolder;
 use crate::trials::part::Part;
 use crate::trials::record::Record;
 
-/// Who makes which trials of a campaign, and what they leave.
+/// The workers of a campaign: how many, for which part, and what becomes of the logs.
 #[derive(Debug, Clone)]
 pub struct Workers {
     /// Trials made at a time; none counts as one.
@@ -30,7 +30,8 @@ pub struct Workers {
     pub part: Part,
     /// What becomes of the logs.
     pub logs: TrialLogs,
-    /// A folder in which the logs of a population are kept once they are made, and taken from.
+    /// A folder with logs of a population: logs that it lacks are added, the others are read from
+    /// it.
     pub store: Option<PathBuf>,
 }
 
@@ -39,11 +40,11 @@ pub struct Workers {
 pub enum TrialLogs {
     /// They are removed.
     Removed,
-    /// They are kept under `logs/KIND/SEED`, and those of the trial that are there are used again.
+    /// They stay under `logs/KIND/SEED`, and a later run reads them instead of simulating again.
     Kept,
 }
 
-/// Told how the work goes on; may end it.
+/// Hears of every trial that ends, and may stop the work.
 pub trait WorkProgress: Sync {
     /// So many trials are left to make.
     fn begin(&self, left: usize);
@@ -181,7 +182,7 @@ fn clear(logs: &Path) -> Result<(), BenchmarkError> {
     ignore_missing(std::fs::remove_dir_all(logs), logs)
 }
 
-/// What came of a removal, for which it is as well that nothing was there.
+/// Ignores `NotFound`.
 fn ignore_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), BenchmarkError> {
     match removed {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(unusable(path)(error)),
@@ -189,7 +190,7 @@ fn ignore_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), Bench
     }
 }
 
-/// What came of a trial: its score or in words why it has none; an error where the disk failed.
+/// The score of a trial, or in words why it has none. A failing disk is an error.
 fn outcome_of<T>(
     outcome: Result<Result<T, BenchmarkError>, Box<dyn Any + Send>>,
 ) -> Result<Result<T, String>, BenchmarkError> {

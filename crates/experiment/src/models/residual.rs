@@ -126,8 +126,8 @@ impl Logs<'_> {
         Ok(training.with_named(extended).fit(ModelKind::NamedGp)?)
     }
 
-    /// What the extended robot of a held-out part leaves there, without and with a process that
-    /// does not know it.
+    /// Residuals on a held-out part: of the extended robot, and of the robot with a process that
+    /// was learned on the other parts.
     fn tested(
         &self,
         part: &HeldOut,
@@ -156,7 +156,7 @@ impl Logs<'_> {
         sums.iter().map(|sum| sum / samples.len() as f64).collect()
     }
 
-    /// What a model leaves of the torque in some stretches, low-passed, one row a joint.
+    /// Residual of a model in some stretches, low-passed, one row a joint.
     fn left(&self, model: &Model, spans: &[Span]) -> Result<Vec<Vec<f64>>, LogError> {
         let joints = self.robot.joint_count();
         let mut all = vec![Vec::new(); joints];

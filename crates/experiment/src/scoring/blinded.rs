@@ -5,7 +5,7 @@ use simulator::{StrangerTruth, Truth};
 
 use crate::error::ExperimentError;
 
-/// What a simulation put in, sealed until its logs are diagnosed.
+/// The truth about simulated logs, read only after they are diagnosed.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Sealed {
     /// The seed that everything was drawn from.

@@ -9,29 +9,30 @@ use crate::scoring::stored;
 
 /// How well a diagnosis names what was put in.
 ///
-/// Where `k` effects were put in, they are to be the `k` findings with the largest shares.
+/// Of `k` injected effects, the `k` findings with the largest shares should be these effects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
     /// The seed that everything was drawn from.
     pub seed: u64,
     /// What was put in.
     pub put_in: Vec<PutIn>,
-    /// Whether the diagnosis looked for it; if not, it was to find something unknown.
+    /// Whether the diagnosis looked for it; if not, the right answer is that something is unknown.
     pub looked_for: bool,
     /// The verdict over all joints.
     #[serde(deserialize_with = "stored::verdict")]
     pub verdict: Verdict,
     /// What was named, the largest share first.
     pub findings: Vec<Named>,
-    /// Whether the first findings are what was put in, effect and place; nothing, for nothing.
+    /// Whether the first findings are the injected effects at their places; without an injected
+    /// effect, whether there is no finding.
     pub exactly: bool,
     /// Whether what was put in are the first findings or rivals of theirs.
     pub as_one_of: bool,
     /// Findings that are neither true nor rivals of a true one.
     #[serde(deserialize_with = "stored::places")]
     pub stray: Vec<EffectAt>,
-    /// What the findings gain, where that was measured: at the joint of a single effect that has
-    /// one, and otherwise over all.
+    /// What the findings gain, where that was measured: at the joint of a single effect, otherwise
+    /// over all joints.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gains: Option<Gains>,
 }
@@ -99,27 +100,26 @@ impl Score {
         }
     }
 
-    /// Share of the nominal residual's power that goes with the findings that name what was put in.
+    /// Share of the nominal residual's power that the true findings explain.
     pub fn explained(&self) -> f64 {
         let own = self.put_in.iter().filter_map(|p| p.finding);
         own.map(|finding| self.findings[finding].share_explained).sum()
     }
 
-    /// Whether all that was put in is among the findings or their rivals, wherever.
+    /// Whether every injected effect is among the findings or their rivals.
     pub fn found(&self) -> bool {
         self.put_in.iter().all(|p| p.one_of.is_some())
     }
 
-    /// Whether the logs show what was put in: all but a trial in which it is not among the findings
-    /// or their rivals, nothing wrong is named in its place, and the diagnosis says that it would
-    /// have found no effect of that size.
+    /// Whether the logs show the injected effects. They do not where an effect is missed, no false
+    /// one is named in its place, and the diagnosis calls its size too small to be found.
     pub fn visible(&self) -> bool {
         let large = |p: &PutIn| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
         self.found() || !self.stray.is_empty() || self.put_in.iter().all(large)
     }
 
-    /// Whether it says that there is something that it cannot name, and names nothing wrong: the
-    /// answer to an effect that it has no model of.
+    /// Whether the diagnosis leaves structure open and names no false effect: the right answer to
+    /// an effect without a model.
     pub fn unknown(&self) -> bool {
         let open = matches!(self.verdict, Verdict::Unexplained | Verdict::PartlyExplained);
         open && self.stray.is_empty()

@@ -75,7 +75,8 @@ fn on_truth_scale(truth: &Truth, value: f64, estimate: &Estimate) -> Estimated {
     }
 }
 
-/// How the simulator states what it put in, beside the number that the robot has in the end.
+/// How the simulator states an injected parameter, relative to the number that the robot ends up
+/// with.
 enum Stated {
     /// On top of what the description says.
     Added,

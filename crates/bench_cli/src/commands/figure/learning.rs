@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use benchmark::LearningFigureReport;
 use benchmark::{
     LearningErrors, LearningFigure, ModelErrors, PaperData, PaperPlant, learning_claims,
 };
@@ -9,7 +10,7 @@ use cli::{
 };
 use document::Document;
 use experiment::{PAPER_MODELS, Product};
-use report::{LearningFigureReport, Provenance};
+use report::Provenance;
 use robot::Robot;
 use serde::{Deserialize, Serialize};
 

@@ -1,10 +1,10 @@
 use std::path::Path;
 
+use benchmark::{Curve, PredictionTimeFigureReport, PredictionTimes};
 use benchmark::{PredictionTimeFigure, time_claims};
 use cli::{Line, RunFolder, Watch, create_folder, hash, provenance, shown};
 use document::Document;
 use experiment::Product;
-use report::{Curve, PredictionTimeFigureReport, PredictionTimes};
 
 use crate::commands::figure::arguments::Arguments;
 use crate::commands::times::curves::{AS_WRITTEN, MadeUp, curves, machine};

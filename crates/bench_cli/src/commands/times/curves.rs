@@ -1,11 +1,11 @@
 use std::hint::black_box;
 
+use benchmark::{Curve, Maker, TimePoint};
 use cli::{Watch, median_query_us, median_us};
 use dynamics::ColumnSet;
 use gaussian_process::{GaussianKernel, KernelSum};
 use learner::{Inputs, LearnerError, Mean, Model, ModelKind, Process, Samples, TorqueModel};
 use logs::{Prepared, PreparedJoint, PreparedRun};
-use report::{Curve, Maker, TimePoint};
 use robot::Robot;
 
 use crate::commands::times::regressor_kernel::RegressorKernel;

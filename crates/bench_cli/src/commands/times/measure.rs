@@ -1,7 +1,8 @@
 use std::path::PathBuf;
 
+use benchmark::PredictionTimes;
 use cli::{Line, PartArguments, Watch, print, provenance, shown};
-use report::{PredictionTimes, ReportError};
+use report::ReportError;
 
 use crate::commands::times::curves::{MadeUp, curves, machine};
 use crate::commands::times::peers;

@@ -1,7 +1,7 @@
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use report::{Curve, Maker, TimePoint};
+use benchmark::{Curve, Maker, TimePoint};
 use serde::Deserialize;
 
 /// Times the queries of other programs; see there.

@@ -1,11 +1,11 @@
-use benchmark::ModelTime;
 use experiment::Claim;
+use pages::{BOLD, Medium, ReportError, with_schema};
+use report::{Quantity, claim_text, claims_sentence};
 use serde::Serialize;
 
-use super::page::{Contents, Drawing, page, table};
-use crate::learning::times::PredictionTimes;
-use crate::run::claims::{Quantity, claim_text, claims_sentence};
-use pages::{BOLD, Medium, ReportError, with_schema};
+use crate::paper::time_claims::ModelTime;
+use crate::reports::paper::page::{Contents, Drawing, page, table};
+use crate::reports::times::prediction_times::PredictionTimes;
 
 /// Name and version of the schema of the `metrics.json` of figure 1.
 pub const PREDICTION_TIME_FIGURE_SCHEMA: &str = "plumbline.figure_prediction_time/1";
@@ -98,11 +98,11 @@ impl PredictionTimes {
 
 #[cfg(test)]
 mod tests {
-    use benchmark::time_claims;
+    use crate::paper::time_claims::time_claims;
     use experiment::Verdict;
 
     use super::*;
-    use crate::learning::sample;
+    use crate::reports::paper::sample;
     use pages::without_escapes;
 
     #[test]

@@ -1,8 +1,9 @@
 use askama::Template;
-use benchmark::{Confusion, Group};
-
 use colours::Role;
 use pages::{FigureSheet, Ink, LegendKey, Medium, Palette, ReportError, round_px};
+
+use crate::tables::confusion::Confusion;
+use crate::tables::tally::Group;
 
 /// Left and right edge of the cells, height of a row, room for the names of the columns and what
 /// is left between two cells (px).

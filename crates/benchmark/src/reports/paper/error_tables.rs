@@ -1,9 +1,9 @@
-use benchmark::{LearningErrors, ModelErrors};
-
 use pages::{
     Cell, Dots, GridColumn, JointDots, LegendKey, Medium, ReportError, TABLE_DIGITS, mark_least,
     significant,
 };
+
+use crate::paper::learning_errors::{LearningErrors, ModelErrors};
 
 /// The errors of some models on some data.
 pub(super) struct ErrorTable<'a> {
@@ -68,8 +68,8 @@ fn nmse(model: &ModelErrors, joint: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::sample;
-    use crate::sample::text_of_xml;
+    use crate::reports::paper::sample;
+    use crate::reports::sample::text_of_xml;
 
     #[test]
     fn the_named_effects_are_compared_with_the_best_process() {

@@ -1,8 +1,7 @@
-use serde::{Deserialize, Serialize};
-
 use pages::{
     Cell, GridColumn, Provenance, ReportError, push_notes, significant, text_grid, with_schema,
 };
+use serde::{Deserialize, Serialize};
 
 /// Name and version of the schema of `prediction_times.json`.
 const SCHEMA: &str = "plumbline.prediction_times/1";
@@ -102,7 +101,7 @@ impl PredictionTimes {
 
 #[cfg(test)]
 mod tests {
-    use crate::learning::sample;
+    use crate::reports::paper::sample;
     use pages::without_escapes;
 
     #[test]

@@ -1,9 +1,12 @@
 use askama::Template;
-use benchmark::{Failure, Group, KindCount, Merged};
-
-use super::confusion_figure::confusion_figure;
-use super::table::table;
 use pages::{Provenance, ReportError, escape_json, render_page};
+
+use crate::reports::trials::confusion_figure::confusion_figure;
+use crate::reports::trials::table::table;
+use crate::tables::merged::Merged;
+use crate::tables::tally::Group;
+use crate::trials::failure::Failure;
+use crate::trials::kind_count::KindCount;
 
 #[derive(Template)]
 #[template(path = "trials.html")]
@@ -79,7 +82,11 @@ fn sentence(merged: &Merged) -> String {
 
 #[cfg(test)]
 mod tests {
-    use benchmark::{Gained, Reduction, MERGED_SCHEMA, Power, Row, Share, SizeClass, Tally};
+    use crate::statistics::share::Share;
+    use crate::tables::gained::{Gained, Reduction};
+    use crate::tables::merged::MERGED_SCHEMA;
+    use crate::tables::power::{Power, SizeClass};
+    use crate::tables::tally::{Row, Tally};
     use catalogue::EffectKind::{Backlash, CoulombFriction};
 
     use super::*;

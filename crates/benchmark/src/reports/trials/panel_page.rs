@@ -1,9 +1,11 @@
 use askama::Template;
-use benchmark::{Failure, KindCount, MergedPanel};
-
-use super::corner_figure::corner_figure;
-use super::table::table;
 use pages::{Provenance, ReportError, escape_json, render_page};
+
+use crate::reports::trials::corner_figure::corner_figure;
+use crate::reports::trials::table::table;
+use crate::tables::merged_panel::MergedPanel;
+use crate::trials::failure::Failure;
+use crate::trials::kind_count::KindCount;
 
 #[derive(Template)]
 #[template(path = "panel.html")]
@@ -83,7 +85,8 @@ fn sentence(merged: &MergedPanel) -> String {
 
 #[cfg(test)]
 mod tests {
-    use benchmark::{PANEL_SCHEMA, PanelTally};
+    use crate::tables::merged_panel::PANEL_SCHEMA;
+    use crate::tables::panel_tally::PanelTally;
 
     use super::*;
 

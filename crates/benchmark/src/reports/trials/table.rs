@@ -1,6 +1,6 @@
-use benchmark::TextTable;
-
 use pages::{Cell, HtmlGrid, ReportError, render_html};
+
+use crate::statistics::text_table::TextTable;
 
 /// A table of texts for a page; the page tells its title.
 ///

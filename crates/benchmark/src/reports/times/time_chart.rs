@@ -1,10 +1,10 @@
 use askama::Template;
-
-use crate::learning::times::{Curve, Maker, PredictionTimes};
 use pages::{
     AxisTick, CHARACTER_WIDTH, FigureSheet, Ink, LogAxis, Medium, Palette, ReportError, round_px,
     shorten,
 };
+
+use crate::reports::times::prediction_times::{Curve, Maker, PredictionTimes};
 
 /// Height of the figure, edges of the curves (px): left, right, upper, lower.
 const HEIGHT: f64 = 480.0;
@@ -30,7 +30,7 @@ const MOST_DECADES: i32 = 9;
 const DASHES: [&str; 3] = ["7 4", "2 3", "9 3 2 3"];
 
 #[derive(Template)]
-#[template(path = "learning/times.svg")]
+#[template(path = "times.svg")]
 struct Drawing {
     sheet: FigureSheet,
     x: [f64; 2],
@@ -111,7 +111,9 @@ fn lines(
     let mut lines: Vec<Line> = curves
         .iter()
         .filter_map(|curve| {
-            let at = |p: &super::times::TimePoint| [x.at(p.n as f64), y.at(p.microseconds)];
+            let at = |p: &crate::reports::times::prediction_times::TimePoint| {
+                [x.at(p.n as f64), y.at(p.microseconds)]
+            };
             let end = at(curve.points.last()?);
             let path: Vec<String> =
                 curve.points.iter().map(at).map(|[x, y]| format!("{x},{y}")).collect();
@@ -149,8 +151,8 @@ fn spread(wanted: &[f64], lower: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::sample;
-    use crate::sample::text_of_xml;
+    use crate::reports::paper::sample;
+    use crate::reports::sample::text_of_xml;
 
     #[test]
     fn names_keep_their_distance_and_their_order() {

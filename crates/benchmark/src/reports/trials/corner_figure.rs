@@ -1,8 +1,11 @@
 use askama::Template;
-use benchmark::{PanelRow, PanelTally, Rate, Share};
-
 use colours::Role;
 use pages::{FigureSheet, Ink, LegendKey, Medium, Palette, ReportError, round_px};
+
+use crate::statistics::rate::Rate;
+use crate::statistics::share::Share;
+use crate::tables::panel_row::PanelRow;
+use crate::tables::panel_tally::PanelTally;
 
 /// Left and right edge of what is shown, height of a row, and of the room above the first (px).
 const SHOWN: [f64; 2] = [220.0, 856.0];

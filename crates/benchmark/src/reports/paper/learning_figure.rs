@@ -1,13 +1,13 @@
-use benchmark::LearningErrors;
 use experiment::Claim;
-use serde::Serialize;
-
-use super::error_tables::{ErrorTable, worse_than_named};
-use super::page::{Contents, Drawing, page, table};
-use crate::run::claims::{Quantity, claim_text, claims_sentence};
 use pages::{
     BOLD, GridColumn, Medium, Provenance, ReportError, push_entry, text_grid, with_schema,
 };
+use report::{Quantity, claim_text, claims_sentence};
+use serde::Serialize;
+
+use crate::paper::learning_errors::LearningErrors;
+use crate::reports::paper::error_tables::{ErrorTable, worse_than_named};
+use crate::reports::paper::page::{Contents, Drawing, page, table};
 
 /// Name and version of the schema of the `metrics.json` of figure 2.
 pub const LEARNING_FIGURE_SCHEMA: &str = "plumbline.figure_learning/1";
@@ -133,7 +133,7 @@ impl LearningFigureReport<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::paper::sample;
+    use crate::reports::paper::sample;
     use pages::without_escapes;
 
     #[test]

@@ -1,10 +1,11 @@
 //! Small results made by hand, for the tests of this module.
 
-use benchmark::{LearningErrors, ModelErrors};
 use experiment::{Claim, ClaimCase, Scope};
-
-use super::learning_figure::LearningFigureReport;
 use pages::Provenance;
+
+use crate::paper::learning_errors::{LearningErrors, ModelErrors};
+use crate::reports::paper::learning_figure::LearningFigureReport;
+use crate::reports::sample::provenance;
 
 /// What a [`LearningFigureReport`] borrows.
 pub struct Sample {
@@ -55,15 +56,5 @@ pub fn learning() -> Sample {
             Claim::new("rbd is small", Scope::Every, vec![case(0.5)]),
         ],
         provenance: provenance(),
-    }
-}
-
-pub fn provenance() -> Provenance {
-    Provenance {
-        program: "plumbline",
-        version: "0.1.0",
-        command: vec!["plumbline".into(), "run".into()],
-        files: Vec::new(),
-        seed: Some(1),
     }
 }
