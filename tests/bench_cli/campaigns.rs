@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use benchmark::Record;
 
-use crate::arm;
+use crate::arm::{self, Gap};
 use crate::campaign::{CAMPAIGN, SCENARIO, done, folder, merged, shards, trials};
-use crate::program::{Answer, plumbline_bench};
+use crate::program::{Answer, plumbline_bench, run};
 
 #[test]
 fn a_campaign_is_planned_made_and_merged() {

@@ -2,11 +2,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::arm::{self, Gap};
+#[cfg(target_os = "linux")]
+use crate::limits::with_room;
 use crate::program::{Answer, plumbline, run};
 
 const DIAGNOSE: [&str; 6] = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "run_1.csv"];

@@ -115,7 +115,7 @@ mod tests {
     use diagnosis::{EffectAt, Verdict};
 
     use super::*;
-    use crate::trials::record_columns::Named;
+    use experiment::Named;
     use experiment::PutIn;
 
     fn score(share_explained: f64, before: f64) -> Score {

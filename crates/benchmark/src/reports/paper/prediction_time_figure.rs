@@ -102,7 +102,7 @@ mod tests {
     use experiment::Verdict;
 
     use super::*;
-    use crate::reports::paper::sample;
+    use crate::reports::sample;
     use pages::without_escapes;
 
     #[test]

@@ -101,7 +101,7 @@ impl PredictionTimes {
 
 #[cfg(test)]
 mod tests {
-    use crate::reports::paper::sample;
+    use crate::reports::sample;
     use pages::without_escapes;
 
     #[test]

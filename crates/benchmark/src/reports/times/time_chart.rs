@@ -151,7 +151,7 @@ fn spread(wanted: &[f64], lower: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reports::paper::sample;
+    use crate::reports::sample;
     use crate::reports::sample::text_of_xml;
 
     #[test]
