@@ -354,7 +354,7 @@ fn the_page_shows_every_corner_and_opens_without_scripts() {
         files: Vec::new(),
         seed: None,
     };
-    let page = report::panel_page(&merged, &[], &provenance).unwrap();
+    let page = benchmark::panel_page(&merged, &[], &provenance).unwrap();
     assert!(
         !page.contains("http://")
             && !page.contains("https://")

@@ -3,6 +3,7 @@ use std::fs;
 use benchmark::{BenchmarkError, Hidden, Trial, judge};
 use catalogue::EffectKind::{self, ActuatorDelay, CoulombFriction, EncoderOffset, TimeSkew};
 use checks::arms::workspace_root;
+use experiment::ExperimentError;
 use robot::Robot;
 
 /// Two short runs in long steps: a trial in a second or two.
@@ -140,6 +141,7 @@ fn what_cannot_be_scored_says_what_it_lacks() {
             None => fs::remove_file(&truth).unwrap(),
         }
         let error = judge(folder.path(), &robot, &[]).unwrap_err();
-        assert!(matches!(&error, BenchmarkError::UnreadableTruth { path, .. } if *path == truth));
+        let BenchmarkError::Experiment(error) = error else { panic!("{error}") };
+        assert!(matches!(&error, ExperimentError::UnreadableTruth { path, .. } if *path == truth));
     }
 }

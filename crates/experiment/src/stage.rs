@@ -216,7 +216,7 @@ mod tests {
         let (folder, mut count) = (folder.path(), 0);
         made(folder, "abc", &mut count);
         let stage = Stage::new(folder, "first");
-        let fails = || Err(ExperimentError::NoThreads { reason: String::new() });
+        let fails = || Err(ExperimentError::WriterDied { path: PathBuf::new() });
         let inputs = || Inputs::of("1").and(b"other");
         assert!(stage.make::<usize, _>(inputs(), fails).is_err());
         assert!(!made(folder, "abc", &mut count).is_kept);
