@@ -7,10 +7,10 @@ use crate::workspace::{Package, crates};
 const PLACES: [(&str, &[&str]); 6] = [
     ("rapier", &["simulator"]),
     ("rerun", &["recording"]),
-    ("clap", &["plumbline"]),
+    ("clap", &["plumbline", "plumbline-bench"]),
     ("pyo3", &["python"]),
     ("numpy", &["python"]),
-    ("faer", &["dynamics", "effects", "evaluation", "gaussian_process", "learner", "population"]),
+    ("faer", &["benchmark", "dynamics", "effects", "gaussian_process", "learner", "population"]),
 ];
 
 fn broken(crates: &[Package]) -> Vec<String> {
@@ -44,8 +44,8 @@ fn a_large_dependency_out_of_place_is_reported() {
     ];
     let expected = [
         "plumbline depends on rapier3d-f64, which has its place in simulator",
-        "report depends on clap, which has its place in plumbline",
-        "report depends on faer, which has its place in dynamics, effects, evaluation, gaussian_process, learner, population",
+        "report depends on clap, which has its place in plumbline, plumbline-bench",
+        "report depends on faer, which has its place in benchmark, dynamics, effects, gaussian_process, learner, population",
         "report depends on rerun, which has its place in recording",
     ];
     assert_eq!(broken(&made_up), expected);

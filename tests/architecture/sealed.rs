@@ -10,8 +10,8 @@ const SEALED: &str = "truth.json";
 /// Sources that may name it: folders, and files of the program.
 const KEEPERS: [&str; 5] = [
     "crates/simulator/",
-    "crates/evaluation/src/sealed.rs",
-    "crates/evaluation/src/trials/",
+    "crates/experiment/src/scoring/blinded.rs",
+    "crates/benchmark/src/trials/",
     "crates/cli/src/arguments.rs",
     "crates/cli/src/commands/simulate.rs",
 ];
@@ -38,11 +38,11 @@ fn a_diagnosis_that_names_the_sealed_truth_is_reported() {
         "crates/diagnosis/src/diagnose.rs",
         "crates/logs/src/read.rs",
         "crates/cli/src/commands/diagnose.rs",
-        "crates/evaluation/src/learned.rs",
+        "crates/experiment/src/models/learned.rs",
     ];
     for file in files {
         assert_eq!(broken(file, &source), Some(format!("{file} names {SEALED}")));
         assert_eq!(broken(file, "let path = folder.join(\"run_1.parquet\");"), None);
     }
-    assert_eq!(broken("crates/evaluation/src/trials/trial.rs", &source), None);
+    assert_eq!(broken("crates/benchmark/src/trials/trial.rs", &source), None);
 }

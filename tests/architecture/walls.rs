@@ -60,11 +60,11 @@ fn a_model_whose_tests_see_the_simulator_through_those_of_all_is_reported() {
 }
 
 #[test]
-fn evaluation_may_see_both_sides() {
+fn experiment_may_see_both_sides() {
     let made_up = [
         Package::made_up("dynamics", 1, &[]),
         Package::made_up("simulator", 2, &[]),
-        Package::made_up("evaluation", 5, &["dynamics", "simulator"]),
+        Package::made_up("experiment", 5, &["dynamics", "simulator"]),
     ];
     assert_kept(&broken(&made_up));
 }

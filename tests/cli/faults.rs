@@ -1,7 +1,7 @@
 //! Commands that are ended at any moment or find the disk full: what is finished is whole, and the command that is
 //! started again gives what it would have given.
 //!
-//! The long form: `PLUMBLINE_LONG=1 cargo test --release --workspace --test cli faults -- --nocapture`.
+//! The long form: `PLUMBLINE_LONG=1 cargo test --release --workspace --test cli faults -- --nocapture`, and `--test bench_cli`.
 
 use std::fs;
 use std::io::Read;
@@ -15,76 +15,15 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use recording::Contents;
 
-use crate::arm::{self, Gap};
-use crate::campaign;
+use crate::limits::{killed_beyond, with_room};
 use crate::program::{Answer, interruptible, run};
-use crate::writing::{killed_beyond, with_room};
+use crate::writers::{COMMANDS, folder, plan};
 
 /// A command ends, or says that it will, within this time of a signal.
 const ANSWER: Duration = Duration::from_secs(1);
 
 /// The signal of a file that becomes larger than it may.
 const SIGXFSZ: i32 = 25;
-
-/// Commands that write below `out`, and a file of each that is always the same.
-pub const COMMANDS: [(&str, &str); 11] = [
-    ("diagnose --robot arm.urdf --log run_0.csv run_1.csv --out out", "diagnosis.json"),
-    (
-        "compare --robot arm.urdf --before run_0.csv --after run_1.csv --out out",
-        "after/diagnosis.json",
-    ),
-    (
-        "replay --robot arm.urdf --log run_0.csv --window-ms 200 --out out",
-        "run_0_forward_200ms.parquet",
-    ),
-    (
-        "learn --robot arm.urdf --train run_0.csv --test run_1.csv --models rbd,gp --points 150 --out out",
-        "models/rbd.parquet",
-    ),
-    ("simulate scenario.toml --out out", "waves.parquet"),
-    ("trials work out --quiet", "shards/00003.parquet"),
-    (
-        "design --robot arm.urdf --separate FR02@elbow --from FR04@elbow --duration-s 5 --out out",
-        "motion.csv",
-    ),
-    ("track tracking.toml --out out", "logs/rbd.parquet"),
-    ("run runs.toml --seed 1 --out out", "metrics.json"),
-    ("demo --out out", "metrics.json"),
-    ("trials plan campaign.toml --out out", "campaign.toml"),
-];
-
-/// The arm of the campaign, with gains that a motion is tracked with.
-const SOFT: &str = r#"urdf = "arm.urdf"
-joint.shoulder = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 400.0, kd_nm_s_per_rad = 20.0 }
-joint.elbow = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 200.0, kd_nm_s_per_rad = 10.0 }
-
-[gains.soft]
-kp_nm_per_rad = [100.0, 50.0]
-kd_nm_s_per_rad = [10.0, 5.0]
-"#;
-
-/// A scenario of two runs: one is diagnosed, the other tells what that gains.
-const RUNS: &str = r#"robot = "soft.toml"
-engine.step_ms = 0.5
-sensors.effort_noise_nm = { shoulder = 0.1, elbow = 0.1 }
-effect = [{ viscous_friction = { joint = "elbow", viscous_nm_s_per_rad = 3.0 } }]
-
-[[run]]
-name = "first"
-motion.sinusoids = { seed = 1, terms = 3, lowest_hz = 0.2, highest_hz = 1, duration_s = 6 }
-
-[[run]]
-name = "last"
-motion.sinusoids = { seed = 2, terms = 3, lowest_hz = 0.2, highest_hz = 1, duration_s = 4, fade_s = 0.5 }
-"#;
-
-/// The first of them is learned from.
-const TRACKING: &str = r#"plant = "runs.toml"
-motion.sinusoids = { seed = 3, terms = 3, lowest_hz = 0.3, highest_hz = 1, duration_s = 2, fade_s = 0.5 }
-feedforward = ["none", "rbd"]
-control.gains = "soft"
-learn.train = ["first"]
-"#;
 
 /// Whether files may be there that grow while a command works: logs and recordings of the runs that it tracks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,14 +45,7 @@ pub struct Place {
 impl Place {
     /// The files alone.
     pub fn of_files(seed: u64) -> Self {
-        let folder = campaign::folder();
-        let path = folder.path();
-        for number in 0..2 {
-            arm::write(path, &format!("run_{number}.csv"), &arm::log(number, Gap::Friction(1.5)));
-        }
-        arm::write(path, "soft.toml", SOFT);
-        arm::write(path, "runs.toml", RUNS);
-        arm::write(path, "tracking.toml", TRACKING);
+        let folder = folder();
         let random = ChaCha8Rng::seed_from_u64(seed);
         Self { folder, random, known: Vec::new(), largest_kb: Vec::new() }
     }
@@ -145,14 +77,12 @@ impl Place {
         self.out().join(COMMANDS[index].1)
     }
 
-    /// No folder of an earlier command, but a campaign that was planned for one that works on it.
+    /// No folder of an earlier command, but what the command needs to find there.
     pub fn prepare(&self, index: usize) {
         if self.out().exists() {
             fs::remove_dir_all(self.out()).unwrap();
         }
-        if COMMANDS[index].0.starts_with("trials work") {
-            campaign::done(self.path(), &["plan", "campaign.toml", "--out", "out"]);
-        }
+        plan(self.path(), COMMANDS[index].0);
     }
 
     /// Ends a command at some moment, looks at what is there, and starts it again.

@@ -146,23 +146,3 @@ fn an_interrupt_ends_the_searches_and_keeps_what_they_have_found() {
     assert!(answer.out.contains("rbd-kernel: Ctrl-C ended searches"), "{}", answer.out);
     assert!(folder.path().join("out/models/gp.parquet").exists());
 }
-
-#[test]
-fn the_benchmark_times_every_model_and_says_why_there_are_no_peers() {
-    let folder = arm::folder(Gap::None);
-    let answer =
-        run(folder.path(), &["learn", "--benchmark", "--robot", "arm.urdf", "--out", "out"]);
-    assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
-    assert!(answer.out.contains("no peers: they are timed for 7 joints only"), "{}", answer.out);
-    let times = json(&folder.path().join("out/prediction_times.json"));
-    let curves = times["curves"].as_array().unwrap();
-    assert_eq!(curves.len(), 5);
-    let last = |name: &str| {
-        let curve = curves.iter().find(|curve| curve["name"] == name).unwrap();
-        let point = curve["points"].as_array().unwrap().last().unwrap().clone();
-        assert_eq!(point["n"], 30_000);
-        point["microseconds"].as_f64().unwrap()
-    };
-    assert!(last("rbd") < last("gp") && last("gp") < last("rbd-kernel as in eq. 10"), "{times}");
-    assert!(folder.path().join("out/figure1.svg").exists());
-}

@@ -1,11 +1,12 @@
 //! The program: messages, exit codes and files, from the outside.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
+#[cfg(target_os = "linux")]
+mod alarm;
 mod arm;
 mod bad_input;
 #[cfg(unix)]
 mod book;
-mod campaign;
 mod commands;
 mod compare;
 mod completions;
@@ -15,14 +16,13 @@ mod excerpt;
 mod export;
 #[cfg(target_os = "linux")]
 mod faults;
-mod figure;
 mod files;
 mod foreign_files;
 mod impossible;
 mod learn;
 mod lerobot;
 #[cfg(target_os = "linux")]
-mod loopback_slurm;
+mod limits;
 mod program;
 mod replay;
 mod robot_init;
@@ -30,13 +30,9 @@ mod run;
 mod servo;
 mod simulate;
 #[cfg(target_os = "linux")]
-mod slurm;
-#[cfg(target_os = "linux")]
 mod sockets;
-#[cfg(unix)]
-mod submit;
 mod track;
-mod trials;
-mod trials_compare;
 mod view;
+#[cfg(target_os = "linux")]
+mod writers;
 mod writing;

@@ -1,9 +1,12 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+/// The file of the program.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_plumbline");
+
 /// The program.
 pub fn plumbline() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_plumbline"));
+    let mut command = Command::new(PROGRAM);
     command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
     command
 }

@@ -165,3 +165,14 @@ fn a_demo_needs_nothing_and_finds_both_effects_that_it_hides() {
     let report = fs::metadata(folder.path().join("out/demo/report.html")).unwrap();
     assert!(report.len() < 2_000_000, "{} bytes", report.len());
 }
+
+#[test]
+fn a_figure_is_left_to_the_program_that_draws_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let figure = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/paper/fig2_learning.toml");
+    let answer = run(folder.path(), &["run", figure, "--out", "out"]);
+    assert_eq!((answer.code, answer.out.as_str()), (3, ""));
+    assert!(answer.err.contains("it is a figure of a paper"), "{}", answer.err);
+    assert!(answer.err.contains("help: plumbline-bench figure draws it"), "{}", answer.err);
+    assert!(!folder.path().join("out").exists());
+}

@@ -2,36 +2,16 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::arm::{self, Gap};
 use crate::files::names;
+#[cfg(target_os = "linux")]
+use crate::limits::with_room;
 use crate::program::{Answer, plumbline, run};
 
 const DIAGNOSE: [&str; 6] = ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "run_1.csv"];
-
-/// Runs a command where no file may become larger than so many kB, as on a disk that is full.
-#[cfg(target_os = "linux")]
-pub fn with_room(folder: &Path, kb: usize, arguments: &[&str]) -> Answer {
-    limited(folder, "trap '' XFSZ; ", kb, arguments).into()
-}
-
-/// Runs a command that the system kills in the middle of the write with which a file becomes larger than so many kB.
-#[cfg(target_os = "linux")]
-pub fn killed_beyond(folder: &Path, kb: usize, arguments: &[&str]) -> Output {
-    limited(folder, "ulimit -c 0; ", kb, arguments)
-}
-
-#[cfg(target_os = "linux")]
-fn limited(folder: &Path, before: &str, kb: usize, arguments: &[&str]) -> Output {
-    let program = plumbline().get_program().to_owned();
-    let script = format!("{before}ulimit -f {}; exec \"$0\" \"$@\"", 2 * kb);
-    let mut command = Command::new("sh");
-    command.current_dir(folder).args(["-c", &script]).arg(program).args(arguments);
-    command.output().unwrap()
-}
 
 /// From nothing to enough for the recording.
 #[cfg(target_os = "linux")]
@@ -186,21 +166,6 @@ fn an_input_is_not_written_over() {
     assert_eq!(answer.code, 2, "{}", answer.err);
     assert!(answer.err.contains("error: oe/extended.urdf: it is read"), "{}", answer.err);
     assert!(run(path, &[&again[..], &["--out", "other"]].concat()).code <= 1);
-}
-
-#[test]
-fn a_table_that_is_none_leaves_no_campaign_behind() {
-    let folder = arm::folder(Gap::None);
-    let path = folder.path();
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/demos/no_effects.toml");
-    let campaign = format!("scenario = {scenario:?}\nhidden = [\"clean\"]\nseeds = 2\n");
-    arm::write(path, "campaign.toml", &campaign);
-    arm::write(path, "bad.parquet", "no table");
-    let plan = ["trials", "plan", "campaign.toml", "--made", "bad.parquet", "--out", "out"];
-    let answer = run(path, &plan);
-    assert_eq!(answer.code, 3, "{}", answer.err);
-    assert!(answer.err.contains("bad.parquet"), "{}", answer.err);
-    assert!(!path.join("out").exists());
 }
 
 #[test]

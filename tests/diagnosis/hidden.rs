@@ -8,10 +8,11 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 
+use benchmark::{Hidden, Trial};
 use catalogue::EffectKind;
 use checks::arms::workspace_root;
 use diagnosis::{EffectAt, Verdict};
-use evaluation::{Hidden, Score, Size, Trial};
+use experiment::{Score, Size};
 
 use EffectKind as E;
 

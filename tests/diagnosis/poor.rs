@@ -1,9 +1,10 @@
 //! Motions that show little: what is named in their logs is what was hidden, or is said to be what it
 //! may as well be.
 
+use benchmark::Hidden;
 use catalogue::EffectKind as E;
 use diagnosis::EffectAt;
-use evaluation::{Hidden, Score};
+use experiment::Score;
 
 use crate::hidden::{Parts, score_along};
 

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use benchmark::{Campaign, CampaignFolder};
 use checks::arms::workspace_root;
 use document::Document;
-use evaluation::{Campaign, CampaignFolder, EvaluationError, Experiment, TrackingScenario};
+use experiment::{Experiment, TrackingScenario};
 use simulator::scenario::Scenario;
 
 use crate::Reader;
@@ -37,7 +38,7 @@ pub fn readers() -> Vec<Reader> {
 
 /// A mistake in a file that the input names is told with the name of that one.
 #[allow(clippy::needless_pass_by_value, reason = "it maps an error")]
-fn told(error: EvaluationError) -> String {
+fn told(error: impl std::error::Error) -> String {
     error.to_string()
 }
 

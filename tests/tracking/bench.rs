@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use checks::arms::workspace_root;
 use document::Document;
-use evaluation::{
+use experiment::{
     FeedforwardKind, Learned, TrackedRun, TrackingScenario, simulated_logs, track_all,
 };
 use learner::Silent;

@@ -2,7 +2,7 @@ use clap::{Parser, Subcommand};
 
 use crate::commands::{
     compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
-    replay, robot_check, robot_init, run, schema, simulate, track, trials, view,
+    replay, robot_check, robot_init, run, schema, simulate, track, view,
 };
 
 const EXIT_CODES: &str = "\
@@ -142,7 +142,6 @@ const LEARN_EXAMPLES: &str = "\
 Examples:
   plumbline learn --robot robot.toml --train run_1.csv run_2.csv --test run_3.csv --out out
   plumbline learn --robot robot.urdf --train run_1.csv --test run_3.csv --models gp-rbd --out out
-  plumbline learn --robot robot.toml --benchmark --out out
 
 The output folder holds
   learning.json         errors, times, hyperparameters and how their searches ended
@@ -189,7 +188,6 @@ Examples:
   plumbline run scenarios/motions/every_effect_shows.toml \\
       --set \"effect=[{ backlash={ joint='j3_shoulder_yaw', gap_rad=0.01 } }]\"
   plumbline run scenarios/tracking/low_gains.toml --set control.gains=low-tenth
-  plumbline run scenarios/paper/fig2_learning.toml
 
 A scenario of an arm is what simulate takes. All its runs but the last are diagnosed; the last shows
 what that gains, and its motion is tracked with the softest gains of robot.toml that hold the arm, as
@@ -207,11 +205,8 @@ The output folder holds
   tracking/      what track writes
   stages/        of what every stage was made: one that is there and whole is not made again
 
-A scenario that says [figure.prediction_time] or [figure.learning] draws that figure of Nguyen-Tuong &
-Peters 2010 and says of every claim whether it holds. Its folder has report.html, metrics.json,
-scenario.toml, stages/ and the figures as *.svg, and of the learning logs/, diagnosis/ and models/,
-each with simulated/ and real/. A tracking scenario that feeds all of the paper's models forward is
-told against its figures 3 and 4.
+A tracking scenario that feeds all models of Nguyen-Tuong & Peters 2010 forward is told against its
+figures 3 and 4.
 
 Ctrl-C ends the run; what was finished is kept.";
 
@@ -234,35 +229,6 @@ Examples:
 const MAN_EXAMPLES: &str = "\
 Examples:
   plumbline man --out ~/.local/share/man/man1";
-
-const TRIALS_EXIT_CODES: &str = "\
-Exit codes:
-  0  done
-  1  trials are left to make, or to make again: a damaged shard or one of another campaign
-  2  usage: arguments, a folder that cannot be written or holds another campaign, or a job that
-     cannot be submitted
-  3  a campaign, a scenario or a robot that cannot be used";
-
-const TRIALS_EXAMPLES: &str = "\
-Examples:
-  plumbline trials plan scenarios/campaigns/trials.toml --out blind
-  plumbline trials work blind --jobs 8
-  plumbline trials work blind --part 1/4
-  plumbline trials submit blind --sbatch --partition=short
-  plumbline trials status blind
-  plumbline trials merge blind
-
-The folder holds
-  campaign.toml    what is to be made
-  scenario.toml    the scenario of every trial, with all that it extends
-  shards/          a file for every trial that is made: to make one again, remove it
-  slurm/           the job of submit, job.sh, and what its tasks have said
-  trials.parquet   all of them, one row a trial; with merge
-  tally.json       how often what was hidden was named, by kind and size; with merge
-  report.html      the same for a browser; with merge
-
-A trial is made in a folder of its own and its shard put in place when it is whole. Work that is
-killed loses the trials that were being made, no more; Ctrl-C lets them come to their end.";
 
 /// Shows what a simulation gets wrong in a recorded log, names the cause, extends the
 /// model and measures the gain.
@@ -317,9 +283,6 @@ pub enum Command {
     /// Tracks a motion with low gains and the torque of models fed forward, and compares them
     #[command(after_help = format!("{TRACK_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
     Track(track::Arguments),
-    /// Blind trials: effects hidden in a simulated arm, diagnosed from its logs, and scored
-    #[command(subcommand, after_help = format!("{TRIALS_EXAMPLES}\n\n{TRIALS_EXIT_CODES}"))]
-    Trials(trials::Action),
     /// Opens the report of an output folder in the browser, its recordings in rerun's viewer
     #[command(after_help = VIEW_EXIT_CODES)]
     View(view::Arguments),

@@ -2,20 +2,18 @@ use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use anstyle::{AnsiColor, Style};
 use diagnosis::DiagnosisError;
 use document::{Coloring, DocumentError};
-use evaluation::EvaluationError;
 use exchange::ExchangeError;
+use experiment::ExperimentError;
 use learner::LearnerError;
 use logs::{FormatError, LogError};
 use report::ReportError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
-use crate::commands::trials::SubmitError;
 use crate::design_error::DesignError;
-use crate::messages::tell;
+use crate::messages::{print_error, tell};
 
 /// How to get the viewer of recordings, in the version that they are written for.
 pub const VIEWER_INSTALLATION: &str =
@@ -47,7 +45,7 @@ pub enum CliError {
     Learner(#[from] LearnerError),
     /// A scenario cannot be run.
     #[error(transparent)]
-    Evaluation(Box<EvaluationError>),
+    Experiment(Box<ExperimentError>),
     /// A model would be tested on what it was trained on.
     #[error(
         "{test}: it is the recording that {training} holds, a test needs a log that took no part in the training"
@@ -171,17 +169,20 @@ pub enum CliError {
     /// No motion can be designed.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// Trials cannot be submitted to a cluster.
-    #[error(transparent)]
-    Submit(#[from] SubmitError),
+    /// A scenario is that of a figure.
+    #[error("{}: it is a figure of a paper, the scenario of an arm or of tracking was expected", path.display())]
+    Figure {
+        /// The scenario.
+        path: PathBuf,
+    },
     /// The standard output cannot be written.
     #[error("the standard output cannot be written: {0}")]
     Output(#[from] io::Error),
 }
 
-impl From<EvaluationError> for CliError {
-    fn from(error: EvaluationError) -> Self {
-        Self::Evaluation(Box::new(error))
+impl From<ExperimentError> for CliError {
+    fn from(error: ExperimentError) -> Self {
+        Self::Experiment(Box::new(error))
     }
 }
 
@@ -233,7 +234,6 @@ impl CliError {
             | Self::NotOpened { .. }
             | Self::Incomplete { .. }
             | Self::Exists { .. }
-            | Self::Submit(_)
             | Self::Signal { .. } => 2,
             Self::Learner(error) => match error {
                 LearnerError::Log(LogError::Unwritable { .. })
@@ -245,19 +245,14 @@ impl CliError {
             Self::Design(error) => error.exit_code(),
             Self::Simulator(SimulatorError::Log(LogError::Unwritable { .. })) => 2,
             Self::Document(_) | Self::Simulator(_) => 3,
-            Self::Evaluation(error) => match **error {
-                EvaluationError::NoModel { .. }
-                | EvaluationError::NothingToLearnFrom { .. }
-                | EvaluationError::Recording(_)
-                | EvaluationError::OtherCampaign { .. }
-                | EvaluationError::NoThreads { .. }
-                | EvaluationError::NoStore { .. }
-                | EvaluationError::TrialFolder { .. }
-                | EvaluationError::Population(_)
-                | EvaluationError::Stage { .. }
-                | EvaluationError::Learner(LearnerError::Log(LogError::Unwritable { .. }))
-                | EvaluationError::Log(LogError::Unwritable { .. })
-                | EvaluationError::Simulator(SimulatorError::Log(LogError::Unwritable {
+            Self::Experiment(error) => match **error {
+                ExperimentError::NoModel { .. }
+                | ExperimentError::NothingToLearnFrom { .. }
+                | ExperimentError::Recording(_)
+                | ExperimentError::Stage { .. }
+                | ExperimentError::Learner(LearnerError::Log(LogError::Unwritable { .. }))
+                | ExperimentError::Log(LogError::Unwritable { .. })
+                | ExperimentError::Simulator(SimulatorError::Log(LogError::Unwritable {
                     ..
                 })) => 2,
                 _ => 3,
@@ -274,6 +269,7 @@ impl CliError {
             | Self::NoJoints { .. }
             | Self::Unlisted { .. }
             | Self::Exchange(_)
+            | Self::Figure { .. }
             | Self::NoEpisode { .. }
             | Self::NothingToExport { .. }
             | Self::OtherJoints { .. }
@@ -321,10 +317,10 @@ impl CliError {
                 Some("--points N, or a model -inducing, which takes all samples")
             }
             Self::NoViewer { .. } => Some(VIEWER_INSTALLATION),
-            Self::Submit(error) => error.help(),
+            Self::Figure { .. } => Some("plumbline-bench figure draws it"),
             Self::NotOpened { .. } => Some("plumbline view --print names the files"),
-            Self::Evaluation(error) => {
-                let lacks = matches!(**error, EvaluationError::NoModel { .. });
+            Self::Experiment(error) => {
+                let lacks = matches!(**error, ExperimentError::NoModel { .. });
                 lacks.then_some(
                     "plumbline learn and track write models; without --learned they are learned",
                 )
@@ -346,13 +342,13 @@ impl CliError {
 
     /// The mistake in a scenario, a column map or a robot.toml, which is shown where it stands.
     fn mistake(&self) -> Option<&DocumentError> {
-        use EvaluationError as E;
+        use ExperimentError as E;
         match self {
             Self::Document(error) | Self::Simulator(SimulatorError::Scenario(error)) => Some(error),
             Self::Log(LogError::Map { problem }) | Self::Robot(RobotError::InToml { problem }) => {
                 Some(problem)
             }
-            Self::Evaluation(error) => match &**error {
+            Self::Experiment(error) => match &**error {
                 E::Document(error) | E::Simulator(SimulatorError::Scenario(error)) => Some(error),
                 _ => None,
             },
@@ -366,11 +362,6 @@ impl CliError {
             tell(&error.render(Coloring::Ansi));
             return;
         }
-        let red: Style = AnsiColor::Red.on_default().bold();
-        let cyan: Style = AnsiColor::Cyan.on_default().bold();
-        tell(&format_args!("{red}error:{red:#} {self}"));
-        if let Some(help) = self.help() {
-            tell(&format_args!("{cyan}help:{cyan:#} {help}"));
-        }
+        print_error(self, self.help().as_deref());
     }
 }

@@ -102,14 +102,19 @@ impl SearchArguments {
 }
 
 /// This program, its command line, and the files that describe the robot and its logs.
+///
+/// # Errors
+///
+/// [`ReportError::Unreadable`].
 pub fn provenance(
     robot: &Path,
     loaded: &Loaded,
     map: Option<&Path>,
 ) -> Result<Provenance, ReportError> {
     let given = invocation::arguments().into_iter();
-    let command = std::iter::once("plumbline".to_owned()).chain(without_out(given)).collect();
-    provenance_of(command, robot, loaded, map)
+    let program = invocation::name();
+    let command = std::iter::once(program.to_owned()).chain(without_out(given)).collect();
+    Ok(Provenance { program, ..provenance_of(command, robot, loaded, map)? })
 }
 
 /// This program, a command line, and the files that describe the robot and its logs.
@@ -151,6 +156,10 @@ fn without_out(arguments: impl Iterator<Item = String>) -> impl Iterator<Item = 
 }
 
 /// A file that was read.
+///
+/// # Errors
+///
+/// [`ReportError::Unreadable`].
 pub fn hash(role: &'static str, path: &Path) -> Result<FileHash, ReportError> {
     Ok(FileHash { role, path: shown(path), sha256: report::sha256_of(path)? })
 }

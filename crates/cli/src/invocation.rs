@@ -7,9 +7,18 @@ use std::sync::OnceLock;
 /// program has called [`crate::main`].
 static COMMAND_LINE: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Keeps the command line that the program was started with; the first one counts.
-pub fn keep(command_line: Vec<OsString>) {
+/// The name of the program that this process is.
+static NAME: OnceLock<&str> = OnceLock::new();
+
+/// Keeps the name of the program and the command line that it was started with; the first ones count.
+pub fn keep(name: &'static str, command_line: Vec<OsString>) {
+    let _ = NAME.set(name);
     let _ = COMMAND_LINE.set(command_line);
+}
+
+/// The name of the program: `plumbline`, unless another one was started.
+pub fn name() -> &'static str {
+    NAME.get().copied().unwrap_or("plumbline")
 }
 
 /// The arguments behind the program's name.

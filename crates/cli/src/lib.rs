@@ -5,7 +5,8 @@
 //! ```
 //!
 //! [`main`] is the program, whoever starts it. The rest is how files are read, how a diagnosis is
-//! written and recorded, and what `design` and `track` do, for whoever has them in memory.
+//! written and recorded, and what `design` and `track` do, for whoever has them in memory; and what
+//! `plumbline-bench` shares: the command line, the output folder, progress and errors.
 
 mod arguments;
 mod columns;
@@ -31,11 +32,9 @@ use clap::{CommandFactory, Parser};
 use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
 use crate::commands::{
     compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
-    replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, trials, view,
+    replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, view,
 };
 use crate::exit_status::ExitStatus;
-// For the files of the benchmark, which move out.
-use crate::exit_status::ExitStatus as Outcome;
 
 pub use crate::columns::{ColumnArguments, ExcerptArguments};
 pub use crate::commands::design::diagnosis_file::DiagnosisFile;
@@ -43,11 +42,26 @@ pub use crate::commands::design::motion_design::{MotionDesign, MotionRequest};
 pub use crate::commands::diagnose::{
     write as write_diagnosis, write_recording as record_diagnosis,
 };
+pub use crate::commands::run::Output as RunOutput;
+pub use crate::commands::run::run_folder::{
+    DiagnosedRuns, EXTENDED, RunFolder, diagnosis_files, log_file,
+};
+pub use crate::commands::learn::timing::{median_query_us, median_us};
+pub use crate::commands::schema::print_schema;
 pub use crate::commands::track::tracking_result::{TrackingRequest, TrackingResult};
 pub use crate::effect_name::find_effect;
 pub use crate::error::CliError;
-pub use crate::input::{PartArguments, SearchArguments, hashes_of, provenance_of};
+pub use crate::input::{
+    PartArguments, SearchArguments, hash, hashes_of, provenance, provenance_of,
+};
 pub use crate::input_warnings::input_warnings;
+pub use crate::invocation::{
+    keep as keep_command_line, name as program_name, program as program_file,
+};
+pub use crate::messages::print_error;
+pub use crate::output::{create_folder, print, print_json, shown};
+pub use crate::progress::Line;
+pub use crate::watch::Watch;
 
 /// Runs the program with a command line, whose first argument is the program's own name, and gives its
 /// exit code.
@@ -55,7 +69,7 @@ pub use crate::input_warnings::input_warnings;
 /// A command line that cannot be understood, or that asks for help, ends the process.
 pub fn main(command_line: Vec<OsString>) -> u8 {
     let arguments = Arguments::parse_from(&command_line);
-    invocation::keep(command_line);
+    invocation::keep("plumbline", command_line);
     match run(&arguments) {
         Ok(status) => status.code(),
         Err(error) => {
@@ -82,7 +96,6 @@ fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Command::Replay(arguments) => replay::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Track(arguments) => track::run(arguments),
-        Command::Trials(action) => trials::run(action),
         Command::View(arguments) => view::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
         Command::Completions(arguments) => completions::run(arguments, Arguments::command()),

@@ -114,7 +114,7 @@ impl ModelError {
         rate_hz: Option<f64>,
         runs: &[Run],
     ) -> Result<Self, CliError> {
-        let rms_nm = evaluation::robot_error(robot, rate_hz, runs)?;
+        let rms_nm = experiment::robot_error(robot, rate_hz, runs)?;
         let all_nm = rms_nm.iter().flatten().map(|rms| rms * rms).sum::<f64>().sqrt();
         Ok(Self { model, described_by, rms_nm, all_nm })
     }

@@ -1,7 +1,7 @@
 use std::fmt::Display;
 use std::io::Write;
 
-use anstyle::AnsiColor;
+use anstyle::{AnsiColor, Style};
 
 /// Prints a line on the standard error, its colours only where they are wanted.
 ///
@@ -15,4 +15,14 @@ pub fn tell(what: &dyn Display) {
 pub fn warn(what: &dyn Display) {
     let yellow = AnsiColor::Yellow.on_default();
     tell(&format_args!("{yellow}warning:{yellow:#} {what}"));
+}
+
+/// Prints an error, and advice where there is any, on the standard error.
+pub fn print_error(error: &dyn Display, help: Option<&str>) {
+    let red: Style = AnsiColor::Red.on_default().bold();
+    let cyan: Style = AnsiColor::Cyan.on_default().bold();
+    tell(&format_args!("{red}error:{red:#} {error}"));
+    if let Some(help) = help {
+        tell(&format_args!("{cyan}help:{cyan:#} {help}"));
+    }
 }

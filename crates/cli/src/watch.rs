@@ -118,7 +118,7 @@ impl diagnosis::Progress for Watch {
     fn step(&self) {}
 }
 
-impl evaluation::Progress for Watch {
+impl experiment::Progress for Watch {
     fn begin(&self, what: &str) {
         self.begin(what);
     }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use ::diagnosis::{Outcome, Settings};
 use cli::{SearchArguments, hashes_of, provenance_of};
-use evaluation::{Diagnosed, ForwardGap};
+use experiment::{Diagnosed, ForwardGap};
 use logs::Run;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -146,7 +146,7 @@ pub fn diagnose(
         let robots = [about, &outcome.extended];
         let cutoff_hz = outcome.diagnosis.data.cutoff_hz;
         // A robot that cannot be simulated is diagnosed all the same.
-        let forward = evaluation::forward_gap_of_logs(robots, read, cutoff_hz, work).ok();
+        let forward = experiment::forward_gap_of_logs(robots, read, cutoff_hz, work).ok();
         Ok::<_, ::diagnosis::DiagnosisError>((outcome, forward))
     })?;
     let (outcome, forward) = found.map_err(raised)?;

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use cli::{TrackingRequest, TrackingResult};
-use evaluation::FeedforwardKind;
+use experiment::FeedforwardKind;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

@@ -141,7 +141,7 @@ impl learner::Progress for Work {
     }
 }
 
-impl evaluation::Progress for Work {
+impl experiment::Progress for Work {
     fn begin(&self, what: &str) {
         self.stage(what, 0);
     }

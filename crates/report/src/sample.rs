@@ -6,7 +6,7 @@ use diagnosis::{
     JointReport, JointTraces, NoiseFloorSource, NoiseSpectrum, RuledOut, RunSummary, RunTraces,
     SCHEMA, Unexplained, Verdict,
 };
-use evaluation::{Drift, ForwardGap, ForwardWindow};
+use experiment::{Drift, ForwardGap, ForwardWindow};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use document::Document;
-use evaluation::Experiment;
+use experiment::Experiment;
 
 use crate::commands::run::{Output, perform};
 use crate::error::CliError;

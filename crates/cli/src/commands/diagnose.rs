@@ -3,8 +3,8 @@ mod residual;
 use std::path::{Path, PathBuf};
 
 use diagnosis::{Diagnosis, Progress, Verdict};
-use evaluation::{Diagnosed, EvaluationError, ForwardGap};
 use exchange::{Export, Format};
+use experiment::{Diagnosed, ExperimentError, ForwardGap};
 use logs::Run;
 use recording::RecordingError;
 use report::{Report, ReportError};
@@ -142,7 +142,7 @@ fn forward(
 ) -> Option<ForwardGap> {
     let (robots, data) = ([&loaded.robot, &outcome.extended], &outcome.diagnosis.data);
     let gap = with_bar(arguments.quiet, |progress| {
-        evaluation::forward_gap_of_logs(robots, runs, data.cutoff_hz, progress)
+        experiment::forward_gap_of_logs(robots, runs, data.cutoff_hz, progress)
     });
     gap.inspect_err(|error| warn(error)).ok()
 }
@@ -221,7 +221,7 @@ pub fn write(
 ///
 /// # Errors
 ///
-/// [`EvaluationError::Recording`] where the disk refuses it.
+/// [`ExperimentError::Recording`] where the disk refuses it.
 fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<PathBuf>, CliError> {
     if arguments.no_recording || !recording::IS_BUILT {
         // One of an earlier diagnosis would show something else than the report beside it.
@@ -233,7 +233,7 @@ fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<Pat
     match recorded {
         Ok(path) => Ok(Some(path)),
         Err(error) => match *error {
-            EvaluationError::Recording(RecordingError::Unwritable { .. }) => Err((*error).into()),
+            ExperimentError::Recording(RecordingError::Unwritable { .. }) => Err((*error).into()),
             other => {
                 warn(&other);
                 Ok(None)
@@ -246,31 +246,31 @@ fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<Pat
 ///
 /// # Errors
 ///
-/// Those of [`evaluation::record_diagnosis`]; no recording is then there.
+/// Those of [`experiment::record_diagnosis`]; no recording is then there.
 pub fn write_recording(
     out: &Path,
     diagnosed: &Diagnosed<'_>,
     progress: &dyn Progress,
-) -> Result<PathBuf, Box<EvaluationError>> {
+) -> Result<PathBuf, Box<ExperimentError>> {
     let (path, begun) = (out.join(RECORDING), out.join(BEGUN));
     // One of an earlier diagnosis would show something else than the report beside it.
     let _ = std::fs::remove_file(&path);
-    let failed = |error: EvaluationError| {
+    let failed = |error: ExperimentError| {
         let _ = std::fs::remove_file(&begun);
         Box::new(match error {
-            EvaluationError::Recording(RecordingError::Unwritable { reason, .. }) => {
+            ExperimentError::Recording(RecordingError::Unwritable { reason, .. }) => {
                 RecordingError::Unwritable { path: path.clone(), reason }.into()
             }
-            EvaluationError::Recording(RecordingError::LeftOut { .. }) => {
+            ExperimentError::Recording(RecordingError::LeftOut { .. }) => {
                 RecordingError::LeftOut { path: path.clone() }.into()
             }
-            EvaluationError::Recording(RecordingError::TurnedOff { value, .. }) => {
+            ExperimentError::Recording(RecordingError::TurnedOff { value, .. }) => {
                 RecordingError::TurnedOff { path: path.clone(), value }.into()
             }
             other => other,
         })
     };
-    evaluation::record_diagnosis(&begun, diagnosed, progress).map_err(failed)?;
+    experiment::record_diagnosis(&begun, diagnosed, progress).map_err(failed)?;
     std::fs::rename(&begun, &path).map_err(|error| {
         let reason = error.to_string();
         failed(RecordingError::Unwritable { path: path.clone(), reason }.into())

@@ -18,5 +18,4 @@ pub mod run;
 pub mod schema;
 pub mod simulate;
 pub mod track;
-pub mod trials;
 pub mod view;

@@ -1,14 +1,14 @@
-mod bench;
-mod learning_figure;
-mod prediction_time_figure;
+pub mod run_folder;
 mod stages;
 
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use document::Document;
-use evaluation::{Experiment, FigureScenario, FigureSpec};
+use experiment::Experiment;
 use report::{Provenance, RunReport};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
@@ -46,7 +46,7 @@ pub struct Output {
     json: bool,
     /// Print nothing but errors, and the JSON if it is asked for
     #[arg(long)]
-    quiet: bool,
+    pub quiet: bool,
 }
 
 impl Output {
@@ -58,14 +58,23 @@ impl Output {
     }
 
     /// Text or JSON on the standard output; with JSON, where the files lie on the standard error.
-    fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Output`].
+    pub fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
         let json = self.json.then_some(json);
         print_answer(self.quiet, json, || text.to_owned(), closing)
     }
 }
 
-/// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains, or
-/// draws the figure that it asks for.
+/// What tells the scenario of a figure from others.
+#[derive(Deserialize)]
+struct Kind {
+    figure: Option<IgnoredAny>,
+}
+
+/// Simulates what a scenario describes, diagnoses it from its logs and measures what that gains.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let mut document = Document::read(&arguments.scenario)?;
     for assignment in &arguments.set {
@@ -73,14 +82,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     let stem = arguments.scenario.file_stem().unwrap_or_default();
     let out = arguments.output.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
-    if FigureScenario::is_meant(&document)? {
-        let scenario: FigureScenario = document.parse()?;
-        return match scenario.figure {
-            FigureSpec::PredictionTime(_) => {
-                prediction_time_figure::run(arguments, &document, &out)
-            }
-            FigureSpec::Learning(_) => learning_figure::run(arguments, &document, &out),
-        };
+    if document.parse::<Kind>()?.figure.is_some() {
+        return Err(CliError::Figure { path: arguments.scenario.clone() });
     }
     let experiment = Experiment::from_document(&document, arguments.seed)?;
     perform(&experiment, &arguments.scenario, &out, &arguments.output)

@@ -3,7 +3,7 @@ pub(crate) mod tracking_result;
 
 use std::path::{Path, PathBuf};
 
-use evaluation::FeedforwardKind;
+use experiment::FeedforwardKind;
 use report::TrackingComparison;
 
 use crate::error::CliError;

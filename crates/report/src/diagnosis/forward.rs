@@ -1,4 +1,4 @@
-use evaluation::{Drift, ForwardGap, ForwardWindow};
+use experiment::{Drift, ForwardGap, ForwardWindow};
 
 use crate::diagnosis::report::Report;
 use colours::Role;

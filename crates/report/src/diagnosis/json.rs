@@ -2,7 +2,7 @@ use diagnosis::{
     DataSummary, EffectAt, Estimate, Finding, InverseGain, JointReport, RuledOut, Unexplained,
     Verdict,
 };
-use evaluation::ForwardGap;
+use experiment::ForwardGap;
 use serde::{Serialize, Serializer};
 
 use crate::diagnosis::report::Report;

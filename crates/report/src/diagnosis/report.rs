@@ -14,7 +14,7 @@ pub struct Report<'a> {
     /// The model of the error that the findings leave, where one was learned.
     pub residual: Option<&'a ResidualModel>,
     /// How far simulations drift from the logs, where that was measured.
-    pub forward: Option<&'a evaluation::ForwardGap>,
+    pub forward: Option<&'a experiment::ForwardGap>,
     /// The extended robot in the formats of other programs, with the fate of every quantity.
     pub descriptions: &'a [(exchange::Format, exchange::Export)],
     /// Where the answer comes from.

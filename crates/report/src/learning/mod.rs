@@ -6,5 +6,3 @@ pub(crate) mod page;
 #[cfg(test)]
 pub(crate) mod sample;
 pub(crate) mod table;
-pub(crate) mod time_chart;
-pub(crate) mod times;

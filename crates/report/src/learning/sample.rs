@@ -3,7 +3,6 @@
 use crate::learning::comparison::{
     ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow,
 };
-use crate::learning::times::{Curve, Maker, PredictionTimes, TimePoint};
 use pages::{FileHash, Provenance};
 
 /// Rigid bodies, a Gaussian process and both, for two joints; nothing is known of the rigid
@@ -77,26 +76,5 @@ fn provenance() -> Provenance {
         command: vec!["plumbline".into(), "learn".into()],
         files: Vec::new(),
         seed: None,
-    }
-}
-
-/// Rigid bodies, a Gaussian process and a peer, which was not asked for many points.
-pub fn times() -> PredictionTimes {
-    let curve = |name: &str, maker, points: &[(usize, f64)]| Curve {
-        name: name.into(),
-        maker,
-        points: points.iter().map(|&(n, microseconds)| TimePoint { n, microseconds }).collect(),
-    };
-    PredictionTimes {
-        robot: "arm".into(),
-        joints: 7,
-        machine: "a machine".into(),
-        curves: vec![
-            curve("rbd", Maker::Plumbline, &[(100, 1.1), (10_000, 1.1)]),
-            curve("gp", Maker::Plumbline, &[(100, 3.2), (10_000, 900_000.0)]),
-            curve("scikit-learn", Maker::Peer, &[(100, 830.0)]),
-        ],
-        remarks: vec!["numpy: not installed".into()],
-        provenance: provenance(),
     }
 }

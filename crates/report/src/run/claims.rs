@@ -1,6 +1,6 @@
 use std::ops::RangeInclusive;
 
-use evaluation::{Claim, ClaimCase, Verdict};
+use experiment::{Claim, ClaimCase, Verdict};
 
 use pages::{BOLD, TABLE_DIGITS, TERMINAL_WIDTH, count_noun, significant, wrap};
 
@@ -127,7 +127,7 @@ pub fn claim_text(claims: &[Claim], unit: ClaimUnit) -> String {
 
 #[cfg(test)]
 mod tests {
-    use evaluation::Scope;
+    use experiment::Scope;
 
     use super::*;
     use pages::without_escapes;

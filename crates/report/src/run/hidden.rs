@@ -1,4 +1,4 @@
-use evaluation::{Named, PutIn, Score, Size};
+use experiment::{Named, PutIn, Score, Size};
 use robot::Robot;
 
 use crate::diagnosis::places::JointUnits;

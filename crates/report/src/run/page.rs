@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::ForwardWindow;
+use experiment::ForwardWindow;
 
 use crate::diagnosis::forward::{drift_in_page, drifts};
 use crate::run::charts::GainChart;

@@ -1,4 +1,4 @@
-use evaluation::{ForwardWindow, Gain, Metrics};
+use experiment::{ForwardWindow, Gain, Metrics};
 
 use crate::diagnosis::forward::drifts;
 use pages::significant;

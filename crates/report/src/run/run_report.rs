@@ -1,4 +1,4 @@
-use evaluation::Metrics;
+use experiment::Metrics;
 use robot::Robot;
 
 use crate::run::claims::ClaimUnit;

@@ -1,7 +1,7 @@
 //! A small run made by hand, for the tests of this module.
 
 use diagnosis::{EffectAt, Verdict};
-use evaluation::{
+use experiment::{
     Drift, Estimated, ForwardGap, ForwardWindow, Metrics, Named, PutIn, Score, Size, TorqueError,
     TrackedError,
 };

@@ -116,7 +116,7 @@ fn pair([before, after]: [f64; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use evaluation::{Claim, ClaimCase, Scope};
+    use experiment::{Claim, ClaimCase, Scope};
 
     use crate::run::sample;
     use pages::without_escapes;

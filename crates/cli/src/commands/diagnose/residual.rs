@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use diagnosis::{Outcome, Verdict};
-use evaluation::{Residual, learn_residual};
+use experiment::{Residual, learn_residual};
 use learner::Model;
 use report::{LengthScale, ResidualJoint, ResidualModel};
 use robot::Robot;
@@ -49,11 +49,11 @@ fn model(outcome: &Outcome, residual: &Residual) -> ResidualModel {
     }
 }
 
-fn joint_of(joint: &diagnosis::JointReport, residual: &evaluation::ResidualJoint) -> ResidualJoint {
+fn joint_of(joint: &diagnosis::JointReport, residual: &experiment::ResidualJoint) -> ResidualJoint {
     // Where everything has a name, nothing is to be said of what it bends with.
     let is_left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
     let scales = residual.relevance.iter().filter(|_| is_left);
-    let scale = |r: &evaluation::Relevance| LengthScale {
+    let scale = |r: &experiment::Relevance| LengthScale {
         signal: r.signal.clone(),
         share_of_range: r.share_of_range,
     };

@@ -24,10 +24,10 @@ pub struct Arguments {
     #[command(flatten)]
     pub robot: RobotArguments,
     /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2) to learn from, one run each
-    #[arg(long, value_name = "LOG", num_args = 1.., required_unless_present = "benchmark")]
+    #[arg(long, value_name = "LOG", num_args = 1.., required = true)]
     pub train: Vec<PathBuf>,
     /// Files to measure the errors on, none of which is learned from
-    #[arg(long, value_name = "LOG", num_args = 1.., required_unless_present = "benchmark")]
+    #[arg(long, value_name = "LOG", num_args = 1.., required = true)]
     pub test: Vec<PathBuf>,
     /// Files for the parameters of the rigid bodies; those of --train when left out
     #[arg(long, value_name = "LOG", num_args = 1..)]
@@ -63,13 +63,9 @@ pub struct Arguments {
     pub cutoff_hz: Option<f64>,
     #[command(flatten)]
     pub reading: LogArguments,
-    /// Time one prediction against the number of points instead of learning
-    #[arg(long, conflicts_with_all = ["train", "test", "regression", "named"])]
-    pub benchmark: bool,
-    /// Folder for report.html, learning.json, figure.svg and the models; of the benchmark, for
-    /// prediction_times.json and figure1.svg
-    #[arg(long, value_name = "DIR", required_unless_present = "benchmark")]
-    pub out: Option<PathBuf>,
+    /// Folder for report.html, learning.json, figure.svg and the models
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
     /// Print the JSON instead of the table
     #[arg(long)]
     pub json: bool,

@@ -26,7 +26,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Exit
     let named = arguments.named.as_deref().map(|path| read_named(path, robot)).transpose()?;
     settings(arguments, Vec::new()).check()?;
     let data = Data::read(arguments, loaded)?;
-    let out = arguments.out.as_deref().unwrap_or(Path::new("."));
+    let out = arguments.out.as_path();
     create_folder(out)?;
     let learned = Learning { arguments, robot, named: named.as_ref(), data: &data, watch }.run(out);
     watch.finish();

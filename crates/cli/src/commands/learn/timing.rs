@@ -1,6 +1,6 @@
 use std::hint::black_box;
 
-use evaluation::median_time_s;
+use experiment::median_time_s;
 use learner::{Samples, TorqueModel};
 
 /// Median time of one prediction for all joints, over states of `samples` in turn (us).

@@ -1,7 +1,7 @@
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use evaluation::{
+use experiment::{
     Diagnosed, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product, Score, Sealed,
     Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap, torque_errors,
     track_all, tracking_claims,
@@ -12,7 +12,7 @@ use report::{Told, TrackedModel, TrackingComparison};
 use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 
-use super::bench::{self, Bench, DiagnosedRuns, diagnosis_files};
+use super::run_folder::{self, DiagnosedRuns, RunFolder, diagnosis_files};
 use crate::commands::diagnose;
 use crate::commands::track::comparison::{comparison, problems};
 use crate::commands::track::tracking_result::write_comparison;
@@ -94,7 +94,7 @@ impl Stages<'_> {
     fn logs(&self) -> Result<Staged<()>, CliError> {
         let plant = self.experiment.plant();
         let place = ("simulation", Path::new(LOGS));
-        self.bench().logs(place, plant, self.loaded(), || Ok(self.drawn()?.plant()))
+        self.folder().logs(place, plant, self.loaded(), || Ok(self.drawn()?.plant()))
     }
 
     /// Diagnoses the logs through their files, and when that is written opens the truth.
@@ -110,7 +110,7 @@ impl Stages<'_> {
             let runs = self.runs(&names)?;
             let robot = (self.experiment.plant().robot_file(), loaded);
             let DiagnosedRuns { outcome, verdict, told } =
-                self.bench().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
+                self.folder().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
             let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             if recording::IS_BUILT {
                 diagnose::write_recording(self.out, &diagnosed, self.watch)
@@ -197,7 +197,7 @@ impl Stages<'_> {
         learned: &Learned,
         runs: &[TrackedRun],
     ) -> Result<Product<Tracked>, CliError> {
-        let swept = evaluation::sweep(scenario, learned, self.watch)?;
+        let swept = experiment::sweep(scenario, learned, self.watch)?;
         let comparison = comparison(self.scenario, scenario, runs, swept.as_ref())?;
         write_comparison(&self.out.join(TRACKING), scenario, &comparison)?;
         if let Some(problem) = problems(runs).next() {
@@ -216,8 +216,8 @@ impl Stages<'_> {
         Ok(Product { value, files: pages.into_iter().chain(runs_files).collect() })
     }
 
-    fn bench(&self) -> Bench<'_> {
-        Bench { out: self.out, watch: self.watch }
+    fn folder(&self) -> RunFolder<'_> {
+        RunFolder { out: self.out, watch: self.watch }
     }
 
     fn stage<T: Serialize + for<'de> Deserialize<'de>>(
@@ -227,18 +227,18 @@ impl Stages<'_> {
         inputs: Inputs,
         make: impl FnOnce() -> Result<Product<T>, CliError>,
     ) -> Result<Staged<T>, CliError> {
-        self.bench().stage(name, words, inputs, make)
+        self.folder().stage(name, words, inputs, make)
     }
 
     fn inputs(&self, said: &str) -> Result<Inputs, CliError> {
-        Bench::inputs(self.experiment.plant().robot_file(), self.loaded(), said)
+        RunFolder::inputs(self.experiment.plant().robot_file(), self.loaded(), said)
     }
 
     fn drawn(&self) -> Result<&TrackingScenario, CliError> {
         match self.drawn.get() {
             Some(drawn) => Ok(drawn),
             None => {
-                evaluation::Progress::begin(self.watch, "drawing what is hidden");
+                experiment::Progress::begin(self.watch, "drawing what is hidden");
                 let drawn = self.experiment.drawn()?;
                 Ok(self.drawn.get_or_init(|| drawn))
             }
@@ -256,7 +256,7 @@ impl Stages<'_> {
 
     /// Logs, read from their files.
     fn runs(&self, names: &[&str]) -> Result<Vec<Run>, CliError> {
-        self.bench().runs(Path::new(LOGS), names, &self.loaded().robot)
+        self.folder().runs(Path::new(LOGS), names, &self.loaded().robot)
     }
 }
 
@@ -273,5 +273,5 @@ fn with_page_names(comparison: TrackingComparison) -> TrackingComparison {
 
 /// The log of a run, relative to the folder.
 fn log_file(run: &str) -> PathBuf {
-    bench::log_file(Path::new(LOGS), run)
+    run_folder::log_file(Path::new(LOGS), run)
 }

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use evaluation::{
+use experiment::{
     AheadSpec, ClockSpec, GainSweep, PredictionTimeSpec, TrackedRun, TrackingScenario,
 };
 use recording::Listener;

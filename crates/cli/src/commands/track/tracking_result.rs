@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use document::Document;
-use evaluation::{
+use experiment::{
     FeedforwardKind, Learned, Outputs, Progress, TrackedRun, TrackingScenario, simulated_logs,
     sweep, track_all,
 };

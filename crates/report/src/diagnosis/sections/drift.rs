@@ -1,5 +1,5 @@
 use askama::Template;
-use evaluation::{Drift, ForwardGap};
+use experiment::{Drift, ForwardGap};
 use pages::{ReportError, significant};
 
 use crate::diagnosis::forward::{drift_in_page, drifts, remarks};
@@ -45,7 +45,7 @@ impl<'a> Section<'a> for SimulationDrift {
 
 #[cfg(test)]
 mod tests {
-    use evaluation::ForwardWindow;
+    use experiment::ForwardWindow;
 
     use super::*;
     use crate::diagnosis::forward::forward_sentence;

@@ -1,0 +1,53 @@
+use std::path::PathBuf;
+
+use benchmark::{Campaign, CampaignFolder, KindCount, Merged, MergedPanel, Record};
+use cli::{print, shown};
+use report::{FileHash, Provenance, sha256_of};
+
+use crate::commands::missing::{Folder, missing, sentences};
+use crate::error::BenchError;
+use crate::exit_status::ExitStatus;
+
+/// Puts the trials that are made together: tables, `trials.parquet`, `tally.json`, `report.html`.
+pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
+    let root = arguments.folder.as_path();
+    let folder = CampaignFolder::open(root)?;
+    let made = folder.manifest()?;
+    let doubts = missing(&made, &KindCount::all(&folder, &made));
+    let provenance = provenance(&folder)?;
+    let (text, json, page) = match folder.campaign() {
+        Campaign::Scenario(_) => {
+            let merged = Merged::new(&folder, &made);
+            let page = benchmark::trials_page(&merged, &doubts, &provenance)?;
+            (merged.text(), serde_json::to_string_pretty(&merged), page)
+        }
+        Campaign::Population(_) => {
+            let merged = MergedPanel::new(&folder, &made);
+            let page = benchmark::panel_page(&merged, &doubts, &provenance)?;
+            (merged.text(), serde_json::to_string_pretty(&merged), page)
+        }
+    };
+    let json = json.map_err(std::io::Error::from)?;
+    let records: Vec<Record> = made.records.into_values().collect();
+    Record::write(&root.join("trials.parquet"), &records)?;
+    let files = [("tally.json", json.as_bytes()), ("report.html", page.as_bytes())];
+    report::write_folder(root, &files)?;
+    print(&format!("{text}{}", sentences(&doubts)))?;
+    print(&format!("\nreport  {}\n", shown(&root.join("report.html"))))?;
+    Ok(if doubts.is_empty() { ExitStatus::Good } else { ExitStatus::Gap })
+}
+
+/// The same for whoever merges, wherever the folder lies.
+fn provenance(folder: &CampaignFolder) -> Result<Provenance, BenchError> {
+    let file = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(FileHash { role: "campaign", path: name, sha256: sha256_of(path)? })
+    };
+    Ok(Provenance {
+        program: cli::program_name(),
+        version: env!("CARGO_PKG_VERSION"),
+        command: ["plumbline-bench", "merge"].map(str::to_owned).to_vec(),
+        files: folder.plans().iter().map(file).collect::<Result<_, BenchError>>()?,
+        seed: None,
+    })
+}

@@ -1,0 +1,14 @@
+//! The commands, one file or folder each.
+
+pub mod compare;
+pub mod figure;
+pub mod merge;
+pub mod missing;
+pub mod pace;
+pub mod plan;
+pub mod schema;
+pub mod status;
+pub mod submit;
+pub mod times;
+pub mod work;
+pub mod work_line;

@@ -1,0 +1,17 @@
+use benchmark::{CampaignFolder, KindCount};
+use cli::print;
+
+use crate::commands::missing::{Folder, missing, sentences};
+use crate::error::BenchError;
+use crate::exit_status::ExitStatus;
+
+/// Prints how many trials are made, failed, broken and left.
+pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
+    let folder = CampaignFolder::open(&arguments.folder)?;
+    let made = folder.manifest()?;
+    let counts = KindCount::all(&folder, &made);
+    print(&KindCount::table(&counts).text(1))?;
+    let doubts = missing(&made, &counts);
+    print(&sentences(&doubts))?;
+    Ok(if doubts.is_empty() { ExitStatus::Good } else { ExitStatus::Gap })
+}

@@ -1,0 +1,102 @@
+use std::collections::BTreeSet;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use report::quoted;
+
+use crate::commands::submit::error::SubmitError;
+use crate::commands::submit::sbatch_option::SbatchOption;
+
+/// An array job: a task for every part of a campaign of which something is left.
+pub struct ArrayJob<'a> {
+    /// This program.
+    pub program: &'a Path,
+    /// The folder of the campaign, from the root.
+    pub folder: &'a Path,
+    /// The parts, counted from 1.
+    pub numbers: BTreeSet<usize>,
+    /// Of how many.
+    pub parts: NonZeroUsize,
+    /// Trials that a task makes at a time.
+    pub jobs: NonZeroUsize,
+    /// What `sbatch` is told besides.
+    pub options: &'a [SbatchOption],
+}
+
+impl ArrayJob<'_> {
+    /// The script that `sbatch` takes.
+    ///
+    /// # Errors
+    ///
+    /// [`SubmitError::Path`] for a path that cannot stand in it.
+    pub fn script(&self) -> Result<String, SubmitError> {
+        let (program, folder) = (nameable(self.program)?, nameable(self.folder)?);
+        // Slurm reads a percent sign as the start of a number to put in.
+        let output = format!("--output={}/slurm/%A_%a.log", folder.replace('%', "%%"));
+        let options = [
+            "--job-name=plumbline".to_owned(),
+            format!("--array={}", ranges(&self.numbers)),
+            "--ntasks=1".to_owned(),
+            format!("--cpus-per-task={}", self.jobs),
+            "--requeue".to_owned(),
+            "--open-mode=append".to_owned(),
+            output,
+        ];
+        let options = options.into_iter().chain(self.options.iter().map(ToString::to_string));
+        let options: String = options.map(|o| format!("#SBATCH {}\n", in_a_comment(&o))).collect();
+        Ok(format!(
+            "#!/bin/sh\n\
+             # The blind trials that are left of a campaign, a part a task. What is made when a node\n\
+             # fails is not made again.\n\
+             {options}\n\
+             exec {} work {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --quiet\n",
+            quoted(program),
+            quoted(folder),
+            self.parts,
+            self.jobs
+        ))
+    }
+}
+
+/// A path that both a shell and the lines for `sbatch` can name.
+fn nameable(path: &Path) -> Result<&str, SubmitError> {
+    let named = path.to_str().filter(|text| !text.contains(|c: char| c.is_control() || c == '\\'));
+    named.ok_or_else(|| SubmitError::Path { path: path.to_owned() })
+}
+
+/// An option in a line for `sbatch`, which takes quotes and backslashes as a shell does but
+/// nothing else.
+fn in_a_comment(option: &str) -> String {
+    if !option.contains(|c: char| c.is_whitespace() || "\"'\\#".contains(c)) {
+        return option.to_owned();
+    }
+    format!("\"{}\"", option.replace('\\', r"\\").replace('"', "\\\""))
+}
+
+/// Numbers as Slurm takes them: `1-3,7`.
+fn ranges(numbers: &BTreeSet<usize>) -> String {
+    let mut ranges: Vec<(usize, usize)> = Vec::new();
+    for &number in numbers {
+        match ranges.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => ranges.push((number, number)),
+        }
+    }
+    let text = |(first, last): &(usize, usize)| {
+        if first == last { first.to_string() } else { format!("{first}-{last}") }
+    };
+    ranges.iter().map(text).collect::<Vec<_>>().join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbouring_numbers_become_a_range() {
+        let text = |numbers: &[usize]| ranges(&numbers.iter().copied().collect());
+        assert_eq!(text(&[7, 1, 2, 3]), "1-3,7");
+        assert_eq!(text(&[1, 3, 5, 6]), "1,3,5-6");
+        assert_eq!(text(&[4]), "4");
+    }
+}

@@ -1,0 +1,140 @@
+use catalogue::EffectKind;
+use diagnosis::EffectAt;
+use dynamics::PARAMETERS_PER_LINK;
+use robot::Robot;
+
+use crate::baselines::scales::Scales;
+use crate::baselines::shape::Shape;
+
+/// Fewest and most periods of a ripple in a turn.
+const RIPPLES: std::ops::RangeInclusive<u8> = 4..=30;
+
+/// Periods of friction that varies with position, in a turn.
+const FRICTION_PERIODS: u8 = 2;
+
+/// Names that have many frequencies to choose from pay for the choice (nats).
+const RIPPLE_PRICE: f64 = 3.689;
+
+/// Names that fit much pay beforehand (nats).
+const WIDE_PRICE: f64 = 1.609;
+
+/// By how much a weight may take more than the nominal value away, as a share of that value.
+const SLACK: f64 = 0.1;
+
+/// A cause that may be named and the columns that it has at every joint.
+pub(super) struct Candidate {
+    /// The name.
+    pub at: EffectAt,
+    /// Joints and the shapes at each.
+    pub parts: Vec<(usize, Vec<Shape>)>,
+    /// What the name costs before it is looked at (nats).
+    pub price: f64,
+    /// The joint at which the weight of the first shape has a least value, and that value.
+    pub least: Option<(usize, f64)>,
+}
+
+/// Every cause that the logs could show: those of a joint that does not move are left out, but
+/// for what its drive adds to the reported effort.
+pub(super) fn candidates(robot: &Robot, scales: &Scales) -> Vec<Candidate> {
+    let mut all = Vec::new();
+    for j in 0..robot.joint_count() {
+        all.extend(of_drive(robot, j));
+        if scales.moves[j] {
+            all.extend(of_motion(robot, j));
+            all.push(elasticity(robot, j));
+        }
+    }
+    let joints = || 0..robot.joint_count();
+    let everywhere = |effect, shapes: &[Shape]| Candidate {
+        at: EffectAt { effect, joint: None, link: None },
+        parts: joints().map(|j| (j, shapes.to_vec())).collect(),
+        price: 0.0,
+        least: None,
+    };
+    if robot.joint_count() > 1 {
+        all.push(everywhere(EffectKind::TimeSkew, &[Shape::NominalRate]));
+    }
+    if robot.gravity_in_base().norm() > 0.0 {
+        let tilt = [Shape::Tilt(0), Shape::Tilt(1)];
+        all.push(everywhere(EffectKind::GravityDirection, &tilt));
+    }
+    all.extend(joints().map(|link| body(robot, link)));
+    all
+}
+
+fn of_joint(robot: &Robot, j: usize, effect: EffectKind, shapes: &[Shape]) -> Candidate {
+    Candidate {
+        at: EffectAt { effect, joint: Some(robot.links()[j].joint.name.clone()), link: None },
+        parts: vec![(j, shapes.to_vec())],
+        price: 0.0,
+        least: None,
+    }
+}
+
+/// What a drive adds whether it moves or not.
+fn of_drive(robot: &Robot, j: usize) -> Vec<Candidate> {
+    let plain = |effect, shapes: &[Shape]| of_joint(robot, j, effect, shapes);
+    let delay = plain(EffectKind::ActuatorDelay, &[Shape::NominalRate]);
+    vec![
+        plain(EffectKind::TorqueOffset, &[Shape::One]),
+        plain(EffectKind::TorqueConstant, &[Shape::Nominal]),
+        Candidate { least: Some((j, 0.0)), ..delay },
+    ]
+}
+
+/// What shows in a joint's motion.
+fn of_motion(robot: &Robot, j: usize) -> Vec<Candidate> {
+    let a = &robot.links()[j].actuator;
+    let bounded = |effect, shapes: &[Shape], nominal: f64| Candidate {
+        least: Some((j, -(1.0 + SLACK) * nominal)),
+        ..of_joint(robot, j, effect, shapes)
+    };
+    let coulomb = 0.5 * (a.coulomb_forward + a.coulomb_backward);
+    let spring = [Shape::Position, Shape::One];
+    let mut all = vec![
+        bounded(EffectKind::ViscousFriction, &[Shape::Velocity], a.viscous),
+        bounded(EffectKind::CoulombFriction, &[Shape::Sign], coulomb),
+        bounded(EffectKind::RotorInertia, &[Shape::Acceleration], a.rotor_inertia),
+        of_joint(robot, j, EffectKind::AsymmetricFriction, &[Shape::Sign, Shape::One]),
+        bounded(EffectKind::CableSpring, &spring, a.spring_stiffness),
+        bounded(EffectKind::LoadDependentFriction, &[Shape::LoadSign], a.load_friction),
+    ];
+    let k = FRICTION_PERIODS;
+    let wave = [Shape::SineSign(k), Shape::CosineSign(k), Shape::Sign];
+    let wave = of_joint(robot, j, EffectKind::PositionDependentFriction, &wave);
+    all.push(Candidate { price: WIDE_PRICE, ..wave });
+    all.extend(RIPPLES.map(|k| {
+        let waves = [Shape::Sine(k), Shape::Cosine(k)];
+        let ripple = of_joint(robot, j, EffectKind::TorqueRipple, &waves);
+        Candidate { price: RIPPLE_PRICE, ..ripple }
+    }));
+    all
+}
+
+/// A spring in the transmission, seen at its joint and at the neighbours.
+fn elasticity(robot: &Robot, j: usize) -> Candidate {
+    let links = robot.links();
+    let near = |i: &usize| *i == j || links[j].parent == Some(*i) || links[*i].parent == Some(j);
+    let parts = (0..links.len()).filter(near).map(|i| (i, vec![Shape::Spring { joint: j }]));
+    Candidate {
+        parts: parts.collect(),
+        price: WIDE_PRICE,
+        least: Some((j, 0.0)),
+        ..of_joint(robot, j, EffectKind::JointElasticity, &[])
+    }
+}
+
+/// The body of a link, seen at every joint that carries it; what the last one has on top of the
+/// description is a payload.
+fn body(robot: &Robot, link: usize) -> Candidate {
+    let links = robot.links();
+    let is_last = link + 1 == links.len();
+    let shapes: Vec<Shape> =
+        (0..PARAMETERS_PER_LINK).map(|parameter| Shape::Body { link, parameter }).collect();
+    let carriers = std::iter::successors(Some(link), |at| links[*at].parent);
+    let mut parts: Vec<(usize, Vec<Shape>)> = carriers.map(|j| (j, shapes.clone())).collect();
+    parts.reverse();
+    let effect = if is_last { EffectKind::Payload } else { EffectKind::InertialParameters };
+    let at = EffectAt { effect, joint: None, link: Some(links[link].name.clone()) };
+    Candidate { at, parts, price: 0.0, least: None }
+}

@@ -1,0 +1,203 @@
+use catalogue::EffectKind;
+use diagnosis::EffectAt;
+use dynamics::{Column, ColumnSet, base_parameters};
+use faer::Mat;
+use logs::{PrepareSettings, Run};
+use robot::Robot;
+
+use crate::baselines::baseline::{Baseline, Nominal, Weighted};
+use crate::baselines::dataset::{Dataset, Joint, Target};
+use crate::baselines::fit::{fit, square_left};
+use crate::baselines::memory::memory;
+use crate::baselines::prepare_runs::prepare_runs;
+use crate::baselines::scales::Scales;
+use crate::baselines::shape::Shape;
+use crate::error::BenchmarkError;
+
+/// Standard errors by which a parameter must be off its nominal value to be named.
+const STANDARD_ERRORS: f64 = 3.0;
+
+/// Least effort of what it is off by, as a share of the joint's effort.
+const LEAST_SHARE: f64 = 0.02;
+
+/// Share of a column's square that must be left beside all others for its parameter to be known.
+const KNOWN: f64 = 1e-6;
+
+/// Error below which a joint counts no more, as a share of its effort.
+const FLOOR: f64 = 1e-4;
+
+/// The model that identification of robots begins with, which takes the nominal one's place:
+///
+/// ```text
+/// effort = Y_b pi_b + rotor qdd + viscous qd + coulomb s + offset,   s = tanh(qd / noise of qd)
+/// ```
+///
+/// Base parameters of the bodies and four of every drive by least squares over all joints, first
+/// with the efforts' RMS as weights and then with that of what is left (Swevers et al. 1997).
+///
+/// Friction, offset and rotor are named where the estimate is three standard errors and 2 % of the
+/// joint's effort away from the nominal value, most effort first. A standard error counts samples
+/// that tell as much as one for one, and is that beside all other parameters.
+///
+/// # Errors
+///
+/// [`BenchmarkError::Log`] for runs that cannot be prepared.
+pub fn least_squares(
+    robot: &Robot,
+    control_rate_hz: Option<f64>,
+    runs: &[Run],
+) -> Result<Baseline, BenchmarkError> {
+    let logs = prepare_runs(robot, control_rate_hz, runs, &PrepareSettings::default())?;
+    let scales = Scales::of(robot, &logs);
+    let base = base_parameters(robot, ColumnSet::ALL);
+    let columns: Vec<Column> = base.independent.iter().map(|&c| base.columns[c]).collect();
+    let columns: Vec<Column> = columns.into_iter().filter(|c| shows(c, &scales)).collect();
+    let at_joint = |j: usize| columns.iter().filter_map(|c| shape(robot, j, c)).collect();
+    let shapes = (0..robot.joint_count()).map(at_joint).collect();
+    let dataset = Dataset::of((robot, &scales), &logs, shapes, Target::Effort)?;
+    let mut fit = Fitted { robot, dataset, columns, deviations: Vec::new(), parameters: vec![] };
+    fit.deviations = fit.dataset.joints.iter().map(|j| j.torque_rms).collect();
+    fit.solve();
+    fit.deviations = (0..robot.joint_count()).map(|j| fit.left_rms(j)).collect();
+    fit.solve();
+    let weights = (0..robot.joint_count()).map(|j| fit.weights(j)).collect();
+    Ok(Baseline::new(fit.names(), weights, (Nominal::Replaced, scales)))
+}
+
+/// Whether a drive's column says anything: a joint that does not move has no friction to see.
+fn shows(column: &Column, scales: &Scales) -> bool {
+    match *column {
+        Column::Inertial { .. } | Column::Offset { .. } => true,
+        Column::Rotor { joint } | Column::Viscous { joint } | Column::Coulomb { joint } => {
+            scales.moves[joint]
+        }
+    }
+}
+
+/// What a parameter does at joint `j`, if anything.
+fn shape(robot: &Robot, j: usize, column: &Column) -> Option<Shape> {
+    let (joint, shape) = match *column {
+        Column::Inertial { link, parameter } => {
+            let mut carriers = std::iter::successors(Some(link), |at| robot.links()[*at].parent);
+            return carriers.any(|at| at == j).then_some(Shape::Body { link, parameter });
+        }
+        Column::Rotor { joint } => (joint, Shape::Acceleration),
+        Column::Viscous { joint } => (joint, Shape::Velocity),
+        Column::Coulomb { joint } => (joint, Shape::Sign),
+        Column::Offset { joint } => (joint, Shape::One),
+    };
+    (joint == j).then_some(shape)
+}
+
+struct Fitted<'a> {
+    robot: &'a Robot,
+    dataset: Dataset,
+    columns: Vec<Column>,
+    /// What a joint's rows are divided by.
+    deviations: Vec<f64>,
+    /// One per column.
+    parameters: Vec<f64>,
+}
+
+impl Fitted<'_> {
+    /// Index among all columns of each at joint `j`, in the order of the joint's.
+    fn places(&self, j: usize) -> Vec<usize> {
+        let here = |c: &usize| shape(self.robot, j, &self.columns[*c]).is_some();
+        (0..self.columns.len()).filter(here).collect()
+    }
+
+    /// Sums of products over all joints, the effort last.
+    fn sums(&self) -> Mat<f64> {
+        let width = self.columns.len();
+        let mut sums = Mat::zeros(width + 1, width + 1);
+        for (j, joint) in self.dataset.joints.iter().enumerate() {
+            let mut places = self.places(j);
+            places.push(width);
+            let scale = |i: usize| joint.scales.get(i).copied().unwrap_or(1.0);
+            let weight = self.deviations[j].max(f64::MIN_POSITIVE).powi(-2);
+            for (i, &row) in places.iter().enumerate() {
+                for (k, &column) in places.iter().enumerate() {
+                    let product = joint.total[(i, k)] * scale(i) * scale(k);
+                    sums[(row, column)] += weight * product;
+                }
+            }
+        }
+        sums
+    }
+
+    fn solve(&mut self) {
+        let all: Vec<usize> = (0..self.columns.len()).collect();
+        self.parameters = fit(&self.sums(), &all, all.len()).weights;
+    }
+
+    /// Parameters in the units of the joint's scaled columns.
+    fn scaled(&self, j: usize) -> Vec<f64> {
+        let scales = &self.dataset.joints[j].scales;
+        self.places(j).iter().zip(scales).map(|(&at, scale)| self.parameters[at] * scale).collect()
+    }
+
+    /// RMS of what is left at joint `j`, with the floor.
+    fn left_rms(&self, j: usize) -> f64 {
+        let joint = &self.dataset.joints[j];
+        let own: Vec<usize> = (0..joint.target()).collect();
+        let square = square_left(&joint.total, &own, &self.scaled(j), joint.target());
+        let mean = square / joint.samples.max(1) as f64;
+        (mean + (FLOOR * joint.torque_rms).powi(2)).sqrt()
+    }
+
+    fn weights(&self, j: usize) -> Vec<Weighted> {
+        let shapes = self.dataset.joints[j].shapes.iter().zip(self.places(j));
+        let weighted = |(&shape, at)| Weighted { shape, weight: self.parameters[at] };
+        shapes.map(weighted).collect()
+    }
+
+    /// Samples at joint `j` that tell as much as one.
+    fn memory(&self, j: usize) -> f64 {
+        let joint: &Joint = &self.dataset.joints[j];
+        let own: Vec<usize> = (0..joint.target()).collect();
+        memory(&joint.left(&own, &self.scaled(j)), &self.dataset.runs)
+    }
+
+    fn names(&self) -> Vec<EffectAt> {
+        let sums = self.sums();
+        let memories: Vec<f64> = (0..self.dataset.joints.len()).map(|j| self.memory(j)).collect();
+        let mut named: Vec<(f64, EffectAt)> = Vec::new();
+        for (at, column) in self.columns.iter().enumerate() {
+            let Some((effect, j, nominal)) = drive(self.robot, column) else { continue };
+            let others: Vec<usize> = (0..self.columns.len()).filter(|c| *c != at).collect();
+            let left = fit(&sums, &others, at).square;
+            let off = self.parameters[at] - nominal;
+            let joint = &self.dataset.joints[j];
+            let own = joint.shapes.iter().position(|s| Some(*s) == shape(self.robot, j, column));
+            let share = own.map_or(0.0, |own| off.abs() * joint.scales[own] / joint.torque_rms);
+            let is_known = left > KNOWN * sums[(at, at)];
+            let is_off = off * off * left > STANDARD_ERRORS * STANDARD_ERRORS * memories[j];
+            if is_known && is_off && share > LEAST_SHARE {
+                let joint = Some(self.robot.links()[j].joint.name.clone());
+                named.push((share, EffectAt { effect, joint, link: None }));
+            }
+        }
+        named.sort_by(|a, b| b.0.total_cmp(&a.0));
+        named.into_iter().map(|(_, at)| at).collect()
+    }
+}
+
+/// The cause that a parameter of a drive stands for, its joint and its value in the description.
+fn drive(robot: &Robot, column: &Column) -> Option<(EffectKind, usize, f64)> {
+    let (effect, j) = match *column {
+        Column::Inertial { .. } => return None,
+        Column::Rotor { joint } => (EffectKind::RotorInertia, joint),
+        Column::Viscous { joint } => (EffectKind::ViscousFriction, joint),
+        Column::Coulomb { joint } => (EffectKind::CoulombFriction, joint),
+        Column::Offset { joint } => (EffectKind::TorqueOffset, joint),
+    };
+    let a = &robot.links()[j].actuator;
+    let gain = a.transmission_ratio * a.torque_gain;
+    let nominal = match effect {
+        EffectKind::RotorInertia => gain * a.rotor_inertia,
+        EffectKind::ViscousFriction => gain * a.viscous,
+        EffectKind::CoulombFriction => 0.5 * gain * (a.coulomb_forward + a.coulomb_backward),
+        _ => 0.5 * gain * (a.coulomb_forward - a.coulomb_backward) + a.torque_offset,
+    };
+    Some((effect, j, nominal))
+}

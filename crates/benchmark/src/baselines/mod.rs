@@ -1,0 +1,29 @@
+//! Two plain methods that a diagnosis is measured against.
+//!
+//! ```text
+//! least_squares:  effort = Y pi + friction + offset + rotor,   all of it fitted, nominal forgotten
+//! two_questions:  effort - nominal effort = sum over names of columns weights, names one by one
+//! ```
+//!
+//! Neither uses the columns, the search or the statistics of the diagnosis: what is compared with
+//! it shares the log's preparation, the rigid bodies of `dynamics` and the names of the catalogue.
+//!
+//! - [`Baseline`] is what either makes of logs: names, and efforts that it predicts;
+//! - `run_columns` is the motion of a run and every column along it, `shape` names the columns;
+//! - `candidate` is a cause and its columns, `dataset` the columns of all runs and their sums;
+//! - `fit` is least squares from sums, `folds` says which samples are kept apart.
+
+pub(crate) mod baseline;
+pub(crate) mod candidate;
+pub(crate) mod contest;
+pub(crate) mod dataset;
+pub(crate) mod drive;
+pub(crate) mod fit;
+pub(crate) mod folds;
+pub(crate) mod least_squares;
+pub(crate) mod memory;
+pub(crate) mod prepare_runs;
+pub(crate) mod run_columns;
+pub(crate) mod scales;
+pub(crate) mod shape;
+pub(crate) mod two_questions;

@@ -1,0 +1,50 @@
+use logs::{LogError, PrepareSettings, Prepared, Run, centre_commands, prepare};
+use robot::{Robot, TorqueSource};
+
+/// Runs on a uniform clock, commands at the time of their samples and no larger than the joint's
+/// limit, as `diagnosis::left_over` reads them.
+pub(super) fn prepare_runs(
+    robot: &Robot,
+    control_rate_hz: Option<f64>,
+    runs: &[Run],
+    settings: &PrepareSettings,
+) -> Result<Prepared, LogError> {
+    for run in runs {
+        let found: Vec<&str> = run.joints.iter().map(|j| j.name.as_str()).collect();
+        let expected: Vec<&str> = robot.joint_names().collect();
+        if found != expected {
+            let owned = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
+            return Err(LogError::JointsDiffer {
+                run: run.name.clone(),
+                found: owned(found),
+                first: robot.name().to_owned(),
+                expected: owned(expected),
+            });
+        }
+    }
+    let mut prepared = prepare(runs, settings)?;
+    centre_commands(robot, &mut prepared.runs, control_rate_hz);
+    for run in &mut prepared.runs {
+        for (link, joint) in robot.links().iter().zip(&mut run.joints) {
+            let limit = link.joint.limits.effort.filter(|limit| *limit > 0.0);
+            let is_command = link.actuator.torque_source != TorqueSource::Measured;
+            if let Some(limit) = limit.filter(|_| is_command) {
+                joint.effort.iter_mut().for_each(|e| *e = e.clamp(-limit, limit));
+            }
+        }
+    }
+    Ok(prepared)
+}
+
+/// Rate of the slowest run (Hz), by the median of its steps; infinite without a step.
+pub(super) fn slowest_rate_hz(runs: &[Run]) -> f64 {
+    let rate = |run: &Run| {
+        let mut steps: Vec<f64> = run.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let middle = steps.len() / 2;
+        if steps.is_empty() {
+            return f64::INFINITY;
+        }
+        steps.select_nth_unstable_by(middle, f64::total_cmp).1.recip()
+    };
+    runs.iter().map(rate).fold(f64::INFINITY, f64::min)
+}

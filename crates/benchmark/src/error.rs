@@ -1,0 +1,146 @@
+use std::path::PathBuf;
+
+use diagnosis::DiagnosisError;
+use document::DocumentError;
+use experiment::ExperimentError;
+use learner::LearnerError;
+use logs::LogError;
+use population::PopulationError;
+use robot::RobotError;
+use simulator::SimulatorError;
+
+/// Why a campaign cannot be planned, made or compared, or a figure not drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BenchmarkError {
+    /// An arm cannot be simulated, diagnosed, learned or tracked.
+    #[error(transparent)]
+    Experiment(#[from] ExperimentError),
+    /// A trial of a population cannot be made.
+    #[error(transparent)]
+    Population(Box<PopulationError>),
+    /// The folder of a trial can be neither made nor read.
+    #[error("{}: it cannot be the folder of a trial: {reason}", path.display())]
+    TrialFolder {
+        /// The folder.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: String,
+    },
+    /// A trial has nothing to diagnose.
+    #[error("{}: there is no log in it, a trial needs one *.parquet at least", path.display())]
+    NoLogs {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A folder holds no campaign.
+    #[error(
+        "{}: no campaign was planned here: plumbline-bench plan CAMPAIGN.toml --out {} plans one",
+        path.display(), path.display()
+    )]
+    NoCampaign {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A folder holds trials of another campaign.
+    #[error(
+        "{}: it is of another campaign ({}, this one is {}), an empty folder was expected",
+        path.display(), short(found), short(planned)
+    )]
+    OtherCampaign {
+        /// A shard of it.
+        path: PathBuf,
+        /// The campaign that it is of, by its hash.
+        found: String,
+        /// The campaign that was to be planned.
+        planned: String,
+    },
+    /// A table of trials is none.
+    #[error("{}: {reason}, trials.parquet of a campaign was expected", path.display())]
+    UnreadableTrials {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A table holds trials of another campaign.
+    #[error(
+        "{}: its trials are of another campaign ({}), those of this one ({}) were expected",
+        path.display(), short(found), short(planned)
+    )]
+    OtherTrials {
+        /// The file.
+        path: PathBuf,
+        /// The campaign that they are of, by its hash.
+        found: String,
+        /// The campaign that was planned.
+        planned: String,
+    },
+    /// Two results have no trial in common.
+    #[error("{} and {}: they have no trial in common, two results of the same trials were expected", first.display(), second.display())]
+    NoCommonTrials {
+        /// The first.
+        first: PathBuf,
+        /// The second.
+        second: PathBuf,
+    },
+    /// A campaign keeps no logs in a store.
+    #[error("{}: a store holds logs of populations, this campaign starts from a scenario, whose logs --keep keeps", path.display())]
+    NoStore {
+        /// The store.
+        path: PathBuf,
+    },
+    /// The threads of a worker cannot be started.
+    #[error("the threads of a worker cannot be started: {reason}")]
+    NoThreads {
+        /// What the operating system said.
+        reason: String,
+    },
+}
+
+/// The start of a hash, enough to tell it from others by eye.
+fn short(hash: &str) -> &str {
+    hash.get(..8).unwrap_or(hash)
+}
+
+impl From<DocumentError> for BenchmarkError {
+    fn from(error: DocumentError) -> Self {
+        Self::Experiment(error.into())
+    }
+}
+
+impl From<RobotError> for BenchmarkError {
+    fn from(error: RobotError) -> Self {
+        Self::Experiment(error.into())
+    }
+}
+
+impl From<SimulatorError> for BenchmarkError {
+    fn from(error: SimulatorError) -> Self {
+        Self::Experiment(error.into())
+    }
+}
+
+impl From<LogError> for BenchmarkError {
+    fn from(error: LogError) -> Self {
+        Self::Experiment(error.into())
+    }
+}
+
+impl From<LearnerError> for BenchmarkError {
+    fn from(error: LearnerError) -> Self {
+        Self::Experiment(error.into())
+    }
+}
+
+impl From<DiagnosisError> for BenchmarkError {
+    fn from(error: DiagnosisError) -> Self {
+        Self::Experiment(error.into())
+    }
+}
+
+impl From<PopulationError> for BenchmarkError {
+    fn from(error: PopulationError) -> Self {
+        Self::Population(Box::new(error))
+    }
+}

@@ -1,0 +1,58 @@
+use serde::Serialize;
+
+use crate::paired::measures::Measure;
+use crate::trials::record::Record;
+use crate::trials::scored::Scored;
+
+/// A trial of which two results say something else.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Turned {
+    /// Its number in the campaign.
+    pub task: usize,
+    /// Its seed.
+    pub seed: u64,
+    /// What was hidden, or where in the population it lies.
+    pub about: String,
+    /// In which the second result is the better one.
+    pub better: Vec<Measure>,
+    /// In which the first is.
+    pub worse: Vec<Measure>,
+}
+
+impl Turned {
+    /// None where both say the same.
+    pub(super) fn new(first: &Record, second: &Record) -> Option<Self> {
+        let turned = |better: bool| {
+            let is = |measure: &Measure| match (measure.of(first), measure.of(second)) {
+                (Some(a), Some(b)) => a != b && (b == measure.wanted()) == better,
+                _ => false,
+            };
+            Measure::ALL.into_iter().filter(is).collect::<Vec<_>>()
+        };
+        let (better, worse) = (turned(true), turned(false));
+        let some = !better.is_empty() || !worse.is_empty();
+        let (task, seed) = (first.task, first.seed);
+        some.then(|| Self { task, seed, about: about([first, second]), better, worse })
+    }
+
+    /// The trial in a line, such as `task 3, seed 99 (cobot, sweep): better: right; worse: false alarm`.
+    pub fn words(&self) -> String {
+        let list = |name: &str, measures: &[Measure]| {
+            let names: Vec<String> = measures.iter().map(Measure::to_string).collect();
+            (!names.is_empty()).then(|| format!("{name}: {}", names.join(", ")))
+        };
+        let parts = [list("better", &self.better), list("worse", &self.worse)];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        format!("task {}, seed {} ({}): {}", self.task, self.seed, self.about, parts.join("; "))
+    }
+}
+
+fn about(records: [&Record; 2]) -> String {
+    let corner = |record: &&Record| match &record.score {
+        Ok(Scored::Panel(one)) => {
+            Some(format!("{}, {}", one.corner.arm, one.corner.motion).replace('_', " "))
+        }
+        _ => record.hidden.map(|hidden| hidden.to_string()),
+    };
+    records.iter().find_map(corner).unwrap_or_else(|| "population".to_owned())
+}

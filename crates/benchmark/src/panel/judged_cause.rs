@@ -1,0 +1,86 @@
+use diagnosis::{EffectAt, Finding};
+use experiment::{Size, stored};
+use population::{Cause, Role, Strength};
+use serde::{Deserialize, Serialize};
+
+use crate::panel::dry_friction::DryFriction;
+use crate::panel::judged_finding::BaselineClaim;
+
+/// A cause that is in the data, and who names it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JudgedCause {
+    /// The effect and its place.
+    #[serde(flatten, deserialize_with = "stored::place")]
+    pub at: EffectAt,
+    /// Why it is there.
+    pub role: Role,
+    /// What an oracle sees of it.
+    pub strength: Strength,
+    /// The finding that names it, counted from 0.
+    pub finding: Option<usize>,
+    /// The first finding that names it or a rival of which it is.
+    pub one_of: Option<usize>,
+    /// Whether the two questions name it.
+    pub two_questions: bool,
+    /// Whether plain least squares names it.
+    pub least_squares: bool,
+    /// Its parameters, levels of dry friction with all that is at the joint.
+    pub sizes: Vec<Size>,
+}
+
+impl JudgedCause {
+    /// One of `all` causes, beside what is found and what the baselines claim.
+    pub(super) fn new(
+        (cause, all): (&Cause, &[Cause]),
+        findings: &[&Finding],
+        claims: [&[BaselineClaim]; 2],
+    ) -> Self {
+        let at = place(cause);
+        let finding = findings.iter().position(|f| f.at == at);
+        let says = |f: &&Finding| f.at == at || f.not_separable_from.contains(&at);
+        let one_of = findings.iter().position(says);
+        let estimates = finding.map_or(&[][..], |f| &findings[f].parameters);
+        let [two_questions, least_squares] =
+            claims.map(|claims| claims.iter().any(|claim| claim.at == at));
+        Self {
+            role: cause.role,
+            strength: finite(cause.strength),
+            finding,
+            one_of,
+            two_questions,
+            least_squares,
+            sizes: Size::all(
+                &DryFriction::beside(cause, all).with(&cause.truth, estimates),
+                estimates,
+            ),
+            at,
+        }
+    }
+
+    /// Whether an oracle sees it and it is above the floor.
+    pub fn visible(&self) -> bool {
+        self.strength.visible()
+    }
+
+    /// Whether it is a finding or a rival of one.
+    pub fn named(&self) -> bool {
+        self.one_of.is_some()
+    }
+}
+
+/// The effect of a cause and its place.
+pub(super) fn place(cause: &Cause) -> EffectAt {
+    let (joint, link) = (cause.truth.joint.clone(), cause.truth.link.clone());
+    EffectAt { effect: cause.truth.effect, joint, link }
+}
+
+/// A strength that JSON can hold: an infinite one, of a cause without noise, becomes the largest
+/// number; one that is not a number becomes zero.
+pub(super) fn finite(strength: Strength) -> Strength {
+    let held = |number: f64| if number.is_nan() { 0.0 } else { number.clamp(0.0, f64::MAX) };
+    Strength {
+        sigmas: held(strength.sigmas),
+        share: held(strength.share),
+        torque: held(strength.torque),
+    }
+}

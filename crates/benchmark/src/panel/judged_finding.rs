@@ -1,0 +1,69 @@
+use std::collections::BTreeSet;
+
+use diagnosis::{EffectAt, Finding};
+use experiment::stored;
+use serde::{Deserialize, Serialize};
+
+/// A finding of a diagnosis, and whether it is true.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JudgedFinding {
+    /// The effect and its place.
+    #[serde(flatten, deserialize_with = "stored::place")]
+    pub at: EffectAt,
+    /// Share of the nominal residual's power that goes with it.
+    #[serde(deserialize_with = "stored::number")]
+    pub share_explained: f64,
+    /// What it may as well be.
+    #[serde(deserialize_with = "stored::places")]
+    pub not_separable_from: Vec<EffectAt>,
+    /// Whether the cause is in the data, or one of its rivals is, or it is a rival of a finding
+    /// whose cause is.
+    pub is_true: bool,
+}
+
+/// An effect that a baseline names, and whether it is in the data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BaselineClaim {
+    /// The effect and its place.
+    #[serde(flatten, deserialize_with = "stored::place")]
+    pub at: EffectAt,
+    /// Whether it is in the data, however small.
+    pub is_true: bool,
+}
+
+impl JudgedFinding {
+    /// The findings of a diagnosis, the largest share first, beside what is in the data.
+    pub(super) fn all(findings: &[&Finding], causes: &[EffectAt]) -> Vec<Self> {
+        let own: Vec<&EffectAt> =
+            findings.iter().map(|f| &f.at).filter(|at| causes.contains(at)).collect();
+        let beside = |f: &&&Finding| own.contains(&&f.at);
+        let rivals: Vec<&EffectAt> =
+            findings.iter().filter(beside).flat_map(|f| &f.not_separable_from).collect();
+        let is_true = |f: &Finding| {
+            causes.contains(&f.at)
+                || f.not_separable_from.iter().any(|rival| causes.contains(rival))
+                || rivals.contains(&&f.at)
+        };
+        let judged = |f: &&Finding| Self {
+            at: f.at.clone(),
+            share_explained: f.share_explained,
+            not_separable_from: f.not_separable_from.clone(),
+            is_true: is_true(f),
+        };
+        findings.iter().map(judged).collect()
+    }
+
+    /// Its share as a weight: none below zero, and none that is no number.
+    pub fn weight(&self) -> f64 {
+        if self.share_explained.is_finite() { self.share_explained.max(0.0) } else { 0.0 }
+    }
+}
+
+impl BaselineClaim {
+    /// What a baseline names, each once, beside what is in the data.
+    pub(super) fn all(names: &[EffectAt], causes: &[EffectAt]) -> Vec<Self> {
+        let mut seen = BTreeSet::new();
+        let new = names.iter().filter(|at| seen.insert(at.words()));
+        new.map(|at| Self { at: at.clone(), is_true: causes.contains(at) }).collect()
+    }
+}

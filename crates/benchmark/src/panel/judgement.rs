@@ -1,0 +1,173 @@
+use diagnosis::{EffectAt, Finding, Verdict};
+use experiment::stored;
+use population::{Corner, Knowledge, Sheet, Unnamed};
+use serde::{Deserialize, Serialize};
+
+use crate::panel::answers::{Answers, Costs};
+use crate::panel::judged_cause::{JudgedCause, finite, place};
+use crate::panel::judged_finding::{BaselineClaim, JudgedFinding};
+use crate::panel::prediction::Prediction;
+use crate::statistics::rate::Fraction;
+
+/// How well one trial of a population was answered.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Judgement {
+    /// The seed that everything was drawn from.
+    pub seed: u64,
+    /// Where in the population it lies.
+    pub corner: Corner,
+    /// Whether all that is in the data is known.
+    pub knowledge: Knowledge,
+    /// The verdict over all joints.
+    #[serde(deserialize_with = "stored::verdict")]
+    pub verdict: Verdict,
+    /// Why the diagnosis refuses the logs, where it does; it then names nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refused: Option<String>,
+    /// The findings, the largest share of the gap first.
+    pub findings: Vec<JudgedFinding>,
+    /// The causes that are in the data.
+    pub causes: Vec<JudgedCause>,
+    /// Effects of no catalogue that are in the data.
+    pub strangers: Vec<Unnamed>,
+    /// What the two questions name.
+    pub two_questions: Vec<BaselineClaim>,
+    /// What plain least squares names.
+    pub least_squares: Vec<BaselineClaim>,
+    /// Torque of a log that took no part.
+    pub prediction: Prediction,
+    /// What it cost.
+    pub costs: Costs,
+}
+
+impl Judgement {
+    /// Scores the answers to a trial by what is true of it.
+    pub fn new(sheet: &Sheet, answers: &Answers) -> Self {
+        let diagnosis = answers.diagnosis.as_ref();
+        let mut findings: Vec<&Finding> =
+            diagnosis.iter().flat_map(|diagnosis| &diagnosis.findings).collect();
+        findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
+        let causes: Vec<EffectAt> = sheet.causes.iter().map(place).collect();
+        let two_questions = BaselineClaim::all(&answers.two_questions, &causes);
+        let least_squares = BaselineClaim::all(&answers.least_squares, &causes);
+        let claims = [&two_questions[..], &least_squares[..]];
+        let judged = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
+        let stranger =
+            |other: &Unnamed| Unnamed { strength: finite(other.strength), ..other.clone() };
+        Self {
+            seed: sheet.seed,
+            corner: sheet.corner.clone(),
+            knowledge: sheet.knowledge,
+            verdict: diagnosis.map_or(Verdict::DataInadequate, |diagnosis| diagnosis.verdict),
+            refused: diagnosis.err().cloned(),
+            causes: sheet.causes.iter().map(judged).collect(),
+            findings: JudgedFinding::all(&findings, &causes),
+            strangers: sheet.strangers.iter().map(stranger).collect(),
+            prediction: Prediction::new(&answers.held_out, &sheet.torque_rms),
+            costs: answers.costs,
+            two_questions,
+            least_squares,
+        }
+    }
+
+    /// The causes that an oracle sees.
+    pub fn visible(&self) -> impl Iterator<Item = &JudgedCause> {
+        self.causes.iter().filter(|cause| cause.visible())
+    }
+
+    /// Whether something that an oracle sees is in the data.
+    pub fn hides(&self) -> bool {
+        self.visible().next().is_some() || self.hides_strangers()
+    }
+
+    /// Share of the findings that are true; none where the data hold causes that nobody knows.
+    pub fn precision(&self) -> Option<Fraction> {
+        self.of_findings(|_| 1.0)
+    }
+
+    /// The same, each finding weighted by its share of the gap's power.
+    pub fn precision_by_torque(&self) -> Option<Fraction> {
+        self.of_findings(JudgedFinding::weight)
+    }
+
+    /// Share of the visible causes that a finding or one of its rivals names.
+    pub fn recall(&self) -> Fraction {
+        Fraction::of(self.visible().map(|cause| (cause.named(), 1.0)))
+    }
+
+    /// The same, each cause weighted by its torque, at most that of its joints: a nominal friction
+    /// that is a hundred times too large weighs as much as the whole effort.
+    pub fn recall_by_torque(&self) -> Fraction {
+        let weight = |cause: &JudgedCause| cause.strength.torque.min(1.0);
+        Fraction::of(self.visible().map(|cause| (cause.named(), weight(cause))))
+    }
+
+    /// Share of a baseline's names that are true; none where the data hold causes that nobody
+    /// knows.
+    pub(crate) fn precision_of(&self, claims: &[BaselineClaim]) -> Option<Fraction> {
+        self.known().then(|| Fraction::of(claims.iter().map(|claim| (claim.is_true, 1.0))))
+    }
+
+    /// Share of the visible causes that a baseline names.
+    pub(crate) fn recall_of(&self, names: impl Fn(&JudgedCause) -> bool) -> Fraction {
+        Fraction::of(self.visible().map(|cause| (names(cause), 1.0)))
+    }
+
+    /// Whether the verdict calls a visible gap closed: "consistent", or "explained" although a
+    /// visible cause has no name or an effect outside the catalogue is visible. None where an
+    /// oracle sees no cause.
+    pub fn false_assurance(&self) -> Option<bool> {
+        let missed = || self.visible().any(|cause| !cause.named()) || self.hides_strangers();
+        self.hides().then(|| match self.verdict {
+            Verdict::Consistent => true,
+            Verdict::Explained => missed(),
+            _ => false,
+        })
+    }
+
+    /// Whether the diagnosis names an absent cause or leaves structure open in data without a
+    /// cause. None where an oracle sees a cause, or where not all causes are known.
+    pub fn false_alarm(&self) -> Option<bool> {
+        let alarm = || self.names_falsely() || self.is_open();
+        (self.known() && !self.hides()).then(alarm)
+    }
+
+    /// Whether every visible cause is named and, where all causes are known, no false one. None for
+    /// logs whose causes are unknown.
+    pub fn right(&self) -> Option<bool> {
+        let right = || self.visible().all(JudgedCause::named);
+        match self.knowledge {
+            Knowledge::Whole => Some(right() && !self.names_falsely()),
+            Knowledge::Added => Some(right()),
+            Knowledge::None => None,
+        }
+    }
+
+    /// Whether the verdict leaves structure open.
+    pub fn is_open(&self) -> bool {
+        matches!(self.verdict, Verdict::Unexplained | Verdict::PartlyExplained)
+    }
+
+    /// Whether a finding is false, where all causes are known.
+    pub fn names_falsely(&self) -> bool {
+        self.known() && self.findings.iter().any(|finding| !finding.is_true)
+    }
+
+    /// Whether all that is in the data is known.
+    pub fn known(&self) -> bool {
+        self.knowledge == Knowledge::Whole
+    }
+
+    /// Samples of a joint over all logs.
+    pub fn samples(&self) -> f64 {
+        (self.corner.rate_hz * self.corner.length_s).round()
+    }
+
+    fn hides_strangers(&self) -> bool {
+        self.strangers.iter().any(|stranger| stranger.strength.visible())
+    }
+
+    fn of_findings(&self, weight: impl Fn(&JudgedFinding) -> f64) -> Option<Fraction> {
+        self.known().then(|| Fraction::of(self.findings.iter().map(|f| (f.is_true, weight(f)))))
+    }
+}

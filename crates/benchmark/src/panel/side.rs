@@ -1,0 +1,94 @@
+use std::collections::BTreeMap;
+use std::fmt;
+
+use population::{ArmClass, EffortClass, MotionClass, Origin};
+use serde::{Serialize, Serializer};
+
+use crate::panel::judgement::Judgement;
+
+/// Step of a position reading above which an encoder is coarse (rad or m).
+const COARSE: f64 = 0.0005;
+
+/// Trials of a population that are alike in one thing.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Side {
+    /// Place of the thing, and of this kind of it, among the rows of a table.
+    order: [usize; 2],
+    /// What they are alike in; nothing for all trials.
+    thing: &'static str,
+    /// How they are.
+    kind: String,
+}
+
+impl Side {
+    /// Judgements by side: all of them, then by each thing in turn. A trial is in one side of each.
+    pub(crate) fn by_side(judgements: &[Judgement]) -> Vec<(Self, Vec<&Judgement>)> {
+        let mut sides: BTreeMap<Self, Vec<&Judgement>> = BTreeMap::new();
+        for judgement in judgements {
+            for side in Self::of(judgement) {
+                sides.entry(side).or_default().push(judgement);
+            }
+        }
+        sides.into_iter().collect()
+    }
+
+    /// What they are alike in; nothing for all trials.
+    pub fn thing(&self) -> &'static str {
+        self.thing
+    }
+
+    fn of(judgement: &Judgement) -> Vec<Self> {
+        let corner = &judgement.corner;
+        let causes = bucket(judgement.visible().count(), &["0", "1", "2-3", "4-7", "8+"], CAUSES);
+        let logs = bucket(corner.logs, &["1", "2-3", "4+"], LOGS);
+        let arms: Vec<&str> = ArmClass::ALL.iter().map(|arm| arm.name()).collect();
+        let coarse = usize::from(corner.encoder_step <= COARSE);
+        let repeats = usize::from(corner.repeats);
+        let things = [
+            ("", (0, "all".to_owned())),
+            ("arm", place(&corner.arm, &arms)),
+            ("logs are", place(corner.origin.name(), &names(Origin::ALL, Origin::name))),
+            ("motion", place(corner.motion.name(), &names(MotionClass::ALL, MotionClass::name))),
+            ("effort", place(corner.effort.name(), &names(EffortClass::ALL, EffortClass::name))),
+            ("encoder", (coarse, ["coarse", "fine"][coarse].to_owned())),
+            ("visible causes", causes),
+            ("logs", logs),
+            ("runs", (repeats, ["differ", "repeat"][repeats].to_owned())),
+        ];
+        let side = |(thing, (name, (rank, kind)))| Self { order: [thing, rank], thing: name, kind };
+        things.into_iter().enumerate().map(side).collect()
+    }
+}
+
+/// Least counts of the classes.
+const CAUSES: &[usize] = &[0, 1, 2, 4, 8];
+const LOGS: &[usize] = &[0, 2, 4];
+
+fn bucket(count: usize, names: &[&str], least: &[usize]) -> (usize, String) {
+    let rank = least.iter().filter(|least| count >= **least).count().saturating_sub(1);
+    (rank, names.get(rank).copied().unwrap_or_default().to_owned())
+}
+
+fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+    all.iter().map(|one| name(*one)).collect()
+}
+
+/// A name and its place among the known ones; others follow.
+fn place(name: &str, known: &[&str]) -> (usize, String) {
+    let rank = known.iter().position(|other| *other == name);
+    (rank.unwrap_or(known.len()), name.to_owned())
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let space = if self.thing.is_empty() { "" } else { " " };
+        write!(f, "{}{space}{}", self.thing, self.kind.replace('_', " "))
+    }
+}
+
+/// As it is written.
+impl Serialize for Side {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

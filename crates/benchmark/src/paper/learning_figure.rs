@@ -1,0 +1,337 @@
+use std::path::{Path, PathBuf};
+
+use document::{Document, DocumentError, KeyPath};
+use dynamics::ColumnSet;
+use experiment::{
+    Learned, Lesson, PAPER_MODELS, Progress, document_at, known_runs, motion_at, with_seed,
+};
+use logs::Run;
+use motion::Motion;
+use robot::{Loaded, Robot};
+use simulator::scenario::{RunSpec, Scenario, ScenarioSpec};
+
+use crate::error::BenchmarkError;
+use crate::paper::figure_spec::{DataSpec, FigureScenario, FigureSpec, LearningFigureSpec};
+use crate::paper::learning_errors::ModelErrors;
+
+/// What the rigid bodies of the figure are: the links and, as rigid as they, the rotors.
+const RIGID_BODIES: ColumnSet = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };
+
+/// Figure 2 of Nguyen-Tuong & Peters 2010: an arm that rigid bodies describe and one that they do
+/// not, and what is learned of each.
+///
+/// ```text
+/// learn.train, learn.regression --diagnose, learn--> models
+/// test, and of the real data outside --> their errors
+/// ```
+#[derive(Debug, Clone)]
+pub struct LearningFigure {
+    spec: LearningFigureSpec,
+    plants: [PaperPlant; 2],
+    resolved: String,
+}
+
+/// Which of the data of figure 2.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PaperData {
+    /// Those that rigid bodies describe.
+    Simulated,
+    /// Those that they do not.
+    Real,
+}
+
+/// The arm that some of the data come from.
+#[derive(Debug, Clone)]
+pub struct PaperPlant {
+    data: PaperData,
+    plant: Scenario,
+    file: PathBuf,
+    loaded: Loaded,
+}
+
+impl PaperData {
+    /// Name in files and keys.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Simulated => "simulated",
+            Self::Real => "real",
+        }
+    }
+
+    /// The scenario of its arm, beside the scenario that names it.
+    fn scenario(self) -> PathBuf {
+        Path::new("logs").join(self.name()).join("scenario.toml")
+    }
+}
+
+impl PaperPlant {
+    /// Which data it gives.
+    pub fn data(&self) -> PaperData {
+        self.data
+    }
+
+    /// Its scenario, with the runs that the figure needs and no other.
+    pub fn plant(&self) -> &Scenario {
+        &self.plant
+    }
+
+    /// Where the scenario of the arm was read.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// The robot as described.
+    pub fn loaded(&self) -> &Loaded {
+        &self.loaded
+    }
+}
+
+impl LearningFigure {
+    /// Name of the run outside what is learned from.
+    pub const OUTSIDE: &str = "outside";
+
+    /// Reads the figure from the scenario of one; `seed` takes the place of those of the arms.
+    ///
+    /// # Errors
+    ///
+    /// [`BenchmarkError::Document`], at the value at fault, and what the scenario of an arm is
+    /// refused for.
+    pub fn from_document(document: &Document, seed: Option<u64>) -> Result<Self, BenchmarkError> {
+        let FigureScenario { figure: FigureSpec::Learning(spec) } = document.parse()? else {
+            let message = "another figure, figure.learning was expected";
+            return Err(document.mistake(&KeyPath::root().key("figure"), message, None).into());
+        };
+        let check = Checker { document, spec: &spec, seed };
+        check.counts()?;
+        let simulated = check.plant(PaperData::Simulated, &spec.simulated)?;
+        let real = check.plant(PaperData::Real, &spec.real)?;
+        check.same_joints(&simulated, &real)?;
+        let resolved = resolved(document, &spec);
+        Ok(Self { spec: *spec, plants: [simulated, real], resolved })
+    }
+
+    /// The scenario as one text that extends nothing; its arms are those of
+    /// [`plants`](Self::plants), in `logs/NAME/scenario.toml` beside it.
+    pub fn resolved(&self) -> &str {
+        &self.resolved
+    }
+
+    /// What it says.
+    pub fn spec(&self) -> &LearningFigureSpec {
+        &self.spec
+    }
+
+    /// The arms.
+    pub fn plants(&self) -> &[PaperPlant; 2] {
+        &self.plants
+    }
+
+    /// The robot as described.
+    pub fn robot(&self) -> &Robot {
+        &self.plants[1].loaded.robot
+    }
+
+    /// The runs that causes are found in and models learned from.
+    pub fn learned(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for name in self.spec.learn.train.iter().chain(&self.spec.learn.regression) {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// The runs that the errors are measured on, apart from that outside.
+    pub fn test(&self) -> Vec<&str> {
+        self.spec.test.iter().map(String::as_str).collect()
+    }
+
+    /// Share of the motion outside in which a joint is where no motion of the training takes it,
+    /// by joint.
+    pub fn outside_share(&self) -> Vec<f64> {
+        let runs = self.plants[1].plant.runs();
+        let joints = self.robot().joint_count();
+        let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; joints];
+        for run in runs.iter().filter(|run| self.spec.learn.train.contains(&run.name)) {
+            for q in positions(&run.motion) {
+                for (range, q) in ranges.iter_mut().zip(q) {
+                    *range = [range[0].min(q), range[1].max(q)];
+                }
+            }
+        }
+        let outside = runs.iter().filter(|run| run.name == Self::OUTSIDE);
+        let outside: Vec<Vec<f64>> = outside.flat_map(|run| positions(&run.motion)).collect();
+        let share = |j: usize| {
+            let is_beyond = |q: &&Vec<f64>| q[j] < ranges[j][0] || q[j] > ranges[j][1];
+            outside.iter().filter(is_beyond).count() as f64 / outside.len() as f64
+        };
+        (0..joints).map(share).collect()
+    }
+
+    /// Learns [`PAPER_MODELS`] from the logs of an arm, of which a diagnosis has found `named`.
+    ///
+    /// # Errors
+    ///
+    /// What the learner refuses.
+    pub fn learn(
+        &self,
+        plant: &PaperPlant,
+        logs: &[Run],
+        named: &Robot,
+        progress: &dyn Progress,
+    ) -> Result<Learned, BenchmarkError> {
+        Ok(Learned::of(&self.lesson(plant), logs, Some(named), progress)?)
+    }
+
+    /// The models of an arm in a folder that they were saved to.
+    ///
+    /// # Errors
+    ///
+    /// As [`Learned::load`].
+    pub fn load(&self, plant: &PaperPlant, folder: &Path) -> Result<Learned, BenchmarkError> {
+        Ok(Learned::load_kinds(&PAPER_MODELS, &plant.loaded.robot, folder)?)
+    }
+
+    /// The errors of models on logs that they were not learned from, behind the low pass that
+    /// those had from which they were.
+    ///
+    /// # Errors
+    ///
+    /// [`BenchmarkError::Log`] for logs that cannot be prepared.
+    pub fn errors(
+        &self,
+        plant: &PaperPlant,
+        models: &Learned,
+        [learned, test]: [&[Run]; 2],
+    ) -> Result<Vec<ModelErrors>, BenchmarkError> {
+        let lesson = self.lesson(plant);
+        let cutoff_hz = lesson.prepared(learned, None)?.cutoff_hz;
+        let prepared = lesson.prepared(test, Some(cutoff_hz))?;
+        Ok(ModelErrors::of(models, &prepared, self.spec.test_points))
+    }
+
+    fn lesson<'a>(&'a self, plant: &'a PaperPlant) -> Lesson<'a> {
+        Lesson {
+            loaded: &plant.loaded,
+            plant_file: &plant.file,
+            learn: &self.spec.learn,
+            kinds: &PAPER_MODELS,
+            columns: RIGID_BODIES,
+        }
+    }
+}
+
+/// The positions of a motion, a hundred times a second.
+fn positions(motion: &Motion) -> impl Iterator<Item = Vec<f64>> {
+    let last = (100.0 * motion.duration_s()) as usize;
+    (0..=last).map(|k| motion.at(0.01 * k as f64).q)
+}
+
+/// The path of a key of the figure.
+fn key(name: &str) -> KeyPath {
+    KeyPath::root().key("figure").key("learning").key(name)
+}
+
+/// The scenario with its arms beside it.
+fn resolved(document: &Document, spec: &LearningFigureSpec) -> String {
+    let beside = |data: PaperData| DataSpec { plant: data.scenario(), settings: Vec::new() };
+    let mut spec = LearningFigureSpec {
+        simulated: beside(PaperData::Simulated),
+        real: beside(PaperData::Real),
+        ..spec.clone()
+    };
+    spec.outside.anchor(document.directory_of(&key("outside")));
+    let scenario = FigureScenario { figure: FigureSpec::Learning(Box::new(spec)) };
+    toml::to_string(&scenario).unwrap_or_else(|_| document.to_toml())
+}
+
+struct Checker<'a> {
+    document: &'a Document,
+    spec: &'a LearningFigureSpec,
+    seed: Option<u64>,
+}
+
+impl Checker<'_> {
+    fn counts(&self) -> Result<(), DocumentError> {
+        let learn = &self.spec.learn;
+        let train = key("learn").key("train");
+        let one_run = "no run, one at least was expected";
+        let one_point = "0, at least one was expected";
+        for (is_wrong, path, message) in [
+            (learn.train.is_empty(), train, one_run),
+            (self.spec.test.is_empty(), key("test"), one_run),
+            (learn.points == 0, key("learn").key("points"), one_point),
+            (self.spec.test_points == 0, key("test_points"), one_point),
+        ] {
+            if is_wrong {
+                return Err(self.document.mistake(&path, message, None));
+            }
+        }
+        let is_learned =
+            |name: &String| learn.train.iter().chain(&learn.regression).any(|n| n == name);
+        match self.spec.test.iter().position(is_learned) {
+            None => Ok(()),
+            Some(i) => {
+                let message = format!(
+                    "{}, a run was expected that nothing is learned from: what is learned is \
+                     tested on it",
+                    self.spec.test[i]
+                );
+                Err(self.document.mistake(&key("test").index(i), message, None))
+            }
+        }
+    }
+
+    /// The arm of some data, with the runs that are needed of it.
+    fn plant(&self, data: PaperData, spec: &DataSpec) -> Result<PaperPlant, BenchmarkError> {
+        let path = key(data.name());
+        let (mut said, file) = document_at(self.document, &path.key("plant"), &spec.plant)?;
+        for setting in &spec.settings {
+            said.set(setting)?;
+        }
+        let whole = Scenario::from_document(&with_seed(said, self.seed)?)?;
+        let lists = [
+            (key("learn").key("train"), &self.spec.learn.train),
+            (key("learn").key("regression"), &self.spec.learn.regression),
+            (key("test"), &self.spec.test),
+        ];
+        for (path, names) in &lists {
+            known_runs(self.document, path, names, &whole)?;
+        }
+        let loaded = Robot::load(whole.robot_file())?;
+        // The motions of this text can be read from any folder.
+        let scenario = data.scenario().display().to_string();
+        let mut arm: ScenarioSpec = Document::from_text(&scenario, whole.resolved())?.parse()?;
+        arm.run.retain(|run| lists.iter().any(|(_, names)| names.contains(&run.name)));
+        if data == PaperData::Real {
+            arm.run.push(self.outside(&loaded.robot, &arm.run)?);
+        }
+        let text = toml::to_string(&arm).unwrap_or_default();
+        let plant = Scenario::from_document(&Document::from_text(&scenario, &text)?)?;
+        Ok(PaperPlant { data, plant, file, loaded })
+    }
+
+    /// The run outside what is learned from, after runs that are as long in coming to rest.
+    fn outside(&self, robot: &Robot, others: &[RunSpec]) -> Result<RunSpec, BenchmarkError> {
+        let path = key("outside");
+        motion_at(self.document, &path, &self.spec.outside, robot)?;
+        let mut motion = self.spec.outside.clone();
+        motion.anchor(self.document.directory_of(&path));
+        let lead_in_s = others.last().map_or(1.0, |run| run.lead_in_s);
+        Ok(RunSpec { name: LearningFigure::OUTSIDE.to_owned(), motion, lead_in_s })
+    }
+
+    fn same_joints(&self, simulated: &PaperPlant, real: &PaperPlant) -> Result<(), DocumentError> {
+        let [one, other] = [simulated, real].map(|plant| &plant.loaded.robot);
+        if one.joint_names().eq(other.joint_names()) {
+            return Ok(());
+        }
+        let message = format!(
+            "{} has other joints than {} of the real data, the same were expected",
+            one.name(),
+            other.name()
+        );
+        Err(self.document.mistake(&key("simulated").key("plant"), message, None))
+    }
+}

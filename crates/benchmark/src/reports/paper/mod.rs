@@ -1,0 +1,8 @@
+//! Figures of Nguyen-Tuong & Peters 2010, and whether what the paper claims of them holds.
+
+pub(crate) mod error_tables;
+pub(crate) mod learning_figure;
+pub(crate) mod page;
+pub(crate) mod prediction_time_figure;
+#[cfg(test)]
+pub(crate) mod sample;

@@ -1,0 +1,5 @@
+//! Shares and rates with their intervals, and tables of text.
+
+pub(crate) mod rate;
+pub(crate) mod share;
+pub(crate) mod text_table;

@@ -1,0 +1,63 @@
+use std::collections::BTreeSet;
+
+use crate::statistics::text_table::TextTable;
+use crate::tables::tally::{Group, NOTHING, Row, Tally};
+
+/// What was named first for what was put in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Confusion {
+    /// The columns: codes, and `nothing` at the end.
+    pub named: Vec<&'static str>,
+    /// The rows: what was put in, its own column where it has one, and how often each was named.
+    pub put_in: Vec<(Group, Option<usize>, Vec<usize>)>,
+}
+
+impl Tally {
+    /// The rows of kinds, of two effects, of an unknown one and of none; the columns of what was named.
+    pub fn confusion(&self) -> Confusion {
+        let rows = || self.rows.iter().filter(|row| row.put_in != Group::One);
+        let own = |row: &Row| match row.put_in {
+            Group::Kind(kind) => Some(kind.code()),
+            Group::Clean => Some(NOTHING),
+            Group::One | Group::Two | Group::Unknown => None,
+        };
+        let mut codes: BTreeSet<&str> =
+            rows().flat_map(|row| row.named_first.keys().copied().chain(own(row))).collect();
+        codes.remove(NOTHING);
+        let named: Vec<&str> = codes.into_iter().chain([NOTHING]).collect();
+        let count = |row: &Row, code: &&str| row.named_first.get(code).copied().unwrap_or(0);
+        let row = |row: &Row| {
+            let own = own(row).and_then(|own| named.iter().position(|code| *code == own));
+            (row.put_in, own, named.iter().map(|code| count(row, code)).collect())
+        };
+        Confusion { put_in: rows().map(row).collect(), named }
+    }
+}
+
+impl Confusion {
+    /// As a table, a code on two lines.
+    pub(super) fn table(&self) -> TextTable {
+        // A code on two lines: the family above the number.
+        let two_lines = |code: &&str| match code.split_at_checked(2) {
+            Some((family, number)) if *code != NOTHING => format!("{family}\n{number}"),
+            _ => "none".to_owned(),
+        };
+        let row = |(put_in, _, counts): &(Group, Option<usize>, Vec<usize>)| {
+            let name = match put_in {
+                Group::Kind(kind) => kind.code().to_owned(),
+                other => other.to_string(),
+            };
+            let count =
+                |count: &usize| if *count == 0 { ".".to_owned() } else { count.to_string() };
+            std::iter::once(name).chain(counts.iter().map(count)).collect()
+        };
+        let title = "named first, a column a code; `none` where nothing was";
+        TextTable {
+            title: title.to_owned(),
+            header: std::iter::once("put in".to_owned())
+                .chain(self.named.iter().map(two_lines))
+                .collect(),
+            rows: self.put_in.iter().map(row).collect(),
+        }
+    }
+}

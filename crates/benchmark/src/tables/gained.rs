@@ -1,0 +1,165 @@
+use experiment::{Gain, Gains, Score};
+use serde::Serialize;
+
+use crate::statistics::share::Share;
+use crate::statistics::text_table::TextTable;
+use crate::tables::tally::{Group, median};
+
+/// Share of the gap above which naming an effect is to make an error [`ENOUGH`] times less.
+const LARGE: f64 = 0.6;
+
+/// How many times less an error is to be.
+const ENOUGH: f64 = 2.0;
+
+/// What naming an effect gains on runs that took no part in it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Gained {
+    /// What was put in.
+    pub put_in: Group,
+    /// Trials with such runs.
+    pub trials: usize,
+    /// Of the torque.
+    pub torque: Reduction,
+    /// Of the simulation, in [`Gains::WINDOW_S`].
+    pub drift: Reduction,
+    /// Of the tracking.
+    pub tracking: Reduction,
+}
+
+/// How many times less an error is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Reduction {
+    /// In the trial in the middle.
+    pub median: Option<f64>,
+    /// In the worst trial.
+    pub least: Option<f64>,
+    /// Trials with an error of half or less, of those in which what was put in was named and goes
+    /// with over 60 % of the nominal residual's power.
+    pub halved: Share,
+}
+
+impl Gained {
+    /// One for every group of trials in which gains were measured.
+    pub fn all(scores: &[Score]) -> Vec<Self> {
+        let groups = Group::by_group(scores).into_iter();
+        groups.filter_map(|(put_in, members)| Self::of(put_in, &members)).collect()
+    }
+
+    fn of(put_in: Group, scores: &[&Score]) -> Option<Self> {
+        let measured: Vec<(&Score, Gains)> =
+            scores.iter().filter_map(|score| Some((*score, score.gains?))).collect();
+        let lessened = |of: fn(&Gains) -> Option<Gain>| Reduction::of(&measured, of);
+        (!measured.is_empty()).then(|| Self {
+            put_in,
+            trials: measured.len(),
+            torque: lessened(|gains| gains.torque),
+            drift: lessened(|gains| gains.drift),
+            tracking: lessened(|gains| gains.tracking),
+        })
+    }
+
+    /// What they come to, a row each.
+    pub fn table(all: &[Self]) -> TextTable {
+        let header = ["put in", "trials", "torque", "drift", "tracking"];
+        let halved = ["torque", "drift", "tracking"].map(|name| format!("{name} halved"));
+        let row = |gained: &Self| {
+            let errors = [&gained.torque, &gained.drift, &gained.tracking];
+            let mut cells = vec![gained.put_in.to_string(), gained.trials.to_string()];
+            cells.extend(errors.map(Reduction::words));
+            cells.extend(errors.map(|e| format!("{} of {}", e.halved.count, e.halved.of)));
+            cells
+        };
+        let title = "how many times less the error is on a run that took no part: in the middle \
+                     trial (in the worst); where it is half or less, of those named that make up \
+                     over 60 % of the gap";
+        TextTable {
+            title: title.to_owned(),
+            header: header.map(str::to_owned).into_iter().chain(halved).collect(),
+            rows: all.iter().map(row).collect(),
+        }
+    }
+}
+
+impl Reduction {
+    fn of(measured: &[(&Score, Gains)], of: fn(&Gains) -> Option<Gain>) -> Self {
+        let times = |(_, gains): &(&Score, Gains)| of(gains).map(|gain| gain.times());
+        let all: Vec<f64> = measured.iter().filter_map(times).collect();
+        let large: Vec<f64> = measured
+            .iter()
+            .filter(|(score, _)| score.explained() > LARGE)
+            .filter_map(times)
+            .collect();
+        Self {
+            least: all.iter().copied().min_by(f64::total_cmp),
+            median: median(all),
+            halved: Share::of(&large, |times| *times >= ENOUGH),
+        }
+    }
+
+    /// Such as `12x (0.98x)`.
+    fn words(&self) -> String {
+        let times = |times: f64| match times {
+            t if t < 9.95 => format!("{t:.1}x"),
+            t => format!("{t:.0}x"),
+        };
+        match (self.median, self.least) {
+            (Some(median), Some(least)) => format!("{} ({})", times(median), times(least)),
+            _ => "-".to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use catalogue::EffectKind::CoulombFriction;
+    use diagnosis::{EffectAt, Verdict};
+
+    use super::*;
+    use experiment::Named;
+    use experiment::PutIn;
+
+    fn score(share_explained: f64, before: f64) -> Score {
+        let at = EffectAt { effect: CoulombFriction, joint: Some("a".to_owned()), link: None };
+        let gain = Some(Gain { before, after: 0.5 });
+        let not_separable_from = Vec::new();
+        Score {
+            seed: 1,
+            put_in: vec![PutIn {
+                at: at.clone(),
+                finding: Some(0),
+                one_of: Some(0),
+                sizes: Vec::new(),
+                of_smallest: None,
+            }],
+            looked_for: true,
+            verdict: Verdict::Explained,
+            findings: vec![Named { at, share_explained, not_separable_from }],
+            exactly: true,
+            as_one_of: true,
+            stray: Vec::new(),
+            gains: Some(Gains { torque: gain, drift: gain, tracking: None }),
+        }
+    }
+
+    #[test]
+    fn a_gain_is_counted_where_the_finding_is_most_of_the_gap() {
+        let unmeasured = Score { gains: None, ..score(0.9, 9.0) };
+        let scores = [score(0.9, 5.0), score(0.9, 0.6), score(0.3, 0.4), unmeasured];
+        let gained = &Gained::all(&scores)[0];
+        assert_eq!((gained.put_in, gained.trials), (Group::Kind(CoulombFriction), 3));
+        assert_eq!((gained.torque.median, gained.torque.least), (Some(1.2), Some(0.8)));
+        assert_eq!((gained.torque.halved.count, gained.torque.halved.of), (1, 2));
+        assert_eq!((gained.tracking.median, gained.tracking.halved.of), (None, 0));
+        let [_, _, torque, _, tracking, halved, ..] =
+            &Gained::table(&Gained::all(&scores)).rows[0][..]
+        else {
+            panic!("too short a row");
+        };
+        assert_eq!([torque, tracking, halved], ["1.2x (0.8x)", "-", "1 of 2"]);
+    }
+
+    #[test]
+    fn nothing_is_said_where_nothing_was_measured() {
+        assert_eq!(Gained::all(&[Score { gains: None, ..score(0.9, 9.0) }]), []);
+    }
+}

@@ -1,0 +1,37 @@
+use serde::Serialize;
+
+use crate::panel::judgement::Judgement;
+use crate::panel::side::Side;
+use crate::tables::kind_row::KindRow;
+use crate::tables::panel_row::PanelRow;
+use crate::tables::slow_diagnosis::SlowDiagnosis;
+use crate::tables::stranger_row::StrangerRow;
+
+/// What the trials of a population come to.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PanelTally {
+    /// All of them, then by arm, origin, motion, effort, encoder, number of visible causes and of logs, and
+    /// by whether runs repeat.
+    pub rows: Vec<PanelRow>,
+    /// Causes by kind.
+    pub kinds: Vec<KindRow>,
+    /// Effects of no catalogue by name.
+    pub strangers: Vec<StrangerRow>,
+    /// The diagnoses that took longest.
+    pub slowest: Vec<SlowDiagnosis>,
+}
+
+impl PanelTally {
+    /// The tally of some judgements, whatever their order.
+    pub fn of(judgements: &[Judgement]) -> Self {
+        let mut sorted = judgements.to_vec();
+        sorted.sort_by_key(|judgement| judgement.seed);
+        let sides = Side::by_side(&sorted);
+        Self {
+            rows: sides.into_iter().map(|(side, own)| PanelRow::new(side, &own)).collect(),
+            kinds: KindRow::all(&sorted),
+            strangers: StrangerRow::all(&sorted),
+            slowest: SlowDiagnosis::all(&sorted),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+use catalogue::{EffectKind, Parameter};
+use experiment::{PutIn, Score};
+use serde::Serialize;
+
+use crate::statistics::share::Share;
+use crate::tables::tally::Group;
+
+/// Classes by size.
+const CLASSES: usize = 3;
+
+/// How often an effect is named, by the size that was put in.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Power {
+    /// What was put in.
+    pub put_in: Group,
+    /// The parameter that is its size.
+    pub parameter: &'static str,
+    /// Its unit at a revolute joint.
+    pub unit: &'static str,
+    /// Trials of equal number, smaller sizes first.
+    pub classes: Vec<SizeClass>,
+}
+
+/// Trials of like size.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SizeClass {
+    /// Least and largest size.
+    pub sizes: [f64; 2],
+    /// Trials in which it was named first, effect and place.
+    pub exactly: Share,
+}
+
+impl Power {
+    /// One for every kind that was put in alone and has a size, by code.
+    pub fn all(scores: &[Score]) -> Vec<Self> {
+        let mut kinds = EffectKind::ALL;
+        kinds.sort_by_key(|kind| kind.code());
+        kinds.into_iter().filter_map(|kind| Self::of(kind, scores)).collect()
+    }
+
+    fn of(kind: EffectKind, scores: &[Score]) -> Option<Self> {
+        let parameter = size_of(kind)?;
+        let sized = scores.iter().filter_map(|score| {
+            let [put_in] = &score.put_in[..] else { return None };
+            let own = put_in.at.effect == kind && score.looked_for;
+            own.then(|| size(put_in, parameter).map(|size| (size, score))).flatten()
+        });
+        let mut sized: Vec<(f64, &Score)> = sized.collect();
+        sized.sort_by(|(a, one), (b, other)| a.total_cmp(b).then(one.seed.cmp(&other.seed)));
+        let class = |i: usize| {
+            let trials = &sized[i * sized.len() / CLASSES..(i + 1) * sized.len() / CLASSES];
+            let sizes = [trials.first()?.0, trials.last()?.0];
+            Some(SizeClass { sizes, exactly: Share::of(trials, |(_, score)| score.exactly) })
+        };
+        let classes: Vec<SizeClass> = (0..CLASSES).filter_map(class).collect();
+        let (put_in, unit) = (Group::Kind(kind), parameter.unit);
+        (!classes.is_empty()).then_some(Self { put_in, parameter: parameter.name, unit, classes })
+    }
+}
+
+/// The parameter that says how large an effect is; none of a body that is put in in whole.
+fn size_of(kind: EffectKind) -> Option<&'static Parameter> {
+    let parameters = kind.entry().parameters;
+    let named = |name| parameters.iter().find(|parameter| parameter.name == name);
+    match kind {
+        EffectKind::InertialParameters => None,
+        EffectKind::DifferentialCoupling => named("level_sum"),
+        EffectKind::PreslidingFriction => named("level"),
+        EffectKind::FrictionTemperatureDrift => named("share"),
+        _ => parameters.first(),
+    }
+}
+
+/// What was put in: the length of a vector, the distance of a factor from 1, or the number.
+fn size(put_in: &PutIn, parameter: &Parameter) -> Option<f64> {
+    let value = |name: &str| put_in.sizes.iter().find(|s| s.name == name).map(|s| s.truth);
+    match parameter.name {
+        "tilt_1" => Some(value("tilt_1")?.hypot(value("tilt_2")?)),
+        "gain" | "ratio" => Some((value(parameter.name)? - 1.0).abs()),
+        name => Some(value(name)?.abs()),
+    }
+}

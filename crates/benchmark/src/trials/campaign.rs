@@ -1,0 +1,170 @@
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use document::{Document, KeyPath};
+use population::{PopulationSpec, Remade, Store};
+use schemars::JsonSchema;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use crate::error::BenchmarkError;
+use crate::panel::population_trial;
+use crate::trials::hidden::Hidden;
+use crate::trials::scenario_campaign::ScenarioCampaign;
+use crate::trials::scored::Scored;
+
+/// The key of a population.
+const POPULATION: &str = "population";
+
+/// A campaign of blind trials: many arms that are drawn, or one arm in which something is hidden.
+#[derive(Debug, Clone)]
+pub enum Campaign {
+    /// The arm of a scenario.
+    Scenario(ScenarioCampaign),
+    /// Arms, sensors, motions and causes that are drawn.
+    Population(PopulationCampaign),
+}
+
+/// A campaign of trials of a population.
+///
+/// ```text
+/// seed of a task = first 63 bits of SHA-256("seed/population/task")
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Plumbline campaign of trials of a population")]
+pub struct PopulationCampaign {
+    /// What is drawn.
+    pub population: PopulationSpec,
+}
+
+/// What tells a population from a scenario.
+#[derive(Deserialize)]
+struct Form {
+    population: Option<IgnoredAny>,
+}
+
+impl Campaign {
+    /// Reads a campaign from a document: that of a population where it has this key.
+    ///
+    /// # Errors
+    ///
+    /// [`BenchmarkError::Document`] at the value at fault, and what a scenario is refused for.
+    pub fn from_document(document: &Document) -> Result<Self, BenchmarkError> {
+        if document.parse::<Form>()?.population.is_none() {
+            return Ok(Self::Scenario(ScenarioCampaign::from_document(document)?));
+        }
+        let file: PopulationCampaign = document.parse()?;
+        let key = KeyPath::root().key(POPULATION);
+        let population = PopulationSpec::from_document(document, &key, file.population)?;
+        Ok(Self::Population(PopulationCampaign { population }))
+    }
+
+    /// The campaign as one text; `scenario` is the name of the scenario file beside it, if it
+    /// starts from one.
+    pub(super) fn resolved(&self, scenario: &str) -> String {
+        match self {
+            Self::Scenario(campaign) => campaign.resolved(scenario),
+            // What has come from TOML can be written as TOML.
+            Self::Population(campaign) => toml::to_string(campaign).unwrap_or_default(),
+        }
+    }
+
+    /// The scenario that every trial starts from, settings included.
+    pub(super) fn scenario(&self) -> Option<&str> {
+        match self {
+            Self::Scenario(campaign) => Some(campaign.scenario()),
+            Self::Population(_) => None,
+        }
+    }
+
+    /// What is hidden, kind by kind; none of a population.
+    pub fn kinds(&self) -> &[Hidden] {
+        match self {
+            Self::Scenario(campaign) => campaign.kinds(),
+            Self::Population(_) => &[],
+        }
+    }
+
+    /// Number of its trials.
+    pub fn trials(&self) -> usize {
+        match self {
+            Self::Scenario(campaign) => campaign.trials(),
+            Self::Population(campaign) => campaign.population.tasks(),
+        }
+    }
+
+    /// Identity of the campaign: SHA-256 of everything that its scores depend on, without recorded
+    /// logs of a population and this program.
+    pub fn hash(&self) -> String {
+        match self {
+            Self::Scenario(campaign) => campaign.hash(),
+            Self::Population(campaign) => hexadecimal(&campaign.population.identity()),
+        }
+    }
+
+    /// The kind, where there are kinds, and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
+    pub fn task(&self, task: usize) -> (Option<Hidden>, u64) {
+        match self {
+            Self::Scenario(campaign) => {
+                let (hidden, seed) = campaign.task(task);
+                (Some(hidden), seed)
+            }
+            Self::Population(campaign) => {
+                (None, seed_of(campaign.population.seed, POPULATION, task))
+            }
+        }
+    }
+
+    /// Where the logs of a task lie among those that are kept: `KIND/SEED`.
+    pub(super) fn logs(&self, task: usize) -> PathBuf {
+        let (hidden, seed) = self.task(task);
+        let kind = hidden.map_or_else(|| POPULATION.to_owned(), |hidden| hidden.to_string());
+        PathBuf::from(kind).join(seed.to_string())
+    }
+
+    /// Whether a folder holds the logs of a task, whole, so that they would be used again; `scenario` is the
+    /// file of the one that it starts from. Logs of a population are used again from a store alone.
+    pub(super) fn is_logged(&self, task: usize, scenario: &Path, folder: &Path) -> bool {
+        match self {
+            Self::Scenario(campaign) => campaign.trial(task, scenario).is_logged(folder),
+            Self::Population(_) => false,
+        }
+    }
+
+    /// Makes the trial of a task: its logs in `folder`, or from the store of a population, whose entry may have
+    /// to be made again.
+    pub(super) fn make(
+        &self,
+        task: usize,
+        scenario: &Path,
+        folder: &Path,
+        store: Option<&Store>,
+    ) -> Result<(Scored, Option<Remade>), BenchmarkError> {
+        match self {
+            Self::Scenario(campaign) => {
+                Ok((campaign.trial(task, scenario).run(folder)?.into(), None))
+            }
+            Self::Population(campaign) => {
+                let (spec, (_, seed)) = (&campaign.population, self.task(task));
+                let judged = population_trial::run(spec, (task, seed), folder, store)?;
+                Ok((judged.judgement.into(), judged.remade))
+            }
+        }
+    }
+}
+
+/// Up to the largest whole number of TOML.
+pub(super) fn seed_of(seed: u64, kind: &str, number: usize) -> u64 {
+    let digest = Sha256::digest(format!("{seed}/{kind}/{number}"));
+    digest.iter().take(8).fold(0, |bits, byte| bits << 8 | u64::from(*byte)) >> 1
+}
+
+pub(super) fn hexadecimal(text: &str) -> String {
+    Sha256::digest(text).iter().fold(String::new(), |mut all, byte| {
+        // A String takes everything.
+        let _ = write!(all, "{byte:02x}");
+        all
+    })
+}

@@ -1,0 +1,14 @@
+//! Campaigns of blind trials: planned, made, kept.
+
+pub(crate) mod campaign;
+pub(crate) mod campaign_folder;
+pub(crate) mod failure;
+pub(crate) mod hidden;
+pub(crate) mod kind_count;
+pub(crate) mod part;
+pub(crate) mod record;
+pub(crate) mod record_columns;
+pub(crate) mod scenario_campaign;
+pub(crate) mod scored;
+pub(crate) mod trial;
+pub(crate) mod work;

@@ -1,0 +1,75 @@
+//! Columns of a table of records.
+
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt64Array};
+use experiment::Score;
+
+use crate::panel::judgement::Judgement;
+use crate::trials::record::Record;
+
+/// A column and its name.
+pub(super) type Named = (&'static str, ArrayRef);
+
+/// What every table has.
+pub(super) fn of_all(records: &[Record]) -> Result<Vec<Named>, serde_json::Error> {
+    let json = |record: &Record| record.score.as_ref().ok().map(serde_json::to_string).transpose();
+    let json = records.iter().map(json).collect::<Result<Vec<_>, _>>()?;
+    let number = |of: fn(&Record) -> u64| numbers(records.iter().map(|r| Some(of(r))));
+    Ok(vec![
+        ("task", number(|r| r.task as u64)),
+        ("seed", number(|r| r.seed)),
+        ("campaign", texts(records.iter().map(|r| Some(r.campaign.clone())))),
+        ("error", texts(records.iter().map(|r| r.score.clone().err()))),
+        ("score", texts(json.into_iter())),
+    ])
+}
+
+/// What a table of trials of scenarios has besides.
+pub(super) fn of_scenarios(records: &[Record]) -> Vec<Named> {
+    let scores = || records.iter().map(Record::scored);
+    let answer = |of: fn(&Score) -> bool| answers(scores().map(|score| score.map(of)));
+    let verdict = |score: &Score| score.verdict.words().to_owned();
+    vec![
+        ("hidden", texts(records.iter().map(|r| r.hidden.map(|hidden| hidden.to_string())))),
+        ("verdict", texts(scores().map(|score| score.map(verdict)))),
+        ("exactly", answer(|score| score.exactly)),
+        ("as_one_of", answer(|score| score.as_one_of)),
+        ("stray", numbers(scores().map(|score| score.map(|score| score.stray.len() as u64)))),
+    ]
+}
+
+/// What a table of trials of a population has besides.
+pub(super) fn of_panel(records: &[Record]) -> Vec<Named> {
+    let judged = || records.iter().map(Record::judged);
+    let text = |of: fn(&Judgement) -> &str| texts(judged().map(|j| j.map(|j| of(j).to_owned())));
+    let count = |of: fn(&Judgement) -> usize| numbers(judged().map(|j| j.map(|j| of(j) as u64)));
+    let answer = |of: fn(&Judgement) -> Option<bool>| answers(judged().map(|j| j.and_then(of)));
+    let times = judged().map(|j| j.map(|j| j.costs.diagnosis_s));
+    vec![
+        ("arm", text(|j| &j.corner.arm)),
+        ("motion", text(|j| j.corner.motion.name())),
+        ("verdict", text(|j| j.verdict.words())),
+        ("right", answer(Judgement::right)),
+        ("findings", count(|j| j.findings.len())),
+        ("true_findings", count(|j| j.findings.iter().filter(|f| f.is_true).count())),
+        ("visible", count(|j| j.visible().count())),
+        ("named", count(|j| j.visible().filter(|cause| cause.named()).count())),
+        ("false_assurance", answer(Judgement::false_assurance)),
+        ("false_alarm", answer(Judgement::false_alarm)),
+        ("worse", answer(|j| j.prediction.worse())),
+        ("diagnosis_s", Arc::new(times.collect::<Float64Array>())),
+    ]
+}
+
+fn numbers(all: impl Iterator<Item = Option<u64>>) -> ArrayRef {
+    Arc::new(all.collect::<UInt64Array>())
+}
+
+fn texts(all: impl Iterator<Item = Option<String>>) -> ArrayRef {
+    Arc::new(all.collect::<StringArray>())
+}
+
+fn answers(all: impl Iterator<Item = Option<bool>>) -> ArrayRef {
+    Arc::new(all.collect::<BooleanArray>())
+}

@@ -1,0 +1,290 @@
+use std::path::{Path, PathBuf};
+
+use catalogue::EffectKind;
+use document::{Document, DocumentError, KeyPath};
+use experiment::{ExperimentError, sha256};
+use robot::Robot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use simulator::scenario::{Scenario, ScenarioSpec};
+
+use crate::error::BenchmarkError;
+use crate::trials::campaign::{hexadecimal, seed_of};
+use crate::trials::hidden::Hidden;
+use crate::trials::trial::Trial;
+
+/// Every kind of the catalogue, one effect each.
+const EACH: &str = "each";
+/// The same, each left out of the diagnosis.
+const WITHOUT_EACH: &str = "without_each";
+/// The same, with all that it is confused with.
+const STRANGE_EACH: &str = "strange_each";
+/// Version of the text that is hashed: another version gives every campaign another identity.
+const IDENTITY: &str = "campaign by content/1\n";
+/// Most trials of a kind.
+const MOST_SEEDS: usize = 1_000_000;
+
+/// A campaign of blind trials: what is hidden in the arm of a scenario, and how often.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Plumbline campaign of blind trials")]
+pub struct CampaignSpec {
+    /// The scenario of the arm, relative to this file: its robot, sensors, engine and runs.
+    pub scenario: PathBuf,
+    /// What is hidden, kind by kind: `clean`; an effect, or `each` for every one of the catalogue;
+    /// two with a plus between them, or `any+any`; `without_` and an effect, or `without_each`,
+    /// for one that the diagnosis does not look for; `strange_` and an effect, or `strange_each`,
+    /// for one of which it looks for nothing that it is confused with either.
+    #[schemars(schema_with = "names_of_kinds")]
+    pub hidden: Vec<String>,
+    /// Effects that `each`, `without_each`, `strange_each` and `any+any` leave out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(schema_with = "names_of_effects")]
+    pub except: Vec<EffectKind>,
+    /// Trials of each kind.
+    pub seeds: usize,
+    /// Seed from which, with kind and number, that of every trial follows.
+    #[serde(default)]
+    pub seed: u64,
+    /// Settings of the scenario, `key=value` as `--set` takes them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub settings: Vec<String>,
+    /// Whether the last run of the scenario takes no part in the diagnosis and shows what that
+    /// gains: in torque, in simulation and in tracking.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub gains: bool,
+}
+
+fn names_of_kinds(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let names = names();
+    let name = schemars::json_schema!({ "type": "string", "enum": names });
+    let two = schemars::json_schema!({ "type": "string", "pattern": "^[^+]+[+][^+]+$" });
+    let unknown = schemars::json_schema!({ "type": "string", "pattern": "^(without|strange)_.+$" });
+    schemars::json_schema!({ "type": "array", "items": { "anyOf": [name, two, unknown] } })
+}
+
+fn names_of_effects(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let names = EffectKind::ALL.map(EffectKind::name);
+    schemars::json_schema!({ "type": "array", "items": { "type": "string", "enum": names } })
+}
+
+fn names() -> Vec<&'static str> {
+    let several = ["clean", EACH, WITHOUT_EACH, STRANGE_EACH];
+    several.into_iter().chain(EffectKind::ALL.map(EffectKind::name)).collect()
+}
+
+/// A campaign of the arm of a scenario whose every value can be meant.
+///
+/// ```text
+/// task  = number len(kinds) + place of the kind,  number = 0 .. seeds - 1
+/// seed  = first 63 bits of SHA-256("campaign seed/kind/number")
+/// ```
+///
+/// so that a campaign that is half done has as many trials of every kind, and trials of different
+/// kinds have nothing in common.
+#[derive(Debug, Clone)]
+pub struct ScenarioCampaign {
+    kinds: Vec<Hidden>,
+    seeds: usize,
+    seed: u64,
+    /// The scenario with the settings, as one text that can be read from any folder.
+    scenario: String,
+    /// What the scenario holds, without a path.
+    identity: String,
+    gains: bool,
+}
+
+impl ScenarioCampaign {
+    /// Reads a campaign from a document.
+    ///
+    /// # Errors
+    ///
+    /// [`BenchmarkError::Document`] at the value at fault, and what the scenario is refused for.
+    pub fn from_document(document: &Document) -> Result<Self, BenchmarkError> {
+        let spec: CampaignSpec = document.parse()?;
+        let kinds = kinds(document, &spec)?;
+        if !(1..=MOST_SEEDS).contains(&spec.seeds) {
+            let message = format!("{}, a number from 1 to {MOST_SEEDS} was expected", spec.seeds);
+            return Err(document.mistake(&KeyPath::root().key("seeds"), message, None).into());
+        }
+        let scenario = scenario(document, &spec)?;
+        let identity = identity(&scenario)?;
+        let (seeds, seed, gains) = (spec.seeds, spec.seed, spec.gains);
+        Ok(Self { kinds, seeds, seed, scenario, identity, gains })
+    }
+
+    /// The campaign as one text, beside a scenario that is called so.
+    pub(super) fn resolved(&self, scenario: &str) -> String {
+        let spec = CampaignSpec {
+            scenario: PathBuf::from(scenario),
+            hidden: self.kinds.iter().map(Hidden::to_string).collect(),
+            except: Vec::new(),
+            seeds: self.seeds,
+            seed: self.seed,
+            settings: Vec::new(),
+            gains: self.gains,
+        };
+        // What has come from TOML can be written as TOML.
+        toml::to_string(&spec).unwrap_or_default()
+    }
+
+    /// The scenario that every trial starts from, settings included.
+    pub(super) fn scenario(&self) -> &str {
+        &self.scenario
+    }
+
+    /// What is hidden, kind by kind.
+    pub fn kinds(&self) -> &[Hidden] {
+        &self.kinds
+    }
+
+    /// Number of its trials.
+    pub fn trials(&self) -> usize {
+        self.kinds.len() * self.seeds
+    }
+
+    /// Identity of the campaign: SHA-256 of everything that its scores depend on, without this
+    /// program. Files count by content, wherever they lie.
+    pub fn hash(&self) -> String {
+        hexadecimal(&[IDENTITY, &self.resolved(""), "\n", &self.identity].concat())
+    }
+
+    /// The kind and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
+    pub fn task(&self, task: usize) -> (Hidden, u64) {
+        let hidden = self.kinds[task % self.kinds.len()];
+        (hidden, seed_of(self.seed, &hidden.to_string(), task / self.kinds.len()))
+    }
+
+    /// The trial of a task, which starts from the scenario in a file.
+    pub(super) fn trial(&self, task: usize, scenario: &Path) -> Trial {
+        let (hidden, seed) = self.task(task);
+        let (scenario, settings) = (scenario.to_owned(), Vec::new());
+        Trial { scenario, hidden, seed, settings, gains: self.gains }
+    }
+}
+
+fn kinds(document: &Document, spec: &CampaignSpec) -> Result<Vec<Hidden>, DocumentError> {
+    let path = KeyPath::root().key("hidden");
+    let mut kinds: Vec<Hidden> = Vec::new();
+    let each = |hide: fn(EffectKind) -> Hidden| drawn_kinds(spec).map(hide).collect();
+    for (i, name) in spec.hidden.iter().enumerate() {
+        let path = path.index(i);
+        let named: Vec<Hidden> = match name.as_str() {
+            EACH => each(Hidden::One),
+            WITHOUT_EACH => each(Hidden::Unknown),
+            STRANGE_EACH => each(Hidden::WithoutRelatives),
+            name => {
+                let unknown = |_| document.unknown_name(&path, "kind of trial", name, &names());
+                vec![name.parse::<Hidden>().map_err(unknown)?.in_order()]
+            }
+        };
+        if let Some(twice) = named.iter().find(|kind| kinds.contains(kind)) {
+            let message = format!("{twice} is there already");
+            return Err(document.mistake(&path, message, None));
+        }
+        kinds.extend(named);
+    }
+    if kinds.is_empty() {
+        let message = "nothing, at least one kind was expected, such as \"each\"";
+        return Err(document.mistake(&path, message, None));
+    }
+    Ok(kinds)
+}
+
+/// The kinds that effects are drawn from where no kind is said.
+fn drawn_kinds(spec: &CampaignSpec) -> impl Iterator<Item = EffectKind> {
+    EffectKind::ALL.into_iter().filter(|kind| !spec.except.contains(kind))
+}
+
+/// A resolved scenario with the content of its robot and of recorded files in the place of their paths.
+fn identity(scenario: &str) -> Result<String, BenchmarkError> {
+    let mut spec: ScenarioSpec = Document::from_text("scenario", scenario)?.parse()?;
+    let content = Robot::load(&spec.robot)?.content()?;
+    spec.robot = PathBuf::new();
+    for file in spec.run.iter_mut().flat_map(|run| run.motion.files_mut()) {
+        *file = PathBuf::from(content_of(file)?);
+    }
+    // What has come from TOML can be written as TOML.
+    Ok(toml::to_string(&spec).unwrap_or_default() + &content)
+}
+
+/// Hash of a file, or of the files of a bag by their names.
+fn content_of(path: &Path) -> Result<String, ExperimentError> {
+    let Ok(entries) = std::fs::read_dir(path) else { return sha256(path) };
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    files.sort();
+    files.iter().filter(|file| file.is_file()).map(|file| sha256(file)).collect()
+}
+
+/// The scenario with the settings, checked.
+fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, BenchmarkError> {
+    let key = KeyPath::root().key("scenario");
+    let file = document.directory_of(&key).join(&spec.scenario);
+    if !file.is_file() {
+        let message = format!("{}: there is no such file", file.display());
+        return Err(document.mistake(&key, message, None).into());
+    }
+    let mut scenario = Document::read(&file)?;
+    // A count is needed beside what a setting may say of hidden effects.
+    for setting in Hidden::Nothing.settings() {
+        scenario.set(&setting)?;
+    }
+    if !spec.except.is_empty() {
+        let from: Vec<String> = drawn_kinds(spec).map(|kind| format!("'{kind}'")).collect();
+        scenario.set(&format!("hidden.from=[{}]", from.join(", ")))?;
+    }
+    for setting in &spec.settings {
+        scenario.set(setting)?;
+    }
+    Ok(Scenario::from_document(&scenario)?.resolved().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    fn campaign(kinds: &[&str], seeds: usize, seed: u64) -> ScenarioCampaign {
+        let kinds = kinds.iter().map(|kind| kind.parse().unwrap()).collect();
+        let (scenario, identity) = (String::new(), String::new());
+        ScenarioCampaign { kinds, seeds, seed, scenario, identity, gains: false }
+    }
+
+    /// The digests are those of `printf '%s' 7/backlash/1 | sha256sum`.
+    #[test]
+    fn a_seed_is_the_first_63_bits_of_a_published_hash() {
+        let campaign = campaign(&["clean", "backlash"], 2, 7);
+        assert_eq!(campaign.trials(), 4);
+        let backlash = Hidden::One(EffectKind::Backlash);
+        assert_eq!(campaign.task(3), (backlash, 0xbf979f4fe302b5e7 >> 1));
+        assert_eq!(campaign.task(2).0, Hidden::Nothing);
+    }
+
+    #[test]
+    fn no_two_trials_share_a_seed_and_each_fits_into_toml() {
+        let all = |seed| {
+            let campaign = campaign(&["clean", "backlash", "payload+backlash"], 100, seed);
+            (0..campaign.trials()).map(|task| campaign.task(task).1).collect::<Vec<_>>()
+        };
+        let seeds = [all(0), all(1)].concat();
+        assert!(seeds.iter().all(|&seed| i64::try_from(seed).is_ok()));
+        assert_eq!(seeds.iter().collect::<BTreeSet<_>>().len(), 600);
+    }
+
+    #[test]
+    fn whatever_a_score_follows_from_makes_another_campaign() {
+        let usual = campaign(&["clean", "backlash"], 2, 7);
+        let identity = "robot = 'arm.toml'".to_owned();
+        let others = [
+            campaign(&["backlash", "clean"], 2, 7),
+            campaign(&["clean", "backlash"], 3, 7),
+            campaign(&["clean", "backlash"], 2, 8),
+            ScenarioCampaign { identity, ..usual.clone() },
+            ScenarioCampaign { gains: true, ..usual.clone() },
+        ];
+        assert!(others.iter().all(|other| other.hash() != usual.hash()));
+        assert_eq!(campaign(&["clean", "TR01"], 2, 7).hash(), usual.hash());
+        assert_eq!(usual.hash().len(), 64);
+    }
+}

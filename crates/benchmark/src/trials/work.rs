@@ -1,0 +1,228 @@
+use std::any::Any;
+use std::fs::{File, TryLockError};
+use std::io::ErrorKind;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread::available_parallelism;
+use std::time::{Duration, Instant};
+
+use experiment::ExperimentError;
+use logs::LogError;
+use population::{PopulationError, Store};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use simulator::SimulatorError;
+
+use crate::error::BenchmarkError;
+use crate::trial_folder::unusable;
+use crate::trials::campaign::Campaign;
+use crate::trials::campaign_folder::CampaignFolder;
+use crate::trials::part::Part;
+use crate::trials::record::Record;
+
+/// The workers of a campaign: how many, for which part, and what becomes of the logs.
+#[derive(Debug, Clone)]
+pub struct Workers {
+    /// Trials made at a time; none counts as one.
+    pub jobs: usize,
+    /// The part of the campaign that is made.
+    pub part: Part,
+    /// What becomes of the logs.
+    pub logs: TrialLogs,
+    /// A folder with logs of a population: logs that it lacks are added, the others are read from
+    /// it.
+    pub store: Option<PathBuf>,
+}
+
+/// What becomes of the logs of a finished trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TrialLogs {
+    /// They are removed.
+    Removed,
+    /// They stay under `logs/KIND/SEED`, and a later run reads them instead of simulating again.
+    Kept,
+}
+
+/// Hears of every trial that ends, and may stop the work.
+pub trait WorkProgress: Sync {
+    /// So many trials are left to make.
+    fn begin(&self, left: usize);
+
+    /// A trial has its shard; it took so long.
+    fn finish_trial(&self, record: &Record, took: Duration);
+
+    /// An entry of the store could not be used, for this reason, and was made again.
+    fn report_remade(&self, entry: &Path, reason: &str);
+
+    /// Whether no further trial is to be begun.
+    fn is_stopped(&self) -> bool;
+}
+
+/// Makes every trial of a part that has no shard yet.
+///
+/// ```text
+/// task --simulate, diagnose, score--> shards/NNNNN.parquet, by rename
+/// ```
+///
+/// A trial that cannot be simulated or diagnosed has a shard that says why. Trials that another
+/// process makes at the same time are left to it, as long as it lives: it holds a lock on a file,
+/// which falls with the process.
+///
+/// # Errors
+///
+/// [`BenchmarkError::NoStore`] when a store is given to a campaign that has none, and
+/// [`BenchmarkError`] when something cannot be written. No further trial is then begun, those
+/// that are being made are finished as far as possible, and every shard stays.
+pub fn work(
+    folder: &CampaignFolder,
+    workers: &Workers,
+    progress: &dyn WorkProgress,
+) -> Result<(), BenchmarkError> {
+    if let (Some(store), Campaign::Scenario(_)) = (&workers.store, folder.campaign()) {
+        return Err(BenchmarkError::NoStore { path: store.clone() });
+    }
+    let store = workers.store.as_deref().map(Store::open).transpose()?;
+    let left = folder.remaining(workers.part)?;
+    progress.begin(left.len());
+    let jobs = workers.jobs.clamp(1, left.len().max(1));
+    let worker_run = WorkerRun {
+        folder,
+        logs: workers.logs,
+        store: store.as_ref(),
+        progress,
+        left: &left,
+        next: AtomicUsize::new(0),
+        ended: AtomicBool::new(false),
+        failure: Mutex::new(None),
+    };
+    let pools = (0..jobs).map(|_| pool(jobs)).collect::<Result<Vec<_>, _>>()?;
+    std::thread::scope(|scope| {
+        for pool in &pools {
+            scope.spawn(|| worker_run.worker(pool));
+        }
+    });
+    worker_run.failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// The threads of one worker: an equal share of the processors.
+fn pool(jobs: usize) -> Result<ThreadPool, BenchmarkError> {
+    let processors = available_parallelism().map_or(1, usize::from);
+    let pool = ThreadPoolBuilder::new().num_threads((processors / jobs).max(1)).build();
+    pool.map_err(|error| BenchmarkError::NoThreads { reason: error.to_string() })
+}
+
+struct WorkerRun<'a> {
+    folder: &'a CampaignFolder,
+    logs: TrialLogs,
+    store: Option<&'a Store>,
+    progress: &'a dyn WorkProgress,
+    left: &'a [usize],
+    /// The place in `left` of the trial that is to be begun next.
+    next: AtomicUsize,
+    ended: AtomicBool,
+    failure: Mutex<Option<BenchmarkError>>,
+}
+
+impl WorkerRun<'_> {
+    fn worker(&self, pool: &ThreadPool) {
+        while !self.ended.load(Ordering::Relaxed) && !self.progress.is_stopped() {
+            let place = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(&task) = self.left.get(place) else { return };
+            if let Err(error) = self.make(task, pool) {
+                self.ended.store(true, Ordering::Relaxed);
+                let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+                failure.get_or_insert(error);
+            }
+        }
+    }
+
+    fn make(&self, task: usize, pool: &ThreadPool) -> Result<(), BenchmarkError> {
+        let work = self.folder.folder("work")?;
+        let lock_file = work.join(format!("{task:05}.lock"));
+        let lock = File::create(&lock_file).map_err(unusable(&work))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(()),
+            Err(TryLockError::Error(error)) => return Err(unusable(&lock_file)(error)),
+        }
+        // Whoever held the lock before may have made it.
+        if !self.folder.holds(task) {
+            let (campaign, scenario) = (self.folder.campaign(), self.folder.scenario());
+            let logs = match self.logs {
+                TrialLogs::Removed => work.join(format!("{task:05}")),
+                TrialLogs::Kept => self.folder.folder("logs")?.join(campaign.logs(task)),
+            };
+            if self.logs == TrialLogs::Removed || !campaign.is_logged(task, &scenario, &logs) {
+                clear(&logs)?;
+            }
+            let start = Instant::now();
+            let make = || campaign.make(task, &scenario, &logs, self.store);
+            let made = outcome_of(catch_unwind(AssertUnwindSafe(|| pool.install(make))))?;
+            if let Ok((_, Some(remade))) = &made {
+                self.progress.report_remade(&remade.path, &remade.reason);
+            }
+            let score = made.map(|(score, _)| score);
+            let (hidden, seed) = campaign.task(task);
+            let campaign = self.folder.hash().to_owned();
+            let record = Record { task, hidden, seed, campaign, score };
+            self.folder.keep(&record)?;
+            if self.logs == TrialLogs::Removed {
+                clear(&logs)?;
+            }
+            self.progress.finish_trial(&record, start.elapsed());
+        }
+        // Whoever made it may have removed the file that this lock is on.
+        ignore_missing(std::fs::remove_file(&lock_file), &lock_file)
+    }
+}
+
+/// Removes the logs of a trial, whole or not.
+fn clear(logs: &Path) -> Result<(), BenchmarkError> {
+    ignore_missing(std::fs::remove_dir_all(logs), logs)
+}
+
+/// Ignores `NotFound`.
+fn ignore_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), BenchmarkError> {
+    match removed {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(unusable(path)(error)),
+        _ => Ok(()),
+    }
+}
+
+/// The score of a trial, or in words why it has none. A failing disk is an error.
+fn outcome_of<T>(
+    outcome: Result<Result<T, BenchmarkError>, Box<dyn Any + Send>>,
+) -> Result<Result<T, String>, BenchmarkError> {
+    match outcome {
+        Ok(Ok(score)) => Ok(Ok(score)),
+        Ok(Err(error)) if is_of_the_disk(&error) => Err(error),
+        Ok(Err(error)) => Ok(Err(error.to_string())),
+        Err(panic) => {
+            let words = panic.downcast_ref::<String>().map(String::as_str);
+            let words = words.or_else(|| panic.downcast_ref::<&str>().copied());
+            Ok(Err(format!("the program gave up: {}", words.unwrap_or("it said nothing"))))
+        }
+    }
+}
+
+fn is_of_the_disk(error: &BenchmarkError) -> bool {
+    use BenchmarkError as B;
+    use ExperimentError as E;
+    use PopulationError as P;
+    let log = match error {
+        B::TrialFolder { .. } => return true,
+        B::Experiment(E::Log(log) | E::Simulator(SimulatorError::Log(log))) => log,
+        B::Population(error) => match &**error {
+            P::Folder { .. } => return true,
+            P::Log(log) => log,
+            P::Simulator(error) => match &**error {
+                SimulatorError::Log(log) => log,
+                _ => return false,
+            },
+            _ => return false,
+        },
+        _ => return false,
+    };
+    matches!(log, LogError::Unwritable { .. })
+}

@@ -1,0 +1,5 @@
+//! What a paper claims, judged by numbers.
+
+pub(crate) mod claim;
+pub(crate) mod paper_models;
+pub(crate) mod tracking_claims;

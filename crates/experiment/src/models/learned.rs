@@ -1,0 +1,258 @@
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use diagnosis::Settings;
+use dynamics::ColumnSet;
+use learner::{
+    Mean, Model, ModelKind, Regression, RigidBodyFit, RobotTorque, Samples, TrainSettings, Training,
+};
+use logs::{PrepareSettings, Prepared, PreparedRun, Run, centre_commands, prepare, rest_speeds};
+use robot::{Loaded, Robot};
+
+use crate::error::ExperimentError;
+use crate::progress::Progress;
+use crate::scenario::tracking_scenario::TrackingScenario;
+use crate::scenario::tracking_spec::LearnSpec;
+
+/// The models that a scenario feeds forward, ready to be asked.
+#[derive(Debug, Clone)]
+pub struct Learned {
+    models: BTreeMap<&'static str, Model>,
+}
+
+impl Learned {
+    /// The model of a kind.
+    pub fn model(&self, kind: ModelKind) -> Option<&Model> {
+        self.models.get(kind.name())
+    }
+
+    /// The robot extended by named effects, with the speeds below which its joints rest.
+    pub fn named(&self) -> Option<&RobotTorque> {
+        match &self.model(ModelKind::Named)?.mean {
+            Mean::Robot(torque) => Some(torque),
+            _ => None,
+        }
+    }
+
+    /// Writes every model into a folder that is there, as `<kind>.parquet`.
+    ///
+    /// # Errors
+    ///
+    /// [`ExperimentError::Learner`].
+    pub fn save(&self, folder: &Path) -> Result<(), ExperimentError> {
+        for (name, model) in &self.models {
+            model.save(&folder.join(format!("{name}.parquet")))?;
+        }
+        Ok(())
+    }
+
+    /// Reads the models that a scenario feeds forward from a folder that
+    /// [`save`](Self::save) or `plumbline learn` has written.
+    ///
+    /// # Errors
+    ///
+    /// [`ExperimentError::NoModel`] and [`ExperimentError::Learner`].
+    pub fn load(scenario: &TrackingScenario, folder: &Path) -> Result<Self, ExperimentError> {
+        Self::load_kinds(&kinds(scenario), scenario.robot(), folder)
+    }
+
+    /// Reads models of these kinds from such a folder.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`](Self::load).
+    pub fn load_kinds(
+        kinds: &[ModelKind],
+        robot: &Robot,
+        folder: &Path,
+    ) -> Result<Self, ExperimentError> {
+        let mut models = BTreeMap::new();
+        for &kind in kinds {
+            let path = folder.join(format!("{kind}.parquet"));
+            if !path.exists() {
+                return Err(ExperimentError::NoModel { path, model: kind });
+            }
+            models.insert(kind.name(), Model::load(&path, robot)?);
+        }
+        Ok(Self { models })
+    }
+
+    /// Learns the models that a scenario feeds forward from the logs of its arm.
+    ///
+    /// Without `named`, the robot extended by the arm's effects, those are found in the logs by a
+    /// diagnosis that has nothing but the logs.
+    ///
+    /// # Errors
+    ///
+    /// [`ExperimentError::NothingToLearnFrom`], and what diagnosis and learner refuse.
+    pub fn learn(
+        scenario: &TrackingScenario,
+        logs: &[Run],
+        named: Option<&Robot>,
+        progress: &dyn Progress,
+    ) -> Result<Self, ExperimentError> {
+        let lesson = Lesson {
+            loaded: scenario.loaded(),
+            plant_file: scenario.plant_file(),
+            learn: scenario.learn(),
+            kinds: &kinds(scenario),
+            columns: ColumnSet::INERTIAL,
+        };
+        Self::of(&lesson, logs, named, progress)
+    }
+
+    /// Learns from the logs of an arm what a lesson says, `named` as in [`learn`](Self::learn).
+    ///
+    /// # Errors
+    ///
+    /// What the learner refuses.
+    pub fn of(
+        lesson: &Lesson,
+        logs: &[Run],
+        named: Option<&Robot>,
+        progress: &dyn Progress,
+    ) -> Result<Self, ExperimentError> {
+        let mut models = BTreeMap::new();
+        let (kinds, robot) = (lesson.kinds, lesson.robot());
+        if kinds.iter().all(|kind| *kind == ModelKind::Cad) {
+            let joints = robot.joint_count();
+            // Without friction no direction is asked for, so the speed of rest is of no account.
+            let torque = RobotTorque::new(robot.clone(), vec![1e-3; joints]);
+            let mean = Mean::Robot(Box::new(torque));
+            let cad = Model::new(ModelKind::Cad, robot, mean, vec![0.0; joints]);
+            models.insert(ModelKind::Cad.name(), cad);
+            return Ok(Self { models });
+        }
+        let data = Data::new(lesson, logs)?;
+        let named = match named {
+            None if kinds.iter().any(|kind| kind.needs_named()) => {
+                Some(extended(lesson, logs, progress)?)
+            }
+            given => given.cloned(),
+        };
+        let described = |kind: &ModelKind| matches!(kind, ModelKind::Cad | ModelKind::Named);
+        let fit = match kinds.iter().all(described) {
+            true => None,
+            false => Some(rigid_bodies(lesson, &data.regression, progress)?),
+        };
+        let settings = TrainSettings { points: lesson.learn.points, ..TrainSettings::default() };
+        let speeds = data.rest_speeds.clone();
+        let mut training = Training::new(robot, &data.train, speeds, &settings, progress)?;
+        if let Some(fit) = &fit {
+            training = training.with_regression(fit);
+        }
+        if let Some(named) = &named {
+            training = training.with_named(named);
+        }
+        for &kind in kinds {
+            progress.begin(kind.name());
+            models.insert(kind.name(), training.fit(kind)?.model);
+        }
+        Ok(Self { models })
+    }
+}
+
+/// What is learned, and from what.
+pub struct Lesson<'a> {
+    /// The robot as described.
+    pub loaded: &'a Loaded,
+    /// The scenario of the arm, whose runs there are.
+    pub plant_file: &'a Path,
+    /// The runs and how much of them.
+    pub learn: &'a LearnSpec,
+    /// The models.
+    pub kinds: &'a [ModelKind],
+    /// What the rigid bodies are made of.
+    pub columns: ColumnSet,
+}
+
+impl Lesson<'_> {
+    fn robot(&self) -> &Robot {
+        &self.loaded.robot
+    }
+
+    /// Logs behind the low pass at `cutoff_hz`, or at the cut-off that their data suggest.
+    ///
+    /// # Errors
+    ///
+    /// [`ExperimentError::Log`].
+    pub fn prepared(
+        &self,
+        logs: &[Run],
+        cutoff_hz: Option<f64>,
+    ) -> Result<Prepared, ExperimentError> {
+        let mut prepared = prepare(logs, &PrepareSettings { cutoff_hz })?;
+        centre_commands(self.robot(), &mut prepared.runs, self.loaded.control.rate_hz);
+        Ok(prepared)
+    }
+}
+
+/// The models behind what a scenario feeds forward.
+fn kinds(scenario: &TrackingScenario) -> Vec<ModelKind> {
+    let mut kinds: Vec<ModelKind> = Vec::new();
+    for kind in scenario.all_feedforward().into_iter().filter_map(|kind| kind.model()) {
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    kinds
+}
+
+/// The parameters of the rigid bodies that fit the samples best.
+fn rigid_bodies(
+    lesson: &Lesson,
+    samples: &Samples,
+    progress: &dyn Progress,
+) -> Result<RigidBodyFit, ExperimentError> {
+    progress.begin("regression of the rigid bodies");
+    let mut regression = Regression::new(lesson.robot(), lesson.columns);
+    regression.add_samples(samples)?;
+    Ok(regression.fit(None)?)
+}
+
+/// The robot extended by what a diagnosis names in the logs.
+fn extended(
+    lesson: &Lesson,
+    logs: &[Run],
+    progress: &dyn Progress,
+) -> Result<Robot, ExperimentError> {
+    progress.begin("diagnosis");
+    let settings =
+        Settings { control_rate_hz: lesson.loaded.control.rate_hz, ..Settings::default() };
+    Ok(diagnosis::diagnose(lesson.robot(), logs, &settings, &diagnosis::Silent)?.extended)
+}
+
+/// The samples of the logs, all through one filter.
+struct Data {
+    train: Samples,
+    regression: Samples,
+    rest_speeds: Vec<f64>,
+}
+
+impl Data {
+    fn new(lesson: &Lesson, logs: &[Run]) -> Result<Self, ExperimentError> {
+        let learn = lesson.learn;
+        if let ([], Some(&model)) = (learn.train.as_slice(), lesson.kinds.first()) {
+            let path = lesson.plant_file.to_owned();
+            return Err(ExperimentError::NothingToLearnFrom { path, model });
+        }
+        let prepared = lesson.prepared(logs, None)?;
+        let train = runs_named(&prepared, &learn.train);
+        let regression = match learn.regression.as_slice() {
+            [] => Samples::new(&train),
+            names => Samples::new(&runs_named(&prepared, names)),
+        };
+        Ok(Self { rest_speeds: rest_speeds(&train), train: Samples::new(&train), regression })
+    }
+}
+
+/// The prepared runs that are logs of these names or parts of them.
+pub(crate) fn runs_named(prepared: &Prepared, names: &[String]) -> Prepared {
+    let is_meant = |run: &&PreparedRun| names.iter().any(|name| is_part_of(&run.name, name));
+    prepared.with_runs(prepared.runs.iter().filter(is_meant).cloned().collect())
+}
+
+/// Whether a prepared run is a log or, where it was split at gaps, a part of it.
+fn is_part_of(prepared: &str, log: &str) -> bool {
+    prepared.strip_prefix(log).is_some_and(|rest| rest.is_empty() || rest.starts_with(" part "))
+}

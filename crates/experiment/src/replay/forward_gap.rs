@@ -1,0 +1,276 @@
+use diagnosis::Progress;
+use logs::{LogError, PrepareSettings, PreparedRun, Run, distinct, prepare};
+use nalgebra::Point3;
+use robot::Robot;
+use serde::{Deserialize, Serialize};
+use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
+
+use crate::replay::replayed::{STEP_S, first};
+
+/// How far two simulations drift from what was measured, for some lengths of time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ForwardGap {
+    /// One entry a length of time, the shortest first.
+    pub windows: Vec<ForwardWindow>,
+}
+
+/// How far two simulations drift in a length of time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ForwardWindow {
+    /// Time from a measured state on for which the measured torque moves the simulation (s).
+    pub window_s: f64,
+    /// Number of such windows, without overlap.
+    pub windows: usize,
+    /// Of the robot as described.
+    pub nominal: Drift,
+    /// Of the extended robot.
+    pub extended: Drift,
+}
+
+/// How far a simulation is off in windows, at their ends and on the way.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Drift {
+    /// RMS of simulated minus measured position, by joint (rad or m); none where a joint ran away
+    /// in every window.
+    pub rms: Option<Vec<f64>>,
+    /// RMS of the distance between the simulated and the measured origin of the last link (m).
+    pub tip_rms_m: Option<f64>,
+    /// The same at twenty equal steps through the windows, the last at their ends (m).
+    #[serde(default)]
+    pub tip_course_m: Vec<f64>,
+    /// Windows in which a joint ran away, which count in none of these.
+    pub runaways: usize,
+    /// Why the robot could not be simulated, where it could not.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub trouble: Option<String>,
+}
+
+/// Rolls the robot as described and the extended one forward under the measured torques, from the
+/// measured states, for 50, 200 and 1000 ms.
+///
+/// ```text
+/// (q, qd)(t_start) = measured,   tau(t) = measured,   drift = q_simulated - q_measured
+/// ```
+///
+/// A length of time that does not fit into a record has no windows of it. The engine takes steps of
+/// 1 ms, shorter ones down to 0.1 ms where a spring of a drive needs them.
+pub fn forward_gap(
+    robots: [&Robot; 2],
+    records: &[PreparedRun],
+    progress: &dyn Progress,
+) -> ForwardGap {
+    progress.stage("simulating the measured torque", 2 * WINDOWS_S.len() * records.len());
+    let windows = WINDOWS_S.map(|window_s| {
+        let [nominal, extended] = robots.map(|robot| Sum::of(robot, records, window_s, progress));
+        let windows = nominal.windows.max(extended.windows);
+        let [nominal, extended] = [nominal, extended].map(Sum::drift);
+        ForwardWindow { window_s, windows, nominal, extended }
+    });
+    ForwardGap { windows: windows.into() }
+}
+
+/// [`forward_gap`] on the logs of a diagnosis: on half a minute of all together, of each the same
+/// time from its beginning. The extended robot was found in them.
+///
+/// # Errors
+///
+/// [`LogError`] for runs that were not diagnosed with this cut-off (Hz).
+pub fn forward_gap_of_logs(
+    robots: [&Robot; 2],
+    runs: &[Run],
+    cutoff_hz: f64,
+    progress: &dyn Progress,
+) -> Result<ForwardGap, LogError> {
+    let records = prepare(&distinct(runs), &PrepareSettings { cutoff_hz: Some(cutoff_hz) })?.runs;
+    let each_s = TOTAL_S / records.len().max(1) as f64;
+    let records: Vec<PreparedRun> = records.iter().map(|record| first(record, each_s)).collect();
+    Ok(forward_gap(robots, &records, progress))
+}
+
+/// Time of all logs of a diagnosis together that is simulated for each length of time (s).
+const TOTAL_S: f64 = 30.0;
+
+/// Shortest step of the engine (s): that of `plumbline replay`.
+const SHORTEST_STEP_S: f64 = 1e-4;
+
+/// Lengths of time for which simulations are rolled forward (s).
+const WINDOWS_S: [f64; 3] = [0.05, 0.2, 1.0];
+
+/// Steps of the course of a drift.
+const STEPS: usize = 20;
+
+/// Squares summed over the windows of several records.
+#[derive(Default)]
+struct Sum {
+    windows: usize,
+    runaways: usize,
+    joints: Vec<f64>,
+    /// Of the tip, at every step through the windows.
+    tip: [f64; STEPS],
+    trouble: Option<String>,
+}
+
+impl Sum {
+    /// Over all windows of all records, as far as they can be simulated.
+    fn of(robot: &Robot, records: &[PreparedRun], window_s: f64, progress: &dyn Progress) -> Self {
+        let mut sum = Self { joints: vec![0.0; robot.joint_count()], ..Self::default() };
+        for record in records {
+            match replay(robot, record, window_s) {
+                Ok(replay) => sum.add(robot, record, &replay),
+                Err(SimulatorError::TooShort { .. }) => {}
+                Err(error) => sum.trouble = Some(error.to_string()),
+            }
+            progress.step();
+        }
+        sum
+    }
+
+    fn add(&mut self, robot: &Robot, record: &PreparedRun, replay: &ForwardReplay) {
+        self.windows += replay.windows;
+        self.runaways += replay.runaways.len();
+        let kept = (replay.windows - replay.runaways.len()) as f64;
+        for (sum, rms) in self.joints.iter_mut().zip(replay.drift_rms.iter().flatten()) {
+            *sum += kept * rms * rms;
+        }
+        for courses in courses(replay, record) {
+            for (sum, [a, b]) in self.tip.iter_mut().zip(courses) {
+                *sum += distance(robot, &a, &b).powi(2);
+            }
+        }
+    }
+
+    fn drift(self) -> Drift {
+        let kept = self.windows - self.runaways;
+        let rms = |sum: &f64| (sum / kept as f64).sqrt();
+        Drift {
+            rms: (kept > 0).then(|| self.joints.iter().map(rms).collect()),
+            tip_rms_m: self.tip.last().filter(|_| kept > 0).map(rms),
+            tip_course_m: self.tip.iter().filter(|_| kept > 0).map(rms).collect(),
+            runaways: self.runaways,
+            trouble: self.trouble,
+        }
+    }
+}
+
+/// A record rolled forward, in steps that the springs of the drives bear.
+fn replay(
+    robot: &Robot,
+    record: &PreparedRun,
+    window_s: f64,
+) -> Result<ForwardReplay, SimulatorError> {
+    let roll = |longest_step_s| replay_torque(robot, record, Windows { window_s, longest_step_s });
+    match roll(STEP_S) {
+        Err(SimulatorError::SpringTooStiff { longest_step_ms, .. })
+            if 1e-3 * longest_step_ms > SHORTEST_STEP_S =>
+        {
+            roll((0.9e-3 * longest_step_ms).max(SHORTEST_STEP_S))
+        }
+        replay => replay,
+    }
+}
+
+/// Simulated and measured positions at every step through every window in which no joint ran away.
+fn courses<'a>(
+    replay: &'a ForwardReplay,
+    record: &'a PreparedRun,
+) -> impl Iterator<Item = Vec<[Vec<f64>; 2]>> + 'a {
+    let samples = (replay.window_s * record.rate_hz).round() as usize;
+    let step = move |window: usize, k: usize| {
+        let sample = window * samples + (k * samples).div_ceil(STEPS);
+        let time_s = record.time[sample];
+        // A window that was cut short has no row at its end.
+        let row = replay.motion.time.partition_point(|t| *t < time_s);
+        if replay.motion.time.get(row).is_none_or(|t| *t > time_s) {
+            return None;
+        }
+        let simulated = replay.motion.joints.iter().map(|joint| joint.position[row]).collect();
+        let measured = record.joints.iter().map(|joint| joint.q[sample]).collect();
+        Some([simulated, measured])
+    };
+    (0..replay.windows).filter_map(move |window| (1..=STEPS).map(|k| step(window, k)).collect())
+}
+
+/// Distance of the origin of the last link between two positions of the joints (m).
+fn distance(robot: &Robot, a: &[f64], b: &[f64]) -> f64 {
+    let [a, b] = [a, b].map(|q| tracking::tip_in_base(robot, &Point3::origin(), q));
+    (a - b).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use diagnosis::Silent;
+    use logs::PreparedJoint;
+
+    const FORCE: f64 = 4.0;
+    const MASS: f64 = 2.0;
+
+    /// A slide of this mass, along the ground.
+    fn slide(mass: f64) -> Robot {
+        let text = format!(
+            r#"<robot name="slide"><link name="base"/><joint name="x" type="prismatic">
+            <parent link="base"/><child link="cart"/><axis xyz="1 0 0"/>
+            <limit lower="-9" upper="9" velocity="90" effort="90"/></joint>
+            <link name="cart"><inertial><mass value="{mass}"/><inertia ixx="1" ixy="0" ixz="0"
+            iyy="1" iyz="0" izz="1"/></inertial></link></robot>"#
+        );
+        Robot::from_urdf(&text).unwrap()
+    }
+
+    /// A second and a little more of the slide of [`MASS`] under a constant force, from rest.
+    fn record() -> PreparedRun {
+        let acceleration = FORCE / MASS;
+        let time: Vec<f64> = (0..520).map(|k| 0.002 * f64::from(k)).collect();
+        let of = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { time.iter().map(|t| f(*t)).collect() };
+        let q = of(&|t| 0.5 * acceleration * t * t);
+        let state = [q, of(&|t| acceleration * t), of(&|_| acceleration)];
+        let joint = PreparedJoint::exact(state, of(&|_| FORCE));
+        PreparedRun {
+            name: "run".into(),
+            rate_hz: 500.0,
+            time,
+            session_start_s: 0.0,
+            joints: vec![joint],
+        }
+    }
+
+    #[test]
+    fn a_wrong_mass_drifts_by_half_the_error_of_the_acceleration_times_time_squared() {
+        let gap = forward_gap([&slide(MASS / 2.0), &slide(MASS)], &[record()], &Silent);
+        for (window, count) in gap.windows.iter().zip([20, 5, 1]) {
+            let expected = 0.5 * (FORCE / MASS) * window.window_s.powi(2);
+            assert_eq!(window.windows, count);
+            // The engine's steps are of first order.
+            let close = |drift: f64, at: f64| (drift - at).abs() < 0.05 * expected;
+            let [nominal, extended] = [&window.nominal, &window.extended];
+            assert!(close(nominal.rms.as_ref().unwrap()[0], expected), "{window:?}");
+            assert!(close(nominal.tip_rms_m.unwrap(), expected), "{window:?}");
+            assert!(close(extended.rms.as_ref().unwrap()[0], 0.0), "{window:?}");
+            // Half the window is a quarter of the way, to the next sample.
+            let half = nominal.tip_course_m[STEPS / 2 - 1] / expected;
+            assert!((0.24..0.3).contains(&half), "{half}");
+            assert!(close(nominal.tip_course_m[STEPS - 1], expected), "{window:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_too_short_or_cannot_be_simulated_is_said_and_no_number() {
+        let short = record().part(0..200);
+        // A drive of 1 kg on a spring: it rings too fast for 1 ms, and too fast for all.
+        let on_spring = |stiffness: f64| {
+            let mut robot = slide(MASS);
+            let drive = &mut robot.link_mut(0).unwrap().actuator;
+            (drive.elasticity, drive.rotor_inertia) = (Some(stiffness), 1.0);
+            robot
+        };
+        let long_steps = Windows { window_s: 0.05, longest_step_s: STEP_S };
+        let refused = replay_torque(&on_spring(5e5), &short, long_steps);
+        assert!(matches!(refused, Err(SimulatorError::SpringTooStiff { .. })), "{refused:?}");
+        let robots = [&on_spring(5e5), &on_spring(5e9)];
+        let gap = forward_gap(robots, &[short], &Silent);
+        assert_eq!(gap.windows[2].nominal, Drift::default(), "0.4 s hold no second");
+        let [soft, stiff] = [&gap.windows[0].nominal, &gap.windows[0].extended];
+        assert!(soft.rms.is_some() && soft.trouble.is_none(), "{soft:?}");
+        assert!(stiff.rms.is_none() && stiff.trouble.is_some(), "{stiff:?}");
+    }
+}

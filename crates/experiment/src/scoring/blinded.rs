@@ -1,0 +1,35 @@
+use std::path::Path;
+
+use serde::Deserialize;
+use simulator::{StrangerTruth, Truth};
+
+use crate::error::ExperimentError;
+
+/// The truth about simulated logs, read only after they are diagnosed.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Sealed {
+    /// The seed that everything was drawn from.
+    pub seed: u64,
+    /// What was put in.
+    pub effects: Vec<Truth>,
+    /// Effects of no catalogue that were put in.
+    #[serde(default)]
+    pub strangers: Vec<StrangerTruth>,
+}
+
+impl Sealed {
+    /// Name of its file, beside the logs.
+    pub const FILE: &str = "truth.json";
+
+    /// Opens the truth about the logs of a folder.
+    ///
+    /// # Errors
+    ///
+    /// [`ExperimentError::UnreadableTruth`].
+    pub fn open(folder: &Path) -> Result<Self, ExperimentError> {
+        let path = folder.join(Self::FILE);
+        let unreadable = |reason| ExperimentError::UnreadableTruth { path: path.clone(), reason };
+        let text = std::fs::read_to_string(&path).map_err(|e| unreadable(e.to_string()))?;
+        serde_json::from_str(&text).map_err(|e| unreadable(e.to_string()))
+    }
+}

@@ -1,0 +1,168 @@
+use diagnosis::{Diagnosis, EffectAt, Finding, RuledOut, Verdict};
+use serde::{Deserialize, Serialize};
+use simulator::Truth;
+
+use crate::gain::Gains;
+use crate::scoring::size::Size;
+use crate::scoring::smallest::of_smallest;
+use crate::scoring::stored;
+
+/// How well a diagnosis names what was put in.
+///
+/// Of `k` injected effects, the `k` findings with the largest shares should be these effects.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// The seed that everything was drawn from.
+    pub seed: u64,
+    /// What was put in.
+    pub put_in: Vec<PutIn>,
+    /// Whether the diagnosis looked for it; if not, the right answer is that something is unknown.
+    pub looked_for: bool,
+    /// The verdict over all joints.
+    #[serde(deserialize_with = "stored::verdict")]
+    pub verdict: Verdict,
+    /// What was named, the largest share first.
+    pub findings: Vec<Named>,
+    /// Whether the first findings are the injected effects at their places; without an injected
+    /// effect, whether there is no finding.
+    pub exactly: bool,
+    /// Whether what was put in are the first findings or rivals of theirs.
+    pub as_one_of: bool,
+    /// Findings that are neither true nor rivals of a true one.
+    #[serde(deserialize_with = "stored::places")]
+    pub stray: Vec<EffectAt>,
+    /// What the findings gain, where that was measured: at the joint of a single effect, otherwise
+    /// over all joints.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gains: Option<Gains>,
+}
+
+/// An effect that was put in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PutIn {
+    /// The effect and its place.
+    #[serde(flatten, deserialize_with = "stored::place")]
+    pub at: EffectAt,
+    /// The finding that names it, counted from 0.
+    pub finding: Option<usize>,
+    /// The first finding that names it or a rival of which it is.
+    pub one_of: Option<usize>,
+    /// Its parameters.
+    pub sizes: Vec<Size>,
+    /// Its size over the smallest that the logs would have shown, where the diagnosis tells.
+    pub of_smallest: Option<f64>,
+}
+
+/// A finding of a diagnosis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Named {
+    /// The effect and its place.
+    #[serde(flatten, deserialize_with = "stored::place")]
+    pub at: EffectAt,
+    /// Share of the nominal residual's power that goes with it.
+    #[serde(deserialize_with = "stored::number")]
+    pub share_explained: f64,
+    /// What it may as well be.
+    #[serde(deserialize_with = "stored::places")]
+    pub not_separable_from: Vec<EffectAt>,
+}
+
+impl Score {
+    /// Scores a diagnosis by what was put in.
+    pub fn new(diagnosis: &Diagnosis, truth: &[Truth], seed: u64) -> Self {
+        let mut findings: Vec<&Finding> = diagnosis.findings.iter().collect();
+        findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
+        let put_in = |truth| PutIn::new(truth, &findings, &diagnosis.ruled_out);
+        let put_in: Vec<PutIn> = truth.iter().map(put_in).collect();
+        let among_first = |of: fn(&PutIn) -> Option<usize>| match put_in.len() {
+            0 => findings.is_empty(),
+            k => put_in.iter().all(|p| of(p).is_some_and(|finding| finding < k)),
+        };
+        let is_true = |at: &EffectAt| put_in.iter().any(|p| p.at == *at);
+        let excused = |finding: &Finding| {
+            let mut names = std::iter::once(&finding.at).chain(&finding.not_separable_from);
+            let of_a_true_one = |f: &&&Finding| is_true(&f.at);
+            let mut rivals =
+                findings.iter().filter(of_a_true_one).flat_map(|f| &f.not_separable_from);
+            names.any(is_true) || rivals.any(|rival| *rival == finding.at)
+        };
+        let stray = findings.iter().filter(|f| !excused(f)).map(|f| f.at.clone()).collect();
+        Self {
+            seed,
+            looked_for: true,
+            verdict: diagnosis.verdict,
+            exactly: among_first(|p| p.finding),
+            as_one_of: among_first(|p| p.one_of),
+            stray,
+            gains: None,
+            findings: findings.into_iter().map(Named::new).collect(),
+            put_in,
+        }
+    }
+
+    /// Share of the nominal residual's power that the true findings explain.
+    pub fn explained(&self) -> f64 {
+        let own = self.put_in.iter().filter_map(|p| p.finding);
+        own.map(|finding| self.findings[finding].share_explained).sum()
+    }
+
+    /// Whether every injected effect is among the findings or their rivals.
+    pub fn found(&self) -> bool {
+        self.put_in.iter().all(|p| p.one_of.is_some())
+    }
+
+    /// Whether the logs show the injected effects. They do not where an effect is missed, no false
+    /// one is named in its place, and the diagnosis calls its size too small to be found.
+    pub fn visible(&self) -> bool {
+        let large = |p: &PutIn| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
+        self.found() || !self.stray.is_empty() || self.put_in.iter().all(large)
+    }
+
+    /// Whether the diagnosis leaves structure open and names no false effect: the right answer to
+    /// an effect without a model.
+    pub fn unknown(&self) -> bool {
+        let open = matches!(self.verdict, Verdict::Unexplained | Verdict::PartlyExplained);
+        open && self.stray.is_empty()
+    }
+
+    /// The trial in a line, such as `TR01 backlash at elbow, seed 7: unexplained, named nothing`.
+    pub fn words(&self) -> String {
+        let all = |words: Vec<String>, join: &str, none: &str| {
+            if words.is_empty() { none.to_owned() } else { words.join(join) }
+        };
+        let put_in = self.put_in.iter().map(|p| p.at.words()).collect();
+        let named = self.findings.iter().map(Named::words).collect();
+        let (put_in, named) = (all(put_in, " and ", "clean"), all(named, "; ", "nothing"));
+        format!("{put_in}, seed {}: {}, named {named}", self.seed, self.verdict.words())
+    }
+}
+
+impl PutIn {
+    fn new(truth: &Truth, findings: &[&Finding], ruled_out: &[RuledOut]) -> Self {
+        let (effect, joint, link) = (truth.effect, truth.joint.clone(), truth.link.clone());
+        let at = EffectAt { effect, joint, link };
+        let finding = findings.iter().position(|f| f.at == at);
+        let one_of = |f: &&Finding| f.at == at || f.not_separable_from.contains(&at);
+        let one_of = findings.iter().position(one_of);
+        let estimates = finding.map_or(&[][..], |f| &findings[f].parameters);
+        let sizes = Size::all(truth, estimates);
+        let of_smallest = of_smallest(truth, (&at, &sizes), ruled_out);
+        Self { finding, one_of, of_smallest, sizes, at }
+    }
+}
+
+impl Named {
+    fn new(finding: &Finding) -> Self {
+        Self {
+            at: finding.at.clone(),
+            share_explained: finding.share_explained,
+            not_separable_from: finding.not_separable_from.clone(),
+        }
+    }
+
+    fn words(&self) -> String {
+        let names = std::iter::once(&self.at).chain(&self.not_separable_from);
+        let names: Vec<String> = names.map(EffectAt::words).collect();
+        format!("{} ({:.0} %)", names.join(" or "), 100.0 * self.share_explained)
+    }
+}

@@ -1,0 +1,232 @@
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use crate::error::ExperimentError;
+
+/// A part of a run that is made once, and made again when its inputs change.
+///
+/// ```text
+/// inputs --make--> files, value --last--> stages/NAME.json: hash of inputs, hashes of files, value
+/// ```
+///
+/// A stage that was killed has no such file, and a file that was changed since has another hash:
+/// both are made again.
+#[derive(Debug, Clone)]
+pub struct Stage {
+    folder: PathBuf,
+    file: PathBuf,
+}
+
+/// What a stage makes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Product<T> {
+    /// What later stages are told.
+    pub value: T,
+    /// Its files, relative to the folder of the run.
+    pub files: Vec<PathBuf>,
+}
+
+/// What a stage has made, now or before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Staged<T> {
+    /// What later stages are told.
+    pub value: T,
+    /// SHA-256 of its files, by their paths relative to the folder of the run.
+    pub files: BTreeMap<PathBuf, String>,
+    /// Whether it was made before.
+    pub is_kept: bool,
+}
+
+/// What a stage is made from, as a hash.
+#[derive(Debug, Clone)]
+pub struct Inputs(Sha256);
+
+/// `stages/NAME.json`
+#[derive(Serialize, Deserialize)]
+struct Stored<T> {
+    inputs: String,
+    files: BTreeMap<PathBuf, String>,
+    value: T,
+}
+
+impl Inputs {
+    /// Those of a version of the program.
+    pub fn of(version: &str) -> Self {
+        Self(Sha256::new()).and(version.as_bytes())
+    }
+
+    /// The same and these bytes.
+    #[must_use]
+    pub fn and(mut self, bytes: &[u8]) -> Self {
+        self.0.update((bytes.len() as u64).to_le_bytes());
+        self.0.update(bytes);
+        self
+    }
+
+    /// The same and the bytes of a file.
+    ///
+    /// # Errors
+    ///
+    /// [`ExperimentError::Stage`].
+    pub fn and_file(self, path: &Path) -> Result<Self, ExperimentError> {
+        Ok(self.and(&std::fs::read(path).map_err(stage_error(path))?))
+    }
+
+    fn hash(self) -> String {
+        hexadecimal(self.0)
+    }
+}
+
+impl Stage {
+    /// The stage of this name in the folder of a run.
+    pub fn new(folder: &Path, name: &str) -> Self {
+        let file = folder.join("stages").join(format!("{name}.json"));
+        Self { folder: folder.to_owned(), file }
+    }
+
+    /// The product of the stage: the stored one where it is whole and of these inputs, otherwise
+    /// what `make` returns.
+    ///
+    /// # Errors
+    ///
+    /// [`ExperimentError::Stage`] when a file cannot be read or written, and what `make` refuses.
+    pub fn make<T, E>(
+        &self,
+        inputs: Inputs,
+        make: impl FnOnce() -> Result<Product<T>, E>,
+    ) -> Result<Staged<T>, E>
+    where
+        T: Serialize + DeserializeOwned,
+        E: From<ExperimentError>,
+    {
+        let inputs = inputs.hash();
+        if let Some(Stored { files, value, .. }) = self.read_stored(&inputs) {
+            return Ok(Staged { value, files, is_kept: true });
+        }
+        self.begin()?;
+        let Product { value, files } = make()?;
+        let hashed = |file: PathBuf| Ok((file.clone(), sha256(&self.folder.join(&file))?));
+        let files: Result<BTreeMap<_, _>, ExperimentError> =
+            files.into_iter().map(hashed).collect();
+        let stored = Stored { inputs, files: files?, value };
+        let text = serde_json::to_string_pretty(&stored).map_err(|e| ExperimentError::Stage {
+            path: self.file.clone(),
+            reason: e.to_string(),
+        })?;
+        logs::replace_file(&self.file, |file| Ok(file.write_all(text.as_bytes())?))
+            .map_err(ExperimentError::from)?;
+        Ok(Staged { value: stored.value, files: stored.files, is_kept: false })
+    }
+
+    /// The stored product of these inputs, unless a file is missing or changed.
+    fn read_stored<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
+        let text = std::fs::read_to_string(&self.file).ok()?;
+        let stored: Stored<T> = serde_json::from_str(&text).ok()?;
+        let is_whole = |(file, hash): (&PathBuf, &String)| {
+            sha256(&self.folder.join(file)).is_ok_and(|found| found == *hash)
+        };
+        (stored.inputs == inputs && stored.files.iter().all(is_whole)).then_some(stored)
+    }
+
+    /// Takes away what says that it was made.
+    fn begin(&self) -> Result<(), ExperimentError> {
+        if let Some(folder) = self.file.parent() {
+            std::fs::create_dir_all(folder).map_err(stage_error(folder))?;
+        }
+        match std::fs::remove_file(&self.file) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(stage_error(&self.file)(error))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn stage_error(path: &Path) -> impl Fn(std::io::Error) -> ExperimentError {
+    |error| ExperimentError::Stage { path: path.to_owned(), reason: error.to_string() }
+}
+
+/// SHA-256 of a file, in hexadecimal.
+///
+/// # Errors
+///
+/// [`ExperimentError::Stage`].
+pub fn sha256(path: &Path) -> Result<String, ExperimentError> {
+    let mut hasher = Sha256::new();
+    let mut file = std::fs::File::open(path).map_err(stage_error(path))?;
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        match std::io::Read::read(&mut file, &mut buffer).map_err(stage_error(path))? {
+            0 => return Ok(hexadecimal(hasher)),
+            read => hasher.update(&buffer[..read]),
+        }
+    }
+}
+
+fn hexadecimal(hasher: Sha256) -> String {
+    hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Makes a stage of `input`, counting how often.
+    fn made(folder: &Path, input: &str, count: &mut usize) -> Staged<usize> {
+        let make = || {
+            *count += 1;
+            std::fs::write(folder.join("a.txt"), input).unwrap();
+            Ok::<_, ExperimentError>(Product { value: input.len(), files: vec!["a.txt".into()] })
+        };
+        let inputs = Inputs::of("1").and(input.as_bytes());
+        Stage::new(folder, "first").make(inputs, make).unwrap()
+    }
+
+    #[test]
+    fn a_stage_is_made_once_and_again_when_inputs_or_files_change() {
+        let folder = tempfile::tempdir().unwrap();
+        let (folder, mut count) = (folder.path(), 0);
+        let first = made(folder, "abc", &mut count);
+        assert!(!first.is_kept && first.value == 3);
+        // FIPS 180-2, appendix B.1.
+        let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(first.files[Path::new("a.txt")], abc);
+        let again = made(folder, "abc", &mut count);
+        assert_eq!((again.is_kept, again.value, count), (true, 3, 1));
+        assert_eq!(again.files, first.files);
+        assert!(!made(folder, "abcd", &mut count).is_kept, "another input");
+        std::fs::write(folder.join("a.txt"), "damaged").unwrap();
+        assert!(!made(folder, "abcd", &mut count).is_kept, "a file that was changed");
+        std::fs::remove_file(folder.join("a.txt")).unwrap();
+        assert!(!made(folder, "abcd", &mut count).is_kept, "a file that is gone");
+        std::fs::write(folder.join("stages/first.json"), "{\"inputs\": ").unwrap();
+        assert!(!made(folder, "abcd", &mut count).is_kept, "a torn entry");
+        assert!(made(folder, "abcd", &mut count).is_kept);
+        assert_eq!(count, 5);
+    }
+
+    #[test]
+    fn a_stage_that_fails_is_not_taken_for_made_though_its_old_files_are_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let (folder, mut count) = (folder.path(), 0);
+        made(folder, "abc", &mut count);
+        let stage = Stage::new(folder, "first");
+        let fails = || Err(ExperimentError::WriterDied { path: PathBuf::new() });
+        let inputs = || Inputs::of("1").and(b"other");
+        assert!(stage.make::<usize, _>(inputs(), fails).is_err());
+        assert!(!made(folder, "abc", &mut count).is_kept);
+    }
+
+    #[test]
+    fn where_one_input_ends_and_the_next_begins_matters() {
+        let hash = |parts: [&str; 2]| {
+            Inputs::of("1").and(parts[0].as_bytes()).and(parts[1].as_bytes()).hash()
+        };
+        assert_ne!(hash(["ab", "c"]), hash(["a", "bc"]));
+    }
+}

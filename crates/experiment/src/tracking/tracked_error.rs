@@ -1,0 +1,34 @@
+use serde::{Deserialize, Serialize};
+use tracking::{End, JointMetrics};
+
+use crate::tracking::track::TrackedRun;
+
+/// How well the arm follows the motion with one feedforward.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TrackedError {
+    /// Name of what is fed forward.
+    pub model: String,
+    /// RMS of the error, by joint (rad or m): of the link, where its position is known; none of a
+    /// run that did not come to its end.
+    pub rms: Option<Vec<f64>>,
+    /// RMS distance of the origin of the last link from where it should be (m); none likewise.
+    pub tip_rms_m: Option<f64>,
+    /// RMS of the feedback over that of the command, by joint.
+    pub feedback_share: Vec<f64>,
+}
+
+impl TrackedError {
+    /// The errors of a run.
+    pub fn of(run: &TrackedRun) -> Self {
+        let metrics = &run.metrics;
+        let is_whole = run.tracking.end == End::Complete;
+        let rmse = |joint: &JointMetrics| joint.link.map_or(joint.rmse, |link| link.rmse);
+        let tip = metrics.end_effector_of_links.unwrap_or(metrics.end_effector);
+        Self {
+            model: run.kind.name().to_owned(),
+            rms: is_whole.then(|| metrics.joints.iter().map(rmse).collect()),
+            tip_rms_m: is_whole.then_some(tip.rms_m),
+            feedback_share: metrics.joints.iter().map(|joint| joint.feedback_share).collect(),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+use std::fs;
+use std::path::Path;
+
+use crate::campaign::{done, folder, merged};
+use crate::loopback_slurm::LoopbackSlurm;
+use crate::program::{Answer, plumbline_bench};
+
+/// Folder of the campaign, as a lab might have it.
+const NAME: &str = "Ada's \"100%\" #1";
+
+fn submit(slurm: &LoopbackSlurm, folder: &Path, parts: &str) -> String {
+    let arguments = ["submit", NAME, "--engine", "slurm", "--parts", parts];
+    let output =
+        slurm.command(plumbline_bench()).current_dir(folder).args(arguments).output().unwrap();
+    let answer: Answer = output.into();
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{}\n{}", answer.out, slurm.logs());
+    answer.out
+}
+
+/// Whether a worker is at a trial of a part of three: it has the lock, the shard is not there.
+fn is_in_flight(folder: &Path, part: usize) -> bool {
+    let is_begun = |task: &usize| folder.join(format!("work/{task:05}.lock")).exists();
+    let is_made = |task: &usize| folder.join(format!("shards/{task:05}.parquet")).exists();
+    [part - 1, part + 2].iter().any(|task| is_begun(task) && !is_made(task))
+}
+
+/// Stops the worker of a node when it is at a trial, and says at which part of the campaign.
+fn caught_in_flight(slurm: &LoopbackSlurm, folder: &Path, node: &str) -> usize {
+    let mut caught = None;
+    slurm.wait(&format!("a trial in flight on {node}"), 60, |slurm| {
+        let workers = slurm.processes(node);
+        let part = workers.iter().find_map(|w| w.variable("SLURM_ARRAY_TASK_ID")?.parse().ok());
+        let Some(part) = part.filter(|part| is_in_flight(folder, *part)) else { return false };
+        workers.iter().for_each(|worker| worker.signal("STOP"));
+        // It may have come to the end of the trial before it was stopped.
+        if !is_in_flight(folder, part) {
+            workers.iter().for_each(|worker| worker.signal("CONT"));
+            return false;
+        }
+        caught = Some(part);
+        true
+    });
+    caught.unwrap()
+}
+
+#[test]
+fn a_cluster_that_loses_a_node_makes_what_one_machine_makes() {
+    let Some(mut slurm) = LoopbackSlurm::start() else { return };
+    let root = folder();
+    let path = root.path();
+    let lab = path.join(NAME);
+    for name in ["here", NAME] {
+        done(path, &["plan", "campaign.toml", "--out", name, "--quiet"]);
+    }
+    let said = submit(&slurm, path, "3");
+    assert!(said.starts_with("6 trials left, in 3 tasks, submitted as job "), "{said}");
+    let job = said.lines().find_map(|line| line.strip_prefix("  squeue -j ")).unwrap().to_owned();
+
+    let part = caught_in_flight(&slurm, &lab, "n2");
+    slurm.lose("n2");
+    assert!(is_in_flight(&lab, part), "the lock and no shard are left");
+    let task = format!("{job}_{part}");
+    slurm.wait("n2 to count as lost", 120, |slurm| {
+        slurm.ask("sinfo", &["-hn", "n2", "-o", "%T"]).starts_with("down")
+    });
+    slurm.wait("its task to be put back", 60, |slurm| slurm.fact(&task, "Restarts") == "1");
+    done(path, &["work", "here", "--quiet"]);
+    let whole = merged(path, "here");
+
+    let parts = [1, 2, 3].map(|part| format!("{job}_{part}"));
+    slurm.wait("the job to come to its end", 180, |slurm| {
+        let goes_on = |state: String| ["PENDING", "RUNNING", "COMPLETING"].contains(&&*state);
+        !parts.iter().any(|part| goes_on(slurm.fact(part, "JobState")))
+    });
+    for part in &parts {
+        assert_eq!(slurm.fact(part, "JobState"), "COMPLETED", "{part}\n{}", slurm.logs());
+        assert!(lab.join(format!("slurm/{part}.log")).is_file(), "{part}");
+    }
+    assert_eq!(slurm.fact(&task, "BatchHost"), "n1", "{}", slurm.logs());
+    assert_eq!(merged(path, NAME), whole);
+    assert_eq!(fs::read_dir(lab.join("work")).unwrap().count(), 0);
+    assert_eq!(submit(&slurm, path, "3"), "0 trials left, nothing is submitted\n");
+}
