@@ -1,7 +1,6 @@
 //! Files that cannot be written, that are not finished, or that would lie over an input.
 
 use std::fs;
-use std::path::Path;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 

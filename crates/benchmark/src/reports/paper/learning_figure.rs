@@ -2,7 +2,7 @@ use experiment::Claim;
 use pages::{
     BOLD, GridColumn, Medium, Provenance, ReportError, push_entry, text_grid, with_schema,
 };
-use report::{Quantity, claim_text, claims_sentence};
+use report::{ClaimUnit, claim_text, claims_sentence};
 use serde::Serialize;
 
 use crate::paper::learning_errors::LearningErrors;

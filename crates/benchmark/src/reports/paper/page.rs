@@ -1,7 +1,7 @@
 use askama::Template;
 use experiment::Claim;
 use pages::{GridColumn, HtmlGrid, Provenance, ReportError, escape_json, render_html, render_page};
-use report::{ClaimRow, Quantity, claim_rows, claims_sentence};
+use report::{ClaimRow, ClaimUnit, claim_rows, claims_sentence};
 
 /// What the page of a figure shows.
 pub(super) struct Contents<'a> {

@@ -1,6 +1,6 @@
 use experiment::Claim;
 use pages::{BOLD, Medium, ReportError, with_schema};
-use report::{Quantity, claim_text, claims_sentence};
+use report::{ClaimUnit, claim_text, claims_sentence};
 use serde::Serialize;
 
 use crate::paper::time_claims::ModelTime;
