@@ -3,6 +3,7 @@
 pub(crate) mod campaign;
 pub(crate) mod campaign_folder;
 pub(crate) mod failure;
+pub(crate) mod hash;
 pub(crate) mod hidden;
 pub(crate) mod kind_count;
 pub(crate) mod part;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use simulator::scenario::{Scenario, ScenarioSpec};
 
 use crate::error::BenchmarkError;
-use crate::trials::campaign::{hexadecimal, seed_of};
+use crate::trials::hash::{hexadecimal, seed_of};
 use crate::trials::hidden::Hidden;
 use crate::trials::trial::Trial;
 
