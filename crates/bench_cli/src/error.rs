@@ -55,7 +55,7 @@ impl BenchError {
 impl From<BenchmarkError> for BenchError {
     fn from(error: BenchmarkError) -> Self {
         match error {
-            BenchmarkError::Experiment(error) => Self::Cli(Box::new(error.into())),
+            BenchmarkError::Experiment(error) => Self::Cli(Box::new((*error).into())),
             error => Self::Benchmark(Box::new(error)),
         }
     }
