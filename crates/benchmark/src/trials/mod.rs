@@ -9,6 +9,7 @@ pub(crate) mod kind_count;
 pub(crate) mod part;
 pub(crate) mod record;
 pub(crate) mod record_columns;
+pub(crate) mod record_table;
 pub(crate) mod scenario_campaign;
 pub(crate) mod scored;
 pub(crate) mod trial;
