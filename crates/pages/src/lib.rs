@@ -22,17 +22,13 @@ mod sample;
 mod tables;
 mod text;
 
-pub use charts::chart::{Axis, AxisBegin, Chart, CurveShape, Ink, Series, words};
+pub use charts::chart::{Axis, AxisBegin, Chart, CurveShape, Ink, Series};
 pub use charts::decimate::{column_extremes, percentile_bands};
 pub use charts::dots::{Dots, JointDots};
 pub use charts::inks::{Medium, Palette};
-pub use charts::linear_axis::LinearAxis;
 pub use charts::log_axis::{AxisTick, LogAxis, round_px};
-pub use charts::plot::CHART_MARGINS;
-pub use charts::sheet::{
-    CHARACTER_WIDTH, FIGURE_EDGES, FigureSheet, LegendKey, Placed, PlacedLegendKey, stack,
-};
-pub use html::page::{heading_anchor, render_page};
+pub use charts::sheet::{CHARACTER_WIDTH, FIGURE_EDGES, FigureSheet, LegendKey, Stacked, stack};
+pub use html::page::render_page;
 pub use html::render::{escape_json, render_html};
 pub use html::script::{PAGE_SCRIPT, script_policy};
 pub use html::style::page_style;

@@ -34,15 +34,18 @@ pub use crate::diagnosis::residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use crate::diagnosis::tables::sizes;
 pub use crate::diagnosis::text::text;
 pub use change::page::{change_page, change_sentence, sizes_before};
-pub use learning::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
+pub use learning::comparison::{
+    ComparedJoint, DataSet, KernelRow, LearningComparison as Comparison, ModelRow,
+};
 pub use pages::{
     FileHash, Provenance, ReportError, pack as packed, percent, push_warnings as warnings,
     quote_argument as quoted, sha256_of, significant, unit, write_folder,
 };
 pub use replay::replay_report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
-pub use run::claims::{ClaimRow, Quantity, claim_rows, claim_text, claims_sentence};
+pub use run::claims::{ClaimRow, ClaimUnit, claim_rows, claim_text, claims_sentence};
+pub use run::diagnosis_summary::{DiagnosisSummary as Told, summarise as told};
 pub use run::run_report::RunReport;
-pub use run::told::{Told, told};
 pub use tracking::comparison::{
-    FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison, WallTiming,
+    ControllerGains as Gains, ErrorSweep as Sweep, FirstSeconds, SweptModel, TrackedModel,
+    TrackingComparison, WallTiming,
 };

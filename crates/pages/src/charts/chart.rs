@@ -72,7 +72,7 @@ pub struct Series {
 pub enum Ink {
     /// That of a role.
     Role(Role),
-    /// That of one of several models, count_noun from 0.
+    /// That of one of several models, counted from 0.
     Model(usize),
     /// That of letters, for the noise.
     Noise,
@@ -104,12 +104,12 @@ impl Ink {
 impl Series {
     /// A series under the name of its role.
     pub fn of(role: Role, shape: CurveShape) -> Self {
-        Self { name: words(role).to_owned(), ink: Ink::Role(role), shape }
+        Self { name: role_words(role).to_owned(), ink: Ink::Role(role), shape }
     }
 }
 
 /// The name of a role in a legend.
-pub fn words(role: Role) -> &'static str {
+fn role_words(role: Role) -> &'static str {
     match role {
         Role::Nominal => "nominal model",
         Role::Extended => "extended model",

@@ -1,5 +1,5 @@
-/// Points that draw like all of them on so many pixel columns: of every column the lowest
-/// and the highest, in the order of time. A spike of one sample survives.
+/// The lowest and the highest point of every pixel column, by rising `x`. They draw the same curve
+/// as all points: a spike of one sample survives.
 ///
 /// `points` are `[x, y]` with ascending `x`; those that are not finite are left out.
 pub fn column_extremes(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
@@ -27,11 +27,11 @@ pub fn column_extremes(points: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
 /// Fewest points of a slice of [`percentile_bands`].
 const FEWEST: usize = 20;
 
-/// Where `y` lies along `x`: `[x, low, middle, high]` per slice, with the median of `x` and
-/// the 5th, 50th and 95th percentile of `y`.
+/// Percentiles of `y` along `x`: `[x, low, middle, high]` a slice, with the median of `x` and the
+/// 5th, 50th and 95th percentile of `y`.
 ///
-/// There are at most so many slices, all of the same number of points, so that none is
-/// sparse. Nothing when `x` is constant.
+/// There are at most `slices` slices, each with the same number of points. The result is empty where
+/// `x` is constant.
 pub fn percentile_bands(x: &[f64], y: &[f64], slices: usize) -> Vec<[f64; 4]> {
     let pairs = x.iter().copied().zip(y.iter().copied());
     let mut points: Vec<(f64, f64)> =

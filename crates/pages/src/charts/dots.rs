@@ -55,13 +55,13 @@ impl Dots {
     /// # Errors
     ///
     /// [`ReportError::Format`].
-    pub fn draw(&self, place: Medium) -> Result<String, ReportError> {
-        let area = Area::new(self, place);
-        match place {
+    pub fn draw(&self, medium: Medium) -> Result<String, ReportError> {
+        let area = Area::new(self, medium);
+        match medium {
             Medium::Page => render_html(&InPage { keys: self.keys(), area }),
             Medium::Alone => {
                 let keys = self.keys();
-                let sheet = FigureSheet::new(&self.title, &self.subtitle, keys, place);
+                let sheet = FigureSheet::new(&self.title, &self.subtitle, keys, medium);
                 let top = sheet.bottom() + ABOVE;
                 let sheet = sheet.down_to(top + area.height + BELOW);
                 render_html(&Alone { x: FIGURE_EDGES, top, sheet, area })
@@ -128,11 +128,11 @@ struct Dot {
 }
 
 impl Area {
-    fn new(dots: &Dots, place: Medium) -> Self {
+    fn new(dots: &Dots, medium: Medium) -> Self {
         let floors = dots.joints.iter().filter_map(|joint| joint.floor);
         let values = dots.joints.iter().flat_map(|joint| joint.values.iter().copied());
         let axis = LogAxis::over_decades(values.chain(floors), MOST_DECADES, [0.0, 100.0]);
-        let colours = place.palette();
+        let colours = medium.palette();
         let rows = dots.joints.iter().enumerate();
         let row = |(i, joint)| Row::new(&dots.keys, joint, axis.as_ref(), (i, &colours));
         Self {

@@ -2,10 +2,10 @@ use colours::{MODELS, Role, model};
 
 use crate::charts::chart::Ink;
 
-/// What a drawing is drawn in, as SVG understands it.
+/// The colours of a drawing, as SVG writes them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Palette {
-    place: Medium,
+    medium: Medium,
     /// Of letters and axes.
     pub ink: &'static str,
     /// Of letters that matter less.
@@ -32,7 +32,7 @@ impl Medium {
     pub fn palette(self) -> Palette {
         match self {
             Self::Alone => Palette {
-                place: self,
+                medium: self,
                 ink: "#1f2328",
                 soft: "#59636e",
                 line: "#d1d9e0",
@@ -40,7 +40,7 @@ impl Medium {
                 paper: "#ffffff",
             },
             Self::Page => Palette {
-                place: self,
+                medium: self,
                 ink: "var(--ink)",
                 soft: "var(--soft)",
                 line: "var(--line)",
@@ -54,7 +54,7 @@ impl Medium {
 impl Palette {
     /// The colour of a series.
     pub fn of(&self, ink: Ink) -> String {
-        match (self.place, ink) {
+        match (self.medium, ink) {
             (_, Ink::Noise) => self.ink.to_owned(),
             (Medium::Page, Ink::Role(role)) => format!("var(--{})", role.name()),
             (Medium::Page, Ink::Model(index)) => format!("var(--model{})", index % MODELS.len()),
@@ -63,17 +63,17 @@ impl Palette {
         }
     }
 
-    /// The colour of what the model as given predicts.
+    /// The colour of the nominal model.
     pub fn nominal(&self) -> String {
         self.of(Ink::Role(Role::Nominal))
     }
 
-    /// The colour of what the model with the findings predicts.
+    /// The colour of the model with the findings.
     pub fn extended(&self) -> String {
         self.of(Ink::Role(Role::Extended))
     }
 
-    /// The colour of what was measured.
+    /// The colour of measured signals.
     pub fn measured(&self) -> String {
         self.of(Ink::Role(Role::Measured))
     }

@@ -17,9 +17,10 @@ pub struct AxisTick {
 }
 
 impl LogAxis {
-    /// The axis that holds all positive numbers among `values`, begins at a power of ten and
-    /// ends at one or little above them; none without a positive number. What lies more than
-    /// `most` powers of ten below the end is not on it.
+    /// The axis over the positive numbers among `values`; none where there is no such number.
+    ///
+    /// It begins at a power of ten, ends at one or little above the largest number, and spans at
+    /// most `most` powers of ten.
     pub fn over_decades(
         values: impl Iterator<Item = f64>,
         most: i32,
@@ -66,7 +67,7 @@ impl LogAxis {
     }
 }
 
-/// A place on a drawing with as many digits as the eye can tell (px).
+/// A coordinate of a drawing, rounded to a tenth of a pixel (px).
 pub fn round_px(px: f64) -> f64 {
     (10.0 * px).round() / 10.0
 }
@@ -102,7 +103,7 @@ fn as_power(exponent: i32) -> String {
 mod tests {
     use super::*;
 
-    /// Where numbers lie, which is round_px and so compared exactly.
+    /// Where numbers lie, which is rounded and so compared exactly.
     fn places(axis: LogAxis, values: &[f64]) -> Vec<f64> {
         values.iter().map(|&value| axis.at(value)).collect()
     }

@@ -61,13 +61,13 @@ impl Chart {
     }
 
     /// The area between the axes of a figure, as wide as what it is put into; empty when there is
-    /// nothing to draw. Letters need [`CHART_MARGINS`] around it.
+    /// nothing to draw. Letters need room around it.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
-    pub fn draw(&self, place: Medium) -> Result<String, ReportError> {
-        Plot::new(self, place).map_or_else(|| Ok(String::new()), |plot| render_html(&plot))
+    pub fn draw(&self, medium: Medium) -> Result<String, ReportError> {
+        Plot::new(self, medium).map_or_else(|| Ok(String::new()), |plot| render_html(&plot))
     }
 
     /// The figure at a place of a drawing that stands alone (px), letters included.
@@ -75,11 +75,11 @@ impl Chart {
     /// # Errors
     ///
     /// [`ReportError::Format`].
-    pub fn draw_at(&self, [x, y]: [f64; 2], place: Medium) -> Result<String, ReportError> {
-        let [top, right, bottom, left] = CHART_MARGINS;
+    pub fn draw_at(&self, [x, y]: [f64; 2], medium: Medium) -> Result<String, ReportError> {
+        let [top, right, bottom, left] = MARGINS;
         let (width, height) = (self.size.0 - left - right, self.size.1 - top - bottom);
         let inner = Self { size: (width, height), ..self.clone() };
-        let drawn = inner.draw(place)?;
+        let drawn = inner.draw(medium)?;
         let [x, y] = [x + left, y + top];
         Ok(format!(
             "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
@@ -89,11 +89,11 @@ impl Chart {
 }
 
 /// Room for letters above, right of, below and left of the area between the axes (px).
-pub const CHART_MARGINS: [f64; 4] = [24.0, 12.0, 36.0, 52.0];
+const MARGINS: [f64; 4] = [24.0, 12.0, 36.0, 52.0];
 
 impl<'a> Plot<'a> {
     /// The plot of a chart; none where there is nothing to draw.
-    fn new(chart: &'a Chart, place: Medium) -> Option<Self> {
+    fn new(chart: &'a Chart, medium: Medium) -> Option<Self> {
         let (ranges, height) = (chart.ranges(), chart.size.1);
         let x = ends(&chart.x, ranges[0], 0.0);
         let y = ends(&chart.y, ranges[1], ROOM);
@@ -102,7 +102,7 @@ impl<'a> Plot<'a> {
             LinearAxis::over(x.into_iter(), [0.0, WIDTH])?,
             LinearAxis::over(y.into_iter(), [height, 0.0])?,
         ];
-        let colours = place.palette();
+        let colours = medium.palette();
         let floor = chart.floor.filter(|floor| *floor > 0.0).map(|floor| {
             let edge = |value: f64| up.at(value).clamp(0.0, height);
             (edge(floor), round_px(edge(-floor) - edge(floor)))

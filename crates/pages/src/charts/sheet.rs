@@ -23,7 +23,7 @@ const TITLE_CHARACTERS: usize = 68;
 const LINE_CHARACTERS: usize = 118;
 
 /// Something at a height of a drawing (px).
-pub struct Placed<T> {
+pub struct Stacked<T> {
     /// Its height.
     pub y: f64,
     /// The thing.
@@ -53,7 +53,7 @@ impl LegendKey {
 }
 
 /// A name of the legend with its place (px).
-pub struct PlacedLegendKey {
+struct PlacedLegendKey {
     x: f64,
     y: f64,
     name: String,
@@ -65,33 +65,33 @@ pub struct PlacedLegendKey {
 #[template(path = "sheet.svg")]
 pub struct FigureSheet {
     height: f64,
-    place: Medium,
+    medium: Medium,
     /// The colours of the figure.
     pub colours: Palette,
     title: String,
-    subtitle: Vec<Placed<String>>,
+    subtitle: Vec<Stacked<String>>,
     legend: Vec<PlacedLegendKey>,
 }
 
 impl FigureSheet {
     /// A sheet that ends where its legend does.
     ///
-    /// In a page the title only speaks to those who cannot see the figure: what stands above
-    /// and below it is told by the page.
-    pub fn new(title: &str, subtitle: &str, keys: Vec<LegendKey>, place: Medium) -> Self {
-        let subtitle = match place {
+    /// In a page only screen readers read the title: the page has headings and captions of its
+    /// own.
+    pub fn new(title: &str, subtitle: &str, keys: Vec<LegendKey>, medium: Medium) -> Self {
+        let subtitle = match medium {
             Medium::Alone => wrap(subtitle, LINE_CHARACTERS),
             Medium::Page => Vec::new(),
         };
-        let top = match place {
+        let top = match medium {
             Medium::Alone => LEGEND + LINE * (subtitle.len() as f64 - 1.0),
             Medium::Page => LEGEND_IN_PAGE,
         };
-        let colours = place.palette();
+        let colours = medium.palette();
         let legend = legend(keys, top, &colours);
         Self {
             height: legend.last().map_or(top - LINE, |entry| entry.y),
-            place,
+            medium,
             colours,
             title: shorten(title, TITLE_CHARACTERS),
             subtitle: stack(subtitle, 60.0, LINE),
@@ -110,9 +110,9 @@ impl FigureSheet {
     }
 }
 
-/// Things below each other.
-pub fn stack<T>(items: Vec<T>, top: f64, step: f64) -> Vec<Placed<T>> {
-    let at = |(i, item)| Placed { y: top + step * i as f64, item };
+/// Places items below each other, the first at `top`, `step` apart (px).
+pub fn stack<T>(items: Vec<T>, top: f64, step: f64) -> Vec<Stacked<T>> {
+    let at = |(i, item)| Stacked { y: top + step * i as f64, item };
     items.into_iter().enumerate().map(at).collect()
 }
 

@@ -34,7 +34,7 @@ fn with_contents(page: &str) -> String {
 }
 
 /// A name for an address: `What is left` becomes `what-is-left`.
-pub fn heading_anchor(title: &str) -> String {
+fn heading_anchor(title: &str) -> String {
     let words = title.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
 }

@@ -30,8 +30,8 @@ pub fn sha256_of(path: &Path) -> Result<String, ReportError> {
     Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// Writes several files into `folder`, which is made when it is not there, as are the folders
-/// inside it that their names speak of.
+/// Writes files into `folder`. The folder, and the folders in the names of the files, are made where
+/// they do not exist.
 ///
 /// All of them are written under temporary names first, and renamed only when every one
 /// is complete: a failure on the way leaves the folder as it was.

@@ -35,8 +35,8 @@ impl Provenance {
         quote_argument.join(" ")
     }
 
-    /// The same for a page that others are given, without the folders of this machine: of every file
-    /// as many of its last folders as tell it from the others, in the command line too.
+    /// The same without the folders of this machine, for a page that is passed on. Of every path the
+    /// shortest ending stays that no other file has, in the command line too.
     pub fn without_folders(&self) -> Self {
         let paths: Vec<Vec<&str>> = self.files.iter().map(|file| parts(&file.path)).collect();
         let short: Vec<String> = paths.iter().map(|path| ending(path, &paths)).collect();
@@ -54,7 +54,7 @@ impl Provenance {
     }
 }
 
-/// The folders of a path and its name, those left out that a `..` leaves.
+/// The folders of a path and its name, with `..` resolved.
 fn parts(path: &str) -> Vec<&str> {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.split('/').filter(|part| !part.is_empty() && *part != ".") {

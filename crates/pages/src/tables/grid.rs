@@ -19,7 +19,7 @@ pub struct GridColumn {
 pub struct Cell {
     /// Its text.
     pub text: String,
-    /// How it is told from the others of its row.
+    /// Its style; bold where it stands out.
     pub style: Style,
 }
 
@@ -39,13 +39,13 @@ impl Cell {
         self.style == BOLD
     }
 
-    /// Its text where looks tell it from others, without the star and what makes room for it.
+    /// The text without the star and the space in its place: a page marks the best cell by its style.
     pub fn value(&self) -> &str {
         self.text.trim_end_matches(['*', ' '])
     }
 }
 
-/// Numbers beside each other, a star at those that show the least of them.
+/// The cells of some numbers. A star marks the least of them, and all that are printed like it.
 pub fn mark_least(values: &[f64]) -> Vec<Cell> {
     let least = values.iter().copied().filter(|v| v.is_finite()).min_by(f64::total_cmp);
     let least = least.map(|value| significant(value, TABLE_DIGITS));

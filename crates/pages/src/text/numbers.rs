@@ -51,7 +51,7 @@ pub fn decimals_for(size: f64) -> Option<i32> {
         .then(|| 1 - size.abs().log10().floor() as i32)
 }
 
-/// A number with so many decimals, round_px to tens or hundreds when there are fewer than none.
+/// A number with so many decimals; a negative count rounds to tens, hundreds and so on.
 pub fn with_decimals(value: f64, places: i32) -> String {
     let text = if places >= 0 {
         format!("{value:.*}", places.min(12) as usize)

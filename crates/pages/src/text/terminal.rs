@@ -13,12 +13,12 @@ pub const BOLD: Style = Style::new().bold();
 /// The style of what may be read later.
 pub const FAINT: Style = Style::new().dimmed();
 
-/// A word of a table and what it means.
+/// Appends a word of a table and what it means.
 pub fn push_entry(out: &mut String, word: &str, meaning: &str) {
     out.push_str(&format!("{FAINT}{word:<18} {meaning}{FAINT:#}\n"));
 }
 
-/// Warnings, each in sentences of its own.
+/// Appends warnings, each wrapped.
 pub fn push_warnings(out: &mut String, warnings: &[String]) {
     if !warnings.is_empty() {
         out.push('\n');
@@ -32,7 +32,7 @@ pub fn push_warnings(out: &mut String, warnings: &[String]) {
     }
 }
 
-/// The first warnings, and how many more there are in the file that holds them all.
+/// Appends the first warnings, and how many more the file with all of them has.
 pub fn push_first_warnings(out: &mut String, all: &[String], file: &str) {
     let shown = all.len().min(MOST_WARNINGS);
     push_warnings(out, &all[..shown]);
@@ -41,7 +41,7 @@ pub fn push_first_warnings(out: &mut String, all: &[String], file: &str) {
     }
 }
 
-/// Sentences below a table, wrap.
+/// Appends the sentences below a table, wrapped.
 pub fn push_notes(out: &mut String, notes: &[String]) {
     if !notes.is_empty() {
         out.push('\n');

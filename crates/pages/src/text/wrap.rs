@@ -23,7 +23,7 @@ pub fn pack<'a>(
     lines
 }
 
-/// A text of at most `most` characters, with an ellipsis for what is cut off.
+/// The text cut to `most` characters, with an ellipsis at the end where it was longer.
 pub fn shorten(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();

@@ -54,9 +54,13 @@ pub fn change_page(comparison: &Comparison, after: &Report) -> Result<String, Re
         class: if changed.findings.is_empty() { "good" } else { "part" },
         sentence: change_sentence(comparison),
         warnings: before.warnings.iter().chain(&changed.warnings).collect(),
-        causes: changed.findings.iter().map(|finding| unlinked(cause(&report, finding))).collect(),
+        causes: changed
+            .findings
+            .iter()
+            .map(|finding| without_link(cause(&report, finding)))
+            .collect(),
         first: changed.findings.iter().filter_map(|finding| first(comparison, finding)).collect(),
-        unchanged: unchanged(comparison),
+        unchanged: unchanged_findings(comparison),
         sides: [
             side("before", "what the first logs say of the robot", before),
             side("after", "what the others say of the robot as the first found it", changed),
@@ -77,7 +81,7 @@ pub fn change_sentence(comparison: &Comparison) -> String {
 }
 
 /// Findings that are no change, those of the same size in both logs apart from those of the first.
-fn unchanged(comparison: &Comparison) -> Vec<(&'static str, Vec<[String; 2]>)> {
+fn unchanged_findings(comparison: &Comparison) -> Vec<(&'static str, Vec<[String; 2]>)> {
     let rows = |findings: &[Finding]| findings.iter().map(row).collect::<Vec<_>>();
     let alike = ("Of the same size before, and so no change", rows(&comparison.alike));
     let held = rows(&comparison.before.diagnosis.findings);
@@ -95,7 +99,7 @@ fn first(comparison: &Comparison, finding: &Finding) -> Option<[String; 2]> {
     Some([finding.at.words(), sizes_before(comparison, finding)?.join("; ")])
 }
 
-/// The size that a change has in the first logs by themselves, where they tell it.
+/// The sizes of a changed effect in the first logs alone, where these determine them.
 pub fn sizes_before(comparison: &Comparison, finding: &Finding) -> Option<Vec<String>> {
     let size = comparison.first.iter().find(|size| size.at == finding.at)?;
     // It was what these logs say: there is nothing before them.
@@ -105,7 +109,7 @@ pub fn sizes_before(comparison: &Comparison, finding: &Finding) -> Option<Vec<St
 }
 
 /// A finding on a page that has no figures of its joint.
-fn unlinked(cause: Cause) -> Cause {
+fn without_link(cause: Cause) -> Cause {
     Cause { anchor: None, ..cause }
 }
 

@@ -2,8 +2,8 @@ use diagnosis::Estimate;
 
 use pages::{decimals_for, unit, with_decimals};
 
-/// Value, interval and unit with as many decimals as the interval bears:
-/// `3.21 N·m (3.05 to 3.37)`; words where the logs do not narrow it down.
+/// Value, interval and unit, rounded to two significant digits of the interval's half width:
+/// `3.21 N·m (3.05 to 3.37)`. Words stand there where the logs do not determine the value.
 pub fn interval(estimate: &Estimate) -> String {
     if !estimate.determined {
         return "not determined by this log".to_owned();
@@ -19,7 +19,7 @@ pub(crate) fn value(estimate: &Estimate) -> String {
     format!("{}{space}{unit}", as_precise(estimate, estimate.value))
 }
 
-/// A number with as many decimals as the interval of the estimate bears.
+/// A number, rounded to two significant digits of the interval's half width.
 fn as_precise(estimate: &Estimate, number: f64) -> String {
     let [low, high] = estimate.ci95;
     let places =

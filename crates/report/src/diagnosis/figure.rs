@@ -7,7 +7,7 @@ use crate::diagnosis::places::{JointUnits, acting_on};
 use crate::diagnosis::report::Report;
 use crate::diagnosis::sentence::{short_bottom_line, title};
 use crate::diagnosis::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
-use pages::{Chart, Medium, Palette, Placed, ReportError, join_names, pack, shorten, stack, wrap};
+use pages::{Chart, Medium, Palette, ReportError, Stacked, join_names, pack, shorten, stack, wrap};
 
 /// Width of the right panel (px); the left one stands in the template.
 const RIGHT: f64 = 452.0;
@@ -56,8 +56,8 @@ struct Poster {
     colours: Palette,
     title: String,
     subtitle: String,
-    joints: Vec<Placed<JointRow>>,
-    notes: Vec<Placed<String>>,
+    joints: Vec<Stacked<JointRow>>,
+    notes: Vec<Stacked<String>>,
     best: Option<Best>,
 }
 
@@ -67,7 +67,7 @@ struct Best {
     run: String,
     load: &'static str,
     chart: String,
-    lines: Vec<Placed<TextLine>>,
+    lines: Vec<Stacked<TextLine>>,
 }
 
 /// A line of text that begins with bold words.

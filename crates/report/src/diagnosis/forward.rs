@@ -54,7 +54,7 @@ pub(crate) fn drift_in_page(gap: Option<&ForwardGap>) -> Result<String, ReportEr
 
 /// What was left out of the drifts, in sentences.
 pub(crate) fn remarks(windows: &[ForwardWindow]) -> Vec<String> {
-    let told = windows.iter().filter_map(|window| {
+    let lost = windows.iter().filter_map(|window| {
         let [nominal, extended] = drifts(window).map(|drift| drift.runaways);
         (nominal + extended > 0).then(|| {
             format!(
@@ -65,11 +65,12 @@ pub(crate) fn remarks(windows: &[ForwardWindow]) -> Vec<String> {
             )
         })
     });
-    let mut all: Vec<String> = told.collect();
+    let mut all: Vec<String> = lost.collect();
     for (of, name) in ["nominal", "extended"].into_iter().enumerate() {
         let mut troubles = windows.iter().filter_map(|w| drifts(w)[of].trouble.as_ref());
-        let told = troubles.next().map(|why| format!("The {name} robot is not simulated: {why}"));
-        all.extend(told);
+        let refused =
+            troubles.next().map(|why| format!("The {name} robot is not simulated: {why}"));
+        all.extend(refused);
     }
     all
 }

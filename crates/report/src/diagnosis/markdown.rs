@@ -4,8 +4,8 @@ use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
 use crate::diagnosis::tables::sizes;
 use pages::{percent, significant};
 
-/// The verdict as Markdown, short enough to stand beside a moving picture: the verdict, what it
-/// buys, the held-out errors of the joints and the causes with their sizes.
+/// The diagnosis as Markdown, short enough for a recording: verdict, gain, held-out errors of the
+/// joints, and causes with their sizes.
 pub fn markdown(report: &Report) -> String {
     let diagnosis = report.diagnosis;
     let mut text = format!("**{}.**\n\n{}.\n\n", verdict_sentence(diagnosis), bottom_line(report));

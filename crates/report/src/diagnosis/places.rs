@@ -16,7 +16,7 @@ pub(crate) struct JointUnits {
 }
 
 impl JointUnits {
-    /// The units of the joint with this name; those of a rotation when there is none.
+    /// The units of the joint with this name; those of a rotation where no joint has it.
     pub fn of(robot: &Robot, joint: &str) -> Self {
         let index = robot.joint_index(joint);
         let is_rotation =
@@ -34,8 +34,8 @@ impl JointUnits {
         }
     }
 
-    /// A sentence in which an effort has the unit `N m`, with the unit of this joint.
-    pub fn said(self, sentence: &str) -> String {
+    /// The sentence with the unit of this joint in place of `N m`.
+    pub fn with_unit(self, sentence: &str) -> String {
         sentence.replace("N m", self.effort)
     }
 }
@@ -101,8 +101,8 @@ mod tests {
         let mut links = sample::arm().robot.links().to_vec();
         links[1].joint.kind = robot::JointKind::Prismatic;
         let robot = Robot::new("arm", nalgebra::Vector3::zeros(), links).unwrap();
-        assert_eq!(JointUnits::of(&robot, "elbow").said("0.4 N m RMS"), "0.4 N RMS");
-        assert_eq!(JointUnits::of(&robot, "shoulder").said("0.4 N m RMS"), "0.4 N·m RMS");
+        assert_eq!(JointUnits::of(&robot, "elbow").with_unit("0.4 N m RMS"), "0.4 N RMS");
+        assert_eq!(JointUnits::of(&robot, "shoulder").with_unit("0.4 N m RMS"), "0.4 N·m RMS");
         let densities = ["elbow", "shoulder"].map(|joint| JointUnits::of(&robot, joint).density);
         assert_eq!(densities, ["N²/Hz", "(N·m)²/Hz"]);
     }

@@ -11,11 +11,11 @@ pub struct Report<'a> {
     pub traces: &'a [diagnosis::RunTraces],
     /// The robot as it was given, for units and for the joint of a link.
     pub robot: &'a robot::Robot,
-    /// The model of what the findings leave, where one was learned.
+    /// The model of the error that the findings leave, where one was learned.
     pub residual: Option<&'a ResidualModel>,
     /// How far simulations drift from the logs, where that was measured.
     pub forward: Option<&'a experiment::ForwardGap>,
-    /// The extended robot in files of other programs, and what became of every quantity.
+    /// The extended robot in the formats of other programs, with the fate of every quantity.
     pub descriptions: &'a [(exchange::Format, exchange::Export)],
     /// Where the answer comes from.
     pub provenance: &'a Provenance,

@@ -2,7 +2,7 @@ use serde::Serialize;
 
 use pages::{count_noun, join_names, percent};
 
-/// A model of what the findings leave, learned beside them.
+/// A learned model of the error that the findings leave.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ResidualModel {
     /// Its short name, such as `named-gp`.
@@ -21,7 +21,7 @@ pub struct ResidualModel {
     pub remarks: Vec<String>,
 }
 
-/// What a model of what the findings leave is worth at one joint, on held-out data.
+/// The error at one joint on held-out data, with and without the residual model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ResidualJoint {
     /// Name of the joint.
@@ -30,10 +30,10 @@ pub struct ResidualJoint {
     pub extended_rms_nm: f64,
     /// The same with the residual model.
     pub with_residual_rms_nm: f64,
-    /// Share of what the extended model leaves that it predicts; negative where it makes
-    /// things worse.
+    /// Share of the extended model's error power that the residual model predicts; negative where
+    /// the error grows.
     pub share: f64,
-    /// Number of held-out parts in which it makes the error less.
+    /// Number of held-out parts in which the error falls.
     pub better_in: usize,
     /// Whether it is used at this joint.
     pub is_used: bool,

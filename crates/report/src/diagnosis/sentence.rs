@@ -95,7 +95,7 @@ pub fn bottom_line(report: &Report) -> String {
         return "The logs show no joint well enough for a gain to be measured on held-out data"
             .to_owned();
     };
-    let (before, after) = total.told();
+    let (before, after) = total.as_shown();
     if before == after {
         return format!("On held-out data ({held_out}) the {what} over {over} is {before}{unit}");
     }
@@ -111,7 +111,7 @@ pub(crate) fn short_bottom_line(report: &Report) -> String {
     let total = Total::new(report);
     let Total { what, unit, over, .. } = total;
     let Some(fall) = total.fall() else { return bottom_line(report) };
-    let (before, after) = total.told();
+    let (before, after) = total.as_shown();
     let change = if before == after { String::new() } else { format!(" ({})", less_or_more(fall)) };
     format!("Held-out {what} over {over}: {before} → {after}{unit}{change}")
 }
@@ -145,8 +145,8 @@ impl Total {
         }
     }
 
-    /// Both as they are told: a change that these do not show is worth no words.
-    fn told(&self) -> (String, String) {
+    /// Both with the digits that a sentence shows; a smaller change is not mentioned.
+    fn as_shown(&self) -> (String, String) {
         (significant(self.before, 3), significant(self.after, 3))
     }
 

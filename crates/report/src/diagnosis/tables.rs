@@ -41,7 +41,7 @@ pub(crate) fn joint_rows(report: &Report) -> Vec<JointRow> {
             name: joint.name.clone(),
             verdict: joint.verdict.words(),
             class: class_of(joint.verdict),
-            because: units.said(&joint.because),
+            because: units.with_unit(&joint.because),
             unit: units.effort,
             torque: significant(joint.torque_rms_nm, 3),
             before: significant(before, 3),
@@ -93,8 +93,8 @@ pub(crate) fn words_for_floor(source: NoiseFloorSource) -> [&'static str; 2] {
     }
 }
 
-/// The sizes of a finding that the logs determine, with their names where it has several
-/// and with what they were.
+/// The parameters of a finding that the logs determine, as text: name where it has several, value
+/// with interval, and nominal value.
 pub fn sizes(finding: &Finding) -> Vec<String> {
     let known = finding.parameters.iter().filter(|p| p.determined);
     known.map(|p| size(p, finding.parameters.len())).collect()
@@ -173,7 +173,7 @@ pub(crate) fn cause(report: &Report, finding: &Finding) -> Cause {
         rivals,
         forms,
         told_apart_by: finding.told_apart_by,
-        evidence: finding.evidence.iter().map(|line| units.said(line)).collect(),
+        evidence: finding.evidence.iter().map(|line| units.with_unit(line)).collect(),
         undetermined: finding.undetermined.clone(),
     }
 }

@@ -14,9 +14,9 @@ use pages::{
 /// The verdict as text for a terminal of 100 columns, with colours as escape codes that
 /// `anstream` removes where they are not wanted.
 ///
-/// The first line is the verdict in a sentence, the second what it buys, then what the
-/// words of the blocks mean; then one block a joint, with its findings, the largest share
-/// first, their rivals and what is left. Joints that the log does not show come last.
+/// The first line is the verdict in a sentence, the second the gain of the extended model. The words
+/// of the blocks are explained next. Then comes one block a joint: its findings, the largest share
+/// first, their rivals, and the error that is left. Joints with inadequate data come last.
 pub fn text(report: &Report) -> String {
     let diagnosis = report.diagnosis;
     let style = style_of(diagnosis.verdict).bold();
@@ -68,7 +68,7 @@ fn negligible(out: &mut String, report: &Report, joint: &str) {
             significant(seen.rms_nm, 2),
             significant(seen.least_nm, 2)
         );
-        note(out, &JointUnits::of(report.robot, joint).said(&said));
+        note(out, &JointUnits::of(report.robot, joint).with_unit(&said));
     }
 }
 
@@ -127,7 +127,7 @@ fn block(out: &mut String, report: &Report, index: usize, joint: &JointReport) {
     if found.is_empty() && is_adequate(joint) {
         elsewhere(out, report, index);
     }
-    let because = JointUnits::of(report.robot, &joint.name).said(&joint.because);
+    let because = JointUnits::of(report.robot, &joint.name).with_unit(&joint.because);
     if found.is_empty() || !is_adequate(joint) {
         note(out, &because);
     }
@@ -245,7 +245,7 @@ fn motions(out: &mut String, findings: &[Finding]) {
     }
 }
 
-/// A faint line under a finding, wrap.
+/// A faint line under a finding, wrapped.
 fn note(out: &mut String, text: &str) {
     for line in wrap(text, TERMINAL_WIDTH - 4) {
         out.push_str(&format!("    {FAINT}{line}{FAINT:#}\n"));

@@ -8,9 +8,9 @@ const SCHEMA: &str = "plumbline.learning/1";
 /// Models of the torque side by side: how far off they are on logs that took no part, how
 /// sure they are of it, what they cost.
 ///
-/// Whatever is told joint by joint is in the order of `joints`.
+/// Every list by joint has the order of `joints`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub struct LearningComparison {
     /// Name of the robot.
     pub robot: String,
     /// The joints.
@@ -80,7 +80,7 @@ pub struct ModelRow {
     /// Share of the test samples within their 95 % interval, by joint; none for a model
     /// that gives no variance.
     pub coverage_95: Option<Vec<f64>>,
-    /// Log marginal likelihood of the samples learned from, all joints; none for a model without.
+    /// Log marginal likelihood of the training samples, all joints; none for a model without one.
     pub log_likelihood: Option<f64>,
     /// Time that the training took, for all joints (s).
     pub training_s: f64,
@@ -122,7 +122,7 @@ fn by_name<S: Serializer>(scales: &[(String, f64)], serializer: S) -> Result<S::
     serializer.collect_map(scales.iter().map(|(name, scale)| (name, scale)))
 }
 
-impl Comparison {
+impl LearningComparison {
     /// `learning.json`, in the schema `plumbline.learning/1`. A number that is not finite is
     /// `null`.
     ///

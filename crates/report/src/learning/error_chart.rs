@@ -1,7 +1,7 @@
-use crate::learning::comparison::Comparison;
+use crate::learning::comparison::LearningComparison;
 use pages::{Dots, JointDots, LegendKey, Medium, ReportError};
 
-impl Comparison {
+impl LearningComparison {
     /// `figure.svg`: the error of every model at every joint as dots on a logarithmic axis, as
     /// in figure 2 of Nguyen-Tuong & Peters 2010, in a drawing that stands alone.
     ///
@@ -12,7 +12,7 @@ impl Comparison {
         self.draw(Medium::Alone)
     }
 
-    pub(crate) fn draw(&self, place: Medium) -> Result<String, ReportError> {
+    pub(crate) fn draw(&self, medium: Medium) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(i, joint)| JointDots {
             name: joint.name.clone(),
             values: self
@@ -34,7 +34,7 @@ impl Comparison {
             joints: joints.collect(),
             mark: Some((1.0, "as far off as the mean effort")),
         };
-        dots.draw(place)
+        dots.draw(medium)
     }
 }
 

@@ -1,6 +1,8 @@
 use askama::Template;
 
-use crate::learning::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
+use crate::learning::comparison::{
+    ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow,
+};
 use pages::{
     Cell, FileHash, HtmlGrid, Medium, Provenance, ReportError, TABLE_DIGITS, escape_json,
     mark_least, percent_range, render_html, render_page, significant,
@@ -9,7 +11,7 @@ use pages::{
 #[derive(Template)]
 #[template(path = "learning/learning.html")]
 struct Page<'a> {
-    comparison: &'a Comparison,
+    comparison: &'a LearningComparison,
     sentence: String,
     errors: String,
     error_table: String,
@@ -21,7 +23,7 @@ struct Page<'a> {
     json: String,
 }
 
-impl Comparison {
+impl LearningComparison {
     /// `report.html`: the errors of every model, what they cost and what they learned, in one file
     /// that opens offline, and without scripts too.
     ///

@@ -1,4 +1,4 @@
-use crate::learning::comparison::{Comparison, DataSet, ModelRow};
+use crate::learning::comparison::{DataSet, LearningComparison, ModelRow};
 use pages::{
     BOLD, Cell, GridColumn, TABLE_DIGITS, TERMINAL_WIDTH, mark_least, percent_range, push_entry,
     push_first_warnings, push_notes, significant, text_grid, wrap,
@@ -8,7 +8,7 @@ use pages::{
 const COSTS: [&str; 6] =
     ["", "points", "training (s)", "prediction (µs)", "log likelihood", "in 95 % interval"];
 
-impl Comparison {
+impl LearningComparison {
     /// The comparison as text for a terminal of 100 columns: one column a model; one row a
     /// joint with the error, then what the model costs and how sure it is.
     pub fn text(&self) -> String {

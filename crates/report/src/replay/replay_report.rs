@@ -9,7 +9,7 @@ const SCHEMA: &str = "plumbline.replay/1";
 pub struct ReplayReport {
     /// Name of the robot.
     pub robot: String,
-    /// Names of the joints, in the order of all that is told joint by joint.
+    /// Names of the joints; every list by joint has this order.
     pub joints: Vec<String>,
     /// The runs.
     pub runs: Vec<ReplayedRun>,
@@ -28,7 +28,7 @@ pub struct ReplayedRun {
     pub windows: Vec<ReplayedWindow>,
     /// The torque along the measured motion; none for a robot without gains.
     pub torque: Option<ReplayedTorque>,
-    /// What was left out, in sentences.
+    /// Windows that were left out and why, in sentences.
     pub remarks: Vec<String>,
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod charts;
 pub(crate) mod claims;
+pub(crate) mod diagnosis_summary;
 pub(crate) mod hidden;
 pub(crate) mod page;
 pub(crate) mod rows;
@@ -9,4 +10,3 @@ pub(crate) mod run_report;
 #[cfg(test)]
 pub(crate) mod sample;
 pub(crate) mod text;
-pub(crate) mod told;

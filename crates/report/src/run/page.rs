@@ -48,16 +48,16 @@ impl RunReport<'_> {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let (metrics, told) = (self.metrics, self.told);
+        let (metrics, summary) = (self.metrics, self.told);
         let provenance = self.provenance.without_folders();
         let page = Page {
             robot: &metrics.robot,
-            class: &told.class,
-            sentence: &told.sentence,
-            bottom_line: &told.bottom_line,
+            class: &summary.class,
+            sentence: &summary.sentence,
+            bottom_line: &summary.bottom_line,
             score: score_sentence(&metrics.score),
             stray: stray_sentence(&metrics.score),
-            warnings: &told.warnings,
+            warnings: &summary.warnings,
             hidden: hidden_rows(&metrics.score, self.robot),
             unseen: self.test_runs(),
             gains: gain_rows(metrics),
@@ -66,10 +66,10 @@ impl RunReport<'_> {
             drift: drift_in_page(Some(&metrics.forward))?,
             tables: self.tables()?,
             motion: self.motion,
-            claims: claim_rows(&metrics.claims, self.tracked_quantity()),
+            claims: claim_rows(&metrics.claims, self.tracked_unit()),
             all_tracked: self.all_tracked()?,
-            sections: &told.sections,
-            motions: &told.motions,
+            sections: &summary.sections,
+            motions: &summary.motions,
             next: self.next,
             provenance: &provenance,
             json: escape_json(&self.json()?),

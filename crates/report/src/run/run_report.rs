@@ -1,8 +1,8 @@
 use experiment::Metrics;
 use robot::Robot;
 
-use crate::run::claims::Quantity;
-use crate::run::told::Told;
+use crate::run::claims::ClaimUnit;
+use crate::run::diagnosis_summary::DiagnosisSummary;
 use pages::{Provenance, ReportError, with_schema};
 
 /// Name and version of the schema of `metrics.json`.
@@ -16,7 +16,7 @@ pub struct RunReport<'a> {
     /// The robot as described, for units.
     pub robot: &'a Robot,
     /// The diagnosis.
-    pub told: &'a Told,
+    pub told: &'a DiagnosisSummary,
     /// The beginning of the motion that was tracked, drawn for a page.
     pub motion: &'a str,
     /// Commands for what to do next, each with what it does.
@@ -37,8 +37,8 @@ impl RunReport<'_> {
     }
 
     /// What errors of the tracking are, as they are printed.
-    pub(crate) fn tracked_quantity(&self) -> Quantity {
-        Quantity { scale: 1e3, unit: self.position_units()[1] }
+    pub(crate) fn tracked_unit(&self) -> ClaimUnit {
+        ClaimUnit { scale: 1e3, unit: self.position_units()[1] }
     }
 
     /// `metrics.json`, in the schema `plumbline.run/1`.

@@ -8,8 +8,8 @@ use pages::{
 };
 
 impl RunReport<'_> {
-    /// What came of the run as text for a terminal of 100 columns: the verdict, what was put in
-    /// beside what was found, what finding it gains, over all joints and joint by joint.
+    /// The run as text for a terminal of 100 columns: the verdict, true beside found effects, and the
+    /// gain over all joints and joint by joint.
     pub fn text(&self) -> String {
         let mut out = String::new();
         for line in wrap(&format!("{}.", self.told.sentence), TERMINAL_WIDTH) {
@@ -21,7 +21,7 @@ impl RunReport<'_> {
         out.push_str(&self.joints());
         if !self.metrics.claims.is_empty() {
             out.push('\n');
-            out.push_str(&claim_text(&self.metrics.claims, self.tracked_quantity()));
+            out.push_str(&claim_text(&self.metrics.claims, self.tracked_unit()));
         }
         push_notes(&mut out, &self.remarks());
         out

@@ -12,7 +12,7 @@ const SCHEMA: &str = "plumbline.tracking/1";
 /// u = u_FF(q_ref, qd_ref, qdd_ref) + Kp error + Kd error_rate
 /// ```
 ///
-/// Whatever is told joint by joint is in the order of `joints`. Errors and gains of a slide
+/// Every list by joint has the order of `joints`. Errors and gains of a slide
 /// are in m and N in the place of rad and N m.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrackingComparison {
@@ -23,7 +23,7 @@ pub struct TrackingComparison {
     /// What was to be followed, in words.
     pub motion: String,
     /// The gains of the feedback.
-    pub gains: Gains,
+    pub gains: ControllerGains,
     /// What the time of a prediction was, in words.
     pub clock: String,
     /// How long the motion is (s).
@@ -31,7 +31,7 @@ pub struct TrackingComparison {
     /// The runs, in the order of tables and figures.
     pub models: Vec<TrackedModel>,
     /// The errors at other gains, if they were asked for.
-    pub sweep: Option<Sweep>,
+    pub sweep: Option<ErrorSweep>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// Where it all comes from.
@@ -40,7 +40,7 @@ pub struct TrackingComparison {
 
 /// The gains of the feedback.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Gains {
+pub struct ControllerGains {
     /// Name of the set.
     pub name: String,
     /// Effort per error, by joint (N m/rad).
@@ -77,11 +77,11 @@ pub struct TrackedModel {
     pub largest_jump_nm: Vec<f64>,
     /// Time that one prediction takes, for all joints (us).
     pub prediction_us: f64,
-    /// What ended the run before the motion did; none for a run that is whole.
+    /// Why the run ended early; none for a complete run.
     pub stopped: Option<String>,
     /// What happened on the way, in sentences.
     pub events: Vec<String>,
-    /// How well the control loop kept its time; none where time was simulated.
+    /// How punctual the control loop was; none where time was simulated.
     pub timing: Option<WallTiming>,
     /// The motion at its beginning. Not in the JSON: the log of the run holds it.
     #[serde(skip)]
@@ -105,7 +105,7 @@ pub struct WallTiming {
     pub latency_max_us: f64,
 }
 
-/// Points of the beginning of a motion that draw like all of them.
+/// The beginning of a motion, thinned to the points that its drawing needs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FirstSeconds {
     /// Time (s) and desired position (rad), by joint.
@@ -116,7 +116,7 @@ pub struct FirstSeconds {
 
 /// The errors at several gains.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Sweep {
+pub struct ErrorSweep {
     /// Name of the set of gains that was scaled.
     pub gains: String,
     /// How much of the motion was followed (s).

@@ -11,10 +11,10 @@ impl TrackingComparison {
     ///
     /// [`ReportError::Format`].
     pub fn error_figure(&self) -> Result<String, ReportError> {
-        self.errors_drawn(Medium::Alone)
+        self.draw_errors(Medium::Alone)
     }
 
-    pub(crate) fn errors_drawn(&self, place: Medium) -> Result<String, ReportError> {
+    pub(crate) fn draw_errors(&self, medium: Medium) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(i, joint)| JointDots {
             name: joint.name.clone(),
             values: self.models.iter().map(|model| 1e3 * model.error(i)).collect(),
@@ -32,7 +32,7 @@ impl TrackingComparison {
             joints: joints.collect(),
             mark: None,
         };
-        dots.draw(place)
+        dots.draw(medium)
     }
 }
 

@@ -38,7 +38,7 @@ impl TrackingComparison {
     ///
     /// [`ReportError::Format`].
     pub fn motion_figure(&self, joints: &[usize]) -> Result<String, ReportError> {
-        self.motion_drawn(joints, Medium::Alone)
+        self.draw_motion(joints, Medium::Alone)
     }
 
     /// The same of the three joints with the largest errors, for a page of the program's own.
@@ -53,30 +53,30 @@ impl TrackingComparison {
         joints.sort_by(|a, b| error(b).total_cmp(&error(a)));
         joints.truncate(3);
         joints.sort_unstable();
-        self.motion_drawn(&joints, Medium::Page)
+        self.draw_motion(&joints, Medium::Page)
     }
 
-    pub(crate) fn motion_drawn(
+    pub(crate) fn draw_motion(
         &self,
         joints: &[usize],
-        place: Medium,
+        medium: Medium,
     ) -> Result<String, ReportError> {
         let known = joints.iter().copied().filter(|&joint| joint < self.joints.len());
         let charts = known.map(|joint| self.motion_of(joint)).filter(|chart| !chart.is_empty());
         let desired = LegendKey { name: "desired".to_owned(), ink: Ink::Role(Role::Desired) };
         let keys: Vec<LegendKey> = std::iter::once(desired).chain(self.keys()).collect();
-        match place {
+        match medium {
             Medium::Page => {
                 let panels = charts.map(|chart| chart.in_page()).collect::<Result<_, _>>()?;
                 render_html(&InPage { keys, panels })
             }
             Medium::Alone => {
                 let title = format!("{}: the first ten seconds", self.robot);
-                let sheet = FigureSheet::new(&title, &self.circumstances(), keys, place);
+                let sheet = FigureSheet::new(&title, &self.circumstances(), keys, medium);
                 let top = |row: usize| sheet.bottom() + ABOVE + PANEL * row as f64;
                 let panels = charts.enumerate().map(|(row, chart)| {
                     let chart = Chart { size: (FIGURE_EDGES[1] - 10.0, PANEL), ..chart };
-                    chart.draw_at([FIGURE_EDGES[0] - 52.0, top(row)], place)
+                    chart.draw_at([FIGURE_EDGES[0] - 52.0, top(row)], medium)
                 });
                 let panels: Vec<String> = panels.collect::<Result<_, _>>()?;
                 let bottom = top(panels.len());

@@ -53,17 +53,17 @@ impl TrackingComparison {
             circumstances: self.circumstances(),
             sentence: self.sentence(),
             warnings: &self.warnings,
-            errors: self.errors_drawn(Medium::Page)?,
+            errors: self.draw_errors(Medium::Page)?,
             error_table: self.by_joint(self.thousandths(), errors, Best::Least)?,
             costs: self.cost_table()?,
             notes: self.notes(),
-            motion: self.motion_drawn(&shown, Medium::Page)?,
+            motion: self.draw_motion(&shown, Medium::Page)?,
             other_motions: if others.is_empty() {
                 None
             } else {
-                Some(self.motion_drawn(&others, Medium::Page)?)
+                Some(self.draw_motion(&others, Medium::Page)?)
             },
-            sweep: self.sweep_drawn(Medium::Page)?,
+            sweep: self.draw_sweep(Medium::Page)?,
             tables: self.more_tables()?,
             models: self.models.iter().map(|m| (m.name.as_str(), m.words.as_str())).collect(),
             gains: self.gain_table()?,

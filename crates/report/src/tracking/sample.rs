@@ -2,7 +2,7 @@
 
 use crate::learning::comparison::ComparedJoint;
 use crate::tracking::comparison::{
-    FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison,
+    ControllerGains, ErrorSweep, FirstSeconds, SweptModel, TrackedModel, TrackingComparison,
 };
 use pages::Provenance;
 
@@ -18,7 +18,7 @@ pub fn comparison() -> TrackingComparison {
         robot: "arm".into(),
         joints: vec![joint("shoulder", "N m"), joint("slide", "N")],
         motion: "a sine of 0.5 Hz".into(),
-        gains: Gains { name: "low".into(), kp: vec![20.0, 300.0], kd: vec![1.5, 7.0] },
+        gains: ControllerGains { name: "low".into(), kp: vec![20.0, 300.0], kd: vec![1.5, 7.0] },
         clock: "a prediction takes no time".into(),
         duration_s: 60.0,
         models: vec![
@@ -29,7 +29,7 @@ pub fn comparison() -> TrackingComparison {
             model("rbd", [0.02, 0.004], 0.01),
             model("gp-rbd", [0.005, 0.001], 0.0025),
         ],
-        sweep: Some(Sweep {
+        sweep: Some(ErrorSweep {
             gains: "compliant".into(),
             duration_s: 20.0,
             scales: vec![0.1, 0.25, 1.0],

@@ -1,6 +1,6 @@
 use askama::Template;
 
-use crate::tracking::comparison::{Sweep, SweptModel, TrackingComparison};
+use crate::tracking::comparison::{ErrorSweep, SweptModel, TrackingComparison};
 use pages::{
     AxisTick, FIGURE_EDGES, FigureSheet, LegendKey, LogAxis, Medium, Palette, ReportError,
     round_px, significant,
@@ -65,19 +65,19 @@ impl TrackingComparison {
     ///
     /// [`ReportError::Format`].
     pub fn sweep_figure(&self) -> Result<Option<String>, ReportError> {
-        self.sweep_drawn(Medium::Alone)
+        self.draw_sweep(Medium::Alone)
     }
 
-    pub(crate) fn sweep_drawn(&self, place: Medium) -> Result<Option<String>, ReportError> {
+    pub(crate) fn draw_sweep(&self, medium: Medium) -> Result<Option<String>, ReportError> {
         let Some(sweep) = &self.sweep else { return Ok(None) };
-        let drawing = Drawing::new(self, sweep, place);
+        let drawing = Drawing::new(self, sweep, medium);
         let svg = drawing.render();
         svg.map(Some).map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
     }
 }
 
 impl Drawing {
-    fn new(comparison: &TrackingComparison, sweep: &Sweep, place: Medium) -> Self {
+    fn new(comparison: &TrackingComparison, sweep: &ErrorSweep, medium: Medium) -> Self {
         let key = |model: &SweptModel| LegendKey {
             name: model.name.clone(),
             ink: comparison.ink_of(&model.name),
@@ -91,8 +91,8 @@ impl Drawing {
             sweep.gains
         );
         let keys = sweep.models.iter().map(key).collect();
-        let sheet = FigureSheet::new(&title, &subtitle, keys, place);
-        let panels = panels((comparison, sweep), sheet.bottom() + 42.0, &place.palette());
+        let sheet = FigureSheet::new(&title, &subtitle, keys, medium);
+        let panels = panels((comparison, sweep), sheet.bottom() + 42.0, &medium.palette());
         let bottom = panels.last().map_or(sheet.bottom(), |panel| panel.y[1]);
         let axis = comparison.thousandths();
         let gains = sweep.gains.clone();
@@ -101,7 +101,7 @@ impl Drawing {
 }
 
 fn panels(
-    (comparison, sweep): (&TrackingComparison, &Sweep),
+    (comparison, sweep): (&TrackingComparison, &ErrorSweep),
     top: f64,
     colours: &Palette,
 ) -> Vec<Panel> {

@@ -2,7 +2,7 @@ use experiment::Claim;
 use pages::{
     BOLD, GridColumn, Medium, Provenance, ReportError, push_entry, text_grid, with_schema,
 };
-use report::{Quantity, claim_text, claims_sentence};
+use report::{ClaimUnit, claim_text, claims_sentence};
 use serde::Serialize;
 
 use crate::paper::learning_errors::LearningErrors;
@@ -74,7 +74,7 @@ impl LearningFigureReport<'_> {
         page(Contents {
             kicker: format!("{}: figure 2 of Nguyen-Tuong & Peters 2010", self.errors.robot),
             claims: self.claims,
-            quantity: Quantity::NMSE,
+            quantity: ClaimUnit::NMSE,
             drawings: drawings.collect::<Result<_, ReportError>>()?,
             remarks: &[],
             provenance: self.provenance,
@@ -85,7 +85,7 @@ impl LearningFigureReport<'_> {
     /// The tables and the claims as text for a terminal of 100 columns.
     pub fn text(&self) -> String {
         let mut out = format!("{BOLD}{}.{BOLD:#}\n\n", claims_sentence(self.claims));
-        out.push_str(&claim_text(self.claims, Quantity::NMSE));
+        out.push_str(&claim_text(self.claims, ClaimUnit::NMSE));
         for (errors, more) in self.tables().into_iter().zip(self.more()) {
             out.push_str(&format!("\n{BOLD}{}{BOLD:#}\n", errors.title));
             out.push_str(&text_grid("nMSE", errors.joints, &errors.columns(more)));

@@ -1,7 +1,7 @@
 use askama::Template;
 use experiment::Claim;
 use pages::{GridColumn, HtmlGrid, Provenance, ReportError, escape_json, render_html, render_page};
-use report::{ClaimRow, Quantity, claim_rows, claims_sentence};
+use report::{ClaimRow, ClaimUnit, claim_rows, claims_sentence};
 
 /// What the page of a figure shows.
 pub(super) struct Contents<'a> {
@@ -10,7 +10,7 @@ pub(super) struct Contents<'a> {
     /// What is claimed of it.
     pub claims: &'a [Claim],
     /// What the numbers of the claims are.
-    pub quantity: Quantity,
+    pub quantity: ClaimUnit,
     /// The drawings with their tables.
     pub drawings: Vec<Drawing>,
     /// What to know of the numbers.

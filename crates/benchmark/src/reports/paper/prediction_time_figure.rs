@@ -1,6 +1,6 @@
 use experiment::Claim;
 use pages::{BOLD, Medium, ReportError, with_schema};
-use report::{Quantity, claim_text, claims_sentence};
+use report::{ClaimUnit, claim_text, claims_sentence};
 use serde::Serialize;
 
 use crate::paper::time_claims::ModelTime;
@@ -60,7 +60,7 @@ impl PredictionTimeFigureReport<'_> {
         page(Contents {
             kicker: format!("{}: figure 1 of Nguyen-Tuong & Peters 2010", times.robot),
             claims: self.claims,
-            quantity: Quantity::MICROSECONDS,
+            quantity: ClaimUnit::MICROSECONDS,
             drawings: vec![drawing],
             remarks: &times.remarks,
             provenance: &times.provenance,
@@ -76,7 +76,7 @@ impl PredictionTimeFigureReport<'_> {
         format!(
             "{BOLD}{}.{BOLD:#}\n\n{}\n{}",
             claims_sentence(self.claims),
-            claim_text(self.claims, Quantity::MICROSECONDS),
+            claim_text(self.claims, ClaimUnit::MICROSECONDS),
             self.times.text()
         )
     }

@@ -15,9 +15,9 @@ pub struct PredictionTimes {
     pub joints: usize,
     /// The machine, in words.
     pub machine: String,
-    /// What was measured.
+    /// The measured times.
     pub curves: Vec<Curve>,
-    /// What was not, and why; what to know of the numbers.
+    /// Times that were not measured and why, and cautions about the numbers, in sentences.
     pub remarks: Vec<String>,
     /// Where it all comes from.
     pub provenance: Provenance,

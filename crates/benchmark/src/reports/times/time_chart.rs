@@ -64,16 +64,16 @@ impl PredictionTimes {
         self.draw(Medium::Alone)
     }
 
-    pub(crate) fn draw(&self, place: Medium) -> Result<String, ReportError> {
-        let drawing = Drawing::new(self, place);
+    pub(crate) fn draw(&self, medium: Medium) -> Result<String, ReportError> {
+        let drawing = Drawing::new(self, medium);
         drawing.render().map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
     }
 }
 
 impl Drawing {
-    fn new(times: &PredictionTimes, place: Medium) -> Self {
+    fn new(times: &PredictionTimes, medium: Medium) -> Self {
         let points = || times.curves.iter().flat_map(|curve| &curve.points);
-        let saved = match place {
+        let saved = match medium {
             Medium::Alone => 0.0,
             Medium::Page => TITLE,
         };
@@ -86,7 +86,7 @@ impl Drawing {
         let title =
             format!("Time of one prediction for the {} joints of {}", times.joints, times.robot);
         Self {
-            sheet: FigureSheet::new(&title, &times.machine, Vec::new(), place)
+            sheet: FigureSheet::new(&title, &times.machine, Vec::new(), medium)
                 .down_to(HEIGHT - saved),
             x: X,
             y: edges,
@@ -94,7 +94,7 @@ impl Drawing {
             y_ticks: y.map(|axis| axis.ticks()).unwrap_or_default(),
             period: y.filter(|axis| axis.holds(PERIOD_US)).map(|axis| axis.at(PERIOD_US)),
             lines: axes
-                .map(|axes| lines(&times.curves, axes, (lower, &place.palette())))
+                .map(|axes| lines(&times.curves, axes, (lower, &medium.palette())))
                 .unwrap_or_default(),
             names: NAMES,
         }

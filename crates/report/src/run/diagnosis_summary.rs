@@ -6,38 +6,38 @@ use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
 use crate::diagnosis::tables::{class_of, known_floor};
 use pages::ReportError;
 
-/// A diagnosis as the report of a run tells it.
+/// A diagnosis as the report of a run shows it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Told {
+pub struct DiagnosisSummary {
     /// The verdict in a sentence.
     pub sentence: String,
-    /// What the extended model buys on data held out of the diagnosis, in a sentence.
+    /// The gain of the extended model on held-out data, in a sentence.
     pub bottom_line: String,
     /// Class of the verdict in the style sheet.
     pub class: String,
     /// Doubts about the logs.
     pub warnings: Vec<String>,
-    /// Motions that would tell the findings from their rivals.
+    /// Motions that would separate the findings from their rivals.
     pub motions: Vec<String>,
-    /// RMS of the noise joint by joint (N m or N), where the logs tell it.
+    /// RMS of the noise joint by joint (N m or N), where the logs determine it.
     #[serde(default)]
     pub noise_floor_nm: Vec<Option<f64>>,
-    /// Findings, what is left, figures joint by joint and what was ruled out, as HTML.
+    /// The sections of the diagnosis page that the page of a run shows, as HTML.
     pub sections: String,
 }
 
-/// What the report of a run tells of a diagnosis.
+/// The parts of a diagnosis that the report of a run shows.
 ///
 /// # Errors
 ///
 /// [`ReportError::Format`].
-pub fn told(report: &Report) -> Result<Told, ReportError> {
+pub fn summarise(report: &Report) -> Result<DiagnosisSummary, ReportError> {
     let diagnosis = report.diagnosis;
     let motions = diagnosis.findings.iter().filter_map(|f| f.told_apart_by);
     let mut motions: Vec<String> = motions.map(str::to_owned).collect();
     motions.sort_unstable();
     motions.dedup();
-    Ok(Told {
+    Ok(DiagnosisSummary {
         sentence: verdict_sentence(diagnosis),
         bottom_line: bottom_line(report),
         class: class_of(diagnosis.verdict).to_owned(),
