@@ -142,6 +142,6 @@ fn what_cannot_be_scored_says_what_it_lacks() {
         }
         let error = judge(folder.path(), &robot, &[]).unwrap_err();
         let BenchmarkError::Experiment(error) = error else { panic!("{error}") };
-        assert!(matches!(&error, ExperimentError::UnreadableTruth { path, .. } if *path == truth));
+        assert!(matches!(&*error, ExperimentError::UnreadableTruth { path, .. } if *path == truth));
     }
 }

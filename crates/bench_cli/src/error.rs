@@ -9,14 +9,14 @@ use logs::LogError;
 use report::ReportError;
 use robot::RobotError;
 
-use crate::commands::submit::error::SubmitError;
+use crate::submit_error::SubmitError;
 
 /// Why a command did not run to its end.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
     /// What plumbline would refuse too: a scenario, a robot, a log, a folder.
     #[error(transparent)]
-    Cli(CliError),
+    Cli(Box<CliError>),
     /// A campaign cannot be planned, made, put together or compared.
     #[error(transparent)]
     Benchmark(Box<BenchmarkError>),
@@ -55,7 +55,7 @@ impl BenchError {
 impl From<BenchmarkError> for BenchError {
     fn from(error: BenchmarkError) -> Self {
         match error {
-            BenchmarkError::Experiment(error) => Self::Cli(error.into()),
+            BenchmarkError::Experiment(error) => Self::Cli(Box::new((*error).into())),
             error => Self::Benchmark(Box::new(error)),
         }
     }
@@ -63,48 +63,48 @@ impl From<BenchmarkError> for BenchError {
 
 impl From<CliError> for BenchError {
     fn from(error: CliError) -> Self {
-        Self::Cli(error)
+        Self::Cli(Box::new(error))
     }
 }
 
 impl From<DocumentError> for BenchError {
     fn from(error: DocumentError) -> Self {
-        Self::Cli(error.into())
+        Self::Cli(Box::new(error.into()))
     }
 }
 
 impl From<ExperimentError> for BenchError {
     fn from(error: ExperimentError) -> Self {
-        Self::Cli(error.into())
+        Self::Cli(Box::new(error.into()))
     }
 }
 
 impl From<LearnerError> for BenchError {
     fn from(error: LearnerError) -> Self {
-        Self::Cli(error.into())
+        Self::Cli(Box::new(error.into()))
     }
 }
 
 impl From<LogError> for BenchError {
     fn from(error: LogError) -> Self {
-        Self::Cli(error.into())
+        Self::Cli(Box::new(error.into()))
     }
 }
 
 impl From<ReportError> for BenchError {
     fn from(error: ReportError) -> Self {
-        Self::Cli(error.into())
+        Self::Cli(Box::new(error.into()))
     }
 }
 
 impl From<RobotError> for BenchError {
     fn from(error: RobotError) -> Self {
-        Self::Cli(error.into())
+        Self::Cli(Box::new(error.into()))
     }
 }
 
 impl From<io::Error> for BenchError {
     fn from(error: io::Error) -> Self {
-        Self::Cli(error.into())
+        Self::Cli(Box::new(error.into()))
     }
 }

@@ -4,6 +4,7 @@ mod arguments;
 mod commands;
 mod error;
 mod exit_status;
+mod submit_error;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -15,7 +15,7 @@ use simulator::SimulatorError;
 pub enum BenchmarkError {
     /// An arm cannot be simulated, diagnosed, learned or tracked.
     #[error(transparent)]
-    Experiment(#[from] ExperimentError),
+    Experiment(Box<ExperimentError>),
     /// A trial of a population cannot be made.
     #[error(transparent)]
     Population(Box<PopulationError>),
@@ -103,39 +103,45 @@ fn short(hash: &str) -> &str {
     hash.get(..8).unwrap_or(hash)
 }
 
+impl From<ExperimentError> for BenchmarkError {
+    fn from(error: ExperimentError) -> Self {
+        Self::Experiment(Box::new(error))
+    }
+}
+
 impl From<DocumentError> for BenchmarkError {
     fn from(error: DocumentError) -> Self {
-        Self::Experiment(error.into())
+        Self::Experiment(Box::new(error.into()))
     }
 }
 
 impl From<RobotError> for BenchmarkError {
     fn from(error: RobotError) -> Self {
-        Self::Experiment(error.into())
+        Self::Experiment(Box::new(error.into()))
     }
 }
 
 impl From<SimulatorError> for BenchmarkError {
     fn from(error: SimulatorError) -> Self {
-        Self::Experiment(error.into())
+        Self::Experiment(Box::new(error.into()))
     }
 }
 
 impl From<LogError> for BenchmarkError {
     fn from(error: LogError) -> Self {
-        Self::Experiment(error.into())
+        Self::Experiment(Box::new(error.into()))
     }
 }
 
 impl From<LearnerError> for BenchmarkError {
     fn from(error: LearnerError) -> Self {
-        Self::Experiment(error.into())
+        Self::Experiment(Box::new(error.into()))
     }
 }
 
 impl From<DiagnosisError> for BenchmarkError {
     fn from(error: DiagnosisError) -> Self {
-        Self::Experiment(error.into())
+        Self::Experiment(Box::new(error.into()))
     }
 }
 

@@ -62,6 +62,12 @@ impl diagnosis::Progress for Bar {
 /// where that is not a terminal.
 pub struct Line(Bar);
 
+impl Default for Line {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Line {
     /// A line that has not appeared yet.
     pub fn new() -> Self {

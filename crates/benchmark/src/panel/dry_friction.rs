@@ -3,7 +3,7 @@ use diagnosis::Estimate;
 use population::Cause;
 use simulator::Truth;
 
-use crate::panel::judged_cause::place;
+use crate::panel::place::place;
 
 /// Levels of dry friction against positive and negative motion (N·m or N).
 ///

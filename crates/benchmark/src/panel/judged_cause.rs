@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::panel::dry_friction::DryFriction;
 use crate::panel::judged_finding::BaselineClaim;
+use crate::panel::place::place;
 
 /// A cause that is in the data, and who names it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,12 +67,6 @@ impl JudgedCause {
     pub fn named(&self) -> bool {
         self.one_of.is_some()
     }
-}
-
-/// The effect of a cause and its place.
-pub(super) fn place(cause: &Cause) -> EffectAt {
-    let (joint, link) = (cause.truth.joint.clone(), cause.truth.link.clone());
-    EffectAt { effect: cause.truth.effect, joint, link }
 }
 
 /// A strength that JSON can hold: an infinite one, of a cause without noise, becomes the largest

@@ -4,8 +4,9 @@ use population::{Corner, Knowledge, Sheet, Unnamed};
 use serde::{Deserialize, Serialize};
 
 use crate::panel::answers::{Answers, Costs};
-use crate::panel::judged_cause::{JudgedCause, finite, place};
+use crate::panel::judged_cause::{JudgedCause, finite};
 use crate::panel::judged_finding::{BaselineClaim, JudgedFinding};
+use crate::panel::place::place;
 use crate::panel::prediction::Prediction;
 use crate::statistics::rate::Fraction;
 

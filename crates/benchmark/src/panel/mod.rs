@@ -6,6 +6,7 @@ pub(crate) mod judged_cause;
 pub(crate) mod judged_finding;
 pub(crate) mod judgement;
 pub(crate) mod peak_memory;
+pub(crate) mod place;
 pub(crate) mod population_trial;
 pub(crate) mod prediction;
 pub(crate) mod side;

@@ -75,9 +75,10 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
     let nominal = error_of(&robot.robot);
     let given = match read_runs(&folder.join("logs"), &robot.robot) {
         Ok(given) => given,
-        // Logs that cannot be read are refused before anything is said of them.
-        Err(BenchmarkError::Experiment(ExperimentError::Log(refusal))) => {
-            // Where the folder lies is no part of the answer.
+        Err(BenchmarkError::Experiment(error)) => {
+            let ExperimentError::Log(refusal) = &*error else { return Err((*error).into()) };
+            // Logs that cannot be read are refused before anything is said of them. Where the folder lies is
+            // no part of the answer.
             let why = refusal.to_string().replace(&format!("{}/", folder.display()), "");
             return Ok(answers_without_logs(why, nominal, logs_s));
         }

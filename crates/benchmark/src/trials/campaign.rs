@@ -1,4 +1,3 @@
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use document::{Document, KeyPath};
@@ -6,10 +5,10 @@ use population::{PopulationSpec, Remade, Store};
 use schemars::JsonSchema;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 use crate::error::BenchmarkError;
 use crate::panel::population_trial;
+use crate::trials::hash::{hexadecimal, seed_of};
 use crate::trials::hidden::Hidden;
 use crate::trials::scenario_campaign::ScenarioCampaign;
 use crate::trials::scored::Scored;
@@ -153,18 +152,4 @@ impl Campaign {
             }
         }
     }
-}
-
-/// Up to the largest whole number of TOML.
-pub(super) fn seed_of(seed: u64, kind: &str, number: usize) -> u64 {
-    let digest = Sha256::digest(format!("{seed}/{kind}/{number}"));
-    digest.iter().take(8).fold(0, |bits, byte| bits << 8 | u64::from(*byte)) >> 1
-}
-
-pub(super) fn hexadecimal(text: &str) -> String {
-    Sha256::digest(text).iter().fold(String::new(), |mut all, byte| {
-        // A String takes everything.
-        let _ = write!(all, "{byte:02x}");
-        all
-    })
 }

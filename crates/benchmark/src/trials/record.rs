@@ -1,17 +1,7 @@
-use std::fs::File;
-use std::panic::catch_unwind;
-use std::path::Path;
-
-use arrow_array::cast::AsArray;
-use arrow_array::types::UInt64Type;
-use arrow_array::{Array, RecordBatch};
 use experiment::Score;
-use logs::LogError;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use crate::panel::judgement::Judgement;
 use crate::trials::hidden::Hidden;
-use crate::trials::record_columns;
 use crate::trials::scored::Scored;
 
 /// What came of one trial of a campaign: a row of a table.
@@ -30,42 +20,6 @@ pub struct Record {
 }
 
 impl Record {
-    /// Writes the records of a campaign as Parquet, one row each: `task`, `seed`, `campaign`, `error` where
-    /// there is no score, the whole `score` as JSON, and what tables are sorted by.
-    ///
-    /// | of a scenario | of a population |
-    /// |---|---|
-    /// | `hidden`, `verdict`, `exactly`, `as_one_of` | `arm`, `motion`, `verdict`, `right` |
-    /// | number of `stray` findings | numbers of `findings`, `true_findings`, `visible` and `named` causes |
-    /// | | `false_assurance`, `false_alarm`, `worse`, `diagnosis_s` |
-    ///
-    /// # Errors
-    ///
-    /// [`LogError::Unwritable`]; what was there before stays.
-    pub fn write(path: &Path, records: &[Self]) -> Result<(), LogError> {
-        let unwritable = |e: serde_json::Error| LogError::Unwritable {
-            path: path.to_owned(),
-            reason: e.to_string(),
-        };
-        let of_scenarios = records.first().is_none_or(|record| record.hidden.is_some());
-        let own =
-            if of_scenarios { record_columns::of_scenarios } else { record_columns::of_panel };
-        let mut columns = record_columns::of_all(records).map_err(unwritable)?;
-        columns.extend(own(records));
-        let named = columns.into_iter().map(|(name, column)| (name.to_owned(), column));
-        logs::write_table(path, named.collect(), Vec::new())
-    }
-
-    /// Reads what [`write`](Self::write) has written; in words what is wrong with the file.
-    ///
-    /// # Errors
-    ///
-    /// A sentence, for a file that cannot be read or does not hold records.
-    pub fn read(path: &Path) -> Result<Vec<Self>, String> {
-        // The decoder panics at some damaged files instead of refusing them.
-        catch_unwind(|| read(path)).unwrap_or_else(|_| Err("the decoder gave up".to_owned()))
-    }
-
     /// The score of a trial of a scenario, if there is one.
     pub fn scored(&self) -> Option<&Score> {
         match self.score.as_ref().ok()? {
@@ -81,42 +35,4 @@ impl Record {
             Scored::Panel(judgement) => Some(judgement),
         }
     }
-}
-
-fn read(path: &Path) -> Result<Vec<Record>, String> {
-    let file = File::open(path).map_err(|e| e.to_string())?;
-    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|e| e.to_string())?;
-    let mut records = Vec::new();
-    for batch in builder.build().map_err(|e| e.to_string())? {
-        let batch = batch.map_err(|e| e.to_string())?;
-        for row in 0..batch.num_rows() {
-            records.push(record(&batch, row)?);
-        }
-    }
-    Ok(records)
-}
-
-fn record(batch: &RecordBatch, row: usize) -> Result<Record, String> {
-    let lacks = |name: &str| format!("row {} has no {name}", row + 1);
-    let column = |name| batch.column_by_name(name).filter(|column| column.is_valid(row));
-    let number = |name| {
-        let numbers = column(name).and_then(|column| column.as_primitive_opt::<UInt64Type>());
-        numbers.map(|numbers| numbers.value(row)).ok_or_else(|| lacks(name))
-    };
-    let text = |name| {
-        let texts = column(name).and_then(|column| column.as_string_opt::<i32>());
-        texts.map(|texts| texts.value(row)).ok_or_else(|| lacks(name))
-    };
-    let hidden = match text("hidden") {
-        Ok(name) => Some(name.parse().map_err(|e: catalogue::UnknownEffect| e.to_string())?),
-        Err(_) => None,
-    };
-    let score = match (text("score"), text("error")) {
-        (Ok(json), _) => Ok(Scored::from_json(json, hidden)?),
-        (Err(_), Ok(error)) => Err(error.to_owned()),
-        (Err(lack), Err(_)) => return Err(format!("{lack} and no error")),
-    };
-    let task = usize::try_from(number("task")?).map_err(|e| e.to_string())?;
-    let (seed, campaign) = (number("seed")?, text("campaign")?.to_owned());
-    Ok(Record { task, hidden, seed, campaign, score })
 }

@@ -2,14 +2,14 @@ use std::path::{Path, PathBuf};
 
 use catalogue::EffectKind;
 use document::{Document, DocumentError, KeyPath};
-use experiment::{ExperimentError, sha256};
+use experiment::sha256;
 use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use simulator::scenario::{Scenario, ScenarioSpec};
 
 use crate::error::BenchmarkError;
-use crate::trials::campaign::{hexadecimal, seed_of};
+use crate::trials::hash::{hexadecimal, seed_of};
 use crate::trials::hidden::Hidden;
 use crate::trials::trial::Trial;
 
@@ -209,11 +209,11 @@ fn identity(scenario: &str) -> Result<String, BenchmarkError> {
 }
 
 /// Hash of a file, or of the files of a bag by their names.
-fn content_of(path: &Path) -> Result<String, ExperimentError> {
-    let Ok(entries) = std::fs::read_dir(path) else { return sha256(path) };
+fn content_of(path: &Path) -> Result<String, BenchmarkError> {
+    let Ok(entries) = std::fs::read_dir(path) else { return Ok(sha256(path)?) };
     let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     files.sort();
-    files.iter().filter(|file| file.is_file()).map(|file| sha256(file)).collect()
+    files.iter().filter(|file| file.is_file()).map(|file| Ok(sha256(file)?)).collect()
 }
 
 /// The scenario with the settings, checked.

@@ -212,7 +212,10 @@ fn is_of_the_disk(error: &BenchmarkError) -> bool {
     use PopulationError as P;
     let log = match error {
         B::TrialFolder { .. } => return true,
-        B::Experiment(E::Log(log) | E::Simulator(SimulatorError::Log(log))) => log,
+        B::Experiment(error) => match &**error {
+            E::Log(log) | E::Simulator(SimulatorError::Log(log)) => log,
+            _ => return false,
+        },
         B::Population(error) => match &**error {
             P::Folder { .. } => return true,
             P::Log(log) => log,

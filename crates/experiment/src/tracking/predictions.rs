@@ -5,7 +5,7 @@ use tracking::Signal;
 use crate::models::learned::Learned;
 use crate::scenario::feedforward_kind::FeedforwardKind;
 use crate::scenario::tracking_scenario::TrackingScenario;
-use crate::tracking::track::TrackedRun;
+use crate::tracking::tracked_run::TrackedRun;
 
 /// Time between two predictions (s).
 const PERIOD_S: f64 = 0.04;

@@ -14,25 +14,13 @@ use crate::models::learned::Learned;
 use crate::progress::Progress;
 use crate::scenario::feedforward_kind::FeedforwardKind;
 use crate::scenario::tracking_scenario::TrackingScenario;
+use crate::tracking::outputs::{Outputs, file};
 use crate::tracking::predictions::Predictions;
-use crate::tracking::track::{Outputs, TrackedRun, file};
+use crate::tracking::tracked_run::{TrackedRun, Written};
 use crate::tracking::words::words;
 
 /// Ticks that are handed over at a time: half a second at 500 Hz.
 const BLOCK: usize = 250;
-
-/// The files of a run.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Written {
-    /// The log: one Parquet file, or where that could not be written the CSV file that grew.
-    pub log: PathBuf,
-    /// The recording, where one is asked for.
-    pub recording: Option<PathBuf>,
-    /// Who saw the recording while it was written.
-    pub listener: Listener,
-    /// What could not be written, in sentences that name the file; the run went on.
-    pub problems: Vec<String>,
-}
 
 /// Writes a run while it goes on, in a thread of its own, so that the loop never waits for it.
 pub struct Stream<'a> {

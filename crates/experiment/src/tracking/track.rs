@@ -1,4 +1,4 @@
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use logs::Run;
 use nalgebra::Point3;
@@ -7,7 +7,7 @@ use robot::{Gain, Machine};
 use tracking::{
     Ahead, Clock, Controller, ErrorRate, Feedforward, GravityFeedforward, Metrics,
     ModelFeedforward, NamedFeedforward, NoFeedforward, Prediction, Settings, TorqueLimits,
-    Tracking, VirtualClock, WallClock, Watch,
+    VirtualClock, WallClock, Watch,
 };
 
 use crate::error::ExperimentError;
@@ -17,33 +17,9 @@ use crate::progress::Progress;
 use crate::scenario::feedforward_kind::FeedforwardKind;
 use crate::scenario::tracking_scenario::TrackingScenario;
 use crate::scenario::tracking_spec::{AheadSpec, ClockSpec, ErrorRateSpec, PredictionTimeSpec};
-use crate::tracking::stream::{Stream, Written};
-
-/// One motion tracked with one feedforward.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TrackedRun {
-    /// What was fed forward.
-    pub kind: FeedforwardKind,
-    /// Time that one prediction takes here, for all joints (s).
-    pub prediction_time_s: f64,
-    /// Every tick, and how it ended.
-    pub tracking: Tracking,
-    /// How well the arm followed.
-    pub metrics: Metrics,
-    /// The files that were written.
-    pub written: Option<Written>,
-}
-
-/// Where runs are written while they go on.
-#[derive(Debug, Clone)]
-pub struct Outputs {
-    /// Folder of the logs, one a feedforward.
-    pub logs: PathBuf,
-    /// Folder of the recordings, one a feedforward; nothing is recorded without.
-    pub recordings: Option<PathBuf>,
-    /// Whether a running viewer sees them too.
-    pub live: recording::Live,
-}
+use crate::tracking::outputs::Outputs;
+use crate::tracking::stream::Stream;
+use crate::tracking::tracked_run::TrackedRun;
 
 /// The logs that a scenario's models are learned from, simulated.
 ///
@@ -194,9 +170,4 @@ impl Parts<'_> {
         };
         Settings { clock, ..Settings::default() }
     }
-}
-
-/// The file of a run in one of the output folders.
-pub(crate) fn file(folder: &Path, kind: FeedforwardKind, extension: &str) -> PathBuf {
-    folder.join(format!("{kind}.{extension}"))
 }

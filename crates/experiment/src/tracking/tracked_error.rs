@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 use tracking::{End, JointMetrics};
 
-use crate::tracking::track::TrackedRun;
+use crate::tracking::tracked_run::TrackedRun;
 
 /// How well the arm follows the motion with one feedforward.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 use robot::JointKind;
 
 use crate::scenario::tracking_scenario::TrackingScenario;
-use crate::tracking::track::TrackedRun;
+use crate::tracking::tracked_run::TrackedRun;
 
 /// What a run came to, as markdown for the recording.
 pub(crate) fn words(scenario: &TrackingScenario, run: &TrackedRun) -> String {

@@ -115,6 +115,7 @@ impl Stages<'_> {
     }
 
     /// From the simulation of an arm to the errors of its models.
+    #[allow(clippy::result_large_err, reason = "the errors of plumbline are as large")]
     fn errors(&self, arm: &PaperPlant) -> Result<Errors, BenchError> {
         let name = arm.data().name();
         let [logs, diagnosis, models] =

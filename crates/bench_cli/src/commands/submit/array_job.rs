@@ -4,8 +4,8 @@ use std::path::Path;
 
 use report::quoted;
 
-use crate::commands::submit::error::SubmitError;
 use crate::commands::submit::sbatch_option::SbatchOption;
+use crate::submit_error::SubmitError;
 
 /// An array job: a task for every part of a campaign of which something is left.
 pub struct ArrayJob<'a> {

@@ -2,7 +2,7 @@ use std::fmt;
 use std::path::Path;
 use std::process::Command;
 
-use crate::commands::submit::error::SubmitError;
+use crate::submit_error::SubmitError;
 
 /// A job of Slurm by its number, and its cluster where there are several.
 #[derive(Debug, PartialEq, Eq)]
