@@ -10,13 +10,14 @@ use crate::workspace::{crates, packages};
 /// How a path that is named from the root starts.
 const PATHS: [&str; 6] = ["crates/", "robots/", "scenarios/", "tests/", "docs/", ".ci/"];
 
-/// What stands at the root, the map, the pages of the book, and README files where the tests, a crate or a robot have one.
+/// What stands at the root, the map, the pages of the book, the list of the lab notebook, and README files where the tests, a
+/// crate or a robot have one.
 fn documents() -> Vec<String> {
     let of = |folder: &'static str| {
         folders(folder).into_iter().map(move |name| format!("{folder}/{name}/README.md"))
     };
     let top = ["README.md", "CONTRIBUTING.md", "SECURITY.md"].map(str::to_owned);
-    let maps = ["crates/README.md", "tests/README.md"].map(str::to_owned);
+    let maps = ["crates/README.md", "tests/README.md", "docs/lab/README.md"].map(str::to_owned);
     let pages = checks::book::pages().into_iter().map(|page| format!("docs/src/{}", page.name));
     let all = top.into_iter().chain(maps).chain(pages).chain(of("crates")).chain(of("robots"));
     all.filter(|path| root().join(path).exists()).collect()
@@ -136,6 +137,27 @@ fn the_script_runs_the_test_command_of_the_readme() {
     let command = test_command(&readme);
     let script = text(".ci/run");
     assert!(command.is_some_and(|command| runs(&script, command)), "{command:?}\n{script}");
+}
+
+/// The pages of the lab notebook. Commands and paths in them are those of their day, so that links alone are held.
+#[test]
+fn the_lab_notebook_lists_every_page_by_its_day() {
+    let list = text("docs/lab/README.md");
+    let mut named = links(&list);
+    let folder = root().join("docs/lab");
+    let files = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name());
+    let pages = files.map(|name| name.into_string().unwrap()).filter(|name| name != "README.md");
+    let mut pages: Vec<String> = pages.collect();
+    named.sort_unstable();
+    pages.sort_unstable();
+    assert_eq!(named, pages);
+    for page in &pages {
+        let day = |c: char| c.is_ascii_digit() || c == '-';
+        assert!(page.len() > 11 && page[..11].chars().all(day), "{page} has no day");
+        let text = text(&format!("docs/lab/{page}"));
+        let missing = links(&text).into_iter().filter(|target| !folder.join(target).exists());
+        assert_eq!(missing.collect::<Vec<_>>(), Vec::<&str>::new(), "{page}");
+    }
 }
 
 #[test]

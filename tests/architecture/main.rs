@@ -9,6 +9,7 @@ mod book;
 mod documents;
 mod floors;
 mod manifests;
+mod modules;
 mod places;
 mod references;
 mod rings;

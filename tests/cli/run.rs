@@ -20,7 +20,7 @@ fn folder() -> tempfile::TempDir {
     let arm = format!(
         "extends = {:?}\nseed = 3\neffect = [{{ viscous_friction = {{ joint = \
          \"j2_shoulder_pitch\", viscous_nm_s_per_rad = 5.0 }} }}]\n{}{}{}",
-        format!("{SCENARIOS}/wam.toml"),
+        format!("{SCENARIOS}/arms/wam.toml"),
         motion("first", 21, 6.0),
         motion("second", 22, 6.0),
         motion("last", 23, 4.0),

@@ -30,7 +30,7 @@ fn simulated(folder: &Path, level_nm: f64) -> Vec<Run> {
     );
     let scenario = format!(
         "extends = \"{}\"\nseed = 1\n{}{}",
-        root.join("scenarios/so101.toml").display(),
+        root.join("scenarios/arms/so101.toml").display(),
         if level_nm > 0.0 { effect } else { String::new() },
         (1..4).map(motion).collect::<String>()
     );

@@ -65,7 +65,7 @@ fn workspace() -> PathBuf {
 }
 
 #[test]
-fn the_schema_beside_the_scenarios_is_that_of_the_program() {
+fn the_schema_among_the_scenarios_is_that_of_the_program() {
     let kinds = [
         ("simulate", "scenario", ["differential_coupling", "torque_share"]),
         ("track", "tracking", ["gp-rbd-prior", "stops_at_s"]),
@@ -74,7 +74,7 @@ fn the_schema_beside_the_scenarios_is_that_of_the_program() {
     ];
     for (command, name, words) in kinds {
         let answer = run(&workspace(), &["schema", command]);
-        let file = format!("scenarios/{name}.schema.json");
+        let file = format!("scenarios/schemas/{name}.schema.json");
         let stale = format!("stale: cargo run --release -- schema {command} > {file}");
         assert!(fs::read_to_string(workspace().join(&file)).unwrap() == answer.out, "{stale}");
         for expected in words.iter().chain(&["extends"]) {
@@ -97,6 +97,9 @@ fn below(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
     }
 }
 
+/// The schemas as a scenario in its folder sees them.
+const SCHEMAS: &str = "../schemas";
+
 /// A scenario of runs without any is there to be extended: it is tried with a run added.
 #[test]
 fn every_scenario_is_accepted_and_names_the_schema_in_its_first_line() {
@@ -105,23 +108,22 @@ fn every_scenario_is_accepted_and_names_the_schema_in_its_first_line() {
     below(&scenarios, "toml", &mut found);
     let (mut tracked, mut campaigns, mut figures) = (0, 0, 0);
     for path in &found {
-        let up = "../".repeat(path.strip_prefix(&scenarios).unwrap().components().count() - 1);
         let text = fs::read_to_string(path).unwrap();
         let first = text.lines().next().unwrap();
         let mut document = Document::read(path).unwrap();
-        if first == format!("#:schema {up}tracking.schema.json") {
+        if first == format!("#:schema {SCHEMAS}/tracking.schema.json") {
             let scenario = TrackingScenario::from_document(&document);
             assert!(scenario.is_ok(), "{}: {}", path.display(), scenario.err().unwrap());
             tracked += 1;
             continue;
         }
-        if first == format!("#:schema {up}trials.schema.json") {
+        if first == format!("#:schema {SCHEMAS}/trials.schema.json") {
             let campaign = Campaign::from_document(&document);
             assert!(campaign.is_ok(), "{}: {}", path.display(), campaign.err().unwrap());
             campaigns += 1;
             continue;
         }
-        if first == format!("#:schema {up}figure.schema.json") {
+        if first == format!("#:schema {SCHEMAS}/figure.schema.json") {
             let figure = match document.parse::<FigureScenario>().unwrap().figure {
                 FigureSpec::PredictionTime(_) => {
                     PredictionTimeFigure::from_document(&document, None).map(drop)
@@ -132,7 +134,7 @@ fn every_scenario_is_accepted_and_names_the_schema_in_its_first_line() {
             figures += 1;
             continue;
         }
-        assert_eq!(first, format!("#:schema {up}scenario.schema.json"), "{}", path.display());
+        assert_eq!(first, format!("#:schema {SCHEMAS}/scenario.schema.json"), "{}", path.display());
         if !document.to_toml().contains("[[run]]") {
             document.set("run=[{ name = 'x', motion = { hold = { duration_s = 1 } } }]").unwrap();
         }

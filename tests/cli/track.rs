@@ -33,7 +33,7 @@ fn folder() -> tempfile::TempDir {
     let plant = format!(
         "extends = {:?}\n[[run]]\nname = \"training\"\nmotion.sinusoids = {{ seed = 21, terms = 3, \
          lowest_hz = 0.3, highest_hz = 1.0, duration_s = 5.0 }}\n",
-        format!("{SCENARIOS}/real_wam.toml")
+        format!("{SCENARIOS}/arms/real_wam.toml")
     );
     arm::write(folder.path(), "plant.toml", &plant);
     arm::write(folder.path(), "tracking.toml", SCENARIO);

@@ -270,13 +270,14 @@ fn a_campaign_is_its_content_wherever_it_lies() {
     assert!(!there.path().join("c").exists());
 }
 
-/// The command of `crates/evaluation/README.md`.
+/// Trials that another clone made, of the commit that `docs/lab/2026-11-23-trials.md` names.
 #[test]
 fn the_trials_of_the_workspace_are_taken_in_any_clone() {
     let folder = tempfile::tempdir().unwrap();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let at = |name: &str| root.join("scenarios").join(name).display().to_string();
-    let (campaign, table) = (at("trials.toml"), at("trials.parquet"));
+    let at = |path: &str| root.join(path).display().to_string();
+    let campaign = at("scenarios/campaigns/trials.toml");
+    let table = at("tests/golden/trials.parquet");
     let said = done(folder.path(), &["plan", &campaign, "--out", "blind", "--made", &table]);
     assert!(said.contains("1003 are made already"), "{said}");
 }

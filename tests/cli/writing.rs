@@ -139,7 +139,7 @@ fn a_standard_error_on_a_full_disk_changes_no_exit_code() {
 fn a_file_that_cannot_be_written_ends_with_2() {
     let folder = arm::folder(Gap::Friction(1.5));
     let path = folder.path();
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/clean.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/demos/no_effects.toml");
     let answer = run(path, &[&DIAGNOSE[..], &["--out", "found"]].concat());
     assert!(answer.code <= 1, "{}", answer.err);
     let robot = ["--robot", "arm.urdf"];
@@ -199,7 +199,7 @@ fn an_input_is_not_written_over() {
 fn a_table_that_is_none_leaves_no_campaign_behind() {
     let folder = arm::folder(Gap::None);
     let path = folder.path();
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/clean.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/demos/no_effects.toml");
     let campaign = format!("scenario = {scenario:?}\nhidden = [\"clean\"]\nseeds = 2\n");
     arm::write(path, "campaign.toml", &campaign);
     arm::write(path, "bad.parquet", "no table");

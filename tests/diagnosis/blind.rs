@@ -22,7 +22,7 @@ pub fn simulate(folder: &Path, settings: &[&str]) {
 
 /// The same with runs that the settings say.
 pub fn simulate_runs(folder: &Path, settings: &[&str]) {
-    let mut document = Document::read(workspace_root().join("scenarios/wam.toml")).unwrap();
+    let mut document = Document::read(workspace_root().join("scenarios/arms/wam.toml")).unwrap();
     for setting in settings {
         document.set(setting).unwrap();
     }

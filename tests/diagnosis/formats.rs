@@ -40,7 +40,7 @@ const CASES: [Case; 3] = [
 
 /// Three runs of 8 s, times whole nanoseconds, of what all formats hold.
 fn runs(case: &Case) -> Vec<Run> {
-    let path = workspace_root().join(format!("scenarios/{}.toml", case.arm));
+    let path = workspace_root().join(format!("scenarios/arms/{}.toml", case.arm));
     let mut document = Document::read(&path).unwrap();
     let motion = |k: u32| {
         format!(

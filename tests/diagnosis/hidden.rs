@@ -3,7 +3,7 @@
 //! seed and motion without it, in which it must not be named.
 //!
 //! Two runs of 15 s, or of 30 s where bristles bend or a cable drags, are a quarter or half of what
-//! blind trials have (`scenarios/trials.toml`), which count how often this comes out right.
+//! blind trials have (`scenarios/campaigns/trials.toml`), which count how often this comes out right.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
@@ -72,7 +72,7 @@ fn trial(hidden: Hidden, seed: u64, motion: &Parts) -> Trial {
     if ![SLOW, LONG].contains(&motion) {
         settings.push("hidden.torque_share=[0.2, 0.3]".to_owned());
     }
-    let scenario = workspace_root().join("scenarios/clean.toml");
+    let scenario = workspace_root().join("scenarios/demos/no_effects.toml");
     Trial { scenario, hidden, seed, settings, gains: false }
 }
 

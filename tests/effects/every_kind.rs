@@ -24,7 +24,7 @@ fn missing(kind: EffectKind, root: &Path) -> Vec<String> {
     ];
     if model(kind).is_ok() {
         let file = TOGETHER.iter().find(|(k, _)| *k == kind).map_or(name, |(_, file)| file);
-        files.push(format!("crates/effects/src/{file}.rs"));
+        files.push(format!("crates/effects/src/causes/{file}.rs"));
     }
     files.retain(|file| !root.join(file).is_file());
     files

@@ -9,8 +9,8 @@ mod undone;
 use catalogue::EffectKind;
 use checks::synthetic::wam;
 use effects::{
-    Column, Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Scale,
-    hypotheses, model,
+    Column, Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Priors,
+    Scale, hypotheses, model,
 };
 use robot::{Coupling, Robot, Stribeck, TorqueSource, Warming, Wave};
 
@@ -157,11 +157,11 @@ fn contract_twists_are_the_derivative_of_what_the_extended_robot_has_between_two
         // The shape of a gap is compared over a tenth of it, as its column is.
         let step = match h.kind {
             EffectKind::Backlash => 0.1 * robot.links()[j].actuator.backlash,
-            _ => 1e-4 * h.prior(&robot, &scale(&robot))[0],
+            _ => 1e-4 * h.prior(&robot, &scale(&robot), &Priors::default())[0],
         };
         let twist = |sign: f64| {
             let mut changed = robot.clone();
-            h.extend(&mut changed, &[sign * step], &frame(&robot));
+            h.extend(&mut changed, &[sign * step], &frame(&robot), &Priors::default());
             seen(&changed).twist(j)
         };
         let (up, down) = (twist(1.0), twist(-1.0));
@@ -187,12 +187,12 @@ fn contract_twist_and_play_change_no_effort_where_both_sides_are_measured() {
 
 /// `d effort / d weight` of one weight by a central difference through the extended robot.
 fn derivative(robot: &Robot, h: Hypothesis, weight: usize, step: f64) -> Vec<Vec<f64>> {
-    let count = h.prior(robot, &scale(robot)).len();
+    let count = h.prior(robot, &scale(robot), &Priors::default()).len();
     let effort = |sign: f64| {
         let mut weights = vec![0.0; count];
         weights[weight] = sign * step;
         let mut changed = robot.clone();
-        h.extend(&mut changed, &weights, &frame(robot));
+        h.extend(&mut changed, &weights, &frame(robot), &Priors::default());
         motion(&changed).effort
     };
     let (up, down) = (effort(1.0), effort(-1.0));
@@ -231,8 +231,9 @@ fn contract_columns_are_the_derivative_of_what_the_extended_robot_adds() {
 #[test]
 fn exact_columns_stay_where_effects_grow_and_tangents_turn() {
     let grown = |robot: &mut Robot, h: Hypothesis| {
-        let weights: Vec<f64> = h.prior(robot, &scale(robot)).iter().map(|w| 0.1 * w).collect();
-        h.extend(robot, &weights, &frame(robot));
+        let weights: Vec<f64> =
+            h.prior(robot, &scale(robot), &Priors::default()).iter().map(|w| 0.1 * w).collect();
+        h.extend(robot, &weights, &frame(robot), &Priors::default());
     };
     let mut before = worn();
     // Friction that grows with the load makes columns of all that loads.
@@ -265,7 +266,7 @@ fn the_velocity_of_stribeck_friction_stays_where_logs_show_it() {
     let h = Hypothesis { kind: EffectKind::StribeckFriction, place: Place::Joint(2) };
     for (step, expected) in [(-0.19, 0.02), (-0.1, 0.1), (0.1, 0.3)] {
         let mut after = before.clone();
-        h.extend(&mut after, &[0.05, step], &frame);
+        h.extend(&mut after, &[0.05, step], &frame, &Priors::default());
         let stribeck = after.links()[2].actuator.stribeck.unwrap();
         assert!((stribeck.velocity - expected).abs() < 1e-12, "{stribeck:?}");
         assert!((stribeck.excess - 0.35).abs() < 1e-12, "{stribeck:?}");
@@ -275,7 +276,7 @@ fn the_velocity_of_stribeck_friction_stays_where_logs_show_it() {
 fn check_columns(robot: &Robot, looked_at: impl Fn(Hypothesis) -> bool) {
     let nominal = motion(robot);
     for h in hypotheses(robot).into_iter().filter(|h| looked_at(*h)) {
-        let prior = h.prior(robot, &scale(robot));
+        let prior = h.prior(robot, &scale(robot), &Priors::default());
         let tolerance = match h.kind {
             kind if TIMES.contains(&kind) => 1e-3,
             // How a spring gives is known along the measured motion, not along the link's.
@@ -333,7 +334,7 @@ fn contract_play_and_twist_add_what_their_columns_say() {
             _ => 1e-6,
         };
         let mut changed = robot.clone();
-        h.extend(&mut changed, &[small], &frame(&robot));
+        h.extend(&mut changed, &[small], &frame(&robot), &Priors::default());
         let with = motion(&changed).effort;
         let columns = h.columns(&nominal);
         let added =
@@ -355,15 +356,15 @@ fn contract_play_and_twist_add_what_their_columns_say() {
 fn no_change_is_no_change_and_bounds_hold_it() {
     for h in hypotheses(&shaped(1.0)) {
         let robot = shaped(1.0);
-        let zero = vec![0.0; h.prior(&robot, &scale(&robot)).len()];
+        let zero = vec![0.0; h.prior(&robot, &scale(&robot), &Priors::default()).len()];
         let mut same = robot.clone();
-        h.extend(&mut same, &zero, &frame(&robot));
+        h.extend(&mut same, &zero, &frame(&robot), &Priors::default());
         let difference = |(a, b): (&Vec<f64>, &Vec<f64>)| {
             a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
         };
         let (before, after) = (motion(&robot).effort, motion(&same).effort);
         assert!(before.iter().zip(&after).map(difference).fold(0.0, f64::max) < 1e-12, "{h:?}");
-        for (low, high) in h.bounds(&robot) {
+        for (low, high) in h.bounds(&robot, &Priors::default()) {
             assert!(low <= 0.0 && high >= 0.0, "{h:?}");
         }
     }

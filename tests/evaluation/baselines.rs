@@ -97,7 +97,8 @@ fn recorded_a_model_fitted_anew_beats_the_nominal_one_where_much_is_wrong() {
 
 /// Runs of the simulator's WAM with these effects.
 fn simulated(effects: &str, runs: &[u64]) -> Vec<Run> {
-    let mut document = Document::read(workspace_root().join("scenarios/clean.toml")).unwrap();
+    let mut document =
+        Document::read(workspace_root().join("scenarios/demos/no_effects.toml")).unwrap();
     let motion = "terms=4, lowest_hz=0.1, highest_hz=0.7, duration_s=12.0";
     let run = |seed: &u64| {
         format!("{{ name='run_{seed}', motion={{ sinusoids={{ seed={seed}, {motion} }} }} }}")

@@ -14,7 +14,7 @@ use simulator::scenario::Scenario;
 
 /// Two runs of the WAM with friction at the elbow that its description lacks.
 const SCENARIO: &str = "\
-extends = 'SCENARIOS/wam.toml'
+extends = 'SCENARIOS/arms/wam.toml'
 engine.step_ms = 0.5
 effect = [{ coulomb_friction = { joint = 'j4_elbow_pitch', level_nm = 3.0 } }]
 run = [{ name = 'first', motion.sinusoids = { seed = 1, terms = 3, lowest_hz = 0.15, highest_hz = 1.0, duration_s = 12.0 } },

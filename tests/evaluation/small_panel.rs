@@ -33,7 +33,8 @@ const MOST_WRONG: [f64; 2] = [0.4, 0.2];
 
 #[test]
 fn the_small_panel_is_judged_as_well_as_today() {
-    let document = Document::read(workspace_root().join("scenarios/small_panel.toml")).unwrap();
+    let document =
+        Document::read(workspace_root().join("scenarios/campaigns/small_panel.toml")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let campaign = Campaign::from_document(&document).unwrap();
     let folder = CampaignFolder::plan(&folder.path().join("panel"), campaign).unwrap();

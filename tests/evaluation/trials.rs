@@ -22,7 +22,7 @@ fn moved(hidden: Hidden, seed: u64, highest_hz: f64) -> Trial {
         "hidden.torque_share=[0.2, 0.3]",
     ];
     let settings = settings.map(str::to_owned).to_vec();
-    let scenario = workspace_root().join("scenarios/clean.toml");
+    let scenario = workspace_root().join("scenarios/demos/no_effects.toml");
     Trial { scenario, hidden, seed, settings, gains: false }
 }
 

@@ -7,5 +7,6 @@ mod held;
 mod held_out;
 mod mujoco;
 mod newton;
+mod python;
 mod rich;
 mod written_back;

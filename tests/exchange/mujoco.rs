@@ -1,12 +1,12 @@
 //! MuJoCo loads the MJCF and needs the same torque; where it is not installed these tests say so.
 
-use std::io::Write;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use checks::arms::workspace_root;
 use exchange::{Format, export};
 use robot::{Loaded, Robot};
 
+use crate::python::ask;
 use crate::rich::{DRIVES, State, states, torque, urdf, wam_with};
 
 /// Largest difference of a torque over the largest torque: a constant torque is a spring of
@@ -38,17 +38,9 @@ pub fn mujoco(model: &str, joints: &[&str], states: &[State]) -> Option<Vec<Vec<
         println!("skipped: python3 has no mujoco, pip install mujoco brings it");
         return None;
     }
-    let mut python = Command::new("python3")
-        .args(["-c", SCRIPT])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
     let question = serde_json::json!({ "model": model, "joints": joints, "states": states });
-    python.stdin.take().unwrap().write_all(question.to_string().as_bytes()).unwrap();
-    let output = python.wait_with_output().unwrap();
-    assert!(output.status.success(), "MuJoCo refuses\n{model}");
-    Some(serde_json::from_slice(&output.stdout).unwrap())
+    let answer = ask(SCRIPT, &question, &format!("MuJoCo refuses\n{model}"));
+    Some(serde_json::from_str(&answer).unwrap())
 }
 
 /// Largest difference over the largest torque, of an MJCF changed by `change`.

@@ -1,11 +1,11 @@
 //! Newton, the engine of Isaac Lab that PyPI has, loads the USD layer and needs the same torque; where it is not
 //! installed these tests say so.
 
-use std::io::Write;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use exchange::{Format, export};
 
+use crate::python::ask;
 use crate::rich::{DRIVES, states, torque, urdf, wam_with};
 
 /// Torques by the equations of motion that Newton gives MuJoCo, of joints in the order of the layer. Its dry friction
@@ -61,18 +61,9 @@ fn oracle_newton_needs_the_torque_of_the_robot_that_a_usd_layer_holds() {
     let layer = folder.path().join("extended.usda");
     std::fs::write(&layer, &written.text).unwrap();
     let states = states(7, 20);
-    let mut python = Command::new("python3")
-        .args(["-c", SCRIPT])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
     let question = serde_json::json!({ "layer": layer, "states": states });
-    python.stdin.take().unwrap().write_all(question.to_string().as_bytes()).unwrap();
-    let output = python.wait_with_output().unwrap();
-    assert!(output.status.success(), "Newton refuses\n{}", written.text);
     // Warp tells of what it compiles above the answer.
-    let told = String::from_utf8(output.stdout).unwrap();
+    let told = ask(SCRIPT, &question, &format!("Newton refuses\n{}", written.text));
     let theirs: Vec<Vec<f64>> = serde_json::from_str(told.lines().last().unwrap()).unwrap();
     let (mut off, mut largest) = (0.0_f64, 0.0_f64);
     for (state, theirs) in states.iter().zip(&theirs) {

@@ -20,8 +20,8 @@ fn told(bytes: &[u8]) -> String {
 fn a_kind_that_is_not_read_is_told_with_what_to_do() {
     let cases: [(&[u8], &str); 4] = [
         (
-            b"\x89HDF\r\n\x1a\n\0",
-            "FILE: this is an HDF5 file; \
+            b"\x80\x04\x95\0",
+            "FILE: this is a Python pickle, which can run a program when it is opened; \
              write its arrays with numpy.savez, or as CSV or Parquet",
         ),
         (b"BZh91AY&SY", "FILE: this is packed with bzip2; unpack it first"),

@@ -8,7 +8,7 @@ use arrow_array::types::Float32Type;
 use arrow_array::{ArrayRef, Float64Array, ListArray, RecordBatch};
 use checks::lerobot::{Layout, write};
 use logs::{
-    Channel, Channels, ColumnMap, Dataset, LogError, ReadOptions, Run, read_run, recognised,
+    Channel, Channels, ColumnMap, Dataset, FormatError, LogError, ReadOptions, Run, read_run, recognised,
 };
 use parquet::arrow::ArrowWriter;
 use tempfile::TempDir;
@@ -107,7 +107,7 @@ fn joints_without_a_name_are_read_in_their_order_by_the_preset_alone() {
     let text = fs::read_to_string(&info).unwrap();
     fs::write(&info, text.replace("[\"j1.pos\",\"j2.pos\"]", "{\"motors\":[\"a\",\"b\"]}"))
         .unwrap();
-    assert!(matches!(read(folder.path(), None, Some(1)), Err(LogError::NoColumn { .. })));
+    assert!(matches!(read(folder.path(), None, Some(1)), Err(LogError::File(FormatError::NoColumn { .. }))));
     let run = read(folder.path(), Some("lerobot"), Some(1)).unwrap();
     assert_eq!(run.joints, runs()[1].joints);
 }
@@ -141,7 +141,7 @@ fn a_damaged_dataset_is_refused_in_one_sentence() {
     let file = folder.path().join("data/chunk-000/file-000.parquet");
     let bytes = fs::read(&file).unwrap();
     fs::write(&file, &bytes[..bytes.len() / 2]).unwrap();
-    assert!(matches!(episodes(folder.path()), Err(LogError::Broken { .. })));
+    assert!(matches!(episodes(folder.path()), Err(LogError::File(FormatError::Broken { .. }))));
     fs::write(&file, "time,a\n0,1\n").unwrap();
     let told = episodes(folder.path()).unwrap_err().to_string();
     assert!(told.ends_with("in a dataset of LeRobot Parquet was expected"), "{told}");

@@ -11,6 +11,7 @@ mod excerpt;
 mod files;
 mod filter;
 mod growing;
+mod hdf5;
 mod info;
 mod kinds;
 mod lerobot;

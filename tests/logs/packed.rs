@@ -27,8 +27,9 @@ fn a_packed_log_is_read_as_what_it_is() {
 #[test]
 fn what_is_no_log_is_told_before_it_is_unpacked() {
     assert_eq!(
-        told("packed_hdf5.gz"),
-        "run: this is an HDF5 file; write its arrays with numpy.savez, or as CSV or Parquet"
+        told("packed_pickle.gz"),
+        "run: this is a Python pickle, which can run a program when it is opened; write its arrays with numpy.savez, \
+         or as CSV or Parquet"
     );
     assert_eq!(told("packed_twice.csv.gz"), "run: this is packed twice; unpack it first");
     assert_eq!(told("packed_nothing.gz"), "run: the file is empty, a log was expected");

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use document::Document;
 use motion::State;
-use population::{ArmClass, Bench, BenchWishes, EffortClass, MotionClass, draw_bench};
+use population::{ArmClass, BenchWishes, EffortClass, LabBench, MotionClass, draw_bench};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use robot::{Loaded, Robot};
@@ -23,7 +23,7 @@ fn wishes(classes: &[ArmClass], motions: &[MotionClass]) -> BenchWishes {
     }
 }
 
-fn bench(class: ArmClass, seed: u64) -> Bench {
+fn bench(class: ArmClass, seed: u64) -> LabBench {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     draw_bench(&wishes(&[class], MotionClass::ALL), &mut random).unwrap()
 }
@@ -33,12 +33,12 @@ fn loaded(files: &population::RobotFiles) -> Loaded {
     Robot::load(&files.write(folder.path()).unwrap()).unwrap()
 }
 
-fn all(bench: &Bench) -> impl Iterator<Item = &RunSpec> {
+fn all(bench: &LabBench) -> impl Iterator<Item = &RunSpec> {
     bench.runs.iter().chain([&bench.held_out])
 }
 
 /// A bench as a scenario of some runs, its engine at a step of a quarter of a millisecond.
-fn scenario(bench: &Bench, folder: &Path, runs: Vec<RunSpec>) -> Scenario {
+fn scenario(bench: &LabBench, folder: &Path, runs: Vec<RunSpec>) -> Scenario {
     let mut spec: ScenarioSpec = toml::from_str("robot = ''\nrun = []").unwrap();
     spec.robot = bench.truth.write(folder).unwrap();
     spec.engine.step_ms = 0.25;

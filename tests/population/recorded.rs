@@ -6,6 +6,7 @@ use std::path::Path;
 
 use catalogue::EffectKind;
 use checks::recorded::folder;
+use checks::synthetic::whole_run;
 use logs::{Channels, Run};
 use population::{
     Knowledge, Law, Origin, PointMass, PopulationError, RecordedTrial, Transplant, available,
@@ -239,17 +240,7 @@ fn carriage_run(amplitudes: [f64; 2]) -> (Robot, Run) {
         ..Channels::default()
     };
     let joints = vec![joint("rise", amplitudes[0]), joint("swing", amplitudes[1])];
-    let run = Run {
-        name: "run".to_owned(),
-        source: "run.parquet".into(),
-        sha256: String::new(),
-        is_torn: false,
-        mended: Vec::new(),
-        time,
-        joints,
-        extra: BTreeMap::new(),
-    };
-    (robot, run)
+    (robot, whole_run("run", time, joints))
 }
 
 /// Averages and differences over 20 ms make a motion of 0.5 Hz, and twice of it, smaller by 1 in 300.

@@ -11,7 +11,7 @@ import plumbline
 
 ROOT = Path(os.environ["PLUMBLINE_ROOT"])
 WAM = ROOT / "robots/wam7/robot.toml"
-HIDDEN = ROOT / "scenarios/demo.toml"
+HIDDEN = ROOT / "scenarios/demos/wam.toml"
 JOINTS = 7
 
 

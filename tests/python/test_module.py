@@ -20,7 +20,7 @@ from plumbline import _plumbline
 
 ROOT = Path(os.environ["PLUMBLINE_ROOT"])
 WAM = ROOT / "robots/wam7/robot.toml"
-HIDDEN = ROOT / "scenarios/demo.toml"
+HIDDEN = ROOT / "scenarios/demos/wam.toml"
 
 
 class Episodes(unittest.TestCase):
@@ -173,7 +173,7 @@ class Tracks(unittest.TestCase):
         self.folder = Path(folder.name)
         sinusoids = "terms = 3, lowest_hz = 0.3, highest_hz = 1.0"
         Path(folder.name, "plant.toml").write_text(
-            f'extends = "{ROOT.as_posix()}/scenarios/real_wam.toml"\n[[run]]\nname = "training"\n'
+            f'extends = "{ROOT.as_posix()}/scenarios/arms/real_wam.toml"\n[[run]]\nname = "training"\n'
             f"motion.sinusoids = {{ seed = 21, {sinusoids}, duration_s = 4.0 }}\n"
         )
         self.scenario = Path(folder.name, "tracking.toml")

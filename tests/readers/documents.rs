@@ -47,11 +47,11 @@ fn file(name: &str) -> Document {
 
 fn scenarios(_: &Path) -> Vec<Vec<u8>> {
     let resolved = |name: &str| Scenario::from_document(&file(name)).unwrap().resolved().into();
-    ["clean.toml", "hidden.toml", "demo_ur5e.toml"].map(resolved).to_vec()
+    ["demos/no_effects.toml", "demos/hidden_effects.toml", "demos/ur5e.toml"].map(resolved).to_vec()
 }
 
 fn trackings(_: &Path) -> Vec<Vec<u8>> {
-    let tracking = TrackingScenario::from_document(&file("tracking.toml")).unwrap();
+    let tracking = TrackingScenario::from_document(&file("tracking/low_gains.toml")).unwrap();
     vec![tracking.resolved().into()]
 }
 
@@ -61,5 +61,5 @@ fn campaigns(folder: &Path) -> Vec<Vec<u8>> {
         CampaignFolder::plan(folder, campaign).unwrap();
         std::fs::read(folder.join("campaign.toml")).unwrap()
     };
-    vec![of("panel.toml"), of("trials.toml")]
+    vec![of("campaigns/panel.toml"), of("campaigns/trials.toml")]
 }

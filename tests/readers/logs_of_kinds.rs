@@ -40,6 +40,7 @@ pub fn readers() -> Vec<Reader> {
         arrays("npy", |_| golden(&["numpy_records.npy"]), array),
         arrays("npz", |_| golden(&["numpy_plain.npz", "numpy_turned.npz"]), archive),
         arrays("MAT 7.3", |_| golden(&["matlab73_plain.mat", "matlab73_packed.mat"]), binary),
+        arrays("HDF5", |_| golden(&["hdf5_plain.h5", "hdf5_packed.h5"]), binary),
         arrays("MAT", |_| golden(&["matlab_plain.mat", "matlab_packed.mat"]), matlab),
     ]
 }

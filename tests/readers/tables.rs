@@ -116,7 +116,7 @@ fn changed_column(column: &ArrayRef, random: &mut ChaCha8Rng) -> ArrayRef {
 }
 
 fn shards(folder: &Path) -> Vec<Vec<u8>> {
-    let records = Record::read(&workspace_root().join("scenarios/trials.parquet")).unwrap();
+    let records = Record::read(&workspace_root().join("tests/golden/trials.parquet")).unwrap();
     let mut failed = records[..2].to_vec();
     failed[0].score = Err("the log is too short".to_owned());
     [&records[..3], &records[records.len() - 2..], &failed]

@@ -9,7 +9,8 @@ use robot::Robot;
 use simulator::scenario::Scenario;
 use simulator::strangers::{StrangerKind, StrangerSpec, StrangerTruth};
 use simulator::{
-    Bench, LogFormat, Simulator, SimulatorError, Stepping, drawn, simulate, simulate_silent, write,
+    EffectSizer, LogFormat, Simulator, SimulatorError, Stepping, drawn, simulate, simulate_silent,
+    write,
 };
 
 use crate::scenario::document;
@@ -141,7 +142,7 @@ fn share(with: &Run, without: &Run, joint: Option<&str>) -> f64 {
 #[test]
 fn a_drawn_stranger_has_about_the_share_of_torque_that_was_asked_for() {
     let scenario = moving();
-    let bench = Bench::new(&scenario).unwrap();
+    let bench = EffectSizer::new(&scenario).unwrap();
     let without = silent(&scenario, &[]);
     let goal = 0.15;
     let mut off = Vec::new();
@@ -167,7 +168,7 @@ fn whatever_stranger_is_drawn_can_be_put_in() {
     let mut document = document(resting);
     document.set("run.0.motion={ hold = { duration_s = 0.2 } }").unwrap();
     for scenario in [moving(), Scenario::from_document(&document).unwrap()] {
-        let bench = Bench::new(&scenario).unwrap();
+        let bench = EffectSizer::new(&scenario).unwrap();
         for (kind, joint) in StrangerKind::ALL.iter().flat_map(|k| (0..7).map(move |j| (*k, j))) {
             for share in [1e-3, 0.2, 3.0] {
                 let stranger = bench.stranger(kind, joint, share, 5);

@@ -156,8 +156,13 @@ pub fn run_paced(truth: &Truth, noise: &Noise, [seconds, hertz, pace]: [f64; 3],
             joint.velocity.as_mut().unwrap().push(velocity);
         }
     }
+    whole_run(&format!("run_{seed}"), time, joints)
+}
+
+/// A run that is in no file, with nothing beside its joints.
+pub fn whole_run(name: &str, time: Vec<f64>, joints: Vec<Channels>) -> Run {
     Run {
-        name: format!("run_{seed}"),
+        name: name.to_owned(),
         source: PathBuf::new(),
         sha256: String::new(),
         is_torn: false,

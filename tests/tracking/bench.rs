@@ -11,10 +11,10 @@ use learner::Silent;
 use tempfile::TempDir;
 
 /// The arm with friction, stiction and backlash, stepped less often than usual to save time.
-pub const REAL: &str = "extends = \"SCENARIOS/real_wam.toml\"\nengine.step_ms = 0.25\n";
+pub const REAL: &str = "extends = \"SCENARIOS/arms/real_wam.toml\"\nengine.step_ms = 0.25\n";
 
 /// The arm as it is described, through the sensors of a real one.
-pub const PERFECT: &str = "extends = \"SCENARIOS/wam.toml\"\n";
+pub const PERFECT: &str = "extends = \"SCENARIOS/arms/wam.toml\"\n";
 
 /// A run to learn from, of a seed and as large as `share` of the limits allows.
 pub fn run(name: &str, seed: u64, share: f64) -> String {

@@ -1,20 +1,18 @@
-//! Drive: from the effort that is asked for to the torque that acts.
+//! Drive: from the commanded effort to the torque that acts.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, TORQUE, always, parameter, phase};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, CableSpring, ExternalDisturbance,
     FrictionTemperatureDrift, GravityDirection, InertialParameters, JointElasticity,
     LoadDependentFriction, Payload, PositionDependentFriction, RotorInertia, StribeckFriction,
     TimeSkew, TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation, TransmissionRatio,
     ViscousFriction,
 };
-use crate::entry::{TORQUE, always, parameter, phase};
-use crate::{Entry, Family};
 
 pub(crate) const TORQUE_RIPPLE: Entry = Entry {
     kind: TorqueRipple,
-    code: "DR01",
     family: Family::Drive,
-    name: "torque_ripple",
     words: "torque ripple",
     summary: "torque that varies with the motor angle",
     equation: "amplitude sin(periods_per_turn q + phase)",
@@ -42,9 +40,7 @@ pub(crate) const TORQUE_RIPPLE: Entry = Entry {
 
 pub(crate) const TORQUE_CONSTANT: Entry = Entry {
     kind: TorqueConstant,
-    code: "DR02",
     family: Family::Drive,
-    name: "torque_constant",
     words: "torque constant",
     summary: "reported effort off by a factor",
     equation: "torque_gain tau",
@@ -72,9 +68,7 @@ pub(crate) const TORQUE_CONSTANT: Entry = Entry {
 
 pub(crate) const TORQUE_OFFSET: Entry = Entry {
     kind: TorqueOffset,
-    code: "DR03",
     family: Family::Drive,
-    name: "torque_offset",
     words: "torque offset",
     summary: "reported effort off by a constant",
     equation: "offset",
@@ -95,9 +89,7 @@ pub(crate) const TORQUE_OFFSET: Entry = Entry {
 
 pub(crate) const ACTUATOR_LAG: Entry = Entry {
     kind: ActuatorLag,
-    code: "DR04",
     family: Family::Drive,
-    name: "actuator_lag",
     words: "actuator lag",
     summary: "torque that lags behind its command",
     equation: "time_constant d(tau)/dt",
@@ -116,9 +108,7 @@ pub(crate) const ACTUATOR_LAG: Entry = Entry {
 
 pub(crate) const ACTUATOR_DELAY: Entry = Entry {
     kind: ActuatorDelay,
-    code: "DR05",
     family: Family::Drive,
-    name: "actuator_delay",
     words: "actuator delay",
     summary: "torque a fixed time after its command",
     equation: "tau(t + delay) - tau(t)",
@@ -132,9 +122,7 @@ pub(crate) const ACTUATOR_DELAY: Entry = Entry {
 
 pub(crate) const TORQUE_SATURATION: Entry = Entry {
     kind: TorqueSaturation,
-    code: "DR06",
     family: Family::Drive,
-    name: "torque_saturation",
     words: "torque saturation",
     summary: "torque that ends at a limit",
     equation: "(|effort| - limit) sign(effort) where |effort| > limit",

@@ -1,4 +1,5 @@
-use crate::{EffectKind, Family, drive, environment, friction, inertia, sensing, transmission};
+use crate::family::Family;
+use crate::kind::EffectKind;
 
 /// One parameter of an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,17 +18,13 @@ pub struct Parameter {
     pub typical: (f64, f64),
 }
 
-/// What is known about an effect, in words.
+/// The description of an effect, in words.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Entry {
     /// The effect.
     pub kind: EffectKind,
-    /// The code, as [`EffectKind::code`].
-    pub code: &'static str,
     /// The family.
     pub family: Family,
-    /// The name used in files and on the command line.
-    pub name: &'static str,
     /// The name in words, for sentences.
     pub words: &'static str,
     /// What it is, in a few words.
@@ -36,51 +33,16 @@ pub struct Entry {
     pub equation: &'static str,
     /// Its parameters.
     pub parameters: &'static [Parameter],
-    /// How it shows in a log.
+    /// Its signature in a log.
     pub signature: &'static str,
-    /// What a log needs to show it.
+    /// What a log must contain to reveal it.
     pub needs: &'static str,
-    /// Effects that can produce the same torque.
+    /// Effects with which it is confused because they can produce the same torque.
     pub confused_with: &'static [EffectKind],
-    /// The motion that tells it from those.
+    /// The motion that distinguishes it from those.
     pub told_apart_by: &'static str,
     /// Where the model comes from.
     pub source: &'static str,
-}
-
-impl EffectKind {
-    /// What is known about this effect.
-    pub const fn entry(self) -> &'static Entry {
-        match self {
-            Self::ViscousFriction => &friction::VISCOUS,
-            Self::CoulombFriction => &friction::COULOMB,
-            Self::AsymmetricFriction => &friction::ASYMMETRIC,
-            Self::StribeckFriction => &friction::STRIBECK,
-            Self::PreslidingFriction => &friction::PRESLIDING,
-            Self::LoadDependentFriction => &friction::LOAD_DEPENDENT,
-            Self::PositionDependentFriction => &friction::POSITION_DEPENDENT,
-            Self::FrictionTemperatureDrift => &friction::TEMPERATURE_DRIFT,
-            Self::Backlash => &transmission::BACKLASH,
-            Self::JointElasticity => &transmission::JOINT_ELASTICITY,
-            Self::RotorInertia => &inertia::ROTOR_INERTIA,
-            Self::DifferentialCoupling => &transmission::DIFFERENTIAL_COUPLING,
-            Self::Payload => &inertia::PAYLOAD,
-            Self::InertialParameters => &inertia::INERTIAL_PARAMETERS,
-            Self::GravityDirection => &environment::GRAVITY_DIRECTION,
-            Self::CableSpring => &environment::CABLE_SPRING,
-            Self::TorqueRipple => &drive::TORQUE_RIPPLE,
-            Self::TorqueConstant => &drive::TORQUE_CONSTANT,
-            Self::TorqueOffset => &drive::TORQUE_OFFSET,
-            Self::ActuatorLag => &drive::ACTUATOR_LAG,
-            Self::ActuatorDelay => &drive::ACTUATOR_DELAY,
-            Self::TorqueSaturation => &drive::TORQUE_SATURATION,
-            Self::EncoderOffset => &sensing::ENCODER_OFFSET,
-            Self::TransmissionRatio => &transmission::TRANSMISSION_RATIO,
-            Self::TimeSkew => &sensing::TIME_SKEW,
-            Self::ExternalDisturbance => &environment::EXTERNAL_DISTURBANCE,
-            Self::Counterbalance => &environment::COUNTERBALANCE,
-        }
-    }
 }
 
 /// Units of a torque and of a position, at a revolute and at a prismatic joint.
@@ -102,7 +64,7 @@ pub(crate) const fn parameter(
     Parameter { name, unit, unit_prismatic, meaning, typical }
 }
 
-/// Where in its period something is at position or time zero.
+/// The phase of something periodic at position or time zero.
 pub(crate) const fn phase(meaning: &'static str) -> Parameter {
     parameter("phase", always("rad"), meaning, (-std::f64::consts::PI, std::f64::consts::PI))
 }

@@ -1,18 +1,16 @@
-//! Environment: how the arm is mounted, and what pulls and pushes it from outside.
+//! Environment: the mounting of the arm, and forces from outside.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, POSITION, TORQUE, always, parameter, phase};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     AsymmetricFriction, CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance,
     GravityDirection, InertialParameters, Payload, PositionDependentFriction, PreslidingFriction,
     TorqueOffset, TorqueRipple, TorqueSaturation,
 };
-use crate::entry::{POSITION, TORQUE, always, parameter, phase};
-use crate::{Entry, Family};
 
 pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
     kind: GravityDirection,
-    code: "EN01",
     family: Family::Environment,
-    name: "gravity_direction",
     words: "gravity direction",
     summary: "a tilted base: gravity points elsewhere",
     equation: "G(q) (g - g_nominal)",
@@ -29,9 +27,7 @@ pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
 
 pub(crate) const CABLE_SPRING: Entry = Entry {
     kind: CableSpring,
-    code: "EN02",
     family: Family::Environment,
-    name: "cable_spring",
     words: "cable spring",
     summary: "a hose or cable that pulls at a joint",
     equation: "stiffness (q - rest); a hose adds cubic (q - rest)^3 + h, \
@@ -64,9 +60,7 @@ pub(crate) const CABLE_SPRING: Entry = Entry {
 
 pub(crate) const EXTERNAL_DISTURBANCE: Entry = Entry {
     kind: ExternalDisturbance,
-    code: "EN03",
     family: Family::Environment,
-    name: "external_disturbance",
     words: "external disturbance",
     summary: "a force from outside",
     equation: "-amplitude sin(2 pi frequency t + phase), or -J^T force from start for duration",
@@ -104,9 +98,7 @@ pub(crate) const EXTERNAL_DISTURBANCE: Entry = Entry {
 
 pub(crate) const COUNTERBALANCE: Entry = Entry {
     kind: Counterbalance,
-    code: "EN04",
     family: Family::Environment,
-    name: "counterbalance",
     words: "counterbalance",
     summary: "a spring that carries part of a weight",
     equation: "amplitude sin(q + phase)",

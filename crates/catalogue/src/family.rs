@@ -1,20 +1,20 @@
 use serde::Serialize;
 
-/// Where in a robot an effect has its seat: the letters that its code begins with.
+/// The part of a robot to which an effect belongs. The letters of its code name the family.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Family {
-    /// What resists the motion of a joint.
+    /// Resistance to the motion of a joint.
     Friction,
-    /// What lies between motor and link.
+    /// Between motor and link.
     Transmission,
-    /// What has to be moved and carried.
+    /// Bodies that a drive moves and carries.
     Inertia,
-    /// From the effort that is asked for to the torque that acts.
+    /// From the commanded effort to the torque that acts.
     Drive,
-    /// What is reported for what is there.
+    /// From true values to reported ones.
     Sensing,
-    /// How the arm is mounted, and what pulls and pushes it from outside.
+    /// The mounting of the arm, and forces from outside.
     Environment,
 }
 

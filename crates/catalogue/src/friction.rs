@@ -1,19 +1,17 @@
 //! Friction: what resists the motion of one joint.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, TORQUE, always, parameter, phase};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, Backlash, CableSpring, CoulombFriction,
     DifferentialCoupling, FrictionTemperatureDrift, JointElasticity, LoadDependentFriction,
     PositionDependentFriction, PreslidingFriction, StribeckFriction, TimeSkew, TorqueConstant,
     TorqueOffset, TorqueRipple, ViscousFriction,
 };
-use crate::entry::{TORQUE, always, parameter, phase};
-use crate::{Entry, Family};
 
 pub(crate) const VISCOUS: Entry = Entry {
     kind: ViscousFriction,
-    code: "FR01",
     family: Family::Friction,
-    name: "viscous_friction",
     words: "viscous friction",
     summary: "torque proportional to velocity",
     equation: "viscous qd",
@@ -38,9 +36,7 @@ pub(crate) const VISCOUS: Entry = Entry {
 
 pub(crate) const COULOMB: Entry = Entry {
     kind: CoulombFriction,
-    code: "FR02",
     family: Family::Friction,
-    name: "coulomb_friction",
     words: "Coulomb friction",
     summary: "constant torque against the motion",
     equation: "coulomb sign(qd)",
@@ -64,9 +60,7 @@ pub(crate) const COULOMB: Entry = Entry {
 
 pub(crate) const ASYMMETRIC: Entry = Entry {
     kind: AsymmetricFriction,
-    code: "FR03",
     family: Family::Friction,
-    name: "asymmetric_friction",
     words: "asymmetric friction",
     summary: "dry friction that differs by direction",
     equation: "forward for qd > 0, -backward for qd < 0",
@@ -83,9 +77,7 @@ pub(crate) const ASYMMETRIC: Entry = Entry {
 
 pub(crate) const STRIBECK: Entry = Entry {
     kind: StribeckFriction,
-    code: "FR04",
     family: Family::Friction,
-    name: "stribeck_friction",
     words: "Stribeck friction",
     summary: "dry friction that is largest near rest",
     equation: "(coulomb + (breakaway - coulomb) exp(-(qd / stribeck_velocity)^2)) sign(qd)",
@@ -108,9 +100,7 @@ pub(crate) const STRIBECK: Entry = Entry {
 
 pub(crate) const PRESLIDING: Entry = Entry {
     kind: PreslidingFriction,
-    code: "FR05",
     family: Family::Friction,
-    name: "presliding_friction",
     words: "presliding friction",
     summary: "dry friction, springy before it slides",
     equation: "stiffness z + damping zd, zd = qd - stiffness |qd| z / level",
@@ -133,9 +123,7 @@ pub(crate) const PRESLIDING: Entry = Entry {
 
 pub(crate) const LOAD_DEPENDENT: Entry = Entry {
     kind: LoadDependentFriction,
-    code: "FR06",
     family: Family::Friction,
-    name: "load_dependent_friction",
     words: "load-dependent friction",
     summary: "dry friction that grows with the load",
     equation: "coefficient |load| sign(qd), load the torque that the joint carries",
@@ -154,9 +142,7 @@ pub(crate) const LOAD_DEPENDENT: Entry = Entry {
 
 pub(crate) const POSITION_DEPENDENT: Entry = Entry {
     kind: PositionDependentFriction,
-    code: "FR07",
     family: Family::Friction,
-    name: "position_dependent_friction",
     words: "position-dependent friction",
     summary: "dry friction that varies with position",
     equation: "level (1 + share cos(periods_per_turn q + phase)) sign(qd)",
@@ -180,9 +166,7 @@ pub(crate) const POSITION_DEPENDENT: Entry = Entry {
 
 pub(crate) const TEMPERATURE_DRIFT: Entry = Entry {
     kind: FrictionTemperatureDrift,
-    code: "FR08",
     family: Family::Friction,
-    name: "friction_temperature_drift",
     words: "friction temperature drift",
     summary: "friction that falls as the drive warms",
     equation: "-(viscous_lost qd + coulomb_lost sign(qd)) (1 - exp(-t / time_constant))",

@@ -1,11 +1,11 @@
-//! Inertia: what has to be moved and carried.
+//! Inertia: the bodies that a drive moves and carries.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, Parameter, always, parameter};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance, GravityDirection,
     InertialParameters, Payload, RotorInertia, TorqueConstant, TorqueOffset, TransmissionRatio,
 };
-use crate::entry::{always, parameter};
-use crate::{Entry, Family, Parameter};
 
 /// Mass and centre of mass of a body, with their plausible ranges (kg, m).
 const fn body(mass: (f64, f64), com: (f64, f64)) -> [Parameter; 4] {
@@ -19,9 +19,7 @@ const fn body(mass: (f64, f64), com: (f64, f64)) -> [Parameter; 4] {
 
 pub(crate) const PAYLOAD: Entry = Entry {
     kind: Payload,
-    code: "IN01",
     family: Family::Inertia,
-    name: "payload",
     words: "payload",
     summary: "a body carried by the last link",
     equation: "Y_last(q, qd, qdd) pi_payload",
@@ -42,9 +40,7 @@ pub(crate) const PAYLOAD: Entry = Entry {
 
 pub(crate) const INERTIAL_PARAMETERS: Entry = Entry {
     kind: InertialParameters,
-    code: "IN02",
     family: Family::Inertia,
-    name: "inertial_parameters",
     words: "inertial parameters",
     summary: "mass or centre of mass of a link",
     equation: "Y_link(q, qd, qdd) (pi - pi_nominal)",
@@ -68,9 +64,7 @@ pub(crate) const INERTIAL_PARAMETERS: Entry = Entry {
 
 pub(crate) const ROTOR_INERTIA: Entry = Entry {
     kind: RotorInertia,
-    code: "IN03",
     family: Family::Inertia,
-    name: "rotor_inertia",
     words: "rotor inertia",
     summary: "inertia of rotor and gear at the joint",
     equation: "rotor_inertia qdd",

@@ -3,142 +3,50 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Family;
+/// Makes [`EffectKind`] of the list of effects.
+macro_rules! kinds {
+    ($($(#[$meaning:meta])* $variant:ident $name:ident $code:literal;)*) => {
+        /// A named cause of a gap between a robot and its simulation.
+        ///
+        /// Each has a [`name`](Self::name), which files use, and a [`code`](Self::code), which stands
+        /// beside the name wherever it is printed.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum EffectKind {
+            $($(#[$meaning])* $variant,)*
+        }
 
-/// A named cause of a gap between a robot and its simulation.
-///
-/// Each has a [`name`](Self::name), which files use, and a [`code`](Self::code), which stands
-/// beside the name wherever it is printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum EffectKind {
-    /// Torque proportional to velocity.
-    ViscousFriction,
-    /// Torque of constant size against the motion.
-    CoulombFriction,
-    /// Coulomb friction that differs between the two directions.
-    AsymmetricFriction,
-    /// Dry friction that is larger at rest and falls as the joint begins to move.
-    StribeckFriction,
-    /// Dry friction that gives like a spring before it slides.
-    PreslidingFriction,
-    /// Dry friction that grows with the torque carried.
-    LoadDependentFriction,
-    /// Dry friction that varies with the position of the joint.
-    PositionDependentFriction,
-    /// Friction that falls while the drive warms up.
-    FrictionTemperatureDrift,
-    /// Play between motor and link.
-    Backlash,
-    /// A spring and damper between motor and link.
-    JointElasticity,
-    /// Inertia of rotor and gear seen at the joint.
-    RotorInertia,
-    /// Friction at the two motors of a differential that drives two joints.
-    DifferentialCoupling,
-    /// A body carried by the last link.
-    Payload,
-    /// Mass, centre of mass or inertia of one link.
-    InertialParameters,
-    /// Gravity points elsewhere than the model says: a tilted base.
-    GravityDirection,
-    /// A hose or cable that pulls a joint towards a rest position.
-    CableSpring,
-    /// Torque that varies with the angle of the motor.
-    TorqueRipple,
-    /// Reported effort scaled by a wrong factor.
-    TorqueConstant,
-    /// A constant added to the reported effort.
-    TorqueOffset,
-    /// Torque that follows its command as through a first-order filter.
-    ActuatorLag,
-    /// Torque that comes a fixed time after its command.
-    ActuatorDelay,
-    /// Torque that ends at a limit whatever the command.
-    TorqueSaturation,
-    /// A constant added to the reported position.
-    EncoderOffset,
-    /// Reported position scaled by a wrong gear ratio.
-    TransmissionRatio,
-    /// Effort and position logged at different instants under one time.
-    TimeSkew,
-    /// A force from outside: periodic at a joint, or a push at the last link.
-    ExternalDisturbance,
-    /// A spring or weight that carries part of the weight of what a joint lifts.
-    Counterbalance,
+        impl EffectKind {
+            /// Every effect, in the order in which random draws count them.
+            pub const ALL: [Self; [$($code),*].len()] = [$(Self::$variant),*];
+
+            /// The code that stands beside the name: two letters of the family and two digits. It
+            /// never changes.
+            pub const fn code(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $code,)*
+                }
+            }
+
+            /// The name used in files and on the command line.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => stringify!($name),)*
+                }
+            }
+        }
+    };
 }
 
+crate::for_each_effect!(kinds);
+
 impl EffectKind {
-    /// Every effect, in the order in which random draws count them.
-    pub const ALL: [Self; 27] = [
-        Self::ViscousFriction,
-        Self::CoulombFriction,
-        Self::AsymmetricFriction,
-        Self::StribeckFriction,
-        Self::PreslidingFriction,
-        Self::LoadDependentFriction,
-        Self::PositionDependentFriction,
-        Self::FrictionTemperatureDrift,
-        Self::Backlash,
-        Self::JointElasticity,
-        Self::RotorInertia,
-        Self::DifferentialCoupling,
-        Self::Payload,
-        Self::InertialParameters,
-        Self::GravityDirection,
-        Self::CableSpring,
-        Self::TorqueRipple,
-        Self::TorqueConstant,
-        Self::TorqueOffset,
-        Self::ActuatorLag,
-        Self::ActuatorDelay,
-        Self::TorqueSaturation,
-        Self::EncoderOffset,
-        Self::TransmissionRatio,
-        Self::TimeSkew,
-        Self::ExternalDisturbance,
-        Self::Counterbalance,
-    ];
-
-    /// The code that stands beside the name: two letters of the family and two digits.
-    ///
-    /// A code is for good: it never becomes another effect's, and an effect never gets another
-    /// one, not even when it is renamed or moves to another family. A new effect takes the
-    /// next number of its family, and the number of one that is taken out stays unused.
-    pub const fn code(self) -> &'static str {
-        self.entry().code
-    }
-
-    /// The family.
-    pub const fn family(self) -> Family {
-        self.entry().family
-    }
-
-    /// The name used in files and on the command line.
-    pub const fn name(self) -> &'static str {
-        self.entry().name
-    }
-
-    /// The name in words, for sentences.
-    pub const fn words(self) -> &'static str {
-        self.entry().words
-    }
-
-    /// Whether it is felt the more the smaller its first parameter is, such as the stiffness of a spring.
+    /// Whether its torque grows as its first parameter falls, as with the stiffness of a spring.
     pub const fn grows_as_its_size_falls(self) -> bool {
         matches!(self, Self::JointElasticity)
     }
 
-    /// The motion that tells it from `rivals`: its own, or a payload's where one is among them, which only a second
-    /// log settles. None where it has no rivals.
-    pub fn told_apart_from(self, rivals: impl IntoIterator<Item = Self>) -> Option<&'static str> {
-        let mut rivals = rivals.into_iter().peekable();
-        rivals.peek()?;
-        let payload = rivals.find(|kind| *kind == Self::Payload);
-        Some(payload.unwrap_or(self).entry().told_apart_by)
-    }
-
-    /// What two encoders of a joint leave open of it, in words.
+    /// In words, what two encoders of a joint cannot decide about it.
     pub const fn left_open_by_two_encoders(self) -> Option<&'static str> {
         match self {
             Self::EncoderOffset => Some(
@@ -146,11 +54,6 @@ impl EffectKind {
             ),
             _ => None,
         }
-    }
-
-    /// Code and name in words, such as `FR02 Coulomb friction`.
-    pub fn label(self) -> String {
-        format!("{} {}", self.code(), self.words())
     }
 }
 

@@ -5,14 +5,15 @@
 //! effort = torque_gain (M qdd + C qd + g + sum of effects) + torque_offset
 //! ```
 //!
-//! `q` and `effort` are what a log reports. An equation says what its effect adds to the
-//! right side, for a log whose effort is what was asked of the drive; `tau` in it is the
-//! torque of everything else. What resists a positive motion is positive.
+//! `q` and `effort` are the values in a log. The equation of an effect is the term that it adds to
+//! the right side, for a log of commanded efforts; `tau` in it is the torque of everything else. A
+//! torque that resists positive motion is positive.
 //!
-//! `effects` holds the model side of an entry; a truth side may be injected
-//! elsewhere under the same name.
+//! The model side of an effect is in `effects`, the truth side is elsewhere under the same name.
 
 mod drive;
+mod effect_list;
+mod entries;
 mod entry;
 mod environment;
 mod family;

@@ -1,17 +1,15 @@
-//! Sensors: what is reported for what is there.
+//! Sensing: from true values to reported ones.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, POSITION, always, parameter};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, EncoderOffset, GravityDirection, InertialParameters, TimeSkew,
     TransmissionRatio, ViscousFriction,
 };
-use crate::entry::{POSITION, always, parameter};
-use crate::{Entry, Family};
 
 pub(crate) const ENCODER_OFFSET: Entry = Entry {
     kind: EncoderOffset,
-    code: "SE01",
     family: Family::Sensing,
-    name: "encoder_offset",
     words: "encoder offset",
     summary: "reported position off by a constant",
     equation: "tau(q - offset) - tau(q)",
@@ -31,9 +29,7 @@ pub(crate) const ENCODER_OFFSET: Entry = Entry {
 
 pub(crate) const TIME_SKEW: Entry = Entry {
     kind: TimeSkew,
-    code: "SE02",
     family: Family::Sensing,
-    name: "time_skew",
     words: "time skew",
     summary: "effort and position not of one instant",
     equation: "tau(t - skew) - tau(t)",

@@ -1,18 +1,16 @@
-//! Transmission: what lies between motor and link.
+//! Transmission: between motor and link.
 
-use crate::EffectKind::{
+use crate::entry::{Entry, POSITION, TORQUE, always, parameter};
+use crate::family::Family;
+use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, Backlash, CoulombFriction, DifferentialCoupling, EncoderOffset,
     JointElasticity, PreslidingFriction, RotorInertia, StribeckFriction, TorqueConstant,
     TorqueRipple, TransmissionRatio,
 };
-use crate::entry::{POSITION, TORQUE, always, parameter};
-use crate::{Entry, Family};
 
 pub(crate) const BACKLASH: Entry = Entry {
     kind: Backlash,
-    code: "TR01",
     family: Family::Transmission,
-    name: "backlash",
     words: "backlash",
     summary: "play between motor and link",
     equation: "no torque while |theta - q| < gap / 2, theta the position of the motor",
@@ -28,9 +26,7 @@ pub(crate) const BACKLASH: Entry = Entry {
 
 pub(crate) const JOINT_ELASTICITY: Entry = Entry {
     kind: JointElasticity,
-    code: "TR02",
     family: Family::Transmission,
-    name: "joint_elasticity",
     words: "joint elasticity",
     summary: "a spring between motor and link",
     equation: "stiffness (theta - q) + damping (thetad - qd) at the link, theta the motor's",
@@ -53,9 +49,7 @@ pub(crate) const JOINT_ELASTICITY: Entry = Entry {
 
 pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
     kind: DifferentialCoupling,
-    code: "TR03",
     family: Family::Transmission,
-    name: "differential_coupling",
     words: "differential coupling",
     summary: "friction of motors shared by two joints",
     equation: "T^T (level_sum, level_difference) sign(T (qd_a, qd_b)), T = (1 ratio; 1 -ratio)",
@@ -100,9 +94,7 @@ pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
 
 pub(crate) const TRANSMISSION_RATIO: Entry = Entry {
     kind: TransmissionRatio,
-    code: "TR04",
     family: Family::Transmission,
-    name: "transmission_ratio",
     words: "transmission ratio",
     summary: "a gear ratio that is not the stated one",
     equation: "ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)",

@@ -127,8 +127,8 @@ The output folder holds
 const SIMULATE_EXAMPLES: &str = "\
 Examples:
   plumbline simulate scenarios/effects/coulomb_friction.toml --out out
-  plumbline simulate scenarios/hidden.toml --out out --seed 7
-  plumbline simulate scenarios/hidden.toml --out out --set sensors.log_rate_hz=250
+  plumbline simulate scenarios/demos/hidden_effects.toml --out out --seed 7
+  plumbline simulate scenarios/demos/hidden_effects.toml --out out --set sensors.log_rate_hz=250
 
 The output folder holds
   NAME.parquet   the log of each run, which tells nothing of what was put in
@@ -154,8 +154,8 @@ again it ends the program.";
 
 const TRACK_EXAMPLES: &str = "\
 Examples:
-  plumbline track scenarios/tracking.toml --out out
-  plumbline track scenarios/tracking.toml --out out --set prediction.clock=wall
+  plumbline track scenarios/tracking/low_gains.toml --out out
+  plumbline track scenarios/tracking/low_gains.toml --out out --set prediction.clock=wall
   plumbline track scenarios/paper/fig3_4_tracking.toml --out out --learned out/models
 
 The output folder holds
@@ -185,10 +185,10 @@ The output folder holds for each run
 
 const RUN_EXAMPLES: &str = "\
 Examples:
-  plumbline run scenarios/hidden.toml --seed 7
-  plumbline run scenarios/thorough.toml \\
+  plumbline run scenarios/demos/hidden_effects.toml --seed 7
+  plumbline run scenarios/motions/every_effect_shows.toml \\
       --set \"effect=[{ backlash={ joint='j3_shoulder_yaw', gap_rad=0.01 } }]\"
-  plumbline run scenarios/tracking.toml --set control.gains=low-tenth
+  plumbline run scenarios/tracking/low_gains.toml --set control.gains=low-tenth
   plumbline run scenarios/paper/fig2_learning.toml
 
 A scenario of an arm is what simulate takes. All its runs but the last are diagnosed; the last shows
@@ -221,8 +221,9 @@ Examples:
   plumbline demo --seed 7 --out other
   plumbline demo --robot ur5e
 
-The scenario is scenarios/demo.toml of the repository, or that of the robot; it and the robot are in
-the program and are written to source/ in the output folder, which plumbline run --help describes.";
+The scenario is scenarios/demos/wam.toml of the repository, or that of the robot; it and the robot
+are in the program and are written to source/ in the output folder, which plumbline run --help
+describes.";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:
@@ -244,7 +245,7 @@ Exit codes:
 
 const TRIALS_EXAMPLES: &str = "\
 Examples:
-  plumbline trials plan scenarios/trials.toml --out blind
+  plumbline trials plan scenarios/campaigns/trials.toml --out blind
   plumbline trials work blind --jobs 8
   plumbline trials work blind --part 1/4
   plumbline trials submit blind --sbatch --partition=short

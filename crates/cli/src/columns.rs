@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use logs::{
-    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, LogError, Mend, ReadOptions, Recognised, Run,
+    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, FormatError, LogError, Mend, ReadOptions, Recognised, Run,
     stretches,
 };
 use robot::Robot;
@@ -105,7 +105,7 @@ impl ColumnArguments {
     ///
     /// [`CliError::Log`], and [`CliError::NoEpisode`] where episodes are asked for that are not there.
     pub fn episodes_of(&self, path: &Path) -> Result<Asked, CliError> {
-        let dataset = Dataset::open(path)?;
+        let dataset = Dataset::open(path).map_err(LogError::from)?;
         let all = dataset.as_ref().map_or_else(
             || vec![None],
             |dataset| dataset.episodes().into_iter().map(Some).collect(),
@@ -196,7 +196,10 @@ impl Reader<'_> {
             Ok(run) => return Ok(run),
             Err(error) => error,
         };
-        let is_named = matches!(error, LogError::JointAbsent { .. } | LogError::NoColumn { .. });
+        let is_named = matches!(
+            error,
+            LogError::JointAbsent { .. } | LogError::File(FormatError::NoColumn { .. })
+        );
         if self.map.is_some() || !is_named {
             return Err(error.into());
         }

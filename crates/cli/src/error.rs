@@ -8,7 +8,7 @@ use document::{Coloring, DocumentError};
 use evaluation::EvaluationError;
 use exchange::ExchangeError;
 use learner::LearnerError;
-use logs::LogError;
+use logs::{FormatError, LogError};
 use report::ReportError;
 use robot::RobotError;
 use simulator::SimulatorError;
@@ -193,15 +193,15 @@ const MAP: &str = "a column map (--map) says where a file with other names has i
 /// What to do about a log.
 fn of_log(log: &LogError) -> Option<&'static str> {
     match log {
-        LogError::NoColumn { path, .. } | LogError::OtherKind { path, .. }
+        LogError::File(FormatError::NoColumn { path, .. } | FormatError::OtherKind { path, .. })
             if has_extension(path, &["urdf", "xml", "toml"]) =>
         {
             Some(KINDS_OF_FILES)
         }
-        LogError::JointAbsent { .. } | LogError::NoColumn { .. } | LogError::NoNames { .. } => {
-            Some(MAP)
-        }
-        LogError::NoTopic { .. } | LogError::SeveralTopics { .. } => {
+        LogError::JointAbsent { .. }
+        | LogError::File(FormatError::NoColumn { .. })
+        | LogError::NoNames { .. } => Some(MAP),
+        LogError::File(FormatError::NoTopic { .. } | FormatError::SeveralTopics { .. }) => {
             Some("--topic NAME picks the topic whose joint states are read")
         }
         LogError::LooksLikeDegrees { .. } => {

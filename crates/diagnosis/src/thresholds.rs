@@ -9,6 +9,7 @@ pub(crate) mod sizes;
 pub(crate) mod tones;
 pub(crate) mod verdict;
 
+use effects::Priors;
 use inspection::InspectionThresholds;
 
 use crate::thresholds::blocks::BlockThresholds;
@@ -26,6 +27,8 @@ use crate::thresholds::verdict::VerdictThresholds;
 /// with and without the change. Fields that have the same value have it for reasons of their own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Thresholds {
+    /// What is assumed of the size of every effect before any log.
+    pub priors: Priors,
     /// What is wrong with logs as a whole.
     pub inspection: InspectionThresholds,
     /// What logs can be asked for.

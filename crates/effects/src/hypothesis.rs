@@ -1,21 +1,16 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::{
-    Column, Explain, Frame, Linearity, MODELLED, Motion, Nature, Quantity, Relation, Scale, Seat,
-    model,
-};
-
-/// Where an effect acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Place {
-    /// At a joint, by index.
-    Joint(usize),
-    /// In a moving link, by index.
-    Link(usize),
-    /// At the base.
-    Base,
-}
+use crate::any_effect::AnyEffect;
+use crate::column::Column;
+use crate::model::{MODELLED, model};
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::Place;
+use crate::priors::Priors;
+use crate::quantity::Quantity;
+use crate::traits::{Linearity, Nature, Relation, Seat};
 
 /// An effect at a place: one thing that could be wrong.
 ///
@@ -38,37 +33,37 @@ pub fn hypotheses(robot: &Robot) -> Vec<Hypothesis> {
 }
 
 impl Hypothesis {
-    fn model(self) -> Option<&'static dyn Explain> {
+    fn model(self) -> Option<&'static dyn AnyEffect> {
         model(self.kind).ok()
     }
 
-    /// See [`Explain::columns`].
+    /// See [`Effect::columns`].
     pub fn columns(self, motion: &Motion) -> Vec<Column> {
         let mut columns = self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default();
         for part in columns.iter_mut().flatten() {
-            part.values = motion.timed(part.joint, std::mem::take(&mut part.values));
+            part.values = motion.with_timing(part.joint, std::mem::take(&mut part.values));
         }
         columns
     }
 
-    /// See [`Explain::twist`].
+    /// See [`Effect::twist`].
     pub fn twist(self, motion: &Motion) -> Vec<Column> {
         self.model().map(|m| m.twist(self.place, motion)).unwrap_or_default()
     }
 
-    /// See [`Explain::nature`]; none of an effect without a model.
+    /// See [`Effect::nature`]; none of an effect without a model.
     pub fn nature(self) -> Option<Nature> {
-        self.model().map(Explain::nature)
+        self.model().map(|m| m.nature())
     }
 
-    /// Whether its columns are those of a small change only ([`Linearity::Tangent`] or less).
+    /// Whether its columns are those of a small change only ([`Linearity::Tangent`]).
     pub fn is_tangent(self) -> bool {
         self.nature().is_some_and(|n| n.linearity != Linearity::Exact)
     }
 
-    /// Whether its columns may pass for what something else does ([`Linearity::Doubtful`]).
+    /// Whether something else may pass for it ([`Nature::imitable`]).
     pub fn is_doubtful(self) -> bool {
-        self.nature().is_some_and(|n| n.linearity == Linearity::Doubtful)
+        self.nature().is_some_and(|n| n.imitable)
     }
 
     /// The joint of an effect that lies between its encoder and its link: where a second encoder
@@ -77,54 +72,61 @@ impl Hypothesis {
         self.joint().filter(|_| self.nature().is_some_and(|n| n.seat == Seat::BeforeTheLink))
     }
 
-    /// See [`Explain::prior`].
-    pub fn prior(self, robot: &Robot, scale: &Scale) -> Vec<f64> {
-        self.model().map(|m| m.prior(self.place, robot, scale)).unwrap_or_default()
+    /// See [`Effect::prior`].
+    pub fn prior(self, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
+        self.model().map(|m| m.prior(self.place, robot, scale, priors)).unwrap_or_default()
     }
 
-    /// See [`Explain::everyday`].
-    pub fn everyday(self, robot: &Robot) -> Option<Vec<f64>> {
-        self.model()?.everyday(self.place, robot)
+    /// See [`Effect::everyday`].
+    pub fn everyday(self, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
+        self.model()?.everyday(self.place, robot, priors)
     }
 
-    /// See [`Explain::rarity`].
-    pub fn rarity(self, robot: &Robot) -> f64 {
-        self.model().map_or(0.0, |m| m.rarity(self.place, robot))
+    /// See [`Effect::rarity`].
+    pub fn rarity(self, robot: &Robot, priors: &Priors) -> f64 {
+        self.model().map_or(0.0, |m| m.rarity(self.place, robot, priors))
     }
 
-    /// See [`Explain::bounds`].
-    pub fn bounds(self, robot: &Robot) -> Vec<(f64, f64)> {
-        self.model().map(|m| m.bounds(self.place, robot)).unwrap_or_default()
+    /// See [`Effect::bounds`].
+    pub fn bounds(self, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        self.model().map(|m| m.bounds(self.place, robot, priors)).unwrap_or_default()
     }
 
-    /// See [`Explain::admissible`].
-    pub fn admissible(self, robot: &Robot, weights: &[f64]) -> bool {
-        self.model().is_some_and(|m| m.admissible(self.place, robot, weights))
+    /// See [`Effect::admissible`].
+    pub fn admissible(self, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
+        self.model().is_some_and(|m| m.admissible(self.place, robot, weights, priors))
     }
 
-    /// See [`Explain::is_sound`].
-    pub fn is_sound(self, extended: &Robot) -> bool {
-        self.model().is_some_and(|m| m.is_sound(self.place, extended))
+    /// See [`Effect::is_sound`].
+    pub fn is_sound(self, extended: &Robot, priors: &Priors) -> bool {
+        self.model().is_some_and(|m| m.is_sound(self.place, extended, priors))
     }
 
-    /// See [`Explain::more_than_plain`]; `robots` are the nominal and the extended one.
-    pub fn more_than_plain(self, robots: [&Robot; 2], frame: &Frame) -> Vec<(usize, f64)> {
-        self.model().map(|m| m.more_than_plain(self.place, robots, frame)).unwrap_or_default()
+    /// See [`Effect::more_than_plain`]; `robots` are the nominal and the extended one.
+    pub fn more_than_plain(
+        self,
+        robots: [&Robot; 2],
+        frame: &Frame,
+        priors: &Priors,
+    ) -> Vec<(usize, f64)> {
+        self.model()
+            .map(|m| m.more_than_plain(self.place, robots, frame, priors))
+            .unwrap_or_default()
     }
 
-    /// See [`Explain::largest_unseen`].
-    pub fn largest_unseen(self, robot: &Robot, frame: &Frame) -> f64 {
-        self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame))
+    /// See [`Effect::largest_unseen`].
+    pub fn largest_unseen(self, robot: &Robot, frame: &Frame, priors: &Priors) -> f64 {
+        self.model().map_or(1.0, |m| m.largest_unseen(self.place, robot, frame, priors))
     }
 
-    /// See [`Explain::extend`].
-    pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame) {
+    /// See [`Effect::extend`].
+    pub fn extend(self, robot: &mut Robot, weights: &[f64], frame: &Frame, priors: &Priors) {
         if let Some(model) = self.model() {
-            model.extend(self.place, robot, weights, frame);
+            model.extend(self.place, robot, weights, frame, priors);
         }
     }
 
-    /// See [`Explain::quantities`].
+    /// See [`Effect::quantities`].
     pub fn quantities(self, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         self.model().map(|m| m.quantities(self.place, nominal, extended)).unwrap_or_default()
     }

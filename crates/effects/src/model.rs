@@ -1,6 +1,32 @@
 use catalogue::EffectKind;
 
-use crate::Explain;
+use crate::any_effect::AnyEffect;
+use crate::causes::asymmetric_friction::AsymmetricFriction;
+use crate::causes::backlash::Backlash;
+use crate::causes::cable_spring::CableSpring;
+use crate::causes::coulomb_friction::CoulombFriction;
+use crate::causes::counterbalance::Counterbalance;
+use crate::causes::differential_coupling::DifferentialCoupling;
+use crate::causes::encoder_offset::EncoderOffset;
+use crate::causes::friction_temperature_drift::FrictionTemperatureDrift;
+use crate::causes::gravity_direction::GravityDirection;
+use crate::causes::inertial_parameters::InertialParameters;
+use crate::causes::joint_elasticity::JointElasticity;
+use crate::causes::late_torque::LateTorque;
+use crate::causes::load_dependent_friction::LoadDependentFriction;
+use crate::causes::payload::Payload;
+use crate::causes::position_dependent_friction::PositionDependentFriction;
+use crate::causes::presliding_friction::PreslidingFriction;
+use crate::causes::rotor_inertia::RotorInertia;
+use crate::causes::stribeck_friction::StribeckFriction;
+use crate::causes::time_skew::TimeSkew;
+use crate::causes::torque_constant::TorqueConstant;
+use crate::causes::torque_offset::TorqueOffset;
+use crate::causes::transmission_ratio::TransmissionRatio;
+use crate::causes::unmodelled::{
+    EXTERNAL_DISTURBANCE, TORQUE_RIPPLE, TORQUE_SATURATION, Unmodelled,
+};
+use crate::causes::viscous_friction::ViscousFriction;
 
 /// The effects that have a model, in the order in which hypotheses are laid out.
 pub const MODELLED: [EffectKind; 24] = [
@@ -37,45 +63,50 @@ pub const MODELLED: [EffectKind; 24] = [
 /// # Errors
 ///
 /// What a model of columns `f(q, qd, qdd)` and constant weights cannot hold.
-pub fn model(kind: EffectKind) -> Result<&'static dyn Explain, &'static str> {
+pub fn model(kind: EffectKind) -> Result<&'static dyn AnyEffect, &'static str> {
+    find(kind).map_err(|effect| effect.reason)
+}
+
+/// What [`Compensation`](crate::Compensation) does against an effect that the robot's
+/// description holds; where it does nothing, why.
+///
+/// # Errors
+///
+/// The reason why an effect cannot be compensated.
+pub fn remedy(kind: EffectKind) -> Result<&'static str, &'static str> {
+    find(kind).map_or_else(|effect| effect.remedy, |effect| effect.remedy())
+}
+
+/// The file of `causes` that holds `kind`.
+fn find(kind: EffectKind) -> Result<&'static dyn AnyEffect, Unmodelled> {
     Ok(match kind {
-        EffectKind::ViscousFriction => &crate::viscous_friction::ViscousFriction,
-        EffectKind::CoulombFriction => &crate::coulomb_friction::CoulombFriction,
-        EffectKind::AsymmetricFriction => &crate::asymmetric_friction::AsymmetricFriction,
-        EffectKind::StribeckFriction => &crate::stribeck_friction::StribeckFriction,
-        EffectKind::PreslidingFriction => &crate::presliding_friction::PreslidingFriction,
-        EffectKind::PositionDependentFriction => {
-            &crate::position_dependent_friction::PositionDependentFriction
-        }
-        EffectKind::FrictionTemperatureDrift => {
-            &crate::friction_temperature_drift::FrictionTemperatureDrift
-        }
-        EffectKind::TorqueOffset => &crate::torque_offset::TorqueOffset,
-        EffectKind::RotorInertia => &crate::rotor_inertia::RotorInertia,
-        EffectKind::InertialParameters => &crate::inertial_parameters::InertialParameters,
-        EffectKind::Payload => &crate::payload::Payload,
-        EffectKind::CableSpring => &crate::cable_spring::CableSpring,
-        EffectKind::Counterbalance => &crate::counterbalance::Counterbalance,
-        EffectKind::GravityDirection => &crate::gravity_direction::GravityDirection,
-        EffectKind::TorqueConstant => &crate::torque_constant::TorqueConstant,
-        EffectKind::LoadDependentFriction => &crate::load_dependent_friction::LoadDependentFriction,
-        EffectKind::EncoderOffset => &crate::encoder_offset::EncoderOffset,
-        EffectKind::TransmissionRatio => &crate::transmission_ratio::TransmissionRatio,
-        EffectKind::Backlash => &crate::backlash::Backlash,
-        EffectKind::JointElasticity => &crate::joint_elasticity::JointElasticity,
-        EffectKind::TimeSkew => &crate::time_skew::TimeSkew,
-        EffectKind::ActuatorDelay => &crate::late_torque::LateTorque::Delay,
-        EffectKind::ActuatorLag => &crate::late_torque::LateTorque::Lag,
-        EffectKind::TorqueRipple => {
-            return Err("its period is finer than any trial value: it is a line of a spectrum");
-        }
-        EffectKind::DifferentialCoupling => &crate::differential_coupling::DifferentialCoupling,
-        EffectKind::TorqueSaturation => {
-            return Err("it is in what the log says of the effort, not in what the motion needs");
-        }
-        EffectKind::ExternalDisturbance => {
-            return Err("it keeps to the clock, not to the motion: it is a line of a spectrum");
-        }
+        EffectKind::ViscousFriction => &ViscousFriction,
+        EffectKind::CoulombFriction => &CoulombFriction,
+        EffectKind::AsymmetricFriction => &AsymmetricFriction,
+        EffectKind::StribeckFriction => &StribeckFriction,
+        EffectKind::PreslidingFriction => &PreslidingFriction,
+        EffectKind::PositionDependentFriction => &PositionDependentFriction,
+        EffectKind::FrictionTemperatureDrift => &FrictionTemperatureDrift,
+        EffectKind::TorqueOffset => &TorqueOffset,
+        EffectKind::RotorInertia => &RotorInertia,
+        EffectKind::InertialParameters => &InertialParameters,
+        EffectKind::Payload => &Payload,
+        EffectKind::CableSpring => &CableSpring,
+        EffectKind::Counterbalance => &Counterbalance,
+        EffectKind::GravityDirection => &GravityDirection,
+        EffectKind::TorqueConstant => &TorqueConstant,
+        EffectKind::LoadDependentFriction => &LoadDependentFriction,
+        EffectKind::EncoderOffset => &EncoderOffset,
+        EffectKind::TransmissionRatio => &TransmissionRatio,
+        EffectKind::Backlash => &Backlash,
+        EffectKind::JointElasticity => &JointElasticity,
+        EffectKind::TimeSkew => &TimeSkew,
+        EffectKind::ActuatorDelay => &LateTorque::Delay,
+        EffectKind::ActuatorLag => &LateTorque::Lag,
+        EffectKind::TorqueRipple => return Err(TORQUE_RIPPLE),
+        EffectKind::DifferentialCoupling => &DifferentialCoupling,
+        EffectKind::TorqueSaturation => return Err(TORQUE_SATURATION),
+        EffectKind::ExternalDisturbance => return Err(EXTERNAL_DISTURBANCE),
     })
 }
 

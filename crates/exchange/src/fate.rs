@@ -2,21 +2,21 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// What became of a quantity in a file.
+/// How a file represents a quantity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "fate")]
 pub enum Fate {
-    /// The format says the same.
+    /// Exactly.
     Exact {
         /// The element or attribute that holds it.
         place: String,
     },
-    /// The format says something near.
+    /// Approximately.
     Approximated {
-        /// What is written, and how far off it is.
+        /// What is written, and its error.
         how: String,
     },
-    /// The format has no place for it.
+    /// Not at all.
     Dropped {
         /// Why, and what to do.
         because: String,
@@ -59,14 +59,14 @@ impl fmt::Display for Fate {
     }
 }
 
-/// A quantity of the robot with its fate.
+/// A quantity of the robot and how the file represents it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fated {
     /// The joint, the link or `robot`.
     pub at: String,
     /// The quantity with its size and unit.
     pub what: String,
-    /// What became of it.
+    /// How the file represents it.
     #[serde(flatten)]
     pub fate: Fate,
 }

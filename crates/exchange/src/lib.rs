@@ -6,28 +6,26 @@
 //!                                           \-> the robot that the file describes
 //! ```
 //!
-//! [`export`] writes what a format can hold, says of every quantity what became of it, and gives the robot that is
-//! left of it, whose torque tells the loss.
+//! [`export`] writes what a format can hold, states the fate of every quantity, and returns the robot that the file
+//! describes. The torques of both robots show the loss.
 
 mod error;
 mod export;
 mod fate;
-mod held;
-mod inertial;
+mod fates;
+mod format;
 mod mjcf;
-mod mjcf_joint;
 mod numbers;
 mod quantity;
 mod reported;
+mod robot_in_file;
 mod sdf;
-mod sheet;
+mod unsupported;
 mod urdf;
-mod urdf_joint;
-mod urdf_written;
-mod usd_text;
-mod usda;
-mod usda_joint;
+mod usd;
+mod xml_text;
 
 pub use error::ExchangeError;
-pub use export::{Export, Format, export};
+pub use export::{Export, export};
 pub use fate::{Fate, Fated};
+pub use format::Format;

@@ -15,7 +15,7 @@ pub fn numbers<'a>(values: impl IntoIterator<Item = &'a f64>) -> String {
     values.into_iter().map(|v| number(*v)).collect::<Vec<_>>().join(" ")
 }
 
-/// A size in words: four digits.
+/// A number with four digits, for sentences.
 pub fn size(value: f64) -> String {
     if value.abs() > 0.0 && !(1e-3..1e5).contains(&value.abs()) {
         return format!("{value:.3e}");

@@ -2,25 +2,26 @@ use robot::{Actuator, Link, Robot};
 
 use crate::numbers::size;
 
-/// A quantity of a joint that is not that of an ideal drive.
+/// A property of a drive that an ideal drive lacks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum DriveQuantity {
     /// Inertia of the rotor.
     Rotor,
     /// Viscous friction.
     Viscous,
     /// Dry friction, the mean of both directions.
     Coulomb,
-    /// Half of what it is more in one direction.
+    /// Half the difference of its two directions.
     Asymmetry,
     /// Dry friction near rest.
     Stribeck,
     /// Friction per load.
     LoadFriction,
-    /// Way over which dry friction builds up.
+    /// Displacement over which dry friction builds up.
     Presliding,
     /// Friction over position.
     FrictionWave,
+    /// Friction lost while the drive warms up.
     Warming,
     /// Torque over position.
     Ripple,
@@ -32,7 +33,7 @@ pub enum Quantity {
     SpringCubic,
     /// Its loop.
     SpringHysteresis,
-    /// Spring or weight that carries part of the weight.
+    /// Spring or counterweight that balances part of the weight.
     Counterbalance,
     /// Reported effort per torque.
     EffortGain,
@@ -63,14 +64,14 @@ pub fn levels(a: &Actuator) -> (f64, f64) {
     (0.5 * (a.coulomb_forward + a.coulomb_backward), 0.5 * (a.coulomb_forward - a.coulomb_backward))
 }
 
-/// All that the drive of a link adds to the ideal one, each with its size in words.
-pub fn quantities(robot: &Robot, link: &Link) -> Vec<(Quantity, String)> {
-    use Quantity as Q;
+/// Every property in which the drive of a link differs from an ideal one, with its size in words.
+pub fn quantities(robot: &Robot, link: &Link) -> Vec<(DriveQuantity, String)> {
+    use DriveQuantity as Q;
     let a = &link.actuator;
     let rotates = link.joint.kind.is_rotation();
     let [nm, rad, kg] = if rotates { ["N·m", "rad", "kg·m²"] } else { ["N", "m", "kg"] };
     let (mean, difference) = levels(a);
-    let mut list: Vec<(Quantity, String)> = vec![];
+    let mut list: Vec<(DriveQuantity, String)> = vec![];
     let mut add = |quantity, value: f64, ideal: f64, words: &str, unit: &str| {
         if (value - ideal).abs() > 0.0 {
             list.push((quantity, format!("{words} {} {unit}", size(value)).trim_end().to_owned()));

@@ -1,15 +1,15 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use robot::{Joint, Robot};
 
-/// The robot whose positions are those that its encoders report.
+/// The same robot in the positions that its encoders report.
 ///
 /// ```text
 /// q = q_reported - offset
 /// parent_from_child(q) = parent_from_joint motion(-offset) motion(q_reported)
 /// ```
 ///
-/// The offsets are then 0; limits and the rest of a spring are moved by them.
-pub fn as_reported(robot: &Robot) -> Robot {
+/// The encoder offsets become 0; limits and spring rests are shifted by them.
+pub fn at_reported_positions(robot: &Robot) -> Robot {
     let mut robot = robot.clone();
     for index in 0..robot.joint_count() {
         let Some(link) = robot.link_mut(index) else { continue };
@@ -26,7 +26,7 @@ pub fn as_reported(robot: &Robot) -> Robot {
     robot
 }
 
-/// What a joint at position `q` (rad or m) adds to its pose at zero.
+/// Pose of a joint at position `q` (rad or m) relative to its pose at zero.
 pub fn motion(joint: &Joint, q: f64) -> Isometry3<f64> {
     if joint.kind.is_rotation() {
         let rotation = UnitQuaternion::from_axis_angle(&joint.axis_in_joint, q);

@@ -3,18 +3,18 @@
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use robot::{Inertia, JointKind, Link, Loaded, Robot};
 
-use crate::export::unknown_friction;
 use crate::fate::Fate;
 use crate::numbers::{moments, number, numbers};
-use crate::quantity::{Quantity, levels};
-use crate::sheet::Sheet;
+use crate::quantity::{DriveQuantity, levels};
+use crate::unsupported::fate_of_unsupported;
+use crate::xml_text::XmlText;
 
 /// Name of what a model is fixed to.
 const WORLD: &str = "world";
 
 /// The robot as an SDF, its base fixed to the world.
-pub fn written(loaded: &Loaded, robot: &Robot) -> String {
-    let mut sheet = Sheet::new();
+pub fn write(loaded: &Loaded, robot: &Robot) -> String {
+    let mut sheet = XmlText::new();
     sheet.open("sdf", &[("version", "1.9".to_owned())]);
     sheet.open("model", &[("name", robot.name().to_owned())]);
     pose(&mut sheet, &upright(robot.gravity_in_base()), None);
@@ -46,14 +46,14 @@ fn upright(gravity_in_base: Vector3<f64>) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::identity(), rotation)
 }
 
-fn pose(sheet: &mut Sheet, frame: &Isometry3<f64>, relative_to: Option<&str>) {
+fn pose(sheet: &mut XmlText, frame: &Isometry3<f64>, relative_to: Option<&str>) {
     let (t, q) = (frame.translation.vector, frame.rotation.quaternion());
     let mut attributes = vec![("rotation_format", "quat_xyzw".to_owned())];
     attributes.extend(relative_to.map(|name| ("relative_to", name.to_owned())));
     sheet.text("pose", &attributes, &numbers(&[t.x, t.y, t.z, q.i, q.j, q.k, q.w]));
 }
 
-fn body(sheet: &mut Sheet, link: &Link, parent: Option<&str>) {
+fn body(sheet: &mut XmlText, link: &Link, parent: Option<&str>) {
     sheet.open("link", &[("name", link.name.clone())]);
     pose(sheet, &link.joint.parent_from_joint, parent);
     let Inertia { mass, com_in_link, about_com: i } = &link.inertia;
@@ -69,7 +69,7 @@ fn body(sheet: &mut Sheet, link: &Link, parent: Option<&str>) {
     sheet.close();
 }
 
-fn joint(sheet: &mut Sheet, link: &Link, parent: &str) {
+fn joint(sheet: &mut XmlText, link: &Link, parent: &str) {
     let (joint, a) = (&link.joint, &link.actuator);
     let kind = match joint.kind {
         JointKind::Revolute => "revolute",
@@ -104,16 +104,16 @@ fn joint(sheet: &mut Sheet, link: &Link, parent: &str) {
     sheet.close();
 }
 
-/// What becomes of a quantity of a joint.
-pub fn fate(quantity: Quantity, link: &Link) -> Fate {
+/// How an SDF represents a quantity of a joint.
+pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
     match quantity {
-        Quantity::Viscous => Fate::exact("<damping>"),
-        Quantity::Coulomb => Fate::exact("<friction>"),
-        Quantity::Spring if link.actuator.spring_stiffness > 0.0 => {
+        DriveQuantity::Viscous => Fate::exact("<damping>"),
+        DriveQuantity::Coulomb => Fate::exact("<friction>"),
+        DriveQuantity::Spring if link.actuator.spring_stiffness > 0.0 => {
             Fate::exact("<spring_stiffness>, <spring_reference>")
         }
-        Quantity::Spring => Fate::dropped("Gazebo takes no spring below 0"),
-        Quantity::EncoderOffset => Fate::exact("<pose> of the link"),
-        other => unknown_friction(other),
+        DriveQuantity::Spring => Fate::dropped("Gazebo takes no spring below 0"),
+        DriveQuantity::EncoderOffset => Fate::exact("<pose> of the link"),
+        other => fate_of_unsupported(other),
     }
 }

@@ -1,15 +1,21 @@
 use robot::{Joint, Robot};
 
 use crate::{
-    Agreement, Channel, Channels, Mend, Run, choice,
-    clock::Fill,
-    degrees,
-    run::{median, range},
-    sources::Comparison,
-    uniform::{moving, uniform},
+    checks::{degrees, saturation::saturation},
+    runs::{
+        mend::Mend,
+        run::{Channel, Channels, Run, median, range},
+    },
+    signals::{
+        agreement::Agreement,
+        choice,
+        clock::Fill,
+        sources::Comparison,
+        uniform::{moving, uniform_pieces},
+    },
 };
 
-/// What there is to know about a run before it is used.
+/// Description of a run before it is used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LogInfo {
     /// Name of the run.
@@ -18,7 +24,7 @@ pub struct LogInfo {
     pub samples: usize,
     /// Whether the file ended in the middle of a further row, which is left out.
     pub is_torn: bool,
-    /// What was put right while it was read.
+    /// Changes made while it was read.
     pub mended: Vec<Mend>,
     /// Time from the first row to the last (s).
     pub duration_s: f64,
@@ -49,7 +55,7 @@ pub struct Gap {
     pub length_s: f64,
 }
 
-/// What there is to know about one joint.
+/// Description of one joint of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointInfo {
     /// Name of the joint.
@@ -73,14 +79,14 @@ pub struct JointInfo {
     pub effort_limit: Option<f64>,
     /// Share of the samples at the lowest or the highest effort, 0 to 1.
     pub effort_saturation: f64,
-    /// Whether the positions may be degrees. A log in which they must be is not read at all.
+    /// Whether the positions may be degrees. A log in which they must be degrees is refused by reading.
     pub suspected_degrees: bool,
     /// The velocity column against the derivative of the position, both low-passed at
     /// the cut-off of this run; `None` without the column or without motion.
     pub velocity_agreement: Option<Agreement>,
 }
 
-/// Looks a run over.
+/// Describes a run before it is used.
 ///
 /// Joints are taken in the order of the robot, which is that of [`crate::read_run`].
 pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
@@ -105,7 +111,7 @@ pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
         jitter_max_s,
         gaps: steps.iter().enumerate().filter_map(gap).collect(),
         joints: joints.map(|((link, c), a)| joint_info(&link.joint, c, a)).collect(),
-        unknown_joints: unknown_joints(run),
+        unknown_joints: run.unknown_joints(),
         extra: run.extra.keys().cloned().collect(),
     }
 }
@@ -142,23 +148,6 @@ fn share(x: &[f64], test: impl Fn(f64) -> bool) -> f64 {
     x.iter().filter(|&&v| test(v)).count() as f64 / x.len().max(1) as f64
 }
 
-/// Joints of the log that the robot does not have, by their position column.
-pub(crate) fn unknown_joints(run: &Run) -> Vec<String> {
-    run.extra.keys().filter_map(|n| n.strip_suffix(".position")).map(str::to_owned).collect()
-}
-
-/// Share of the samples at the lowest or highest value, beyond the two that any signal
-/// has; 0 for a constant one.
-pub(crate) fn saturation(x: &[f64]) -> f64 {
-    let (low, high) = range(x);
-    let near = 1e-9 * low.abs().max(high.abs());
-    if high - low <= near {
-        return 0.0;
-    }
-    let at_extreme = x.iter().filter(|&&v| v <= low + near || v >= high - near).count();
-    at_extreme.saturating_sub(2) as f64 / x.len() as f64
-}
-
 /// The smallest difference between neighbouring positions that one difference in a
 /// hundred has; `None` where more than half of the differences occur once only.
 fn quantisation_step(position: &[f64]) -> Option<f64> {
@@ -178,7 +167,7 @@ fn quantisation_step(position: &[f64]) -> Option<f64> {
 /// Agreement of each joint's velocity column, over the longest piece of the run.
 fn agreements(run: &Run) -> Vec<Option<Agreement>> {
     let none = || vec![None; run.joints.len()];
-    let pieces = uniform(run, 0, Fill::SAMPLES);
+    let pieces = uniform_pieces(run, 0, Fill::SAMPLES);
     let longest = pieces.into_iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s()));
     let Some(piece) = longest else { return none() };
     let pieces = [piece];

@@ -70,7 +70,10 @@ impl<'a> Question<'a> {
         hypotheses.sort_unstable();
         hypotheses.dedup();
         let noise = self.noise.iter().map(|&n| (n > 0.0 && n.is_finite()).then_some(n));
-        let widths = hypotheses.iter().map(|h| h.bounds(self.robot).len()).collect();
+        let widths = hypotheses
+            .iter()
+            .map(|h| h.bounds(self.robot, &effects::Priors::default()).len())
+            .collect();
         Layout { hypotheses, widths, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
     }
 
@@ -123,7 +126,7 @@ impl<'a> Aim<'a> {
             Goal::Determine { finding } => vec![Self::Sure {
                 columns: layout.columns(&[finding]),
                 others: layout.columns(&question.besides(finding, finding)),
-                prior: finding.prior(question.robot, &known.scale),
+                prior: finding.prior(question.robot, &known.scale, &effects::Priors::default()),
                 logs: &known.information,
             }],
         }

@@ -289,7 +289,11 @@ mod tests {
         let found = design(&question(&robot, goal), Some(&logs), &SHORT).unwrap();
         let qd = &logs.runs[0].joints[0].qd;
         let power = qd.iter().map(|v| v * v).sum::<f64>() / RATE_HZ / 1e-3;
-        let s = finding.prior(&robot, &effects::Scale::of_logs(&robot, &logs))[0];
+        let s = finding.prior(
+            &robot,
+            &effects::Scale::of_logs(&robot, &logs),
+            &effects::Priors::default(),
+        )[0];
         let expected = 0.5 * (s * s * power).ln_1p();
         let [prospect] = found.prospects.try_into().unwrap();
         assert!((prospect.before - expected).abs() < 1e-3, "{prospect:?} {expected}");

@@ -67,7 +67,10 @@ impl Known {
     /// The weights of the columns of some causes: those that explain the logs best, or else a
     /// tenth of what is believed possible.
     pub fn weights(&self, layout: &Layout, robot: &Robot, causes: &[Hypothesis]) -> DVector<f64> {
-        let prior: Vec<f64> = causes.iter().flat_map(|h| h.prior(robot, &self.scale)).collect();
+        let prior: Vec<f64> = causes
+            .iter()
+            .flat_map(|h| h.prior(robot, &self.scale, &effects::Priors::default()))
+            .collect();
         match self.source {
             Source::Logs => self.information.weights(&layout.columns(causes), &prior),
             Source::Limits => SUPPOSED * DVector::from_vec(prior),

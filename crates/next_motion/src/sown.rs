@@ -10,7 +10,7 @@ use crate::known::supposed;
 /// velocity of it.
 pub fn sown(robot: &Robot) -> Robot {
     let mut trials: BTreeMap<_, Vec<Germ>> = BTreeMap::new();
-    for germ in germs(robot, &supposed(robot)) {
+    for germ in germs(robot, &supposed(robot), &effects::Priors::default()) {
         trials.entry(germ.hypothesis).or_default().push(germ);
     }
     let mut sown = robot.clone();

@@ -3,31 +3,34 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use simulator::scenario::{ControlSpec, RunSpec, SensorSpec};
 
-use crate::arm::Arm;
-use crate::dice::{between, happens, spread, weighted};
-use crate::ground::Ground;
-use crate::make::Make;
-use crate::motions::{self, Place};
-use crate::{ArmClass, EffortClass, MotionClass, PopulationError, RobotFiles, sensors};
+use crate::arms::arm::SampledArm;
+use crate::arms::make::Make;
+use crate::corner::{ArmClass, EffortClass, MotionClass};
+use crate::dice::{between, happens, log_uniform_between, weighted_index};
+use crate::error::PopulationError;
+use crate::motions::ground::Ground;
+use crate::motions::log_plan::LogPlan;
+use crate::robot_files::RobotFiles;
+use crate::{motions, sensors};
 
-/// Arms that are drawn before a bench is given up.
+/// Arms drawn before the draw of a bench fails.
 const TRIES: usize = 40;
-/// Time that an arm is held before a log begins (s).
+/// Time for which an arm is held before a log begins (s).
 const LEAD_IN_S: f64 = 1.0;
 
-/// An arm on its bench: what a truth is made of before anything is hidden in it.
+/// An arm with its controller, sensors and motions, before any effect is hidden in it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bench {
+pub struct LabBench {
     /// Kind of arm.
     pub class: ArmClass,
-    /// The arm as it is: bodies, rotors, gravity, gains, limits, sensing; no friction.
+    /// The true arm: bodies, rotors, gravity, gains, limits, sensing; no friction.
     pub truth: RobotFiles,
-    /// What its user has: bodies off by up to 5 % and some mm, rotors or none, a URDF without friction or with
-    /// that of nobody's arm.
+    /// The user's model: bodies off by up to 5 % and some mm, with or without rotors, and a URDF without friction
+    /// or with dummy values.
     pub nominal: RobotFiles,
     /// The controller.
     pub control: ControlSpec,
-    /// What the logs see.
+    /// The sensors of the logs.
     pub sensors: SensorSpec,
     /// The logs given to the diagnosis.
     pub runs: Vec<RunSpec>,
@@ -35,7 +38,7 @@ pub struct Bench {
     pub held_out: RunSpec,
     /// Kind of motion; the first of a mixture.
     pub motion: MotionClass,
-    /// What the effort is.
+    /// Source of the effort.
     pub effort: EffortClass,
     /// Whether all logs are of one motion.
     pub repeats: bool,
@@ -43,12 +46,12 @@ pub struct Bench {
     pub friction: Vec<f64>,
 }
 
-/// What benches are drawn from.
+/// Ranges from which benches are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BenchWishes {
-    /// Kinds of arm, each as likely.
+    /// Kinds of arm, equally likely.
     pub classes: Vec<ArmClass>,
-    /// Kinds of motion, each as likely.
+    /// Kinds of motion, equally likely.
     pub motions: Vec<MotionClass>,
     /// Least and largest number of logs.
     pub logs: [usize; 2],
@@ -60,19 +63,22 @@ pub struct BenchWishes {
 ///
 /// # Errors
 ///
-/// [`PopulationError::NothingToDraw`], or [`PopulationError::NoBench`] where no arm carries a motion of the
-/// kind that was drawn.
-pub fn draw_bench(wishes: &BenchWishes, random: &mut ChaCha8Rng) -> Result<Bench, PopulationError> {
+/// [`PopulationError::NothingToDraw`], or [`PopulationError::NoBench`] where no arm can follow a motion of the
+/// drawn kind.
+pub fn draw_bench(
+    wishes: &BenchWishes,
+    random: &mut ChaCha8Rng,
+) -> Result<LabBench, PopulationError> {
     let class = pick("classes", &wishes.classes, random)?;
     let motion = pick("motions", &wishes.motions, random)?;
     // Settled once, so that arms which are hard to move are not rare.
-    let count = 1 + weighted(random, &Make::of(class).joints);
+    let count = 1 + weighted_index(random, &Make::of(class).joints);
     for _ in 0..TRIES {
-        let arm = Arm::draw(class, count, random)?;
+        let arm = SampledArm::draw(class, count, random)?;
         let sensors = sensors::draw(class, &arm, random);
         let friction = arm.friction(class, random);
-        if let Some(moved) = moved(&arm, motion, wishes, random)? {
-            return Ok(Bench {
+        if let Some(moved) = draw_runs(&arm, motion, wishes, random)? {
+            return Ok(LabBench {
                 class,
                 control: ControlSpec::default(),
                 sensors,
@@ -91,23 +97,23 @@ pub fn draw_bench(wishes: &BenchWishes, random: &mut ChaCha8Rng) -> Result<Bench
 }
 
 /// The runs of a bench.
-struct Moved {
+struct BenchRuns {
     runs: Vec<RunSpec>,
     held_out: RunSpec,
     repeats: bool,
 }
 
-/// Runs of an arm; `None` where it carries no such motion.
-fn moved(
-    arm: &Arm,
+/// Draws the runs of an arm; `None` where it can follow no such motion.
+fn draw_runs(
+    arm: &SampledArm,
     motion: MotionClass,
     wishes: &BenchWishes,
     random: &mut ChaCha8Rng,
-) -> Result<Option<Moved>, PopulationError> {
+) -> Result<Option<BenchRuns>, PopulationError> {
     let ground = Ground::new(arm, between(random, [0.2, 1.0]));
     let logs = log_count(ground.count(), motion, wishes, random);
     let repeats = motion == MotionClass::Repeated && logs > 1;
-    let typical_s = spread(random, wishes.log_s);
+    let typical_s = log_uniform_between(random, wishes.log_s);
     let mixed = happens(random, 0.2)
         && !matches!(motion, MotionClass::Repeated | MotionClass::JointByJoint);
     let mut runs: Vec<RunSpec> = Vec::with_capacity(logs);
@@ -121,14 +127,16 @@ fn moved(
             true => other(wishes, motion, random),
             false => motion,
         };
-        let place = Place { log, logs, length_s: length(typical_s, wishes, random) };
-        let Some(spec) = motions::draw(class, &ground, place, random)? else { return Ok(None) };
+        let place = LogPlan { log, logs, length_s: length(typical_s, wishes, random) };
+        let Some(spec) = motions::draw::draw(class, &ground, place, random)? else {
+            return Ok(None);
+        };
         runs.push(run(name(log), spec));
     }
     // What all joints do in one log says most of a model.
-    let place = Place { log: 0, logs: 1, length_s: length(typical_s, wishes, random) };
-    let held_out = motions::draw(motion, &ground, place, random)?;
-    Ok(held_out.map(|spec| Moved { runs, held_out: run("held_out".to_owned(), spec), repeats }))
+    let place = LogPlan { log: 0, logs: 1, length_s: length(typical_s, wishes, random) };
+    let held_out = motions::draw::draw(motion, &ground, place, random)?;
+    Ok(held_out.map(|spec| BenchRuns { runs, held_out: run("held_out".to_owned(), spec), repeats }))
 }
 
 fn log_count(

@@ -3,7 +3,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Makes an enum whose variants are told by name in files and tables.
+/// Makes an enum with a name for each variant, used in files and tables.
 macro_rules! named {
     ($(#[$meta:meta])* $type:ident { $($(#[$meaning:meta])* $variant:ident = $name:literal,)* }) => {
         $(#[$meta])*
@@ -91,16 +91,16 @@ named! {
     }
 }
 
-/// The corner of the population that a trial lies in.
+/// The class of a trial: its arm, motion, sensors and logs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Corner {
-    /// Where its logs come from.
+    /// Origin of its logs.
     pub origin: Origin,
     /// Name of the arm: its class, or the recorded robot.
     pub arm: String,
-    /// How it is moved; the first of a mixture.
+    /// Kind of motion; the first of a mixture.
     pub motion: MotionClass,
-    /// What its effort is.
+    /// Source of its effort.
     pub effort: EffortClass,
     /// Number of joints.
     pub joints: usize,
@@ -110,7 +110,7 @@ pub struct Corner {
     pub rate_hz: f64,
     /// Logs given to the diagnosis.
     pub logs: usize,
-    /// Their length in all (s).
+    /// Total length of these logs (s).
     pub length_s: f64,
     /// Whether all logs are of one motion.
     pub repeats: bool,

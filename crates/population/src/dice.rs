@@ -10,7 +10,7 @@ pub(crate) fn between(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> f64 {
 }
 
 /// Uniform in the logarithm between two positive numbers.
-pub(crate) fn spread(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> f64 {
+pub(crate) fn log_uniform_between(random: &mut ChaCha8Rng, [low, high]: [f64; 2]) -> f64 {
     low * (high / low).powf(random.random::<f64>())
 }
 
@@ -25,7 +25,7 @@ pub(crate) fn one_of<T: Copy, const N: usize>(random: &mut ChaCha8Rng, from: [T;
 }
 
 /// An index, as likely as its weight says.
-pub(crate) fn weighted(random: &mut ChaCha8Rng, weights: &[f64]) -> usize {
+pub(crate) fn weighted_index(random: &mut ChaCha8Rng, weights: &[f64]) -> usize {
     let mut left = random.random::<f64>() * weights.iter().sum::<f64>();
     for (index, weight) in weights.iter().enumerate() {
         left -= weight;
@@ -51,6 +51,6 @@ pub(crate) fn small_rotation(random: &mut ChaCha8Rng, largest: f64) -> Rotation3
 }
 
 /// A number to so many significant digits, as data sheets have them.
-pub(crate) fn rounded(value: f64, digits: usize) -> f64 {
+pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }

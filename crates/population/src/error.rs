@@ -6,9 +6,9 @@ use motion::MotionError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
-use crate::{ArmClass, MotionClass};
+use crate::corner::{ArmClass, MotionClass};
 
-/// What keeps a trial from being made.
+/// Why a trial cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PopulationError {
@@ -24,7 +24,7 @@ pub enum PopulationError {
     /// A drawn motion cannot be made.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A value of a document cannot be meant.
+    /// A value of a document is impossible.
     #[error(transparent)]
     Document(#[from] DocumentError),
     /// A folder cannot be used.
@@ -32,7 +32,7 @@ pub enum PopulationError {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         reason: String,
     },
     /// The truth about a trial cannot be read.
@@ -43,7 +43,7 @@ pub enum PopulationError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A text of the program's own cannot be written.
+    /// A generated text cannot be serialised.
     #[error("the {what} of a trial cannot be written: {reason}")]
     Unwritable {
         /// What it is.
@@ -56,7 +56,7 @@ pub enum PopulationError {
     LeftItsRange {
         /// The joint.
         joint: String,
-        /// Where it came to (rad or m).
+        /// Position found (rad or m).
         found: f64,
         /// Its range (rad or m).
         range: [f64; 2],
@@ -64,7 +64,7 @@ pub enum PopulationError {
     /// A scenario without runs.
     #[error("a trial has no run, at least one was expected")]
     NoRun,
-    /// There is nothing to choose from.
+    /// A list of choices is empty.
     #[error("{key}: nothing to draw from was found, at least one was expected")]
     NothingToDraw {
         /// What is to be drawn.
@@ -82,18 +82,18 @@ pub enum PopulationError {
         /// How many arms were drawn.
         tries: usize,
     },
-    /// A simulated trial was asked of recorded logs.
+    /// A simulated trial was requested from recorded logs.
     #[error(
         "origin simulated: a trial of recorded logs was asked for, origin recorded or transplant was expected"
     )]
     OriginSimulated,
-    /// No recorded logs are in a folder.
+    /// A folder contains no recorded logs.
     #[error("{}: no arm's recorded logs were found, at least one arm's were expected", data.display())]
     NoRecordedLogs {
         /// The folder.
         data: PathBuf,
     },
-    /// A cause cannot be put into logs in which no joint moves.
+    /// No joint moves in the logs, so no cause can be added to them.
     #[error("arm {arm}: no joint of its recorded logs moves, one that does was expected")]
     NothingMoves {
         /// Name of the arm.
@@ -102,7 +102,7 @@ pub enum PopulationError {
 }
 
 impl PopulationError {
-    /// What the system says of a folder.
+    /// The error for a folder.
     pub(crate) fn of_folder(folder: &Path) -> impl Fn(std::io::Error) -> Self {
         |error| Self::Folder { path: folder.to_owned(), reason: error.to_string() }
     }

@@ -29,7 +29,7 @@ struct Link {
 
 impl Moving {
     /// The links at positions, velocities and accelerations of the joints (rad or m, and per s, per s2).
-    pub fn new(robot: &Robot, [q, qd, qdd]: [&[f64]; 3]) -> Self {
+    pub fn new(robot: &Robot, q: &[f64], qd: &[f64], qdd: &[f64]) -> Self {
         let mut links: Vec<Link> = Vec::with_capacity(robot.joint_count());
         let base = Link {
             parent: None,
@@ -96,8 +96,8 @@ impl Moving {
 }
 
 /// Torques (N m or N) of all bodies of an arm along a motion, without its drives.
-pub(crate) fn body_torque(robot: &Robot, state: [&[f64]; 3], tau: &mut [f64]) {
-    let moving = Moving::new(robot, state);
+pub(crate) fn body_torque(robot: &Robot, q: &[f64], qd: &[f64], qdd: &[f64], tau: &mut [f64]) {
+    let moving = Moving::new(robot, q, qd, qdd);
     tau.fill(0.0);
     for (i, link) in robot.links().iter().enumerate() {
         moving.add_body(i, &link.inertia.parameters(), tau);
@@ -123,9 +123,9 @@ mod tests {
     #[test]
     fn one_body_turns_and_is_lifted_as_the_closed_forms_say() {
         let mut tau = [0.0];
-        body_torque(&arm("revolute"), [&[0.3], &[1.0], &[4.0]], &mut tau);
+        body_torque(&arm("revolute"), &[0.3], &[1.0], &[4.0], &mut tau);
         assert!((tau[0] - (0.02 + 2.0 * 0.25) * 4.0).abs() < 1e-12);
-        body_torque(&arm("prismatic"), [&[0.3], &[1.0], &[4.0]], &mut tau);
+        body_torque(&arm("prismatic"), &[0.3], &[1.0], &[4.0], &mut tau);
         assert!((tau[0] - 2.0 * (9.81 + 4.0)).abs() < 1e-12);
     }
 }

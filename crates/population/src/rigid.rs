@@ -12,7 +12,7 @@ use crate::moving::body_torque;
 /// ```
 pub(crate) fn torque(robot: &Robot, q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> {
     let mut tau = vec![0.0; robot.joint_count()];
-    body_torque(robot, [q, qd, qdd], &mut tau);
+    body_torque(robot, q, qd, qdd, &mut tau);
     for (i, link) in robot.links().iter().enumerate() {
         let drive = &link.actuator;
         tau[i] += drive.rotor_inertia * qdd[i];
@@ -31,7 +31,7 @@ pub(crate) fn mass_matrix(robot: &Robot, q: &[f64]) -> DMatrix<f64> {
     for j in 0..count {
         let mut unit = rest.clone();
         unit[j] = 1.0;
-        body_torque(&weightless, [q, &rest, &unit], &mut column);
+        body_torque(&weightless, q, &rest, &unit, &mut column);
         matrix.column_mut(j).copy_from_slice(&column);
         matrix[(j, j)] += robot.links()[j].actuator.rotor_inertia;
     }

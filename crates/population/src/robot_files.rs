@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use logs::LogError;
 use robot::{Loaded, Robot};
 
-use crate::PopulationError;
+use crate::error::PopulationError;
 
 /// A robot as two files: `robot.urdf` and `robot.toml`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct RobotFiles {
 }
 
 impl RobotFiles {
-    /// The files of a folder; a URDF alone has a `robot.toml` that says nothing more.
+    /// Reads the files of a folder. A URDF alone gets a `robot.toml` that only names it.
     pub(crate) fn read(folder: &Path) -> Option<Self> {
         let urdf = std::fs::read_to_string(folder.join("robot.urdf")).ok()?;
         let toml = std::fs::read_to_string(folder.join("robot.toml"));
@@ -26,7 +26,7 @@ impl RobotFiles {
     ///
     /// # Errors
     ///
-    /// [`PopulationError::Robot`], and what keeps them from being written into a temporary folder.
+    /// [`PopulationError::Robot`], and the errors of writing them into a temporary folder.
     pub fn load(&self) -> Result<Loaded, PopulationError> {
         let temporary = std::env::temp_dir();
         let at = PopulationError::of_folder(&temporary);
@@ -34,7 +34,7 @@ impl RobotFiles {
         Ok(Robot::load(&self.write(folder.path())?)?)
     }
 
-    /// Writes both into a folder, each whole or not at all, and says where `robot.toml` is.
+    /// Writes both into a folder atomically and returns the path of `robot.toml`.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The sensors of a log, as they come with an arm of a class.
+//! Sensors of a log, drawn by the class of the arm.
 
 use std::collections::BTreeMap;
 
@@ -6,12 +6,12 @@ use rand_chacha::ChaCha8Rng;
 use simulator::scenario::{DropoutSpec, Logged, SensorSpec};
 use simulator::{PositionSide, VelocitySource};
 
-use crate::arm::Arm;
-use crate::dice::{between, happens, one_of, rounded, spread};
-use crate::{ArmClass, EffortClass};
+use crate::arms::arm::SampledArm;
+use crate::corner::{ArmClass, EffortClass};
+use crate::dice::{between, happens, log_uniform_between, one_of, round_to_digits};
 
-/// Sensors of an arm.
-pub(crate) fn draw(class: ArmClass, arm: &Arm, random: &mut ChaCha8Rng) -> SensorSpec {
+/// Draws the sensors of an arm.
+pub(crate) fn draw(class: ArmClass, arm: &SampledArm, random: &mut ChaCha8Rng) -> SensorSpec {
     let electronics = &arm.electronics;
     let mut spec = SensorSpec {
         position: electronics.position,
@@ -27,21 +27,21 @@ pub(crate) fn draw(class: ArmClass, arm: &Arm, random: &mut ChaCha8Rng) -> Senso
     }
     let period_ms = 1e3 / electronics.log_rate_hz;
     if happens(random, 0.15) {
-        spec.time_jitter_ms = rounded(period_ms * between(random, [0.01, 0.1]), 2);
+        spec.time_jitter_ms = round_to_digits(period_ms * between(random, [0.01, 0.1]), 2);
     }
     if happens(random, 0.1) {
-        spec.dropped_share = rounded(spread(random, [0.002, 0.05]), 2);
+        spec.dropped_share = round_to_digits(log_uniform_between(random, [0.002, 0.05]), 2);
     }
     if happens(random, 0.12) {
-        let per_minute = rounded(spread(random, [1.0, 6.0]), 2);
-        let length_ms = rounded(spread(random, [20.0, 300.0]), 2);
+        let per_minute = round_to_digits(log_uniform_between(random, [1.0, 6.0]), 2);
+        let length_ms = round_to_digits(log_uniform_between(random, [20.0, 300.0]), 2);
         spec.dropouts = Some(DropoutSpec { per_minute, length_ms });
     }
     spec
 }
 
-/// Encoders, and second ones at the links of some arms.
-fn encoders(class: ArmClass, arm: &Arm, spec: &mut SensorSpec, random: &mut ChaCha8Rng) {
+/// Encoders, with second ones at the links of some arms.
+fn encoders(class: ArmClass, arm: &SampledArm, spec: &mut SensorSpec, random: &mut ChaCha8Rng) {
     let bits = match class {
         ArmClass::Hobby => one_of(random, [12, 12, 12, 10, 14]),
         ArmClass::Cobot => one_of(random, [17, 18, 19, 20]),
@@ -60,26 +60,27 @@ fn encoders(class: ArmClass, arm: &Arm, spec: &mut SensorSpec, random: &mut ChaC
         let name = &link.joint.name;
         // A spindle of 40 mm a turn makes metres of turns.
         let way = if link.joint.kind.is_rotation() { 1.0 } else { 0.04 / std::f64::consts::TAU };
-        spec.position_resolution_rad.insert(name.clone(), rounded(way * step, 6));
-        spec.position_noise_rad.insert(name.clone(), rounded(way * step * noise, 3));
+        spec.position_resolution_rad.insert(name.clone(), round_to_digits(way * step, 6));
+        spec.position_noise_rad.insert(name.clone(), round_to_digits(way * step * noise, 3));
         if second {
-            spec.link_position_resolution_rad.insert(name.clone(), rounded(way * link_step, 6));
+            spec.link_position_resolution_rad
+                .insert(name.clone(), round_to_digits(way * link_step, 6));
             spec.link_position_noise_rad
-                .insert(name.clone(), rounded(way * link_step * link_noise, 3));
+                .insert(name.clone(), round_to_digits(way * link_step * link_noise, 3));
         }
     }
     if second && happens(random, 0.5) {
-        spec.link_position_lag_ms = rounded(between(random, [0.5, 5.0]), 2);
+        spec.link_position_lag_ms = round_to_digits(between(random, [0.5, 5.0]), 2);
     }
 }
 
-/// Noise and steps of the efforts, over what the drives are rated for.
-fn efforts(class: ArmClass, arm: &Arm, spec: &mut SensorSpec, random: &mut ChaCha8Rng) {
+/// Noise and steps of the efforts, as shares of the drives' ratings.
+fn efforts(class: ArmClass, arm: &SampledArm, spec: &mut SensorSpec, random: &mut ChaCha8Rng) {
     let noise = match (arm.electronics.effort, class) {
         (EffortClass::Command, _) => 0.0,
-        (EffortClass::Current, ArmClass::Hobby) => spread(random, [0.01, 0.05]),
-        (EffortClass::Current, _) => spread(random, [0.005, 0.05]),
-        (EffortClass::JointTorque, _) => spread(random, [0.001, 0.01]),
+        (EffortClass::Current, ArmClass::Hobby) => log_uniform_between(random, [0.01, 0.05]),
+        (EffortClass::Current, _) => log_uniform_between(random, [0.005, 0.05]),
+        (EffortClass::JointTorque, _) => log_uniform_between(random, [0.001, 0.01]),
     };
     let stepped = match class {
         ArmClass::Hobby => 0.6,
@@ -89,7 +90,7 @@ fn efforts(class: ArmClass, arm: &Arm, spec: &mut SensorSpec, random: &mut ChaCh
         if happens(random, stepped) { 1.0 / one_of(random, [500.0, 1000.0, 2000.0]) } else { 0.0 };
     let of = |share: f64| -> BTreeMap<String, f64> {
         let pairs = arm.robot.joint_names().zip(&arm.limits);
-        pairs.map(|(name, limit)| (name.to_owned(), rounded(share * limit, 3))).collect()
+        pairs.map(|(name, limit)| (name.to_owned(), round_to_digits(share * limit, 3))).collect()
     };
     if noise > 0.0 {
         spec.effort_noise_nm = of(0.5 * noise);

@@ -3,37 +3,39 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
-use crate::{Corner, PopulationError};
+use crate::corner::Corner;
+use crate::error::PopulationError;
+use crate::text_file::write_text;
 
-/// What is true of a trial: `sheet.json`, sealed until its logs are diagnosed.
+/// The truth about a trial, `sheet.json`, kept apart until its logs are diagnosed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sheet {
-    /// The seed that everything was drawn from.
+    /// The seed of every draw.
     pub seed: u64,
-    /// Where in the population it lies.
+    /// The class of the trial.
     pub corner: Corner,
-    /// Whether `causes` and `strangers` are all there is.
+    /// Whether `causes` and `strangers` are complete.
     pub knowledge: Knowledge,
     /// Names of the joints.
     pub joints: Vec<String>,
-    /// What torques of each joint count by: RMS of its effort over the logs, at least the deviation of its noise
-    /// and a thousandth of the drive's limit (N m or N).
+    /// Scale of torques at each joint (N m or N): RMS of its effort over the logs, at least the deviation of its
+    /// noise and a thousandth of the drive's limit.
     pub torque_rms: Vec<f64>,
     /// Effects of the catalogue by which the arm differs from its nominal model.
     pub causes: Vec<Cause>,
-    /// Effects of no catalogue in the arm.
+    /// Effects outside the catalogue in the arm.
     pub strangers: Vec<Unnamed>,
 }
 
-/// How much of what is in the logs is known.
+/// How much of the causes in the logs is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Knowledge {
-    /// All of it.
+    /// All causes.
     Whole,
-    /// What was added to a recorded log.
+    /// The cause that was added to a recorded log.
     Added,
-    /// Nothing.
+    /// No cause.
     None,
 }
 
@@ -45,7 +47,7 @@ pub struct Cause {
     /// The effect, its place, and its parameters beyond the nominal model.
     #[serde(flatten)]
     pub truth: Truth,
-    /// What an oracle sees of it.
+    /// How visible it is to an oracle.
     pub strength: Strength,
 }
 
@@ -55,28 +57,28 @@ pub struct Cause {
 pub enum Role {
     /// Everyday friction of a joint.
     Background,
-    /// The nominal model errs: a body, a rotor.
+    /// An error of the nominal model: a body, a rotor.
     Nominal,
     /// Hidden on purpose.
     Hidden,
 }
 
-/// An effect of no catalogue in an arm.
+/// An effect outside the catalogue in an arm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Unnamed {
     /// Its name among the strangers of the simulator.
     pub name: String,
     /// The joint it acts at, where it has one.
     pub joint: Option<String>,
-    /// What an oracle sees of it.
+    /// How visible it is to an oracle.
     pub strength: Strength,
 }
 
-/// What an oracle that knows the true model, the motion and the sensors sees of a cause.
+/// Visibility of a cause to an oracle that knows the true model, the motion and the sensors.
 ///
 /// ```text
 /// c_j      the cause's torque at joint j along the motion
-/// A w      the best that everything else can do: all other causes; dry and viscous friction, offset and rotor of
+/// A w      the best fit by everything else: all other causes; dry and viscous friction, offset and rotor of
 ///          every joint, of any size; every body, known to a twentieth
 /// S_j(f)   spectrum of the torque noise of joint j: sensor, and encoder carried through M_jj (2 pi f)^2
 /// sigmas = root of the least sum over f and j of |c_j(f) - A_j(f) w|^2 / S_j(f)   its size over its
@@ -90,20 +92,20 @@ pub struct Unnamed {
 pub struct Strength {
     /// Its size over the least standard deviation that an unbiased estimate can have.
     pub sigmas: f64,
-    /// The part of its torque that nothing else can stand in for, over the torque of its joints.
+    /// The part of its torque that nothing else can explain, over the torque of its joints.
     pub share: f64,
-    /// Its torque over that of its joints, whatever could stand in for it: the weight of the cause.
+    /// Its whole torque over that of its joints: the weight of the cause.
     pub torque: f64,
 }
 
 impl Strength {
-    /// Deviations from which on a cause counts as visible: twice what any test at 1 in 100 needs.
+    /// Least `sigmas` of a visible cause: twice that of a test at the level of 1 %.
     pub const SIGMAS: f64 = 5.0;
 
-    /// Share of torque from which on a cause counts: what is below is the floor of a trial.
+    /// Least `share` of a visible cause: the floor of a trial.
     pub const FLOOR: f64 = 0.02;
 
-    /// Whether an oracle sees it and it is above the floor.
+    /// Whether the cause is visible to the oracle and above the floor.
     pub fn visible(&self) -> bool {
         self.sigmas >= Self::SIGMAS && self.share >= Self::FLOOR
     }
@@ -113,14 +115,14 @@ impl Sheet {
     /// Name of its file.
     pub const FILE: &str = "sheet.json";
 
-    /// Writes it into a folder, whole or not at all.
+    /// Writes it into a folder atomically.
     ///
     /// # Errors
     ///
     /// [`PopulationError::Log`] when it cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), PopulationError> {
         let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
-        crate::trial::write(&folder.join(Self::FILE), &text)
+        write_text(&folder.join(Self::FILE), &text)
     }
 
     /// Opens the sheet of a folder.
@@ -135,7 +137,7 @@ impl Sheet {
         serde_json::from_str(&text).map_err(|e| unreadable(e.to_string()))
     }
 
-    /// Whether something that an oracle sees is in the logs.
+    /// Whether the logs contain a visible cause or stranger.
     pub fn hides(&self) -> bool {
         self.causes.iter().any(|cause| cause.strength.visible())
             || self.strangers.iter().any(|stranger| stranger.strength.visible())

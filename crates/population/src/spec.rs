@@ -4,7 +4,11 @@ use document::{Document, DocumentError, KeyPath};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{ArmClass, MotionClass, Origin};
+use crate::corner::{ArmClass, MotionClass, Origin};
+
+/// Version of the draws, the simulator and the oracle, from which logs and sheets follow beside a
+/// [`PopulationSpec`].
+pub const FORMAT: u32 = 1;
 
 /// Most trials of a population.
 const MOST_TRIALS: usize = 1_000_000;
@@ -69,12 +73,12 @@ pub struct RecordedSpec {
 }
 
 impl PopulationSpec {
-    /// The population at a key of a document, its paths absolute; recorded trials whose folder is absent are
-    /// left out.
+    /// Reads the population at a key of a document, with absolute paths and without recorded trials whose folder
+    /// is absent.
     ///
     /// # Errors
     ///
-    /// [`DocumentError`] at the value that no population can have.
+    /// [`DocumentError`] at an impossible value.
     pub fn from_document(
         document: &Document,
         key: &KeyPath,
@@ -82,8 +86,8 @@ impl PopulationSpec {
     ) -> Result<Self, DocumentError> {
         let check = Check { document, key };
         check.number("trials", spec.trials as f64, [1.0, MOST_TRIALS as f64])?;
-        check.filled("arms", spec.arms.len())?;
-        check.filled("motions", spec.motions.len())?;
+        check.not_empty("arms", spec.arms.len())?;
+        check.not_empty("motions", spec.motions.len())?;
         check.range("logs", spec.logs.map(|n| n as f64), [1.0, MOST_LOGS as f64])?;
         check.range("log_s", spec.log_s, [5.0, 60.0])?;
         check.number("longest_s", spec.longest_s, [5.0, 480.0])?;
@@ -115,7 +119,7 @@ impl PopulationSpec {
         self.trials + self.recorded.as_ref().map_or(0, |recorded| recorded.trials)
     }
 
-    /// Where the logs of a task come from.
+    /// Origin of the logs of a task.
     pub fn origin(&self, task: usize) -> Origin {
         match task.checked_sub(self.trials) {
             None => Origin::Simulated,
@@ -124,23 +128,23 @@ impl PopulationSpec {
         }
     }
 
-    /// What the draws of a simulated trial follow from besides its seed, as one text: the same for populations
-    /// of other sizes, so that a larger one holds the trials of a smaller.
+    /// Everything but the seed that determines a simulated trial, as one text. It does not depend on the number
+    /// of trials, so that a larger population contains the trials of a smaller one.
     pub(crate) fn draws(&self) -> String {
         let spec = Self { trials: 0, seed: 0, recorded: None, ..self.clone() };
         serde_json::to_string(&spec).unwrap_or_default()
     }
 
-    /// All that its trials follow from, as one text without paths.
+    /// Everything that determines its trials, as one text without paths.
     pub fn identity(&self) -> String {
         let recorded = self.recorded.clone();
         let recorded = recorded.map(|r| RecordedSpec { data: PathBuf::new(), ..r });
         let spec = Self { recorded, ..self.clone() };
-        format!("{}\n{}", crate::FORMAT, serde_json::to_string(&spec).unwrap_or_default())
+        format!("{}\n{}", FORMAT, serde_json::to_string(&spec).unwrap_or_default())
     }
 }
 
-/// Looks at the values of a population.
+/// Checks the values of a population.
 struct Check<'a> {
     document: &'a Document,
     key: &'a KeyPath,
@@ -174,7 +178,7 @@ impl Check<'_> {
         Err(self.mistake(name, found))
     }
 
-    fn filled(&self, name: &str, count: usize) -> Result<(), DocumentError> {
+    fn not_empty(&self, name: &str, count: usize) -> Result<(), DocumentError> {
         if count > 0 {
             return Ok(());
         }

@@ -6,20 +6,22 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::{FORMAT, PopulationError, PopulationSpec, make};
+use crate::error::PopulationError;
+use crate::spec::{FORMAT, PopulationSpec};
+use crate::trial::make::make;
 
-/// Name of the file that lists those of an entry; it is the last to appear.
+/// Name of the file that lists the files of an entry; it is written last.
 const ENTRY: &str = "entry.json";
 
-/// Logs that were made once and are kept: a folder with an entry for every trial.
+/// A cache of trials: a folder with an entry per trial.
 ///
 /// ```text
-/// key   = SHA-256(what the draws of a population follow from, seed of the trial)
+/// key   = SHA-256(everything that determines the draws of a population, seed of the trial)
 /// entry = DIR/ab/abcd.../{nominal, logs, held_out, truth, sheet.json, entry.json}
 /// ```
 ///
-/// An entry is made beside its place and renamed when it is whole, under a lock that falls with the process. One
-/// of another version of the program, or whose files are other than it lists, is made again.
+/// An entry is built beside its place and renamed when complete, under a lock that ends with the process. An
+/// entry of another version, or with files that differ from its list, is made again.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Store {
     root: PathBuf,
@@ -39,18 +41,18 @@ pub struct Remade {
 pub struct Kept {
     /// Its folder.
     pub folder: PathBuf,
-    /// Whether it was there already, was made, or was made again.
+    /// How it came to be there.
     pub came: Came,
 }
 
 /// How a trial came to be in a store.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Came {
-    /// It was there.
+    /// It existed.
     WasThere,
     /// It was made.
     Made,
-    /// It was there, could not be used, and was made again.
+    /// It existed, could not be used, and was made again.
     Again(Remade),
 }
 
@@ -63,7 +65,7 @@ struct Entry {
 }
 
 impl Store {
-    /// The store in a folder, which is made when it is not there.
+    /// Opens the store in a folder, creating the folder where it is absent.
     ///
     /// # Errors
     ///
@@ -73,11 +75,11 @@ impl Store {
         Ok(Self { root: root.to_owned() })
     }
 
-    /// The simulated trial of a population with a seed, made when it is not there.
+    /// The simulated trial of a population with a seed, made where it is absent.
     ///
     /// # Errors
     ///
-    /// [`PopulationError`] when it cannot be made, read or written; nothing half made stays in its place.
+    /// [`PopulationError`] when it cannot be made, read or written. No incomplete entry is left behind.
     pub fn trial(&self, spec: &PopulationSpec, seed: u64) -> Result<Kept, PopulationError> {
         let key = key(spec, seed);
         let folder = self.root.join(&key[..2]).join(&key);
@@ -123,7 +125,7 @@ impl Store {
     }
 }
 
-/// What a trial is found by.
+/// The key of a trial.
 fn key(spec: &PopulationSpec, seed: u64) -> String {
     hexadecimal(format!("{}\n{seed}", spec.draws()).as_bytes())
 }
@@ -136,7 +138,7 @@ fn hexadecimal(bytes: &[u8]) -> String {
     })
 }
 
-/// Whether an entry is whole and of this version; otherwise why not, where something is there.
+/// Whether an entry is complete and of this version, and why not where one exists.
 fn whole(folder: &Path) -> Result<(), Option<String>> {
     if !folder.exists() {
         return Err(None);
@@ -155,7 +157,7 @@ fn whole(folder: &Path) -> Result<(), Option<String>> {
     }
 }
 
-/// SHA-256 of every file below a folder but the list itself.
+/// SHA-256 of every file below a folder except the list itself.
 fn hashes(folder: &Path) -> std::io::Result<BTreeMap<String, String>> {
     let mut all = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];

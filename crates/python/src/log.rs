@@ -2,7 +2,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use cli::{ColumnArguments, ExcerptArguments};
-use logs::{Channel, LogError, ReadOptions, Run};
+use logs::{Channel, FormatError, LogError, ReadOptions, Run};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -50,7 +50,7 @@ impl Log {
                 let [episode] = asked.each().collect::<Vec<_>>()[..] else {
                     let found = asked.each().filter_map(|episode| episode.number).collect();
                     let path = path.clone();
-                    return Err(raised(LogError::Episode { path, asked: None, found }));
+                    return Err(raised(LogError::from(FormatError::Episode { path, asked: None, found })));
                 };
                 let reader = columns.reader().map_err(raised)?;
                 reader.read(path, episode, robot).map_err(raised)
@@ -247,7 +247,7 @@ impl Log {
         until_damage: bool,
     ) -> PyResult<Self> {
         if !path.exists() {
-            return Err(raised(LogError::Missing { path }));
+            return Err(raised(LogError::from(FormatError::Missing { path })));
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let (effort, excerpt) = (effort.to_owned(), ExcerptArguments::default());

@@ -110,13 +110,13 @@ fn pages() -> Vec<(&'static str, String)> {
     let text = "<robot name=\"arm\"/>".repeat(30);
     let export = exchange::Export { text, fates: Vec::new(), robot: arm.robot.clone() };
     let descriptions = [(exchange::Format::Urdf, export)];
-    let report = crate::Report { descriptions: &descriptions, ..arm.report() };
+    let report = crate::diagnosis::report::Report { descriptions: &descriptions, ..arm.report() };
     vec![
-        ("diagnosis.html", crate::html(&report).unwrap()),
+        ("diagnosis.html", crate::diagnosis::page::html(&report).unwrap()),
         ("run.html", crate::run::sample::run().report().page().unwrap()),
         ("tracking.html", crate::tracking::sample::comparison().page().unwrap()),
         ("learning.html", crate::learning::sample::comparison().page().unwrap()),
-        ("replay.html", crate::replay::sample().page().unwrap()),
+        ("replay.html", crate::replay::sample::sample().page().unwrap()),
     ]
 }
 

@@ -6,11 +6,14 @@ use diagnosis::{
     JointReport, JointTraces, NoiseFloorSource, NoiseSpectrum, RuledOut, RunSummary, RunTraces,
     SCHEMA, Unexplained, Verdict,
 };
+use evaluation::{Drift, ForwardGap, ForwardWindow};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 
-use crate::{FileHash, LengthScale, Provenance, Report, ResidualJoint, ResidualModel};
+use crate::diagnosis::report::Report;
+use crate::diagnosis::residual::{LengthScale, ResidualJoint, ResidualModel};
+use pages::{FileHash, Provenance};
 
 /// What a [`Report`] borrows.
 pub struct Sample {
@@ -89,6 +92,25 @@ pub fn residual() -> ResidualModel {
         joints: vec![unused, used],
         remarks: vec!["one thing to know".into()],
     }
+}
+
+/// One length of time, of which two windows in five ran away with the nominal simulation.
+pub fn forward_gap() -> ForwardGap {
+    let nominal = Drift {
+        rms: Some(vec![0.1, 0.02]),
+        tip_rms_m: Some(0.05),
+        tip_course_m: vec![0.02, 0.05],
+        runaways: 2,
+        trouble: None,
+    };
+    let extended = Drift {
+        rms: Some(vec![0.01, 0.002]),
+        tip_rms_m: Some(0.004),
+        tip_course_m: vec![0.003, 0.004],
+        runaways: 0,
+        trouble: Some("a reason".into()),
+    };
+    ForwardGap { windows: vec![ForwardWindow { window_s: 0.2, windows: 5, nominal, extended }] }
 }
 
 fn link(index: usize, joint: &str) -> Link {

@@ -1,13 +1,15 @@
 use std::fmt::Write as _;
 
-use crate::{Link, Loaded, RobotError};
+use crate::error::RobotError;
+use crate::loaded::Loaded;
+use crate::structure::link::Link;
 
 impl Loaded {
-    /// What the files say of the robot's motion, as one text: the same wherever they lie, whatever they are
-    /// called, and with other comments and meshes.
+    /// Everything in the files that affects the robot's motion, as one text. It does not depend on the
+    /// names and places of the files, on comments or on meshes.
     ///
-    /// Numbers of a `robot.toml` stand in full, those of the URDF with ten digits: angles become rotations,
-    /// which computers round in their own ways.
+    /// Numbers of a `robot.toml` are written in full. Numbers of the URDF have ten digits, since the
+    /// conversion of angles to rotations is rounded differently on different computers.
     ///
     /// # Errors
     ///
@@ -43,7 +45,7 @@ fn line(link: &Link) -> String {
 mod tests {
     use std::path::Path;
 
-    use crate::Robot;
+    use crate::structure::robot::Robot;
 
     fn content(folder: &Path, urdf: &str, toml: &str) -> String {
         std::fs::create_dir_all(folder).unwrap();

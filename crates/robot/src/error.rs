@@ -50,7 +50,7 @@ pub enum RobotError {
         /// The name.
         name: String,
     },
-    /// The robot has more joints than are computed with.
+    /// The robot has too many joints.
     #[error(
         "robot {robot}: it has {found} joints that move, up to {most} were expected; keep some of them (--joints, or joints in a robot.toml)"
     )]
@@ -59,7 +59,7 @@ pub enum RobotError {
         robot: String,
         /// Joints found.
         found: usize,
-        /// Joints that are computed with.
+        /// Largest number of joints.
         most: usize,
     },
     /// The robot has no moving joint.
@@ -109,7 +109,7 @@ pub enum RobotError {
         /// What, and where it stands.
         problem: Box<DocumentError>,
     },
-    /// A joint moves in a way that is not modelled.
+    /// A joint has an unsupported type.
     #[error(
         "joint {joint}: its type is {kind}, revolute, continuous, prismatic or fixed was \
          expected{}",
@@ -121,7 +121,7 @@ pub enum RobotError {
         /// The type found.
         kind: &'static str,
     },
-    /// Joints copy one another in a ring.
+    /// Joints mimic one another in a ring.
     #[error(
         "joint {joint}: it mimics itself, directly or through others, a joint that moves by itself \
          was expected in the end"
@@ -158,7 +158,7 @@ pub enum RobotError {
         /// Upper limit (rad or m).
         upper: f64,
     },
-    /// A link hangs on two joints: the URDF describes a loop.
+    /// A link is the child of two joints: the URDF describes a closed chain.
     #[error(
         "link {link}: it is the child of joints {first} and {second}, one was expected: remove one of \
          the two to cut the closed chain open; the force that joint carries is then left out"
@@ -187,7 +187,7 @@ pub enum RobotError {
         /// The second root.
         second: String,
     },
-    /// A name is used that nothing carries.
+    /// A name is unknown.
     #[error("{place}: there is no {what} {name}, {hint}")]
     UnknownName {
         /// Where the name is used.

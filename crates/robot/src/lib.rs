@@ -1,53 +1,43 @@
-//! What a robot is: links, joints, inertias and actuators, in the form every
-//! other crate reads.
+//! The description of a robot: links, joints, inertias and actuators, for all other crates.
 //!
 //! ```text
 //! tau = M(q) qdd + C(q, qd) qd + g(q) + (what the actuators add)
 //! ```
 //!
-//! The terms of a rigid body come from [`Link`] and [`Joint`], what an actuator
-//! adds from [`Actuator`]. [`Robot::load`] reads them from `robot.urdf` and
-//! `robot.toml`, or from an MJCF. Data only: no dynamics is computed here. [`Machine`] is what a controller
-//! sees of an arm, simulated or real.
+//! [`Link`] and [`Joint`] hold the rigid bodies, [`Actuator`] holds the terms of the drives.
+//! [`Robot::load`] reads them from `robot.urdf` and `robot.toml`, or from an MJCF. The crate holds data and
+//! computes no dynamics. [`Machine`] is the interface of a controller to an arm, simulated or real.
 
-mod actuator;
 mod content;
-mod control;
-mod description;
-mod description_file;
 mod error;
-mod inertia;
-mod joint;
-mod joint_entry;
-mod link;
 mod load;
-mod looks;
-mod lumping;
+mod loaded;
 mod machine;
-mod mesh;
-mod mesh_kind;
+mod meshes;
 mod misfit;
 mod mjcf;
-mod model;
-mod packages;
-mod part;
+mod one_line;
 mod range;
+mod robot_toml;
+mod structure;
 mod urdf;
 mod warning;
-mod write;
+mod whole_robot;
 
-pub use actuator::{
+pub use error::RobotError;
+pub use load::LoadOptions;
+pub use loaded::Loaded;
+pub use machine::{Machine, MachineFault, Reading};
+pub use meshes::folders::MeshFolders;
+pub use meshes::packages::Packages;
+pub use structure::actuator::{
     Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
 };
-pub use control::{ControlSettings, Gain};
-pub use error::RobotError;
-pub use inertia::{Inertia, InertiaDefect};
-pub use joint::{Joint, JointKind, Limits};
-pub use link::Link;
-pub use load::{LoadOptions, Loaded, MeshFolders};
-pub use looks::{Looks, Shape, Visual};
-pub use machine::{Machine, MachineFault, Reading};
-pub use model::Robot;
-pub use packages::Packages;
-pub use part::{LockedJoint, Part};
+pub use structure::control::{ControlSettings, Gain};
+pub use structure::inertia::{Inertia, InertiaDefect};
+pub use structure::joint::{Joint, JointKind, Limits};
+pub use structure::link::Link;
+pub use structure::looks::{Looks, Shape, Visual};
+pub use structure::part::{LockedJoint, Part};
+pub use structure::robot::Robot;
 pub use warning::RobotWarning;

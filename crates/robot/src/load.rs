@@ -1,28 +1,32 @@
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use document::KeyPath;
+use crate::error::RobotError;
+use crate::loaded::Loaded;
+use crate::meshes::folders::MeshFolders;
+use crate::meshes::packages::Packages;
+use crate::robot_toml::file::DescriptionFile;
+use crate::structure::control::{ControlSettings, Gain};
+use crate::structure::lumping::Lumping;
 
-use crate::description_file::DescriptionFile;
-use crate::lumping::Lumping;
-use crate::misfit::Misfit;
-use crate::mjcf;
-use crate::part::{self, LockedJoint, Part};
-use crate::urdf::{self, UrdfModel};
-use crate::{ControlSettings, Gain, Looks, Packages, Robot, RobotError, RobotWarning};
+use crate::structure::part::{Part, positions};
+use crate::structure::robot::Robot;
+use crate::warning::RobotWarning;
+use crate::whole_robot::WholeRobot;
+use crate::{mjcf, urdf};
 
 /// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
 const LARGEST_FILE: u64 = 64 << 20;
 
-/// Joints that are computed with: the cost grows with the cube of their number, and no arm or humanoid has more.
+/// Most joints of a robot: the cost grows with the cube of their number, and humanoids have fewer.
 const MOST_JOINTS: usize = 100;
 
-/// What a robot is loaded with beside its files.
+/// Options for loading a robot from its files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadOptions {
-    /// Names of the joints that move, the others are locked at zero; `None` for all that the
-    /// files let move.
+    /// Names of the joints that move; the others are locked at zero. `None` for every joint that
+    /// moves in the files.
     pub joints: Option<Vec<String>>,
     /// Where meshes are looked for.
     pub packages: Packages,
@@ -30,51 +34,13 @@ pub struct LoadOptions {
     pub meshes: MeshFolders,
 }
 
-/// Which folders the meshes of a URDF may lie in, packages apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum MeshFolders {
-    /// That of the URDF, and those in it.
-    #[default]
-    Below,
-    /// All.
-    Anywhere,
-}
-
-/// A robot as its files describe it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Loaded {
-    /// The robot, with everything that `robot.toml` says. Joints that are locked are no joints of
-    /// it: the links they carry are merged into what they hang on.
-    pub robot: Robot,
-    /// The robot as the URDF alone describes it, with the same joints locked.
-    pub robot_in_urdf: Robot,
-    /// What the robot looks like, as the URDF says.
-    pub looks: Looks,
-    /// The URDF or MJCF that was read.
-    pub urdf_path: PathBuf,
-    /// Its text with all that it includes, where it includes other files.
-    pub expanded: Option<String>,
-    /// Name of the link that does not move; its frame is the base frame.
-    pub base_link: String,
-    /// Names of the links fixed to the base; they have no part in the dynamics.
-    pub fixed_to_base: Vec<String>,
-    /// Which joints were asked for and which locked, in the words of `robot.toml`.
-    pub part: Part,
-    /// The joints of the URDF that are locked, in its order.
-    pub locked: Vec<LockedJoint>,
-    /// How the real robot is controlled; nothing is known without a `robot.toml`.
-    pub control: ControlSettings,
-    /// What the owner of the files should know.
-    pub warnings: Vec<RobotWarning>,
-}
-
 impl Robot {
     /// The robot described by `path`, a `robot.urdf`, an MJCF or a `robot.toml`.
     ///
-    /// What an MJCF says of a rotor, of friction and of the gains of servos is kept, the rest of it
-    /// that may matter is told in warnings. The extension decides which of the two it is; with another extension, a
-    /// first character `<` makes it a URDF, or an MJCF if its root is `<mujoco>`. A `robot.toml` beside a URDF is read
-    /// only when it is named.
+    /// An MJCF also gives rotor inertias, friction and servo gains; whatever else in it may matter is
+    /// named in warnings. The extension decides whether the file is XML or a `robot.toml`. With any
+    /// other extension, a first character `<` means XML. XML with the root `<mujoco>` is an MJCF. A
+    /// `robot.toml` beside a URDF is read only when it is named.
     ///
     /// # Errors
     ///
@@ -86,8 +52,8 @@ impl Robot {
 
     /// The robot described by `path`, as [`Robot::load`] reads it, or a part of it.
     ///
-    /// With `joints` of its own, a `robot.toml` describes the part that they leave: its bodies and
-    /// its joints. The joints of `options` then leave a part of what the file describes.
+    /// A `robot.toml` with `joints` describes the reduced robot: its bodies and its joints. The joints
+    /// of `options` then reduce that robot further.
     ///
     /// # Errors
     ///
@@ -108,7 +74,7 @@ impl Robot {
         } else {
             (None, path.to_owned(), text)
         };
-        let model = model(&text, &urdf_path).map_err(|e| e.in_file(&urdf_path))?;
+        let model = read_model(&text, &urdf_path).map_err(|e| e.in_file(&urdf_path))?;
         let part = file.as_ref().map(|file| file.part(&model)).transpose()?.unwrap_or_default();
         let mut loaded =
             Loaded::from_urdf(&model, part, &urdf_path).map_err(|e| e.in_file(path))?;
@@ -116,33 +82,35 @@ impl Robot {
             file.apply(&mut loaded)?;
         }
         if let Some(joints) = &options.joints {
-            loaded = loaded.narrowed(&model, joints)?;
+            loaded = loaded.keep_joints(&model, joints)?;
         }
-        loaded
-            .warnings
-            .extend(loaded.looks.find_meshes(&urdf_path, (&options.packages, options.meshes)));
-        loaded.judge(&model).map_err(|e| e.in_file(&urdf_path))?;
+        loaded.warnings.extend(loaded.looks.find_meshes(
+            &urdf_path,
+            &options.packages,
+            options.meshes,
+        ));
+        loaded.check(&model).map_err(|e| e.in_file(&urdf_path))?;
         Ok(loaded)
     }
 
-    /// The robot that the text of a URDF describes, for robots that are not in a file.
+    /// The robot that the text of a URDF describes.
     ///
     /// # Errors
     ///
     /// What is wrong with the URDF, without the name of a file.
     pub fn from_urdf(text: &str) -> Result<Self, RobotError> {
-        let model = urdf::parse(text)?;
+        let model = urdf::parse::parse(text)?;
         let mut loaded = Loaded::from_urdf(&model, Part::default(), Path::new(""))?;
-        loaded.judge(&model)?;
+        loaded.check(&model)?;
         Ok(loaded.robot)
     }
 }
 
 impl Loaded {
-    fn from_urdf(model: &UrdfModel, part: Part, path: &Path) -> Result<Self, RobotError> {
+    fn from_urdf(model: &WholeRobot, part: Part, path: &Path) -> Result<Self, RobotError> {
         let whole = &model.robot;
         let locked = part.locks(whole, &model.mimics)?;
-        let lumping = Lumping::new(whole, &part::positions(&locked));
+        let lumping = Lumping::new(whole, &positions(&locked));
         let robot = lumping.robot(whole)?;
         let fixed = model.fixed_to_base.iter().cloned();
         Ok(Self {
@@ -161,11 +129,10 @@ impl Loaded {
         })
     }
 
-    /// The part of this robot whose joints are `joints`, the others locked at zero.
+    /// The robot with only `joints` moving and its other joints locked at zero.
     ///
-    /// What the files say of a body goes on holding where that body still is one, and is lumped
-    /// into another where it is not.
-    fn narrowed(self, model: &UrdfModel, joints: &[String]) -> Result<Self, RobotError> {
+    /// A body that still moves by itself keeps its description; any other is merged into its carrier.
+    fn keep_joints(self, model: &WholeRobot, joints: &[String]) -> Result<Self, RobotError> {
         if let Some(name) = joints.iter().find(|name| self.robot.joint_index(name).is_none()) {
             return Err(self.no_joint_to_keep(name));
         }
@@ -193,9 +160,8 @@ impl Loaded {
         Ok(smaller)
     }
 
-    /// Refuses a body that is said to have no mass and moves, and more joints than are computed with, and adds what to know of the joints
-    /// that are held.
-    fn judge(&mut self, model: &UrdfModel) -> Result<(), RobotError> {
+    /// Refuses a moving body without mass and too many joints, and adds warnings about locked joints.
+    fn check(&mut self, model: &WholeRobot) -> Result<(), RobotError> {
         let found = self.robot.joint_count();
         if found > MOST_JOINTS {
             let robot = self.robot.name().to_owned();
@@ -229,7 +195,7 @@ impl Loaded {
         Ok(())
     }
 
-    /// What is told of a name to keep that no joint has that moves.
+    /// Error for `--joints` that names no movable joint.
     fn no_joint_to_keep(&self, name: &str) -> RobotError {
         const PLACE: &str = "joints to keep";
         let Some(lock) = self.lock(name) else {
@@ -243,38 +209,19 @@ impl Loaded {
             hint: format!("it is locked at {}", lock.position),
         }
     }
-
-    /// The joint called `name` at a key of `robot.toml`.
-    pub(crate) fn joint_index(&self, key: &KeyPath, name: &str) -> Result<usize, Misfit> {
-        self.robot.joint_index(name).ok_or_else(|| match self.lock(name) {
-            Some(lock) => {
-                let sentence = format!(
-                    "joint {name} is locked at {}, one that moves was expected",
-                    lock.position
-                );
-                Misfit::new(key.clone(), sentence)
-            }
-            None => Misfit::name(key.clone(), "joint", name, self.robot.joint_names()),
-        })
-    }
-
-    /// How the joint called `name` is locked, if it is.
-    pub(crate) fn lock(&self, name: &str) -> Option<&LockedJoint> {
-        self.locked.iter().find(|lock| lock.joint == name)
-    }
 }
 
-/// What the text of a URDF or an MJCF says.
-fn model(text: &str, path: &Path) -> Result<UrdfModel, RobotError> {
-    if mjcf::is_mjcf(text) {
-        mjcf::parse(text, path.parent().unwrap_or(Path::new("")), &read)
+/// Reads the text of a URDF or an MJCF.
+fn read_model(text: &str, path: &Path) -> Result<WholeRobot, RobotError> {
+    if mjcf::element::is_mjcf(text) {
+        mjcf::parse::parse(text, path.parent().unwrap_or(Path::new("")), &read)
     } else {
-        urdf::parse(text)
+        urdf::parse::parse(text)
     }
 }
 
 /// The gains that a file gives, one entry a joint.
-fn whole_gains(model: &UrdfModel) -> Vec<Option<Gain>> {
+fn whole_gains(model: &WholeRobot) -> Vec<Option<Gain>> {
     let mut gains = model.gains.clone();
     gains.resize(model.robot.joint_count(), None);
     gains
@@ -285,7 +232,7 @@ fn whole_limits(whole: &Robot, joint: &str) -> Option<(f64, f64)> {
     whole.joint_index(joint).and_then(|i| whole.links()[i].joint.limits.position)
 }
 
-/// The text of a file that another one names: a pipe would be waited for.
+/// Reads a file that another file names. Reading a pipe would block, so it is refused.
 fn read_regular(path: &Path) -> Result<String, RobotError> {
     let reason = "it is no regular file, a URDF was expected".to_owned();
     match std::fs::metadata(path) {

@@ -20,7 +20,7 @@ impl Reading {
     }
 }
 
-/// The machine stopped: a joint did what no joint may.
+/// Why the machine stopped: a joint left its allowed range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineFault {
     /// When (s).
@@ -42,9 +42,9 @@ impl std::fmt::Display for MachineFault {
 
 impl std::error::Error for MachineFault {}
 
-/// An arm that takes torques and tells where it is: a simulation, or the driver of a real arm.
+/// An arm that takes torques and reports its state: a simulation, or the driver of a real arm.
 ///
-/// One turn of a control loop is [`read`](Self::read), then a torque from it, then
+/// One period of a control loop calls [`read`](Self::read), computes a torque and calls
 /// [`actuate`](Self::actuate).
 pub trait Machine {
     /// Number of joints.
@@ -53,7 +53,7 @@ pub trait Machine {
     /// Time for which a command is held (s).
     fn period_s(&self) -> f64;
 
-    /// Fills `reading`, whose vectors have one entry a joint, with what the sensors say now.
+    /// Fills `reading` with the current sensor values, one entry per joint.
     ///
     /// # Errors
     ///
@@ -64,11 +64,11 @@ pub trait Machine {
     ///
     /// # Errors
     ///
-    /// [`MachineFault`] when a joint does what no joint may; the machine has then stopped.
+    /// [`MachineFault`] when a joint leaves its allowed range; the machine has then stopped.
     fn actuate(&mut self, effort: &[f64]) -> Result<(), MachineFault>;
 
-    /// Where the links are at the time of the last [`read`](Self::read), behind the transmission
-    /// (rad or m), where the machine knows: one with encoders at its motors alone does not.
+    /// Link positions behind the transmission at the last [`read`](Self::read) (rad or m); `None` for a
+    /// machine with encoders at its motors alone.
     fn link_positions(&self) -> Option<&[f64]> {
         None
     }

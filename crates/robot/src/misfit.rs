@@ -1,8 +1,8 @@
 use document::{Document, KeyPath};
 
-use crate::RobotError;
+use crate::error::RobotError;
 
-/// What a key of a `robot.toml` says that cannot be meant.
+/// A value of a `robot.toml` that cannot be used, with its key.
 #[derive(Debug)]
 pub(crate) struct Misfit {
     key: KeyPath,
@@ -13,7 +13,7 @@ pub(crate) struct Misfit {
 enum Problem {
     /// What was found and what was expected.
     Sentence(String),
-    /// A name that nothing carries.
+    /// An unknown name.
     Name { what: &'static str, found: String, known: Vec<String> },
 }
 
@@ -23,7 +23,7 @@ impl Misfit {
         Self { key, problem: Problem::Sentence(sentence) }
     }
 
-    /// A name at `key`, or that of `key` itself, that is none of the `known` ones.
+    /// An unknown name, at `key` or as the last segment of `key`, with the `known` names.
     pub fn name<'a>(
         key: KeyPath,
         what: &'static str,
@@ -34,8 +34,8 @@ impl Misfit {
         Self { key, problem: Problem::Name { what, found: found.to_owned(), known } }
     }
 
-    /// The mistake where it stands in the file.
-    pub fn shown_in(self, document: &Document) -> RobotError {
+    /// Turns it into an error that shows its place in the file.
+    pub fn locate_in(self, document: &Document) -> RobotError {
         let mistake = match self.problem {
             Problem::Sentence(sentence) => document.mistake(&self.key, sentence, None),
             Problem::Name { what, found, known } => {

@@ -11,11 +11,10 @@ pub(crate) enum Range {
     Share,
 }
 
-/// Largest size of any number of a description: sums of products of what is larger leave what a computer
-/// can count.
+/// Largest magnitude of any number of a description: sums of products of larger ones could overflow.
 pub(crate) const LARGEST: f64 = 1e12;
 
-/// A size in SI units beyond which no robot is, and that size in words.
+/// A magnitude in SI units that no robot exceeds, and that magnitude in words.
 #[derive(Clone, Copy)]
 pub(crate) struct Most(pub f64, pub &'static str);
 
@@ -43,7 +42,7 @@ impl Range {
     }
 }
 
-/// Refuses a number outside the range; `quantity`, with dots where it stands in a table, is a key of the table at `site`.
+/// Refuses a number outside the range. `quantity` is its key below `site`, with dots for nested tables.
 pub(crate) fn in_range(
     site: &KeyPath,
     quantity: &str,

@@ -1,8 +1,8 @@
 use std::fmt;
 
-use crate::InertiaDefect;
+use crate::structure::inertia::InertiaDefect;
 
-/// Something about a robot that is allowed, but that its owner should know.
+/// A problem in the description of a robot that does not keep it from being used.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum RobotWarning {
@@ -18,30 +18,30 @@ pub enum RobotWarning {
         /// What is wrong with it.
         defect: InertiaDefect,
     },
-    /// A joint that mimics one that moves is held fixed.
+    /// A joint is held fixed although it mimics a moving joint.
     MimicLocked {
         /// The joint.
         joint: String,
-        /// The joint that moves and that it follows.
+        /// The moving joint that it mimics.
         of: String,
         /// Where it is held (rad or m).
         position: f64,
     },
-    /// A joint of the base that is not measured is held fixed.
+    /// A joint of a free base is held fixed, since logs do not measure it.
     BaseHeld {
         /// The joint.
         joint: String,
         /// Its type, such as `floating`.
         kind: &'static str,
     },
-    /// Several limbs hang on a base that has mass, and it is held fixed.
+    /// A base with mass and several limbs is held fixed.
     LimbsOnBase {
         /// The link that is the base.
         link: String,
         /// Number of limbs.
         limbs: usize,
     },
-    /// A joint is locked where it cannot be.
+    /// A joint is locked outside its limits.
     LockedOutside {
         /// The joint.
         joint: String,
@@ -66,14 +66,14 @@ pub enum RobotWarning {
         /// What is wrong with it.
         reason: String,
     },
-    /// Something of an MJCF is passed over.
+    /// Elements of an MJCF are ignored.
     NotUnderstood {
         /// What it is, such as `<spatial> of <tendon>`.
         what: String,
         /// How many there are.
         count: usize,
     },
-    /// Meshes that the URDF names are not there, or too large; pictures do without them.
+    /// Meshes of the URDF are missing or too large and are left out of pictures.
     MeshesNotFound {
         /// One of them, as the URDF names it.
         first: String,
@@ -83,8 +83,8 @@ pub enum RobotWarning {
 }
 
 impl RobotWarning {
-    /// Whether the model of the motion leaves something out that the robot may have; the others
-    /// are about numbers, words and pictures of the file.
+    /// Whether the model of the motion may lack something that the robot has. All other warnings
+    /// concern numbers, wording and pictures of the file.
     pub fn is_about_motion(&self) -> bool {
         matches!(
             self,

@@ -1,6 +1,6 @@
 use std::collections::VecDeque;
 
-/// A signal some time later.
+/// A delayed signal.
 ///
 /// ```text
 /// out(t) = in(t - delay), linear between samples
@@ -19,12 +19,12 @@ impl DelayLine {
         Self { delay_s, past: VecDeque::new() }
     }
 
-    /// Forgets the signal.
+    /// Discards the signal.
     pub fn clear(&mut self) {
         self.past.clear();
     }
 
-    /// Takes the signal's value at `time_s`, later than all before, and gives the delayed one.
+    /// Adds the value at `time_s`, which must be later than all before, and returns the delayed value.
     pub fn pass(&mut self, time_s: f64, value: f64) -> f64 {
         self.past.push_back((time_s, value));
         let asked = time_s - self.delay_s;

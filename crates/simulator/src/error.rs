@@ -3,19 +3,19 @@ use document::DocumentError;
 use logs::{LogError, of_run};
 use robot::MachineFault;
 
-use crate::strangers::StrangerKind;
+use crate::strangers::kind::StrangerKind;
 
-/// What keeps an arm from being simulated.
+/// Why an arm cannot be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulatorError {
-    /// The engine takes no such tree of bodies.
+    /// The engine cannot build the tree of bodies.
     #[error("robot {robot}: its links cannot be put together as a tree of bodies")]
     NoTree {
         /// Name of the robot.
         robot: String,
     },
-    /// A motor that is not fixed to its link has no inertia to move.
+    /// A motor behind backlash or elasticity has no rotor inertia.
     #[error(
         "joint {joint}: its rotor inertia is {inertia} kg m^2, a motor with backlash or elasticity needs a positive one: give rotor_inertia_kg_m2 in robot.toml"
     )]
@@ -25,7 +25,7 @@ pub enum SimulatorError {
         /// Its rotor inertia (kg m² or kg).
         inertia: f64,
     },
-    /// Nothing moves with the joint.
+    /// A joint moves neither a body nor a rotor with inertia.
     #[error(
         "joint {joint}: neither its links nor its rotor have an inertia about its axis, a positive one was expected"
     )]
@@ -33,7 +33,7 @@ pub enum SimulatorError {
         /// The joint.
         joint: String,
     },
-    /// A spring that is applied step by step would ring faster than the steps.
+    /// A spring is too stiff for the engine's step.
     #[error(
         "joint {joint}: a stiffness of {stiffness:.4} N m/rad rings at {frequency_hz:.0} Hz, too fast for steps of {step_ms} ms: soften it or set engine.step_ms to at most {longest_step_ms:.4}"
     )]
@@ -46,16 +46,16 @@ pub enum SimulatorError {
         frequency_hz: f64,
         /// Step of the engine (ms).
         step_ms: f64,
-        /// Longest step that would do (ms).
+        /// Longest step that is short enough (ms).
         longest_step_ms: f64,
     },
-    /// A value of the scenario cannot be meant.
+    /// A value of the scenario is impossible.
     #[error(transparent)]
     Scenario(#[from] DocumentError),
     /// A log cannot be read or written.
     #[error(transparent)]
     Log(#[from] LogError),
-    /// A record has hours between its rows, which would be simulated without end.
+    /// The rows of a record are too far apart in time.
     #[error(
         "{of_run}: it has {rate_hz} rows a second, at least {slowest_hz} were expected; is its time in seconds?", of_run = of_run(run))]
     TooSlow {
@@ -66,13 +66,13 @@ pub enum SimulatorError {
         /// The slowest rate that is simulated (Hz).
         slowest_hz: f64,
     },
-    /// A record is shorter than the window it is to be replayed in.
+    /// A record is shorter than one replay window.
     #[error(
         "{of_run}: {found_s:.3} s are left of it, at least a window of {window_s} s was expected", of_run = of_run(run))]
     TooShort {
         /// Name of the run.
         run: String,
-        /// What is left of it once it is filtered (s).
+        /// Length of the record after filtering (s).
         found_s: f64,
         /// The window (s).
         window_s: f64,
@@ -108,10 +108,10 @@ pub enum SimulatorError {
         least: f64,
         /// Largest share.
         largest: f64,
-        /// In words the last draw and what it gave, or that none could be put in.
+        /// The last draw and its result in words, or that no effect could be put in.
         last: String,
     },
-    /// A joint did what no joint may.
+    /// A joint left its allowed range.
     #[error("{of_run} ended early: {fault}", of_run = of_run(run))]
     Fault {
         /// Name of the run.

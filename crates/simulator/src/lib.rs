@@ -1,40 +1,38 @@
-//! The truth side: an articulated arm on rapier into which effects are put, seen through its
-//! sensors.
+//! The truth side: an articulated arm on rapier with injected effects and simulated sensors.
 //!
 //! ```text
 //! M(q) qdd + C(q, qd) qd + g(q) + effects = tau
 //! ```
 //!
-//! The equations of motion are rapier's: nothing here uses the project's own dynamics, so that
-//! what explains a log and what made it check each other.
+//! Rapier solves the equations of motion. The project's own dynamics is not used here, so that the
+//! code that makes a log and the code that explains it check each other.
 
-mod arm;
 mod delay_line;
-mod draw;
 pub mod effects;
-mod engine;
 mod error;
-mod inject;
-mod plant;
-mod recorded;
+mod mechanics;
 mod replay;
 mod run;
 pub mod scenario;
+mod seed;
 mod sensors;
 mod simulator;
 pub mod strangers;
-mod truth;
 
-pub use draw::Bench;
+pub use effects::truth::Truth;
 pub use error::SimulatorError;
-pub use inject::{Efforts, Inject, Moment};
-pub use plant::{Plant, Transmission};
-pub use replay::{ForwardReplay, MotionReplay, Windows, replay_motion, replay_torque};
-pub use run::{
-    LogFormat, Simulation, arm, drawn, simulate, simulate_only, simulate_silent,
-    simulate_silent_start, write,
+pub use mechanics::inject::{Efforts, Inject, Moment};
+pub use mechanics::plant::Plant;
+pub use mechanics::transmission::Transmission;
+pub use replay::forward::{ForwardReplay, Windows, replay_torque};
+pub use replay::motion::{MotionReplay, replay_motion};
+pub use run::effect_sizer::EffectSizer;
+pub use run::simulate::{
+    Simulation, arm, drawn, simulate, simulate_only, simulate_silent, simulate_silent_start,
 };
+pub use run::write::{LogFormat, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};
-pub use strangers::{StrangerKind, StrangerSpec, StrangerTruth};
-pub use truth::Truth;
+pub use strangers::kind::StrangerKind;
+pub use strangers::spec::StrangerSpec;
+pub use strangers::truth::StrangerTruth;

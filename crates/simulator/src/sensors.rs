@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::delay_line::DelayLine;
-use crate::run::mixed;
+use crate::seed::mix_seed;
 
 /// The part of a seed that the encoders at the links draw from.
 const LINKS: u64 = 2;
@@ -75,14 +75,14 @@ pub struct Sensors {
     effort: EffortSource,
     velocity: VelocitySource,
     joints: Vec<JointSensor>,
-    /// The joints that have one, and `None` for each other.
+    /// The encoder at the link of each joint; `None` for a joint without one.
     links: Vec<Option<LinkEncoder>>,
     /// Step of the effort reading of each joint (N m or N), zero for none.
     effort_steps: Vec<f64>,
     link_lag: LinkLag,
     seed: u64,
     random: ChaCha8Rng,
-    /// Of its own, so that a second encoder leaves the noise of all others as it was.
+    /// A separate stream, so that a second encoder does not change the noise of other sensors.
     link_random: ChaCha8Rng,
     /// Last measured position of each joint, once there is one.
     last: Option<Vec<f64>>,
@@ -122,7 +122,7 @@ impl Sensors {
         Self { links, ..self }
     }
 
-    /// The same with encoders at the links that say where the links were a time before (s).
+    /// The same with encoders at the links that lag by a time (s).
     pub fn with_link_lag(self, lag_s: f64) -> Self {
         Self { link_lag: LinkLag::new(lag_s, self.joints.len()), ..self }
     }
@@ -152,7 +152,7 @@ impl Sensors {
         self.effort
     }
 
-    /// Forgets what was measured and starts the draws anew.
+    /// Resets the sensors and restarts their random draws.
     pub(crate) fn start(&mut self) {
         [self.random, self.link_random] = streams(self.seed);
         self.last = None;
@@ -160,22 +160,21 @@ impl Sensors {
         self.link_lag.clear();
     }
 
-    /// Takes note of where the links are at a time (s), later than all before.
+    /// Records the link positions at a time (s), which must be later than all before.
     pub(crate) fn watch_links(&mut self, time_s: f64, q: &[f64]) {
         self.link_lag.watch(time_s, q);
     }
 
-    /// Turns true positions and velocities into what the sensors say, one period after the
-    /// last look.
+    /// Replaces true positions and velocities by sensor readings, one period after the last call.
     ///
     /// ```text
     /// q_measured = resolution round((q + noise) / resolution)
     /// qd_measured: first-order low pass of the difference of q_measured
     /// ```
-    pub(crate) fn look(&mut self, reading: &mut Reading, period_s: f64) {
+    pub(crate) fn measure(&mut self, reading: &mut Reading, period_s: f64) {
         for (q, sensor) in reading.q.iter_mut().zip(&self.joints) {
             *q += draw(&mut self.random, sensor.position_noise);
-            *q = counted(*q, sensor.resolution);
+            *q = round_to_step(*q, sensor.resolution);
         }
         if let VelocitySource::FilteredDifference { cutoff_hz } = self.velocity {
             let kept = (-std::f64::consts::TAU * cutoff_hz * period_s).exp();
@@ -190,11 +189,11 @@ impl Sensors {
         self.last = Some(reading.q.clone());
     }
 
-    /// What the encoders at the links say at a time (s) of the true positions of the links.
-    pub(crate) fn look_at_links(&mut self, time_s: f64, q: &[f64]) -> Vec<Option<f64>> {
-        let q = self.link_lag.seen(time_s, q);
+    /// Readings of the encoders at the links at a time (s), from the true positions of the links.
+    pub(crate) fn measure_links(&mut self, time_s: f64, q: &[f64]) -> Vec<Option<f64>> {
+        let q = self.link_lag.read(time_s, q);
         let mut reading = |encoder: LinkEncoder, q: f64| {
-            counted(q + draw(&mut self.link_random, encoder.noise), encoder.resolution)
+            round_to_step(q + draw(&mut self.link_random, encoder.noise), encoder.resolution)
         };
         self.links.iter().zip(q).map(|(link, &q)| link.map(|link| reading(link, q))).collect()
     }
@@ -205,18 +204,17 @@ impl Sensors {
             *tau += draw(&mut self.random, sensor.effort_noise);
         }
         for (tau, step) in effort.iter_mut().zip(&self.effort_steps) {
-            *tau = counted(*tau, *step);
+            *tau = round_to_step(*tau, *step);
         }
     }
 }
 
-/// What holds back the readings of the encoders at the links: the positions of the engine's steps,
-/// linear between them.
+/// Delays the readings of the encoders at the links: positions of the engine's steps, linear between them.
 #[derive(Debug, Clone)]
 struct LinkLag {
     lag_s: f64,
     lines: Vec<DelayLine>,
-    /// Positions as they were a lag before the last step (rad or m); none before the first.
+    /// Positions at the time of the last step minus the lag (rad or m); empty before the first step.
     earlier: Vec<f64>,
 }
 
@@ -237,8 +235,8 @@ impl LinkLag {
         }
     }
 
-    /// What is seen of the positions `q` of now.
-    fn seen<'a>(&'a mut self, time_s: f64, q: &'a [f64]) -> &'a [f64] {
+    /// The delayed positions; `q` itself without a lag.
+    fn read<'a>(&'a mut self, time_s: f64, q: &'a [f64]) -> &'a [f64] {
         if self.lag_s <= 0.0 {
             return q;
         }
@@ -251,11 +249,11 @@ impl LinkLag {
 
 /// The draws of the sensors that the controller reads, and those of the encoders at the links.
 fn streams(seed: u64) -> [ChaCha8Rng; 2] {
-    [seed, mixed(seed, LINKS)].map(ChaCha8Rng::seed_from_u64)
+    [seed, mix_seed(seed, LINKS)].map(ChaCha8Rng::seed_from_u64)
 }
 
-/// The nearest whole count; the value itself where there are none.
-fn counted(q: f64, resolution: f64) -> f64 {
+/// Rounds to whole counts; a resolution of zero rounds nothing.
+fn round_to_step(q: f64, resolution: f64) -> f64 {
     if resolution > 0.0 { resolution * (q / resolution).round() } else { q }
 }
 

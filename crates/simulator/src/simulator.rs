@@ -1,12 +1,13 @@
 use robot::{Machine, MachineFault, Reading, Robot};
 
-use crate::arm::Arm;
-use crate::effects::described;
-use crate::inject::{Efforts, Inject, Moment};
+use crate::effects::described::described_effects;
+use crate::error::SimulatorError;
+use crate::mechanics::arm::EngineArm;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
+use crate::mechanics::plant::Plant;
 use crate::sensors::{EffortSource, PositionSide, Sensors};
-use crate::{Plant, SimulatorError};
 
-/// Speed at which a joint counts as run away (rad/s or m/s): ten times what arms reach.
+/// Speed above which a joint counts as run away (rad/s or m/s): ten times the speed of arms.
 const RUNAWAY_SPEED: f64 = 200.0;
 
 /// Largest `omega dt` of a spring that is applied step by step: its frequency is then off by
@@ -24,17 +25,17 @@ pub struct Stepping {
     pub stops: bool,
 }
 
-/// A simulated arm: rapier moves it, effects change it, sensors look at it.
+/// A simulated arm, moved by rapier, changed by effects and measured by sensors.
 ///
 /// ```text
 /// M(q) qdd + C(q, qd) qd + g(q) + effects = tau
 /// ```
 ///
-/// A command is held for one period of the controller (zero-order hold), the engine takes many
-/// steps in it.
+/// A command is held for one period of the controller (zero-order hold). The engine takes many
+/// steps per period.
 pub struct Simulator {
     joints: Vec<Joint>,
-    arm: Arm,
+    arm: EngineArm,
     effects: Vec<Box<dyn Inject>>,
     sensors: Sensors,
     steps_per_period: usize,
@@ -48,7 +49,7 @@ pub struct Simulator {
     links_at_read: Vec<Option<f64>>,
 }
 
-/// What the simulator itself keeps of a joint.
+/// Constants of a joint.
 #[derive(Debug, Clone)]
 struct Joint {
     name: String,
@@ -61,8 +62,7 @@ struct Joint {
 }
 
 impl Simulator {
-    /// Builds a simulated arm; effects act in the order given, after those that the robot's
-    /// description says.
+    /// Builds a simulated arm. Effects act in the order given, after those of the robot's description.
     ///
     /// # Errors
     ///
@@ -74,7 +74,7 @@ impl Simulator {
         sensors: Sensors,
         stepping: Stepping,
     ) -> Result<Self, SimulatorError> {
-        let mut effects: Vec<Box<dyn Inject>> = described(robot).chain(effects).collect();
+        let mut effects: Vec<Box<dyn Inject>> = described_effects(robot).chain(effects).collect();
         let mut plant = Plant::new(robot.clone());
         for effect in &mut effects {
             effect.on_build(&mut plant);
@@ -87,7 +87,7 @@ impl Simulator {
             }
         }
         check_motors(&plant)?;
-        let mut arm = Arm::new(&plant, stepping.step_s)
+        let mut arm = EngineArm::new(&plant, stepping.step_s)
             .ok_or_else(|| SimulatorError::NoTree { robot: robot.name().to_owned() })?;
         let joints: Vec<Joint> = plant.robot.links().iter().map(Joint::of).collect();
         let mut springs: Vec<(usize, f64)> = effects.iter().flat_map(|e| e.springs()).collect();
@@ -114,19 +114,19 @@ impl Simulator {
         })
     }
 
-    /// Puts the arm at rest at `q` (rad or m) and its clock to zero.
+    /// Puts the arm at rest at `q` (rad or m) and sets its clock to zero.
     pub fn start(&mut self, q: &[f64]) {
         self.start_moving(q, &vec![0.0; q.len()]);
     }
 
-    /// Puts the arm into a state of positions (rad or m) and velocities (rad/s or m/s), its
-    /// clock to zero.
+    /// Puts the arm at positions `q` (rad or m) with velocities `qd` (rad/s or m/s) and sets its clock
+    /// to zero.
     pub fn start_moving(&mut self, q: &[f64], qd: &[f64]) {
-        self.start_twisted(q, qd, &vec![0.0; q.len()]);
+        self.start_with_deflection(q, qd, &vec![0.0; q.len()]);
     }
 
-    /// The same with each link `twist` (rad or m) ahead of its motor, where they can part.
-    pub(crate) fn start_twisted(&mut self, q: &[f64], qd: &[f64], twist: &[f64]) {
+    /// The same with compliant transmissions deflected: link minus motor position is `twist` (rad or m).
+    pub(crate) fn start_with_deflection(&mut self, q: &[f64], qd: &[f64], twist: &[f64]) {
         self.arm.set_state(q, qd, twist);
         self.steps = 0;
         self.command = None;
@@ -138,14 +138,13 @@ impl Simulator {
         self.sensors.start();
     }
 
-    /// Sets the clock to as many periods before time zero.
+    /// Sets the clock to a number of periods before time zero.
     pub(crate) fn count_down(&mut self, periods: usize) {
         self.steps = -((periods * self.steps_per_period) as i64);
     }
 
-    /// Sends the commands of the last periods before time zero through what holds them back; the
-    /// arm stays where it starts.
-    pub(crate) fn recall(&mut self, past: &[Vec<f64>]) {
+    /// Feeds the commands before time zero through delays and lags, without moving the arm.
+    pub(crate) fn send_past_commands(&mut self, past: &[Vec<f64>]) {
         self.count_down(past.len());
         for command in past {
             let before = self.command.take().unwrap_or_else(|| command.clone());
@@ -161,8 +160,8 @@ impl Simulator {
         }
     }
 
-    /// What each joint turns where it stands, all other joints free, its rotor included (kg m² or
-    /// kg).
+    /// Apparent inertia of each joint at its present position, other joints free, rotor included
+    /// (kg m² or kg).
     pub(crate) fn inertia(&mut self) -> Vec<f64> {
         self.arm.inverse_inertia().into_iter().map(f64::recip).collect()
     }
@@ -172,22 +171,22 @@ impl Simulator {
         self.steps as f64 * self.arm.step_s()
     }
 
-    /// Positions of the links as they are (rad or m), not as a sensor sees them.
+    /// True positions of the links (rad or m).
     pub fn q_true(&self) -> &[f64] {
         self.arm.q()
     }
 
-    /// Velocities of the links as they are (rad/s or m/s).
+    /// True velocities of the links (rad/s or m/s).
     pub fn qd_true(&self) -> &[f64] {
         self.arm.qd()
     }
 
-    /// Positions of the motors as they are, seen at the joint (rad or m).
+    /// True positions of the motors, referred to the joint (rad or m).
     pub fn motor_q_true(&self) -> &[f64] {
         self.arm.motor_q()
     }
 
-    /// Velocities of the motors as they are, seen at the joint (rad/s or m/s).
+    /// True velocities of the motors, referred to the joint (rad/s or m/s).
     pub fn motor_qd_true(&self) -> &[f64] {
         self.arm.motor_qd()
     }
@@ -197,8 +196,8 @@ impl Simulator {
         &self.motor_torque
     }
 
-    /// The row of the log for the last [`read`](Machine::read), once its command has been
-    /// [given](Machine::actuate): positions and velocities as read, effort of that instant.
+    /// The log row of the last [`read`](Machine::read): positions and velocities as read, effort of the
+    /// same instant. To be called after [`actuate`](Machine::actuate).
     pub fn record(&mut self, read: &Reading, row: &mut Reading) {
         row.clone_from(read);
         row.effort.clone_from(&self.effort_at_read);
@@ -208,7 +207,7 @@ impl Simulator {
         self.sensors.add_effort_noise(&mut row.effort);
     }
 
-    /// What the encoders at the links say in the same row, in the order of the robot: none for a
+    /// Readings of the encoders at the links in the same row, in the order of the robot; `None` for a
     /// joint without one.
     pub fn record_links(&mut self, read: &Reading) -> Vec<Option<f64>> {
         let mut links = self.links_at_read.clone();
@@ -218,7 +217,7 @@ impl Simulator {
         links
     }
 
-    /// One step of the engine under the torque asked for (N m or N), the mean over the step.
+    /// One step of the engine under the commanded torque, averaged over the step (N m or N).
     fn step(&mut self) -> Result<(), MachineFault> {
         let moment = moment(&self.arm, self.steps);
         for effect in &mut self.effects {
@@ -261,7 +260,7 @@ impl Simulator {
         Ok(())
     }
 
-    /// Effort that the log shows for the instant of the last read (N m or N).
+    /// Records the effort at the instant of the last read (N m or N).
     fn sample_effort(&mut self, command: &[f64]) {
         let source = self.sensors.effort_source();
         for (i, joint) in self.joints.iter().enumerate() {
@@ -269,7 +268,7 @@ impl Simulator {
             self.effort_at_read[i] = match source {
                 EffortSource::Commanded => command[i],
                 EffortSource::Motor => reported(self.motor_torque[i]),
-                EffortSource::Link => reported(self.arm.transmitted()[i]),
+                EffortSource::Link => reported(self.arm.transmitted_torque()[i]),
             };
         }
     }
@@ -299,8 +298,8 @@ impl Machine for Simulator {
             effect.on_reading(reading);
         }
         let period_s = self.period_s();
-        self.sensors.look(reading, period_s);
-        self.links_at_read = self.sensors.look_at_links(reading.time_s, self.arm.q());
+        self.sensors.measure(reading, period_s);
+        self.links_at_read = self.sensors.measure_links(reading.time_s, self.arm.q());
         Ok(())
     }
 
@@ -323,7 +322,7 @@ impl Machine for Simulator {
 }
 
 impl Joint {
-    /// What acts on joint `i` before any effect: the motor's torque and the actuator's friction.
+    /// Initialises the efforts of joint `i` with the motor torque and the actuator's friction.
     fn start(&self, efforts: &mut Efforts, i: usize, tau: f64) {
         efforts.motor[i] = tau;
         efforts.link[i] = 0.0;
@@ -346,8 +345,8 @@ impl Joint {
     }
 }
 
-/// Where the arm is at the beginning of a step.
-fn moment(arm: &Arm, steps: i64) -> Moment<'_> {
+/// State of the arm at the beginning of a step.
+fn moment(arm: &EngineArm, steps: i64) -> Moment<'_> {
     Moment {
         time_s: steps as f64 * arm.step_s(),
         step_s: arm.step_s(),
@@ -355,13 +354,13 @@ fn moment(arm: &Arm, steps: i64) -> Moment<'_> {
         motor_qd: arm.motor_qd(),
         q: arm.q(),
         qd: arm.qd(),
-        load: arm.transmitted(),
+        load: arm.transmitted_torque(),
     }
 }
 
-/// What is asked for on the mean over a step of the period that follows a command.
+/// The commanded torque, averaged over step `step` of a period.
 ///
-/// The first step's middle falls on the jump from one command to the next.
+/// The command changes in the middle of the first step, which therefore gets the mean of both.
 fn ask(tau: &mut [f64], step: usize, before: &[f64], command: &[f64]) {
     let old = if step == 0 { 0.5 } else { 0.0 };
     for (tau, (b, c)) in tau.iter_mut().zip(before.iter().zip(command)) {
@@ -369,7 +368,7 @@ fn ask(tau: &mut [f64], step: usize, before: &[f64], command: &[f64]) {
     }
 }
 
-/// A motor that is not fixed to its link moves on its own inertia.
+/// Refuses a motor without inertia behind a compliant transmission.
 fn check_motors(plant: &Plant) -> Result<(), SimulatorError> {
     for (link, transmission) in plant.robot.links().iter().zip(&plant.transmissions) {
         let inertia = link.actuator.rotor_inertia;

@@ -30,7 +30,7 @@ write = {
     "packed_log.csv.zst": zstd(text[:100]) + zstd(text[100:]),
     "packed_log.npz.gz": gz(npz),
     "packed_twice.csv.gz": gz(zstd(text)),
-    "packed_hdf5.gz": gz(b"\x89HDF\r\n\x1a\n" + bytes(100)),
+    "packed_pickle.gz": gz(b"\x80\x04\x95" + bytes(100)),
     "packed_nothing.gz": gz(b""),
     # 200 MB of text in some kilobytes.
     "packed_bomb.csv.zst": zstd(text + rows.encode() * 3_000_000),

@@ -12,7 +12,7 @@ type Sources = [(&'static str, &'static [u8]); 4];
 
 /// The files of an arm: description, scenario of the arm, scenario of the demo, which is the last.
 macro_rules! sources {
-    ($robot:literal, $demo:literal) => {
+    ($robot:literal, $arm:literal) => {
         [
             (
                 concat!("robots/", $robot, "/robot.urdf"),
@@ -23,12 +23,12 @@ macro_rules! sources {
                 include_bytes!(concat!("../../../../robots/", $robot, "/robot.toml")),
             ),
             (
-                concat!("scenarios/", $robot, ".toml"),
-                include_bytes!(concat!("../../../../scenarios/", $robot, ".toml")),
+                concat!("scenarios/arms/", $arm, ".toml"),
+                include_bytes!(concat!("../../../../scenarios/arms/", $arm, ".toml")),
             ),
             (
-                concat!("scenarios/", $demo, ".toml"),
-                include_bytes!(concat!("../../../../scenarios/", $demo, ".toml")),
+                concat!("scenarios/demos/", $arm, ".toml"),
+                include_bytes!(concat!("../../../../scenarios/demos/", $arm, ".toml")),
             ),
         ]
     };
@@ -59,15 +59,10 @@ impl Arm {
 
     fn sources(self) -> Sources {
         match self {
-            Self::Wam7 => [
-                ("robots/wam7/robot.urdf", include_bytes!("../../../../robots/wam7/robot.urdf")),
-                ("robots/wam7/robot.toml", include_bytes!("../../../../robots/wam7/robot.toml")),
-                ("scenarios/wam.toml", include_bytes!("../../../../scenarios/wam.toml")),
-                ("scenarios/demo.toml", include_bytes!("../../../../scenarios/demo.toml")),
-            ],
-            Self::Ur5e => sources!("ur5e", "demo_ur5e"),
-            Self::Panda => sources!("panda", "demo_panda"),
-            Self::So101 => sources!("so101", "demo_so101"),
+            Self::Wam7 => sources!("wam7", "wam"),
+            Self::Ur5e => sources!("ur5e", "ur5e"),
+            Self::Panda => sources!("panda", "panda"),
+            Self::So101 => sources!("so101", "so101"),
         }
     }
 }

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use effects::{Frame, Hypothesis, Scale, hypotheses};
+use effects::{Frame, Hypothesis, Priors, Scale, hypotheses};
 use logs::LogError;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -54,6 +54,7 @@ pub(crate) struct Design {
     pub motion: Vec<usize>,
     /// The signal that it explains.
     pub response: Response,
+    pub priors: Priors,
 }
 
 /// A robot along all runs, and what the logs have of these.
@@ -132,6 +133,7 @@ impl Design {
             frame,
             moved: log.rows(),
             response: log.response,
+            priors: log.thresholds.priors,
             moves: Vec::new(),
             motion: Vec::new(),
         };
@@ -151,8 +153,8 @@ impl Design {
     ) -> Vec<(usize, usize)> {
         let mut origins: Vec<(usize, usize)> = Vec::new();
         for (h, &hypothesis) in hypotheses.iter().enumerate() {
-            let prior = hypothesis.prior(robot, scale);
-            let bounds = hypothesis.bounds(robot);
+            let prior = hypothesis.prior(robot, scale, &self.priors);
+            let bounds = hypothesis.bounds(robot, &self.priors);
             let mut group = Group { hypothesis, columns: Vec::new(), joints: Vec::new() };
             for (k, &sd) in prior.iter().enumerate() {
                 let reached =

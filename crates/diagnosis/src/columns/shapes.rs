@@ -30,8 +30,10 @@ pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogErr
         let looked_for = !log.without.contains(&g.hypothesis.kind);
         looked_for && g.hypothesis.joint().is_some_and(|j| moved[j])
     };
-    let shapes: Vec<Germ> =
-        germs(robot, &Scale::of_logs(robot, prepared)).into_iter().filter(relevant).collect();
+    let shapes: Vec<Germ> = germs(robot, &Scale::of_logs(robot, prepared), &log.thresholds.priors)
+        .into_iter()
+        .filter(relevant)
+        .collect();
     let kinds = shapes.iter().map(|shape| shape.hypothesis.kind).chain(log.without.iter().copied());
     let without: Vec<EffectKind> = kinds.collect::<BTreeSet<_>>().into_iter().collect();
     let design = Design::new(robot, &Log { without: &without, ..*log })?;

@@ -66,7 +66,11 @@ impl FindingBuilder<'_> {
 
     fn largest_unseen(&self, g: usize) -> f64 {
         let design = self.selection.problem.design;
-        design.groups[g].hypothesis.largest_unseen(self.selection.robot, &design.frame)
+        design.groups[g].hypothesis.largest_unseen(
+            self.selection.robot,
+            &design.frame,
+            &design.priors,
+        )
     }
 
     /// The parameter that the logs show best, with the smallest size of it that would have been found, and the reason why the

@@ -1,3 +1,4 @@
+use effects::Priors;
 use nalgebra::{Cholesky, DMatrix};
 use robot::Robot;
 
@@ -21,7 +22,7 @@ use crate::search::select::Selection;
 /// beside its own. `gain` is the log evidence of the effect at its most likely size, since the size of a small error is
 /// unknown, and `least` the evidence that a finding needs (Hoeting et al. 1999).
 ///
-/// The priors in `B` are those of the search. Links have those of CAD errors instead ([`effects::Explain::everyday`]): logs
+/// The priors in `B` are those of the search. Links have those of CAD errors instead ([`effects::HasCadError::everyday`]): logs
 /// often show only the sum of the masses of two neighbours, and by the priors of the search either could have all of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Unnamed<'a> {
@@ -36,7 +37,7 @@ impl<'a> Unnamed<'a> {
     pub fn new(selection: &Selection<'a>, model: &Model, fit: &Fit) -> Self {
         let problem = selection.problem;
         let (design, info) = (problem.design, &problem.info);
-        let prior = prior_of_small_errors(design, selection.robot);
+        let prior = prior_of_small_errors(design, selection.robot, &problem.thresholds.priors);
         let mut covariance = DMatrix::zeros(fit.columns.len(), fit.columns.len());
         for h in 0..design.groups.len() {
             let columns = problem.new_columns(model, h);
@@ -77,10 +78,12 @@ impl<'a> Unnamed<'a> {
 }
 
 /// Standard deviations of all weights, those of links from errors of CAD.
-fn prior_of_small_errors(design: &Design, robot: &Robot) -> Vec<f64> {
+fn prior_of_small_errors(design: &Design, robot: &Robot, priors: &Priors) -> Vec<f64> {
     let mut prior = design.prior.clone();
     for group in &design.groups {
-        let Some(small) = group.hypothesis.everyday(robot) else { continue };
+        let Some(small) = group.hypothesis.everyday(robot, priors) else {
+            continue;
+        };
         group.columns.iter().zip(small).for_each(|(&column, sd)| prior[column] = sd);
     }
     prior

@@ -14,7 +14,7 @@ pub(crate) fn extend_robot(
     for &g in model {
         let group = &design.groups[g];
         let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
-        group.hypothesis.extend(&mut changed, &own, &design.frame);
+        group.hypothesis.extend(&mut changed, &own, &design.frame, &design.priors);
     }
     changed
 }

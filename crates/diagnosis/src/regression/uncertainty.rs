@@ -204,7 +204,7 @@ pub(crate) fn undetermined(problem: &Problem, model: &Model, fitted: &LinearFit)
     model.iter().copied().find(|&g| {
         let group = &problem.design.groups[g];
         let estimates = || uncertainty.estimates(fitted, group.hypothesis, &[]);
-        !group.hypothesis.is_sound(&robot)
+        !group.hypothesis.is_sound(&robot, &problem.thresholds.priors)
             || group.columns.len() == 1 && estimates().iter().all(holds)
             || is_unchanged_body(&uncertainty, fitted, group.hypothesis)
             || is_no_more_than_plain(&uncertainty, fitted, group.hypothesis)
@@ -240,7 +240,11 @@ fn is_no_more_than_plain(
         let column = columns.get(weight);
         column.is_some_and(|&k| uncertainty.may_be_none(&[k], &DVector::from_element(1, change)))
     };
-    let more = hypothesis.more_than_plain([fitted.nominal, &fitted.robot()], &design.frame);
+    let more = hypothesis.more_than_plain(
+        [fitted.nominal, &fitted.robot()],
+        &design.frame,
+        &design.priors,
+    );
     more.into_iter().any(may_be_none)
 }
 

@@ -5,7 +5,7 @@ pub(crate) type Torque = Vec<DMatrix<f64>>;
 
 /// A column of the oracle's regression.
 #[derive(Debug, Clone)]
-pub(crate) struct Column {
+pub(crate) struct TorqueColumn {
     /// What it stands for: causes that are of the same stand-in leave one another out.
     pub stands_for: StandIn,
     /// Its torque (N m or N) at a size of one.

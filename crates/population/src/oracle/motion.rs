@@ -32,11 +32,11 @@ impl SeenRun {
     /// A run whose position, velocity and effort have no noise.
     pub fn new(robot: &Robot, run: &Run) -> Self {
         let samples = (1.0 / (step_s(run) * RATE_HZ)).round() as usize;
-        Self::thinned(robot, run, samples.max(1))
+        Self::thin(robot, run, samples.max(1))
     }
 
     /// The same, of so many samples of the log a mean; a velocity that is not logged is that of the positions.
-    pub fn thinned(robot: &Robot, run: &Run, thinned: usize) -> Self {
+    pub fn thin(robot: &Robot, run: &Run, thinned: usize) -> Self {
         let (rows, joints) = (run.time.len(), robot.joint_count());
         let step_s = step_s(run);
         let column = |values: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(rows, joints, values);
@@ -49,7 +49,7 @@ impl SeenRun {
         let mut tau = vec![0.0; joints];
         for i in 0..rows {
             let of = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<f64>>();
-            body_torque(robot, [&of(&q), &of(&qd), &of(&qdd)], &mut tau);
+            body_torque(robot, &of(&q), &of(&qd), &of(&qdd), &mut tau);
             tau.iter().enumerate().for_each(|(j, tau)| beyond[(i, j)] -= tau);
         }
         let [q, qd, qdd, effort, beyond] =

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 ///
 /// with `n` the samples of the log that were averaged, and `M_jj` what the joint turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JointNoise {
+pub(crate) struct OracleNoise {
     /// Variance of the effort reading (N^2 m^2 or N^2), its steps included.
     pub effort: f64,
     /// Variance of the position reading (rad^2 or m^2), its steps included.
@@ -18,11 +18,25 @@ pub struct JointNoise {
     pub inertia: f64,
 }
 
-impl JointNoise {
+/// What a sensor's reading is off by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ReadingError {
+    /// Standard deviation of its noise.
+    pub deviation: f64,
+    /// Step of the reading, zero for none.
+    pub step: f64,
+}
+
+impl ReadingError {
+    fn variance(self) -> f64 {
+        self.deviation * self.deviation + self.step * self.step / 12.0
+    }
+}
+
+impl OracleNoise {
     /// From deviations and steps of the readings: a step spreads evenly over its width.
-    pub fn new([sigma_tau, step_tau]: [f64; 2], [sigma_q, step_q]: [f64; 2], inertia: f64) -> Self {
-        let variance = |sigma: f64, step: f64| sigma * sigma + step * step / 12.0;
-        Self { effort: variance(sigma_tau, step_tau), position: variance(sigma_q, step_q), inertia }
+    pub(crate) fn new(effort: ReadingError, position: ReadingError, inertia: f64) -> Self {
+        Self { effort: effort.variance(), position: position.variance(), inertia }
     }
 
     /// Variance of a mean over `n` samples at a frequency (Hz).

@@ -3,8 +3,10 @@ use faer::{Mat, Side};
 use logs::Fourier;
 use nalgebra::DMatrix;
 
-use super::{Column, JointNoise, SeenRun, StandIn};
-use crate::Strength;
+use crate::oracle::column::{StandIn, TorqueColumn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::noise::OracleNoise;
+use crate::sheet::Strength;
 
 /// Highest frequency that counts (Hz): beyond it a rigid arm with a gear is none.
 const HIGHEST_HZ: f64 = 25.0;
@@ -22,17 +24,17 @@ const HIGHEST_HZ: f64 = 25.0;
 /// 3e8 for a minute of seven joints, and `columns^3 / 3` a cause.
 pub(crate) fn strengths(
     runs: &[SeenRun],
-    columns: &[Column],
+    columns: &[TorqueColumn],
     causes: usize,
-    noise: &[JointNoise],
+    noise: &[OracleNoise],
     scales: &[f64],
 ) -> Vec<Strength> {
-    let likely = whitened(runs, columns, noise, scales);
-    let plain = scaled(runs, columns, scales);
+    let likely = whiten(runs, columns, noise, scales);
+    let plain = scale_columns(runs, columns, scales);
     let [likely, plain] = [likely, plain].map(|rows| rows.transpose() * &rows);
     let strength = |k: usize| Strength {
-        sigmas: left(k, columns, &likely, 1.0),
-        share: left(k, columns, &plain, Strength::FLOOR.powi(2)),
+        sigmas: unexplained_norm(k, columns, &likely, 1.0),
+        share: unexplained_norm(k, columns, &plain, Strength::FLOOR.powi(2)),
         torque: plain[(k, k)].sqrt(),
     };
     (0..causes).map(strength).collect()
@@ -52,11 +54,11 @@ fn rms<'a>(torque: impl Iterator<Item = &'a DMatrix<f64>>, joint: usize) -> f64 
     (sum / count.max(1) as f64).sqrt()
 }
 
-/// The transforms of all columns, each frequency over the deviation of the noise there.
-fn whitened(
+/// Fourier transforms of all columns, each frequency divided by the deviation of its noise.
+fn whiten(
     runs: &[SeenRun],
-    columns: &[Column],
-    noise: &[JointNoise],
+    columns: &[TorqueColumn],
+    noise: &[OracleNoise],
     scales: &[f64],
 ) -> Mat<f64> {
     let bins = |run: &SeenRun| {
@@ -98,8 +100,8 @@ fn whitened(
     rows
 }
 
-/// The torques of all columns over the scale of their joint, so that a column's square is a mean over samples.
-fn scaled(runs: &[SeenRun], columns: &[Column], scales: &[f64]) -> Mat<f64> {
+/// Torques of all columns divided by the scale of their joint, so that a squared norm is a mean over samples.
+fn scale_columns(runs: &[SeenRun], columns: &[TorqueColumn], scales: &[f64]) -> Mat<f64> {
     let samples: usize = runs.iter().map(SeenRun::rows).sum();
     let mut rows = Mat::zeros(samples * scales.len(), columns.len());
     let all = 1.0 / (samples.max(1) as f64).sqrt();
@@ -117,9 +119,8 @@ fn scaled(runs: &[SeenRun], columns: &[Column], scales: &[f64]) -> Mat<f64> {
     rows
 }
 
-/// What column `k` leaves when all others that stand for something else are fitted to it, as a norm; `weight` is
-/// that of what is known of them beforehand.
-fn left(k: usize, columns: &[Column], gram: &Mat<f64>, weight: f64) -> f64 {
+/// Norm of column `k` after a fit by all columns that stand for something else. `weight` scales their priors.
+fn unexplained_norm(k: usize, columns: &[TorqueColumn], gram: &Mat<f64>, weight: f64) -> f64 {
     let own = columns[k].stands_for;
     let same = |c: usize| own != StandIn::Itself && columns[c].stands_for == own;
     let free: Vec<usize> =
@@ -147,6 +148,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
+    use crate::oracle::noise::ReadingError;
 
     const ROWS: usize = 1000;
     const STEP_S: f64 = 0.01;
@@ -168,35 +170,40 @@ mod tests {
         }
     }
 
-    fn itself(torque: DMatrix<f64>) -> Column {
-        Column { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 }
+    fn itself(torque: DMatrix<f64>) -> TorqueColumn {
+        TorqueColumn { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 }
     }
 
-    fn seen(runs: &[SeenRun], columns: &[Column], noise: &[JointNoise]) -> Vec<Strength> {
+    fn seen(runs: &[SeenRun], columns: &[TorqueColumn], noise: &[OracleNoise]) -> Vec<Strength> {
         let scale = effort_rms(runs, 0);
         strengths(runs, columns, 1, noise, &[scale])
     }
 
     /// `a sin` of whole periods in white noise has `a sqrt(N / 2) / sigma` deviations, a cosine beside it or not;
     /// with half of it said by another column, the half that is left.
+    fn noise(effort: f64, position: f64, inertia: f64) -> OracleNoise {
+        let error = |deviation| ReadingError { deviation, step: 0.0 };
+        OracleNoise::new(error(effort), error(position), inertia)
+    }
+
     #[test]
     fn a_sine_in_white_noise_is_as_sure_as_the_closed_form_says() {
         let sine = |a: f64| wave(move |t| a * (TAU * t).sin());
         let runs = [run(sine(2.0))];
-        let noise = [JointNoise::new([0.5, 0.0], [0.0, 0.0], 1.0)];
+        let noises = [noise(0.5, 0.0, 1.0)];
         let expected = 2.0 * (ROWS as f64 / 2.0).sqrt() / 0.5;
         let cosine = itself(wave(|t| (TAU * t).cos()));
-        let [told] = seen(&runs, &[itself(sine(2.0)), cosine], &noise)[..] else { panic!() };
+        let [told] = seen(&runs, &[itself(sine(2.0)), cosine], &noises)[..] else { panic!() };
         assert!((told.sigmas / expected - 1.0).abs() < 1e-3, "{} for {expected}", told.sigmas);
         assert!((told.share - 1.0).abs() < 1e-6 && (told.torque - 1.0).abs() < 1e-6);
         assert!(told.visible());
 
         let beside = itself(wave(|t| (TAU * t).sin() + (TAU * t).cos()));
-        let [told] = seen(&runs, &[itself(sine(2.0)), beside], &noise)[..] else { panic!() };
+        let [told] = seen(&runs, &[itself(sine(2.0)), beside], &noises)[..] else { panic!() };
         assert!((told.sigmas / expected - 0.5_f64.sqrt()).abs() < 1e-3);
 
         let same = itself(sine(1.0));
-        let [told] = seen(&runs, &[itself(sine(2.0)), same], &noise)[..] else { panic!() };
+        let [told] = seen(&runs, &[itself(sine(2.0)), same], &noises)[..] else { panic!() };
         assert!(told.sigmas < 1e-3 * expected && !told.visible());
     }
 
@@ -206,8 +213,8 @@ mod tests {
         let runs = [run(wave(|t| (TAU * t).sin()))];
         let fast = |hz: f64| vec![itself(wave(move |t| (TAU * hz * t).sin()))];
         let sigmas = |hz, sigma_q| {
-            let noise = [JointNoise::new([1e-3, 0.0], [sigma_q, 0.0], 2.0)];
-            seen(&runs, &fast(hz), &noise)[0].sigmas
+            let noises = [noise(1e-3, sigma_q, 2.0)];
+            seen(&runs, &fast(hz), &noises)[0].sigmas
         };
         let carried = |hz: f64| 2.0 * (TAU * hz).powi(2) * 1e-3;
         for hz in [1.0, 10.0] {
@@ -222,10 +229,11 @@ mod tests {
     #[test]
     fn a_stand_in_that_is_known_explains_no_more_than_it_may() {
         let sine = || wave(|t| (TAU * t).sin());
-        let noise = [JointNoise::new([0.1, 0.0], [0.0, 0.0], 1.0)];
-        let known = |deviation: f64| Column { prior: deviation.powi(-2), ..itself(sine()) };
-        let sigmas =
-            |deviation| seen(&[run(sine())], &[itself(sine()), known(deviation)], &noise)[0].sigmas;
+        let noises = [noise(0.1, 0.0, 1.0)];
+        let known = |deviation: f64| TorqueColumn { prior: deviation.powi(-2), ..itself(sine()) };
+        let sigmas = |deviation| {
+            seen(&[run(sine())], &[itself(sine()), known(deviation)], &noises)[0].sigmas
+        };
         // One Gaussian of deviation d on top of another of 1 / sigmas.
         let alone = (ROWS as f64 / 2.0).sqrt() / 0.1;
         for deviation in [1e-3, 1e-2, 1e-1] {

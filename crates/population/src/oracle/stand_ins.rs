@@ -1,14 +1,15 @@
 use nalgebra::DMatrix;
 use robot::{Inertia, Robot};
 
-use super::{Column, SeenRun, StandIn};
 use crate::moving::Moving;
+use crate::oracle::column::{StandIn, TorqueColumn};
+use crate::oracle::motion::SeenRun;
 
 /// Speed at which dry friction has three quarters of its level (rad/s or m/s).
 const CREEP: f64 = 2e-3;
 
-/// How well bodies are known beforehand: share of mass, distance of the centre of mass as a share of the
-/// body's radius of gyration, and share of inertia.
+/// Prior deviation of bodies: share of mass, offset of the centre of mass as a share of the radius of
+/// gyration, and share of inertia.
 const KNOWN: f64 = 0.05;
 
 /// Sign of a velocity, smooth about zero.
@@ -16,9 +17,9 @@ pub(crate) fn dry(qd: f64) -> f64 {
     (qd / CREEP).tanh()
 }
 
-/// All that may stand in for a cause: dry and viscous friction, an offset and a rotor at every joint, of any
-/// size, and the ten parameters of every body, known to a twentieth.
-pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<Column> {
+/// Columns that may explain a cause instead: dry and viscous friction, an offset and a rotor of any size at
+/// every joint, and the ten parameters of every body, known to a twentieth.
+pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<TorqueColumn> {
     let joints = robot.joint_count();
     let mut columns = Vec::with_capacity(14 * joints);
     for j in 0..joints {
@@ -29,7 +30,7 @@ pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<Column> {
             };
             runs.iter().map(only).collect()
         };
-        let free = |stands_for, torque| Column { stands_for, torque, prior: 0.0 };
+        let free = |stands_for, torque| TorqueColumn { stands_for, torque, prior: 0.0 };
         columns.push(free(StandIn::Dry(j), alone(&|run, i| dry(run.qd[(i, j)]))));
         columns.push(free(StandIn::Viscous(j), alone(&|run, i| run.qd[(i, j)])));
         columns.push(free(StandIn::Offset(j), alone(&|_, _| 1.0)));
@@ -39,12 +40,12 @@ pub(crate) fn stand_ins(robot: &Robot, runs: &[SeenRun]) -> Vec<Column> {
     let bodies = body_columns(robot, runs);
     for ((link, parameter), torque) in bodies {
         let prior = known[link][parameter].powi(-2);
-        columns.push(Column { stands_for: StandIn::Body(link), torque, prior });
+        columns.push(TorqueColumn { stands_for: StandIn::Body(link), torque, prior });
     }
     columns
 }
 
-/// Deviations of a body's ten parameters as they are known beforehand.
+/// Prior deviations of a body's ten parameters.
 fn deviations(body: &Inertia) -> [f64; 10] {
     let mass = body.mass.max(1e-6);
     let radius = (body.about_com.trace() / (2.0 * mass)).sqrt().max(1e-4);
@@ -78,9 +79,9 @@ fn body_columns(robot: &Robot, runs: &[SeenRun]) -> Vec<BodyColumn> {
 }
 
 impl SeenRun {
-    /// How the links move at a sample.
+    /// Motion of the links at a sample.
     pub fn moving(&self, robot: &Robot, i: usize) -> Moving {
         let of = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<f64>>();
-        Moving::new(robot, [&of(&self.q), &of(&self.qd), &of(&self.qdd)])
+        Moving::new(robot, &of(&self.q), &of(&self.qd), &of(&self.qdd))
     }
 }

@@ -3,8 +3,10 @@ use std::path::{Path, PathBuf};
 use logs::{ReadOptions, Run, read_run};
 use robot::Robot;
 
-use super::cut::{Part, part, thinned, until};
-use crate::{EffortClass, MotionClass, PopulationError, RobotFiles};
+use crate::corner::{EffortClass, MotionClass};
+use crate::error::PopulationError;
+use crate::recorded::cut::{Part, part, thin, until};
+use crate::robot_files::RobotFiles;
 
 /// Longest part of a log that is used (s).
 const LONGEST_S: f64 = 60.0;
@@ -37,7 +39,7 @@ pub(super) enum HeldOut {
     Quarter,
 }
 
-/// What is known of an arm's logs.
+/// A recorded arm and its logs.
 struct Entry {
     name: &'static str,
     folder: &'static str,
@@ -52,57 +54,68 @@ const fn log(name: &'static str, motion: MotionClass, path: u8) -> Log {
     Log { name, motion, path }
 }
 
+const fn entry(
+    name: &'static str,
+    folder: &'static str,
+    robot: Described,
+    effort: EffortClass,
+    held_out: HeldOut,
+    logs: &'static [Log],
+) -> Entry {
+    Entry { name, folder, robot, effort, held_out, logs }
+}
+
 /// The first two logs of the LWR4 are of one motion, and so are the first two of the Gen3.
 static ARMS: [Entry; 7] = [
-    Entry {
-        name: "lwr4",
-        folder: "kuka_lwr4",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::JointTorque,
-        held_out: HeldOut::Log,
-        logs: &[
+    entry(
+        "lwr4",
+        "kuka_lwr4",
+        Described::BesideTheLogs,
+        EffortClass::JointTorque,
+        HeldOut::Log,
+        &[
             log("measurements_1", MotionClass::Sinusoids, 0),
             log("measurements_2", MotionClass::Sinusoids, 0),
             log("measurements_3", MotionClass::Sinusoids, 1),
         ],
-    },
-    Entry {
-        name: "gen3",
-        folder: "kinova_gen3",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::Log,
-        logs: &[
+    ),
+    entry(
+        "gen3",
+        "kinova_gen3",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::Log,
+        &[
             log("Trajectory1", MotionClass::PointToPoint, 0),
             log("RunTrajectory1", MotionClass::PointToPoint, 0),
             log("RecordTrajectory_quadratic", MotionClass::PointToPoint, 1),
             log("opti_traj_testing1", MotionClass::Sinusoids, 2),
             log("opti_traj_testing2", MotionClass::Sinusoids, 3),
         ],
-    },
-    Entry {
-        name: "tx40",
-        folder: "staubli_tx40",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::LastQuarter,
-        logs: &[log("excitation", MotionClass::Sinusoids, 0)],
-    },
-    Entry {
-        name: "barrett_wam",
-        folder: "barrett_wam",
-        robot: Described::Here,
-        effort: EffortClass::Command,
-        held_out: HeldOut::LastQuarter,
-        logs: &[log("shoulder_elbow_sweep", MotionClass::Sweep, 0)],
-    },
-    Entry {
-        name: "ur10e",
-        folder: "ur10e_joint_by_joint",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::Quarter,
-        logs: &[
+    ),
+    entry(
+        "tx40",
+        "staubli_tx40",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::LastQuarter,
+        &[log("excitation", MotionClass::Sinusoids, 0)],
+    ),
+    entry(
+        "barrett_wam",
+        "barrett_wam",
+        Described::Here,
+        EffortClass::Command,
+        HeldOut::LastQuarter,
+        &[log("shoulder_elbow_sweep", MotionClass::Sweep, 0)],
+    ),
+    entry(
+        "ur10e",
+        "ur10e_joint_by_joint",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::Quarter,
+        &[
             log("joint_1", MotionClass::JointByJoint, 0),
             log("joint_2", MotionClass::JointByJoint, 1),
             log("joint_3", MotionClass::JointByJoint, 2),
@@ -110,34 +123,34 @@ static ARMS: [Entry; 7] = [
             log("joint_5", MotionClass::JointByJoint, 4),
             log("joint_6", MotionClass::JointByJoint, 5),
         ],
-    },
-    Entry {
-        name: "dfki_pendulum",
-        folder: "dfki_pendulum",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::Current,
-        held_out: HeldOut::Log,
-        logs: &[
+    ),
+    entry(
+        "dfki_pendulum",
+        "dfki_pendulum",
+        Described::BesideTheLogs,
+        EffortClass::Current,
+        HeldOut::Log,
+        &[
             log("ddp", MotionClass::SwingUp, 0),
             log("direct_collocation", MotionClass::SwingUp, 1),
             log("pd", MotionClass::SwingUp, 2),
             log("gravity_compensation", MotionClass::LedByHand, 3),
         ],
-    },
-    Entry {
-        name: "panda",
-        folder: "panda",
-        robot: Described::BesideTheLogs,
-        effort: EffortClass::JointTorque,
-        held_out: HeldOut::LastQuarter,
-        logs: &[log("whole", MotionClass::Sinusoids, 0)],
-    },
+    ),
+    entry(
+        "panda",
+        "panda",
+        Described::BesideTheLogs,
+        EffortClass::JointTorque,
+        HeldOut::LastQuarter,
+        &[log("whole", MotionClass::Sinusoids, 0)],
+    ),
 ];
 
-/// A real arm whose recorded logs are there.
+/// A real arm with recorded logs.
 ///
-/// Its logs are used up to 60 s, thinned to the rate nearest to 250 Hz; their dropouts, lags and outliers
-/// stay as they are.
+/// The first 60 s of each log are used, thinned to the rate nearest to 250 Hz. Dropouts, lags and outliers are
+/// kept.
 #[derive(Clone)]
 pub struct RecordedArm {
     entry: &'static Entry,
@@ -152,7 +165,7 @@ pub(super) struct Used {
     pub(super) run: Run,
 }
 
-/// The arms whose logs and robot are there below the folder `data`.
+/// The arms whose logs and robot exist below the folder `data`.
 pub fn available(data: &Path) -> Vec<RecordedArm> {
     ARMS.iter().filter_map(|entry| RecordedArm::find(data, entry)).collect()
 }
@@ -162,7 +175,7 @@ impl RecordedArm {
         let folder = data.join(entry.folder);
         let robot = match entry.robot {
             Described::BesideTheLogs => RobotFiles::read(&folder)?,
-            Described::Here => crate::arm_wam::files(),
+            Described::Here => crate::arms::wam::files(),
         };
         let arm = Self { entry, folder, robot };
         arm.logs().iter().all(|log| log.is_file()).then_some(arm)
@@ -184,7 +197,7 @@ impl RecordedArm {
         self.entry.logs.iter().map(path).collect()
     }
 
-    /// What its logs report as effort.
+    /// Source of the effort in its logs.
     pub fn effort(&self) -> EffortClass {
         self.entry.effort
     }
@@ -193,7 +206,7 @@ impl RecordedArm {
         self.entry.held_out
     }
 
-    /// Number of choices of what is held out.
+    /// Number of ways to hold out a part of its logs.
     pub(super) fn splits(&self) -> usize {
         match self.entry.held_out {
             HeldOut::Log => self.entry.logs.len(),
@@ -202,8 +215,7 @@ impl RecordedArm {
         }
     }
 
-    /// Its logs, thinned and cut to the longest that is used, and the smallest step of each joint's
-    /// position in all rows of them.
+    /// Its logs, cut and thinned, and the smallest step of each joint's position in the full logs.
     pub(super) fn read(&self, robot: &Robot) -> Result<(Vec<Used>, Vec<f64>), PopulationError> {
         let mut steps = vec![f64::INFINITY; robot.joint_count()];
         let mut used = Vec::new();
@@ -213,7 +225,7 @@ impl RecordedArm {
                 *step = step.min(smallest_step(&joint.position));
             }
             let rows = until(&whole, LONGEST_S);
-            let run = thinned(&part(&whole, log.name, rows));
+            let run = thin(&part(&whole, log.name, rows));
             used.push(Used { motion: log.motion, path: log.path, run });
         }
         Ok((used, steps))
@@ -223,7 +235,7 @@ impl RecordedArm {
 /// Differences of positions below this are rounding (rad or m).
 const ROUNDING: f64 = 1e-9;
 
-/// Smallest difference of neighbouring positions that is none of rounding; infinite where nothing moves.
+/// Smallest difference of neighbouring positions above rounding; infinite where nothing moves.
 fn smallest_step(position: &[f64]) -> f64 {
     let steps = position.windows(2).map(|q| (q[1] - q[0]).abs());
     steps.filter(|step| *step > ROUNDING).fold(f64::INFINITY, f64::min)

@@ -37,9 +37,9 @@ pub(super) fn until(run: &Run, longest_s: f64) -> Range<usize> {
     0..run.time.partition_point(|t| t - first <= longest_s)
 }
 
-/// Every n-th row, such that the rate comes nearest to 250 Hz. No filter goes before it: what a log has
-/// above half the new rate folds back into it, as in a log that was written at that rate.
-pub(super) fn thinned(run: &Run) -> Run {
+/// Keeps every n-th row, with the rate nearest to 250 Hz. Without a filter, frequencies above half the new rate
+/// alias, as in a log that was written at that rate.
+pub(super) fn thin(run: &Run) -> Run {
     let every = ((rate_hz(run) / RATE_HZ).round() as usize).max(1);
     if every == 1 {
         return run.clone();
@@ -47,7 +47,7 @@ pub(super) fn thinned(run: &Run) -> Run {
     rows(run, &run.name, (0..run.time.len()).step_by(every).collect())
 }
 
-/// A stretch of a run under another name; the run itself where it is all of it.
+/// A range of rows of a run under another name, or the run itself for all rows.
 pub(super) fn part(run: &Run, name: &str, stretch: Range<usize>) -> Run {
     if stretch == (0..run.time.len()) {
         return run.clone();
@@ -55,7 +55,7 @@ pub(super) fn part(run: &Run, name: &str, stretch: Range<usize>) -> Run {
     rows(run, name, stretch.collect())
 }
 
-/// Some rows of a run: no longer the file that its hash is of.
+/// Some rows of a run, without the hash of its file.
 fn rows(run: &Run, name: &str, rows: Vec<usize>) -> Run {
     let pick = |x: &[f64]| rows.iter().filter_map(|&row| x.get(row).copied()).collect::<Vec<_>>();
     let joint = |from: &Channels| {

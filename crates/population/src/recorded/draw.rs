@@ -5,16 +5,16 @@ use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use super::cut::rate_hz;
-use super::law::{Law, most_periods};
-use super::point_mass::PointMass;
-use super::size::Measured;
-use super::transplant::Transplant;
+use crate::recorded::cut::rate_hz;
+use crate::recorded::law::{Law, most_periods};
+use crate::recorded::point_mass::PointMass;
+use crate::recorded::size::Measured;
+use crate::recorded::transplant::Transplant;
 
-/// Least and largest RMS of what is added to a joint, over the RMS of its effort.
+/// Least and largest RMS of the torque added to a joint, over the RMS of its effort.
 const SHARES: [f64; 2] = [0.03, 0.5];
 
-/// Number of laws that are drawn from, each as likely.
+/// Number of laws, equally likely.
 const LAWS: usize = 12;
 
 /// Periods in a turn of the ripples that are drawn, where the log resolves them.
@@ -26,12 +26,12 @@ const HEAVIEST: f64 = 50.0;
 /// Largest time by which efforts come later or earlier (s).
 const LATEST_S: f64 = 0.05;
 
-/// Skew by which the size of a skew is measured (s).
+/// Trial skew from which the size of a skew is scaled (s).
 const SOME_SKEW_S: f64 = 0.002;
 
-/// Draws a transplant into logs: a joint that moves, a law, and a size, log-uniform from .03 to .5 of
-/// the RMS of the effort of the joint, of a payload and a skew at the joint where that is largest.
-/// `None` where no joint moves.
+/// Draws a transplant: a joint that moves, a law and a size. The size is log-uniform from .03 to .5 of the RMS
+/// effort of the joint; for a payload and a skew, of the joint where that share is largest. `None` where no joint
+/// moves.
 pub(super) fn draw(robot: &Robot, runs: &[Run], random: &mut ChaCha8Rng) -> Option<Transplant> {
     let measured = Measured::new(robot, runs);
     if measured.moving.is_empty() {
@@ -43,7 +43,7 @@ pub(super) fn draw(robot: &Robot, runs: &[Run], random: &mut ChaCha8Rng) -> Opti
     let unit = Transplant { law, joint };
     let of_unit = measured.share(&unit.added(robot, runs));
     let factor = if of_unit > 0.0 { share / of_unit } else { 1.0 };
-    Some(Transplant { law: bounded(law.times(factor)), joint })
+    Some(Transplant { law: within_bounds(law.times(factor)), joint })
 }
 
 /// A law of some size.
@@ -86,8 +86,8 @@ fn somewhere(random: &mut ChaCha8Rng) -> [f64; 3] {
     [radius * level * turn.cos(), radius * level * turn.sin(), radius * height]
 }
 
-/// A law no larger than is found on arms.
-fn bounded(law: Law) -> Law {
+/// Limits a law to sizes that arms have.
+fn within_bounds(law: Law) -> Law {
     match law {
         Law::PointMass(body) => Law::PointMass(PointMass { mass: body.mass.min(HEAVIEST), ..body }),
         Law::Late { skew } => Law::Late { skew: skew.clamp(-LATEST_S, LATEST_S) },
@@ -95,7 +95,7 @@ fn bounded(law: Law) -> Law {
     }
 }
 
-/// A number whose logarithm is uniform.
+/// A log-uniform number.
 fn log_uniform([low, high]: [f64; 2], random: &mut impl Rng) -> f64 {
     (low.ln() + (high / low).ln() * random.random::<f64>()).exp()
 }

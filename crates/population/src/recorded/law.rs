@@ -3,18 +3,18 @@ use std::f64::consts::TAU;
 use logs::Run;
 use robot::Robot;
 
-use super::point_mass::{PointMass, point_mass_torque};
-use super::signals::{at, velocity};
+use crate::recorded::point_mass::{PointMass, point_mass_torque};
+use crate::recorded::signals::{at, velocity};
 
-/// Speed below which dry friction is in proportion to it (rad/s or m/s): the clock and the encoder tell
-/// the direction no better.
+/// Speed below which dry friction is proportional to it (rad/s or m/s), since clock and encoder do not resolve
+/// the direction of slower motion.
 const CREEP: f64 = 0.01;
 
-/// What a cause adds to efforts, as a closed form of the columns of a log.
+/// The torque that a cause adds to efforts, as a closed form of the columns of a log.
 ///
-/// `q` and `effort` are the columns, `qd` is the slope of `q` over 20 ms either side, and
-/// `dry(qd) = qd / 0.01 rad/s` between -1 and 1. SI units; a positive torque is one that the drive has to
-/// give on top.
+/// `q` and `effort` are the columns, `qd` is the slope of `q` over 20 ms to either side, and
+/// `dry(qd) = qd / 0.01 rad/s`, limited to -1 and 1. Units are SI. A positive torque increases the effort of the
+/// drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
     /// `level dry(qd)`.
@@ -80,7 +80,7 @@ pub enum Law {
         /// Distance from the middle at which the torque is largest (rad).
         width: f64,
     },
-    /// What a point mass on the last link takes, see [`point_mass_torque`], at all joints.
+    /// The torque of a point mass on the last link at all joints, see [`point_mass_torque`].
     PointMass(PointMass),
     /// `effort(t - skew) - effort(t)` at all joints, linear between rows and held at the ends.
     Late {
@@ -90,7 +90,7 @@ pub enum Law {
 }
 
 impl Law {
-    /// What it adds to the effort of each joint of a run; `joint` is where a law of one joint acts.
+    /// The torque that it adds to each joint of a run; a law of one joint acts at `joint`.
     pub fn torque(&self, robot: &Robot, run: &Run, joint: usize) -> Vec<Vec<f64>> {
         match self {
             Self::PointMass(body) => point_mass_torque(robot, run, body),
@@ -116,7 +116,7 @@ impl Law {
         }
     }
 
-    /// What a law of one joint adds in one row; 0 for those of all joints.
+    /// The torque of a law of one joint in one row; 0 for laws of all joints.
     fn of_row(&self, q: f64, qd: f64, effort: f64) -> f64 {
         match *self {
             Self::Coulomb { level } => level * dry(qd),
@@ -138,7 +138,7 @@ impl Law {
         }
     }
 
-    /// The same law with `factor` times its torque; a skew that is `factor` times as long.
+    /// The same law with its torque, or its skew, scaled by `factor`.
     pub(super) fn times(self, factor: f64) -> Self {
         match self {
             Self::Coulomb { level } => Self::Coulomb { level: factor * level },
@@ -170,8 +170,8 @@ pub(super) fn dry(qd: f64) -> f64 {
     (qd / CREEP).clamp(-1.0, 1.0)
 }
 
-/// Highest number of periods in a turn whose ripple a log resolves: six samples a period at the given
-/// speed (rad/s).
+/// Highest number of periods per turn that a log resolves, with six samples per period at the given speed
+/// (rad/s).
 pub(super) fn most_periods(rate_hz: f64, speed: f64) -> f64 {
     const SAMPLES: f64 = 6.0;
     TAU * rate_hz / (SAMPLES * speed)

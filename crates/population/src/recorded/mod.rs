@@ -5,18 +5,12 @@
 //!                                                          \--> + law(q, qd, effort) -> transplant
 //! ```
 
-mod arm;
-mod cut;
-mod draw;
-mod law;
-mod point_mass;
-mod signals;
-mod size;
-mod transplant;
-mod trial;
-
-pub use arm::{RecordedArm, available};
-pub use law::Law;
-pub use point_mass::{PointMass, point_mass_torque};
-pub use transplant::Transplant;
-pub use trial::{RecordedTrial, draw_recorded};
+pub(crate) mod arm;
+pub(crate) mod cut;
+pub(crate) mod draw;
+pub(crate) mod law;
+pub(crate) mod point_mass;
+pub(crate) mod signals;
+pub(crate) mod size;
+pub(crate) mod transplant;
+pub(crate) mod trial;

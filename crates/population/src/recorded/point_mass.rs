@@ -2,7 +2,7 @@ use logs::Run;
 use nalgebra::{Isometry3, Point3, Vector3};
 use robot::Robot;
 
-use super::signals::{acceleration, averaged};
+use crate::recorded::signals::{acceleration, average};
 
 /// A point mass on the last link.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,12 +20,12 @@ pub struct PointMass {
 /// dp/dq_j = a_j x (p - o_j)  for a rotation about the axis a_j through o_j,  a_j  for a translation
 /// ```
 ///
-/// `p` is the place of the mass in the base frame along the positions of the run, averaged over 20 ms
-/// either side, and `p''` its second difference over the same time. Kinematics alone: no inertia of the
-/// robot enters. Joints that do not carry the last link get nothing.
+/// `p` is the position of the mass in the base frame along the run, averaged over 20 ms to either side, and
+/// `p''` its second difference over the same time. Only kinematics of the robot enter. Joints that do not carry
+/// the last link get zero.
 pub fn point_mass_torque(robot: &Robot, run: &Run, body: &PointMass) -> Vec<Vec<f64>> {
     let smooth: Vec<Vec<f64>> =
-        run.joints.iter().map(|joint| averaged(&run.time, &joint.position)).collect();
+        run.joints.iter().map(|joint| average(&run.time, &joint.position)).collect();
     let carrying = carrying(robot);
     let mut place = [const { Vec::new() }; 3];
     let mut slopes = vec![Vec::with_capacity(run.time.len()); robot.joint_count()];

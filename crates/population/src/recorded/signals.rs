@@ -51,7 +51,7 @@ pub(super) fn acceleration(time: &[f64], x: &[f64]) -> Vec<f64> {
 }
 
 /// Means over the samples of 20 ms either side, fewer at the ends.
-pub(super) fn averaged(time: &[f64], x: &[f64]) -> Vec<f64> {
+pub(super) fn average(time: &[f64], x: &[f64]) -> Vec<f64> {
     let (most, last) = (half(time), x.len().saturating_sub(1));
     let mean = |i: usize| {
         let half = most.min(i).min(last - i);

@@ -1,20 +1,20 @@
 use logs::Run;
 use robot::{JointKind, Robot};
 
-use super::law::dry;
-use super::signals::{acceleration, averaged, half, rms, velocity};
-use crate::Strength;
+use crate::recorded::law::dry;
+use crate::recorded::signals::{acceleration, average, half, rms, velocity};
+use crate::sheet::Strength;
 
 /// Least range of a joint that moves (rad, m).
 const MOVES: [f64; 2] = [0.1, 0.01];
 
-/// Least noise of an effort, as a share of its RMS: a log that was smoothed shows none.
+/// Least noise of an effort, as a share of its RMS, since a smoothed log shows none.
 const LEAST_NOISE: f64 = 1e-3;
 
-/// What is left of a column that the columns before it make up, as a share of it.
+/// Residual share below which a column counts as dependent on those before it.
 const DEPENDENT: f64 = 1e-8;
 
-/// What of a joint's own everyday columns a cause is itself, so that it cannot stand in for the cause.
+/// The everyday column of a joint that equals the cause, and so cannot explain it instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Own {
     /// None of them.
@@ -27,7 +27,7 @@ pub(super) enum Own {
     Direction,
 }
 
-/// The logs that a cause is added to, as they are without it.
+/// The logs to which a cause is added, without the cause.
 pub(super) struct Measured<'a> {
     /// The logs.
     pub(super) runs: &'a [Run],
@@ -35,7 +35,7 @@ pub(super) struct Measured<'a> {
     pub(super) moving: Vec<usize>,
 }
 
-/// What a cause adds to the effort of every joint, run by run.
+/// Torque that a cause adds to every joint, run by run.
 pub(super) type Added = Vec<Vec<Vec<f64>>>;
 
 impl<'a> Measured<'a> {
@@ -70,7 +70,7 @@ impl<'a> Measured<'a> {
         rms(self.runs.iter().flat_map(|run| &run.joints[joint].effort))
     }
 
-    /// Largest RMS of what is added to the effort of a joint that moves, over that of the effort.
+    /// Largest ratio of added RMS to effort RMS over the joints that move.
     pub(super) fn share(&self, added: &Added) -> f64 {
         let share = |&joint: &usize| {
             let added = rms(added.iter().flat_map(|run| &run[joint]));
@@ -79,7 +79,7 @@ impl<'a> Measured<'a> {
         self.moving.iter().map(share).fold(0.0, f64::max)
     }
 
-    /// What is to be seen of a cause, by simple means, over the joints j that move:
+    /// Visibility of a cause, by simple means, over the joints j that move:
     ///
     /// ```text
     /// r_j      what is added to joint j, less its best fit, by least squares over all logs, by 1, qd, dry(qd)
@@ -92,7 +92,7 @@ impl<'a> Measured<'a> {
     ///
     /// `n` is the number of rows and `h` that in 20 ms: a motion of 1 Hz keeps 1/2000 of itself in `noise_j`,
     /// and noise is taken as independent after 20 ms, because logs are smoothed before they are written.
-    /// `effort_j` is the effort with what is added.
+    /// `effort_j` is the effort with the cause.
     pub(super) fn strength(&self, added: &Added, own: Own) -> Strength {
         let mut strength = Strength { sigmas: 0.0, share: 0.0, torque: 0.0 };
         for &joint in &self.moving {
@@ -101,7 +101,7 @@ impl<'a> Measured<'a> {
                 self.runs.iter().flat_map(|run| &run.joints[joint].effort).copied().collect();
             let with: Vec<f64> = effort.iter().zip(&here).map(|(e, a)| e + a).collect();
             let (whole, effort) = (rms(here.iter()), rms(with.iter()));
-            let left = rms(self.unexplained(joint, here, own).iter());
+            let left = rms(self.residual(joint, here, own).iter());
             let sigmas = ratio(left, self.noise(joint)) * self.independent().sqrt();
             strength.sigmas = strength.sigmas.hypot(sigmas);
             strength.share = strength.share.max(ratio(left, effort));
@@ -110,13 +110,13 @@ impl<'a> Measured<'a> {
         strength
     }
 
-    /// What everyday columns of a joint leave of a signal.
-    fn unexplained(&self, joint: usize, mut signal: Vec<f64>, own: Own) -> Vec<f64> {
+    /// Residual of a signal after a fit by the everyday columns of a joint.
+    fn residual(&self, joint: usize, mut signal: Vec<f64>, own: Own) -> Vec<f64> {
         let mut columns = [const { Vec::new() }; 4];
         for run in self.runs {
             let position = &run.joints[joint].position;
             let qd = velocity(&run.time, position);
-            let qdd = acceleration(&run.time, &averaged(&run.time, position));
+            let qdd = acceleration(&run.time, &average(&run.time, position));
             columns[0].extend(vec![1.0; qd.len()]);
             columns[1].extend(&qd);
             columns[2].extend(qd.iter().map(|qd| dry(*qd)));
@@ -167,13 +167,13 @@ impl<'a> Measured<'a> {
     }
 }
 
-/// Takes away what a signal has along a column of length one.
+/// Subtracts the projection of a signal on a unit column.
 fn less(signal: &mut [f64], unit: &[f64]) {
     let along: f64 = signal.iter().zip(unit).map(|(x, u)| x * u).sum();
     signal.iter_mut().zip(unit).for_each(|(x, u)| *x -= along * u);
 }
 
-/// A ratio of two sizes; 0 where there is nothing to compare with.
+/// A ratio of two sizes; 0 for a divisor of zero.
 fn ratio(of: f64, to: f64) -> f64 {
     if to > 0.0 { of / to } else { 0.0 }
 }

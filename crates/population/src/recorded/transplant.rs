@@ -3,25 +3,25 @@ use logs::Run;
 use robot::Robot;
 use simulator::Truth;
 
-use super::law::Law;
-use super::signals::averaged;
-use super::size::{Added, Measured, Own};
-use crate::{Cause, Role, Strength, Unnamed};
+use crate::recorded::law::Law;
+use crate::recorded::signals::average;
+use crate::recorded::size::{Added, Measured, Own};
+use crate::sheet::{Cause, Role, Strength, Unnamed};
 
-/// A cause put into recorded logs by adding a closed form to their efforts.
+/// A cause added to the efforts of recorded logs as a closed form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transplant {
-    /// What is added.
+    /// The torque.
     pub law: Law,
-    /// Index of the joint where it acts; a law of all joints pays no heed to it.
+    /// Index of the joint where it acts; unused by laws of all joints.
     pub joint: usize,
 }
 
-/// A transplant as a sheet states it.
-pub(super) enum Told {
+/// The entry of a transplant in a sheet.
+pub(super) enum AddedCause {
     /// An effect of the catalogue.
     Named(Cause),
-    /// An effect of no catalogue.
+    /// An effect outside the catalogue.
     Stranger(Unnamed),
 }
 
@@ -34,19 +34,18 @@ impl Transplant {
         }
     }
 
-    /// What is to be seen of it in logs as they are without it: see the fields of [`Strength`]. Simpler
-    /// than an oracle that knows the true arm: only the constant, the velocity, its direction and the
-    /// acceleration of the same joint can stand in for it, and noise is what efforts change by within
-    /// 60 ms. Joints that range over less than .1 rad or 1 cm do not count.
+    /// Its visibility in the logs without it, see [`Strength`]. Since the true arm is unknown, only a constant, the
+    /// velocity, its direction and the acceleration of the same joint may explain it instead, and noise is estimated
+    /// from changes of the effort within 60 ms. Joints that move less than .1 rad or 1 cm do not count.
     pub fn strength(&self, robot: &Robot, runs: &[Run]) -> Strength {
         Measured::new(robot, runs).strength(&self.added(robot, runs), self.own())
     }
 
-    /// What it adds to runs. A skew is that of efforts averaged over 20 ms either side: what it does to
-    /// their noise is no part of it.
+    /// Its torque in runs. A skew acts on efforts averaged over 20 ms to either side, so that shifted noise does
+    /// not count.
     pub(super) fn added(&self, robot: &Robot, runs: &[Run]) -> Added {
         let added = |run: &Run| match self.law {
-            Law::Late { .. } => self.law.torque(robot, &smoothed(run), self.joint),
+            Law::Late { .. } => self.law.torque(robot, &smooth(run), self.joint),
             _ => self.law.torque(robot, run, self.joint),
         };
         runs.iter().map(added).collect()
@@ -62,14 +61,14 @@ impl Transplant {
         }
     }
 
-    /// It as a sheet states it, with its parameters under the catalogue's names.
-    pub(super) fn told(&self, robot: &Robot, strength: Strength) -> Told {
+    /// Its entry in a sheet, with parameters under the catalogue's names.
+    pub(super) fn cause(&self, robot: &Robot, strength: Strength) -> AddedCause {
         let here = robot.links()[self.joint].joint.name.as_str();
         let tip = robot.links().last().map_or("", |link| link.name.as_str());
         let at = |effect, parameters: &[(&str, f64)]| Truth::at_joint(effect, here, parameters);
         let stranger = |name: &str| {
             let joint = Some(here.to_owned());
-            Told::Stranger(Unnamed { name: name.to_owned(), joint, strength })
+            AddedCause::Stranger(Unnamed { name: name.to_owned(), joint, strength })
         };
         let truth = match self.law {
             Law::Coulomb { level } => at(EffectKind::CoulombFriction, &[("level", level)]),
@@ -100,15 +99,15 @@ impl Transplant {
             Law::Drag { .. } => return stranger("square_drag"),
             Law::Well { .. } => return stranger("magnet_well"),
         };
-        Told::Named(Cause { role: Role::Hidden, truth, strength })
+        AddedCause::Named(Cause { role: Role::Hidden, truth, strength })
     }
 }
 
 /// A run with its efforts averaged over 20 ms either side.
-fn smoothed(run: &Run) -> Run {
+fn smooth(run: &Run) -> Run {
     let mut run = run.clone();
     for channels in &mut run.joints {
-        channels.effort = averaged(&run.time, &channels.effort);
+        channels.effort = average(&run.time, &channels.effort);
     }
     run
 }

@@ -5,13 +5,16 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use super::arm::{HeldOut, RecordedArm, Used, available};
-use super::cut::{Part, length_s, part};
-use super::draw::draw;
-use super::signals::rms;
-use super::size::Measured;
-use super::transplant::Told;
-use crate::{Corner, Knowledge, Origin, PopulationError, RobotFiles, Sheet};
+use crate::corner::{Corner, Origin};
+use crate::error::PopulationError;
+use crate::recorded::arm::{HeldOut, RecordedArm, Used, available};
+use crate::recorded::cut::{Part, length_s, part};
+use crate::recorded::draw::draw;
+use crate::recorded::signals::rms;
+use crate::recorded::size::Measured;
+use crate::recorded::transplant::AddedCause;
+use crate::robot_files::RobotFiles;
+use crate::sheet::{Knowledge, Sheet};
 
 /// A trial of recorded logs.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,23 +23,21 @@ pub struct RecordedTrial {
     pub robot: RobotFiles,
     /// Logs given to the diagnosis.
     pub runs: Vec<Run>,
-    /// Logs that are held out.
+    /// Held-out logs.
     pub held_out: Vec<Run>,
-    /// What is known to be true.
+    /// The known truth.
     pub sheet: Sheet,
 }
 
-/// Draws a trial of recorded logs from those below the folder `data`: [`Origin::Recorded`] as they are,
-/// of which nothing is known to be true, or [`Origin::Transplant`] with one cause added to given and
-/// held-out logs alike.
+/// Draws a trial from the recorded logs below the folder `data`. [`Origin::Recorded`] keeps the logs as they are,
+/// without a known truth. [`Origin::Transplant`] adds one cause to given and held-out logs.
 ///
-/// Arm, what is held out and cause follow from `random` and from which arms are there; `seed` is the one
-/// that the sheet names.
+/// Arm, held-out part and cause follow from `random` and from the arms that exist. `seed` is stated in the sheet.
 ///
 /// # Errors
 ///
-/// [`PopulationError::OriginSimulated`], [`PopulationError::NoRecordedLogs`], what keeps a robot or a log
-/// from being read, and [`PopulationError::NothingMoves`].
+/// [`PopulationError::OriginSimulated`], [`PopulationError::NoRecordedLogs`], [`PopulationError::NothingMoves`], and
+/// errors of reading a robot or a log.
 pub fn draw_recorded(
     data: &Path,
     origin: Origin,
@@ -54,22 +55,22 @@ pub fn draw_recorded(
     let robot = arm.robot().load()?.robot;
     let (used, steps) = arm.read(&robot)?;
     let split = split(arm.held_out(), &used, random.random_range(0..arm.splits()));
-    let mut trial = plain(arm, (&robot, &steps), split);
+    let mut trial = plain_trial(arm, &robot, &steps, split);
     trial.sheet.seed = seed;
     if origin == Origin::Transplant {
-        transplanted(&mut trial, &robot, random)?;
+        add_transplant(&mut trial, &robot, random)?;
     }
     Ok(trial)
 }
 
 /// Given and held-out logs.
 struct Split<'a> {
-    /// Which log each given one is of, and it.
+    /// The given logs, each with the recorded log that it comes from.
     given: Vec<(&'a Used, Run)>,
     held_out: Vec<Run>,
 }
 
-/// Takes the log or the quarter of number `choice` away from the logs.
+/// Splits off the log or the quarter of number `choice`.
 fn split(held_out: HeldOut, used: &[Used], choice: usize) -> Split<'_> {
     let mut split = Split { given: Vec::new(), held_out: Vec::new() };
     let of = |log: &Used, name: &str, quarters: std::ops::Range<usize>| {
@@ -99,9 +100,10 @@ fn split(held_out: HeldOut, used: &[Used], choice: usize) -> Split<'_> {
     split
 }
 
-/// A trial of logs as they are.
-fn plain(arm: &RecordedArm, (robot, steps): (&Robot, &[f64]), split: Split) -> RecordedTrial {
-    let motion = split.given.first().map_or(crate::MotionClass::Sinusoids, |(log, _)| log.motion);
+/// A trial of unchanged logs.
+fn plain_trial(arm: &RecordedArm, robot: &Robot, steps: &[f64], split: Split) -> RecordedTrial {
+    let motion =
+        split.given.first().map_or(crate::corner::MotionClass::Sinusoids, |(log, _)| log.motion);
     let paths: Vec<u8> = split.given.iter().map(|(log, _)| log.path).collect();
     let runs: Vec<Run> = split.given.into_iter().map(|(_, run)| run).collect();
     let length: f64 = runs.iter().map(length_s).sum();
@@ -133,7 +135,7 @@ fn plain(arm: &RecordedArm, (robot, steps): (&Robot, &[f64]), split: Split) -> R
 }
 
 /// Adds a cause to a plain trial.
-fn transplanted(
+fn add_transplant(
     trial: &mut RecordedTrial,
     robot: &Robot,
     random: &mut ChaCha8Rng,
@@ -148,9 +150,9 @@ fn transplanted(
     trial.sheet.corner.origin = Origin::Transplant;
     trial.sheet.knowledge = Knowledge::Added;
     trial.sheet.torque_rms = torque_rms(&trial.runs, robot.joint_count());
-    match transplant.told(robot, strength) {
-        Told::Named(cause) => trial.sheet.causes.push(cause),
-        Told::Stranger(stranger) => trial.sheet.strangers.push(stranger),
+    match transplant.cause(robot, strength) {
+        AddedCause::Named(cause) => trial.sheet.causes.push(cause),
+        AddedCause::Stranger(stranger) => trial.sheet.strangers.push(stranger),
     }
     Ok(())
 }

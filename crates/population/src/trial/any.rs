@@ -3,11 +3,14 @@ use std::path::Path;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::make::{make, write_runs};
-use crate::{Origin, PopulationError, PopulationSpec, RecordedSpec, draw_recorded};
+use crate::corner::Origin;
+use crate::error::PopulationError;
+use crate::recorded::trial::draw_recorded;
+use crate::spec::{PopulationSpec, RecordedSpec};
+use crate::trial::make::{make, write_runs};
 
-/// Makes the files of a trial of any origin in a folder, which is made when it is not there: those of
-/// [`make`], without `truth` where the logs are recorded.
+/// Makes the files of a trial of any origin in a folder, creating it where it is absent. They are those of
+/// [`make`], without `truth` for recorded logs.
 ///
 /// # Errors
 ///

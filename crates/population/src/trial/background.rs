@@ -12,11 +12,11 @@ pub(crate) struct Friction {
     pub viscous: f64,
 }
 
-/// Largest dry friction that is drawn (N m or N): no drive of these arms has more.
+/// Largest dry friction that is drawn (N m or N), an upper bound for drives of these arms.
 const MOST_DRY: f64 = 900.0;
 
-/// Everyday friction at every joint: half to twice the drive's usual dry level, and as much viscous friction
-/// at the joint's largest speed as a tenth to all of that.
+/// Draws everyday friction at every joint: half to twice the drive's typical dry level, and viscous friction
+/// that at the joint's largest speed is a tenth of that level to all of it.
 pub(crate) fn everyday(robot: &Robot, usual: &[f64], random: &mut ChaCha8Rng) -> Vec<Friction> {
     let joint = |(link, usual): (&robot::Link, &f64)| {
         let coulomb = (usual * 2.0_f64.powf(random.random_range(-1.0..1.0))).min(MOST_DRY);
@@ -27,7 +27,7 @@ pub(crate) fn everyday(robot: &Robot, usual: &[f64], random: &mut ChaCha8Rng) ->
     robot.links().iter().zip(usual).map(joint).collect()
 }
 
-/// The friction as effects of a scenario: two a joint, the dry one first.
+/// The friction as effects of a scenario: two per joint, the dry one first.
 pub(crate) fn effects(robot: &Robot, friction: &[Friction]) -> Vec<EffectSpec> {
     let both = |(name, friction): (&str, &Friction)| {
         let joint = name.to_owned();

@@ -3,38 +3,41 @@ use nalgebra::DMatrix;
 use robot::{Inertia, Robot};
 use simulator::Truth;
 
-use crate::Role;
-use crate::oracle::{Column, SeenRun, StandIn, dry};
+use crate::oracle::column::{StandIn, TorqueColumn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::stand_ins::dry;
+use crate::sheet::Role;
+use crate::trial::background::Friction;
 
-/// A way in which an arm differs from its nominal model, and the torque that comes of it.
+/// A difference of an arm from its nominal model, with the torque that it causes.
 pub(crate) struct Difference {
     pub role: Role,
     pub truth: Truth,
-    pub column: Column,
+    pub column: TorqueColumn,
 }
 
-/// What the drives of an arm add to the effort of its log.
+/// Whether the effort of a log contains the friction and rotors of the drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Drives {
-    /// Friction and rotor: the effort is a motor's or a command.
+    /// It does: the effort is a motor's or a command.
     Seen,
-    /// Nothing: the effort is measured behind them.
+    /// It does not: the effort is measured behind the drives.
     Unseen,
 }
 
-/// Where an arm with its friction differs from its nominal model: friction and rotor of each joint, where the
-/// effort holds them, body of each link.
+/// All differences of an arm from its nominal model: friction and rotor of each joint, where the effort contains
+/// them, and the body of each link.
 ///
 /// ```text
 /// tau = (F - F_nominal) sign(qd),  (b - b_nominal) qd,  (J - J_nominal) qdd,  Y (pi - pi_nominal)
 /// ```
 pub(crate) fn differences(
     truth: &Robot,
-    friction: &[super::background::Friction],
+    friction: &[Friction],
     nominal: &Robot,
-    seen: (&[SeenRun], Drives),
+    runs: &[SeenRun],
+    drives: Drives,
 ) -> Vec<Difference> {
-    let (runs, drives) = seen;
     let mut all = Vec::new();
     for (j, (link, model)) in truth.links().iter().zip(nominal.links()).enumerate() {
         let name = link.joint.name.as_str();
@@ -45,7 +48,7 @@ pub(crate) fn differences(
                 all.push(Difference {
                     role,
                     truth,
-                    column: Column { stands_for, torque, prior: 0.0 },
+                    column: TorqueColumn { stands_for, torque, prior: 0.0 },
                 });
             }
         };
@@ -93,8 +96,8 @@ fn alone(run: &SeenRun, joint: usize, of: &dyn Fn(usize) -> f64) -> DMatrix<f64>
     DMatrix::from_fn(run.rows(), run.q.ncols(), value)
 }
 
-/// Torque of what a body truly weighs beyond its nominal model.
-fn body(robot: &Robot, link: usize, nominal: &Inertia, runs: &[SeenRun]) -> Column {
+/// Torque of a body beyond its nominal model.
+fn body(robot: &Robot, link: usize, nominal: &Inertia, runs: &[SeenRun]) -> TorqueColumn {
     let (real, known) = (robot.links()[link].inertia.parameters(), nominal.parameters());
     let mut beyond = real;
     beyond.iter_mut().zip(known).for_each(|(real, known)| *real -= known);
@@ -108,7 +111,7 @@ fn body(robot: &Robot, link: usize, nominal: &Inertia, runs: &[SeenRun]) -> Colu
         }
         torque
     };
-    Column {
+    TorqueColumn {
         stands_for: StandIn::Body(link),
         torque: runs.iter().map(torque).collect(),
         prior: 0.0,

@@ -2,38 +2,21 @@ use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use simulator::effects::EffectSpec;
-use simulator::strangers::{StrangerKind, StrangerSpec};
+use simulator::strangers::StrangerKind;
 
-use super::pilot::{Pilot, Sized};
-use crate::ArmClass;
+use crate::corner::ArmClass;
+use crate::trial::hidden::{HiddenKind, HiddenThings, SizedCause};
+use crate::trial::pilot::Pilot;
 
-/// Draws of one effect before it is left out.
+/// Draws of one effect before it is skipped.
 const TRIES: usize = 6;
 
-/// Least and largest strength over what an oracle just sees: a fifth of them is below.
+/// Least and largest strength relative to the threshold of visibility; a fifth of draws is below it.
 const STRENGTHS: [f64; 2] = [0.4, 25.0];
 
-/// A kind of what is hidden.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Hidden {
-    /// An effect of the catalogue.
-    Cause(EffectKind),
-    /// An effect of no catalogue.
-    Stranger(StrangerKind),
-}
-
-/// What is hidden in an arm beyond everyday friction.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct HiddenThings {
-    /// Effects of the catalogue.
-    pub causes: Vec<EffectSpec>,
-    /// Effects of no catalogue.
-    pub strangers: Vec<StrangerSpec>,
-}
-
-/// Kinds that are hidden in an arm: all of the catalogue but everyday friction, which is everywhere, rotors,
-/// which a nominal model may not know anyway, drives that reach their limit, with which a controller loses
-/// the arm, and the friction of a differential and a counterbalance in an arm that has none.
+/// Kinds that can be hidden in an arm: all of the catalogue with these exceptions. Everyday friction is in
+/// every arm, rotors may be missing in the nominal model anyway, and a saturated drive makes the controller
+/// lose the arm. The friction of a differential and a counterbalance need an arm that has one.
 fn kinds(class: ArmClass) -> Vec<EffectKind> {
     use EffectKind as K;
     let left_out = |kind: &EffectKind| {
@@ -50,24 +33,25 @@ fn kinds(class: ArmClass) -> Vec<EffectKind> {
 }
 
 impl HiddenThings {
-    /// So many causes and strangers, each of a strength drawn log-uniformly about what an oracle just sees.
+    /// Draws causes and strangers, with strengths log-uniform around the threshold of visibility.
     pub fn draw(
         pilot: &Pilot<'_>,
         class: ArmClass,
-        [causes, strangers]: [usize; 2],
+        causes: usize,
+        strangers: usize,
         random: &mut ChaCha8Rng,
     ) -> Self {
         let kinds = kinds(class);
         let mut all = Self::default();
         for _ in 0..causes {
             all.add(pilot, random, |random| {
-                Hidden::Cause(kinds[random.random_range(0..kinds.len())])
+                HiddenKind::Cause(kinds[random.random_range(0..kinds.len())])
             });
         }
         for _ in 0..strangers {
             all.add(pilot, random, |random| {
                 let number = random.random_range(0..StrangerKind::ALL.len());
-                Hidden::Stranger(StrangerKind::ALL[number])
+                HiddenKind::Stranger(StrangerKind::ALL[number])
             });
         }
         all
@@ -77,18 +61,18 @@ impl HiddenThings {
         &mut self,
         pilot: &Pilot<'_>,
         random: &mut ChaCha8Rng,
-        kind: impl Fn(&mut ChaCha8Rng) -> Hidden,
+        kind: impl Fn(&mut ChaCha8Rng) -> HiddenKind,
     ) {
         let [least, largest] = STRENGTHS;
         for _ in 0..TRIES {
             let hidden = kind(random);
             let wanted = least * (largest / least).powf(random.random::<f64>());
-            match pilot.sized(hidden, wanted, random) {
-                Some(Sized::Cause(effect)) if !self.holds(&effect) => {
+            match pilot.spec_of_strength(hidden, wanted, random) {
+                Some(SizedCause::Cause(effect)) if !self.holds(&effect) => {
                     self.causes.push(effect);
                     return;
                 }
-                Some(Sized::Stranger(stranger)) => {
+                Some(SizedCause::Stranger(stranger)) => {
                     self.strangers.push(stranger);
                     return;
                 }

@@ -2,15 +2,16 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::{Loaded, Robot};
 
-use super::background::Friction;
-use crate::{PopulationError, RobotFiles};
+use crate::error::PopulationError;
+use crate::robot_files::RobotFiles;
+use crate::trial::background::Friction;
 
-/// What the nominal model says of everyday friction.
+/// What the nominal model states about everyday friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Known {
-    /// What the bench's files say: nothing, or a URDF's dummy value.
+pub(crate) enum NominalKnowledge {
+    /// The content of the bench's files: nothing, or a URDF's dummy value.
     AsDescribed,
-    /// No friction and no rotor: the effort is measured behind the drive, where neither is.
+    /// No friction and no rotor, since the effort is measured behind the drive.
     BodiesAlone,
     /// Values within a third of the truth.
     Roughly,
@@ -19,18 +20,18 @@ pub(crate) enum Known {
 }
 
 /// The nominal model with what it knows of friction; `loaded` is that of `files`.
-pub(crate) fn described(
+pub(crate) fn describe(
     files: &RobotFiles,
     loaded: &Loaded,
     friction: &[Friction],
-    known: Known,
+    known: NominalKnowledge,
     random: &mut ChaCha8Rng,
 ) -> Result<RobotFiles, PopulationError> {
     let spread = match known {
-        Known::AsDescribed => return Ok(files.clone()),
-        Known::Roughly => Some(1.0 / 3.0),
-        Known::Exactly => Some(0.0),
-        Known::BodiesAlone => None,
+        NominalKnowledge::AsDescribed => return Ok(files.clone()),
+        NominalKnowledge::Roughly => Some(1.0 / 3.0),
+        NominalKnowledge::Exactly => Some(0.0),
+        NominalKnowledge::BodiesAlone => None,
     };
     let mut robot: Robot = loaded.robot.clone();
     for (i, friction) in friction.iter().enumerate() {

@@ -10,27 +10,30 @@ use simulator::effects::EffectSpec;
 use simulator::scenario::{EngineSpec, RunSpec, Scenario, ScenarioSpec};
 use simulator::{EffortSource, SimulatorError, simulate_only, simulate_silent};
 
-use super::background::{Friction, effects, everyday};
-use super::differences::{Drives, differences};
-use super::draw::HiddenThings;
-use super::known::{Known, described};
-use super::pilot::Pilot;
-use super::seen::{Seen, inertias};
-use super::spoilt::Spoilt;
-use super::step::{step_ms, whole_step_ms};
-use crate::oracle::JointNoise;
-use crate::{
-    Bench as LabBench, BenchWishes, Corner, Knowledge, Origin, PopulationError, PopulationSpec,
-    RobotFiles, Sheet, draw_bench,
-};
+use crate::bench::{BenchWishes, LabBench, draw_bench};
+use crate::corner::{Corner, Origin};
+use crate::error::PopulationError;
+use crate::oracle::noise::{OracleNoise, ReadingError};
+use crate::robot_files::RobotFiles;
+use crate::sheet::{Knowledge, Sheet};
+use crate::spec::PopulationSpec;
+use crate::text_file::write_text;
+use crate::trial::background::{Friction, effects, everyday};
+use crate::trial::differences::{Drives, differences};
+use crate::trial::hidden::HiddenThings;
+use crate::trial::known::{NominalKnowledge, describe};
+use crate::trial::pilot::Pilot;
+use crate::trial::seen::{OracleRuns, inertias};
+use crate::trial::spoilt::Spoilt;
+use crate::trial::step::{step_ms, whole_step_ms};
 
-/// Longest step of the simulation in which sizes are settled (ms).
+/// Longest simulation step for sizing causes (ms).
 const PILOT_MS: f64 = 2.0;
 
-/// Draws of a trial before it is given up.
+/// Draws of a trial before it fails.
 const TRIES: u64 = 8;
 
-/// Share of a joint's range by which it may leave it.
+/// Tolerated excess over a joint's range, as a share of the range.
 const OUT_OF_RANGE: f64 = 0.1;
 
 /// Share of trials whose nominal model knows friction roughly.
@@ -39,21 +42,21 @@ const ROUGHLY_KNOWN: f64 = 0.25;
 /// Draws a simulated trial from its seed and makes its files in a folder:
 ///
 /// ```text
-/// nominal/robot.{urdf,toml}  logs/*.parquet             what a diagnosis is given
-/// held_out/held_out.parquet                             noise-free: what predictions are measured on
-/// truth/{robot.urdf,robot.toml,scenario.toml}           the arm as it is, to be simulated again
-/// sheet.json                                            what is true; the last to appear
+/// nominal/robot.{urdf,toml}  logs/*.parquet             the input of a diagnosis
+/// held_out/held_out.parquet                             noise-free, for measuring predictions
+/// truth/{robot.urdf,robot.toml,scenario.toml}           the true arm, to be simulated again
+/// sheet.json                                            the truth; written last
 /// ```
 ///
 /// # Errors
 ///
-/// [`PopulationError`] when no arm of the draws can be simulated, or a file cannot be written.
+/// [`PopulationError`] when no drawn arm can be simulated, or a file cannot be written.
 pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<Sheet, PopulationError> {
     let mut failed = None;
     for attempt in 0..TRIES {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(attempt);
-        match attempted(spec, seed, folder, &mut random) {
+        match make_once(spec, seed, folder, &mut random) {
             Err(error) if is_of_the_draw(&error) => failed = Some(error),
             made_or_broken => return made_or_broken,
         }
@@ -61,7 +64,7 @@ pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<Sheet, Po
     Err(failed.unwrap_or(PopulationError::NoRun))
 }
 
-/// Whether another draw may do where this one failed: an arm that ran away, or left its range.
+/// Whether another draw may succeed after this error: an arm ran away or left its range.
 fn is_of_the_draw(error: &PopulationError) -> bool {
     match error {
         PopulationError::LeftItsRange { .. } => true,
@@ -73,7 +76,7 @@ fn is_of_the_draw(error: &PopulationError) -> bool {
 }
 
 /// One draw of a trial.
-fn attempted(
+fn make_once(
     spec: &PopulationSpec,
     seed: u64,
     folder: &Path,
@@ -86,14 +89,14 @@ fn attempted(
     let [least, most] = spec.causes;
     let causes = if clean { 0 } else { random.random_range(least..=most) };
     let strangers = usize::from(!clean && random.random_bool(spec.strangers));
-    let hidden = draft.hide([causes, strangers], random)?;
+    let hidden = draft.hide(causes, strangers, random)?;
     let step = draft.step_ms(&hidden)?;
     let spoilt = !clean && random.random_bool(spec.spoilt);
     let spoilt = spoilt.then(|| Spoilt::draw(&draft.truth.robot, random));
     draft.log(step, &hidden, spoilt, folder)
 }
 
-/// Refuses runs in which an arm has left its range: it has run away, or fallen, and nobody keeps such a log.
+/// Refuses runs in which an arm left its range: it ran away or fell, and such logs are not kept.
 fn in_range(robot: &Robot, runs: &[Run]) -> Result<(), PopulationError> {
     for (j, link) in robot.links().iter().enumerate() {
         let Some((low, high)) = link.joint.limits.position else { continue };
@@ -108,7 +111,7 @@ fn in_range(robot: &Robot, runs: &[Run]) -> Result<(), PopulationError> {
     Ok(())
 }
 
-/// What is asked of a bench: as many logs, and of such a length, that all together are not too long.
+/// Draws the wishes for a bench, with a total length of logs within the limit.
 fn wishes(spec: &PopulationSpec, random: &mut ChaCha8Rng) -> BenchWishes {
     let ([fewest, most], [shortest, longest]) = (spec.logs, spec.log_s);
     let room = (spec.longest_s / shortest) as usize;
@@ -139,7 +142,7 @@ struct Draft {
     truth_file: PathBuf,
     nominal: Loaded,
     friction: Vec<Friction>,
-    noise: Vec<JointNoise>,
+    noise: Vec<OracleNoise>,
 }
 
 impl Draft {
@@ -159,17 +162,17 @@ impl Draft {
         let (truth, truth_file) = in_folder("truth", &bench.truth)?;
         let friction = everyday(&truth.robot, &bench.friction, random);
         let known = match model {
-            _ if bench.sensors.effort == EffortSource::Link => Known::BodiesAlone,
-            Model::Right => Known::Exactly,
-            Model::AsModelsAre if random.random_bool(ROUGHLY_KNOWN) => Known::Roughly,
-            Model::AsModelsAre => Known::AsDescribed,
+            _ if bench.sensors.effort == EffortSource::Link => NominalKnowledge::BodiesAlone,
+            Model::Right => NominalKnowledge::Exactly,
+            Model::AsModelsAre if random.random_bool(ROUGHLY_KNOWN) => NominalKnowledge::Roughly,
+            Model::AsModelsAre => NominalKnowledge::AsDescribed,
         };
         let files = match model {
             Model::Right => &bench.truth,
             Model::AsModelsAre => &bench.nominal,
         };
         let (loaded, _) = in_folder("nominal", files)?;
-        let files = described(files, &loaded, &friction, known, random)?;
+        let files = describe(files, &loaded, &friction, known, random)?;
         let (nominal, _) = in_folder("nominal", &files)?;
         let noise = noise(&bench, &truth.robot);
         Ok(Self { bench, seed, truth, truth_file, nominal, friction, noise })
@@ -183,7 +186,7 @@ impl Draft {
         1e3 / self.bench.control.rate_hz.or(self.truth.control.rate_hz).unwrap_or(500.0)
     }
 
-    /// Step of the encoder of each joint, or what stands for it: its noise.
+    /// Step of the encoder of each joint, or its noise where that is larger.
     fn encoder_steps(&self) -> Vec<f64> {
         let sensors = &self.bench.sensors;
         let of = |name: &str| {
@@ -211,41 +214,46 @@ impl Draft {
         Ok(Scenario::from_document(&Document::from_text("scenario.toml", &text)?)?)
     }
 
-    /// Step of the simulation of the logs (ms), as long as the encoders and the springs allow.
+    /// Longest simulation step for the logs that encoders and springs allow (ms).
     fn step_ms(&self, hidden: &HiddenThings) -> Result<f64, PopulationError> {
         let with_step = |step| self.scenario(step, hidden);
         let effects = [self.friction(), hidden.causes.clone()].concat();
         step_ms(&with_step, &effects, self.period_ms(), &self.encoder_steps())
     }
 
-    /// Step in which sizes are settled and torques compared (ms): what two motions in the same steps have in
-    /// common falls out.
+    /// Simulation step for sizing causes and comparing torques (ms). Errors that two motions with the same step
+    /// share cancel.
     fn coarse_ms(&self) -> f64 {
         whole_step_ms(self.period_ms(), PILOT_MS)
     }
 
-    /// What is hidden, of sizes that an oracle just sees or more.
+    /// Draws the hidden causes, with sizes around the threshold of visibility.
     fn hide(
         &self,
-        counts: [usize; 2],
+        causes: usize,
+        strangers: usize,
         random: &mut ChaCha8Rng,
     ) -> Result<HiddenThings, PopulationError> {
-        if counts == [0, 0] {
+        if causes == 0 && strangers == 0 {
             return Ok(HiddenThings::default());
         }
         let scenario = self.scenario(self.coarse_ms(), &HiddenThings::default())?;
         let pilot = Pilot::new(&scenario, &self.noise, &self.friction())?;
-        Ok(HiddenThings::draw(&pilot, self.bench.class, counts, random))
+        Ok(HiddenThings::draw(&pilot, self.bench.class, causes, strangers, random))
     }
 
-    /// What an oracle looks at, in steps as long as the springs of what is hidden allow, at least those of the
-    /// logs.
-    fn seen(&self, shortest_ms: f64, hidden: &HiddenThings) -> Result<Seen, PopulationError> {
+    /// Simulates the runs for the oracle, with the longest step that the hidden springs allow, at least that of
+    /// the logs.
+    fn oracle_runs(
+        &self,
+        shortest_ms: f64,
+        hidden: &HiddenThings,
+    ) -> Result<OracleRuns, PopulationError> {
         let mut step = self.coarse_ms();
         loop {
             let seen = self
                 .scenario(step, hidden)
-                .and_then(|scenario| Seen::new(&scenario, &self.friction(), hidden));
+                .and_then(|scenario| OracleRuns::new(&scenario, &self.friction(), hidden));
             if seen.is_ok() || step <= shortest_ms {
                 return seen;
             }
@@ -264,7 +272,7 @@ impl Draft {
         let scenario = self.scenario(step, hidden)?;
         let mut noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
         in_range(&self.truth.robot, &noisy.runs)?;
-        let seen = self.seen(step, hidden)?;
+        let seen = self.oracle_runs(step, hidden)?;
         let effects = [self.friction(), hidden.causes.clone()].concat();
         let silent = |scenario, wanted: &dyn Fn(&str) -> bool| {
             simulate_silent(scenario, wanted, &effects, &hidden.strangers)
@@ -275,12 +283,12 @@ impl Draft {
             EffortSource::Commanded | EffortSource::Motor => Drives::Seen,
         };
         let models = [&self.truth.robot, &self.nominal.robot];
-        let differ = differences(models[0], &self.friction, models[1], (&seen.runs, drives));
+        let differ = differences(models[0], &self.friction, models[1], &seen.runs, drives);
         let (causes, mut strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
         let scales = seen.scales(&self.truth.robot, &self.noise);
         if let Some(spoilt) = spoilt {
             let clean = silent(&scenario, &|name| name != HELD_OUT)?;
-            strangers.push(spoilt.told(&self.truth.robot, &clean, &scales));
+            strangers.push(spoilt.as_unnamed(&self.truth.robot, &clean, &scales));
             spoilt.spoil(&self.truth.robot, &mut noisy.runs);
         }
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
@@ -295,12 +303,12 @@ impl Draft {
         };
         write_runs(&folder.join("logs"), &noisy.runs)?;
         write_runs(&folder.join("held_out"), &held_out)?;
-        write(&folder.join("truth").join("scenario.toml"), &self.portable(&scenario))?;
+        write_text(&folder.join("truth").join("scenario.toml"), &self.portable(&scenario))?;
         sheet.write(folder)?;
         Ok(sheet)
     }
 
-    /// The scenario beside its robot, wherever the folder lies.
+    /// The scenario with a path to the robot beside it, so that the folder can be moved.
     fn portable(&self, scenario: &Scenario) -> String {
         let file = self.truth_file.canonicalize().unwrap_or(self.truth_file.clone());
         scenario.resolved().replace(&file.display().to_string(), "robot.toml")
@@ -328,16 +336,19 @@ impl Draft {
 /// Name of the run that takes no part in the diagnosis.
 const HELD_OUT: &str = "held_out";
 
-/// What the sensors of each joint add.
-fn noise(bench: &LabBench, robot: &Robot) -> Vec<JointNoise> {
+/// Noise of the sensors of each joint.
+fn noise(bench: &LabBench, robot: &Robot) -> Vec<OracleNoise> {
     let s = &bench.sensors;
     let inertias = inertias(robot);
     let joint = |(name, inertia): (&str, f64)| {
         let of =
             |map: &std::collections::BTreeMap<String, f64>| map.get(name).copied().unwrap_or(0.0);
-        JointNoise::new(
-            [of(&s.effort_noise_nm), of(&s.effort_resolution_nm)],
-            [of(&s.position_noise_rad), of(&s.position_resolution_rad)],
+        OracleNoise::new(
+            ReadingError { deviation: of(&s.effort_noise_nm), step: of(&s.effort_resolution_nm) },
+            ReadingError {
+                deviation: of(&s.position_noise_rad),
+                step: of(&s.position_resolution_rad),
+            },
             inertia,
         )
     };
@@ -349,10 +360,5 @@ pub(crate) fn write_runs(folder: &Path, runs: &[Run]) -> Result<(), PopulationEr
     for run in runs {
         logs::write_parquet(&folder.join(format!("{}.parquet", run.name)), run)?;
     }
-    Ok(())
-}
-
-pub(crate) fn write(path: &Path, text: &str) -> Result<(), PopulationError> {
-    logs::replace_file(path, |file| Ok(std::io::Write::write_all(file, text.as_bytes())?))?;
     Ok(())
 }

@@ -1,16 +1,13 @@
 //! A simulated trial: drawn from a seed, made into files.
 
-mod any;
-mod background;
-mod differences;
-mod draw;
-mod known;
-mod make;
-mod pilot;
-mod seen;
-mod spoilt;
-mod step;
-
-pub use any::make_any;
-pub use make::make;
-pub(crate) use make::write;
+pub(crate) mod any;
+pub(crate) mod background;
+pub(crate) mod differences;
+pub(crate) mod draw;
+pub(crate) mod hidden;
+pub(crate) mod known;
+pub(crate) mod make;
+pub(crate) mod pilot;
+pub(crate) mod seen;
+pub(crate) mod spoilt;
+pub(crate) mod step;

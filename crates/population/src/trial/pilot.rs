@@ -4,23 +4,28 @@ use robot::Robot;
 use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
 use simulator::strangers::StrangerSpec;
-use simulator::{Bench, simulate_silent};
+use simulator::{EffectSizer, simulate_silent};
 
-use super::draw::Hidden;
-use super::seen::scales;
-use crate::oracle::{Column, JointNoise, SeenRun, StandIn, stand_ins, strengths};
-use crate::{PopulationError, Strength};
+use crate::error::PopulationError;
+use crate::oracle::column::{StandIn, TorqueColumn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::noise::OracleNoise;
+use crate::oracle::regression::strengths;
+use crate::oracle::scales::torque_scales;
+use crate::oracle::stand_ins::stand_ins;
+use crate::sheet::Strength;
+use crate::trial::hidden::{HiddenKind, SizedCause};
 
-/// Torque share that is asked for first.
+/// First torque share that is tried.
 const FIRST_SHARE: f64 = 0.1;
 
-/// Least and largest torque share that is asked for.
+/// Least and largest torque share.
 const SHARES: [f64; 2] = [2e-3, 3.0];
 
-/// The first run of a trial, in which the size of what is hidden is settled.
+/// The first run of a trial, on which hidden causes are sized.
 ///
-/// The torque of most effects grows with the share asked for, so one run with a tenth of the torque tells
-/// which share an oracle would see as large as wanted:
+/// The torque of most effects is proportional to the requested share, so one run with a tenth of the torque
+/// gives the share for the strength wanted:
 ///
 /// ```text
 /// share = 0.1 wanted / strength(0.1),   strength = min(sigmas / 5, share / floor)
@@ -28,35 +33,40 @@ const SHARES: [f64; 2] = [2e-3, 3.0];
 pub(crate) struct Pilot<'a> {
     scenario: &'a Scenario,
     robot: &'a Robot,
-    noise: &'a [JointNoise],
+    noise: &'a [OracleNoise],
     base: Vec<EffectSpec>,
-    bench: Bench<'a>,
+    bench: EffectSizer<'a>,
     seen: SeenRun,
     scales: Vec<f64>,
-    stand_ins: Vec<Column>,
+    stand_ins: Vec<TorqueColumn>,
 }
 
 impl<'a> Pilot<'a> {
     /// The first run of a scenario with nothing but its everyday friction.
     pub fn new(
         scenario: &'a Scenario,
-        noise: &'a [JointNoise],
+        noise: &'a [OracleNoise],
         base: &[EffectSpec],
     ) -> Result<Self, PopulationError> {
         let robot = scenario.robot();
         let seen = first(scenario, base, &[])?;
         let stand_ins = stand_ins(robot, std::slice::from_ref(&seen));
-        let bench = Bench::new(scenario)?;
-        let scales = scales(std::slice::from_ref(&seen), robot, noise);
+        let bench = EffectSizer::new(scenario)?;
+        let scales = torque_scales(std::slice::from_ref(&seen), robot, noise);
         Ok(Self { scenario, robot, noise, base: base.to_vec(), bench, seen, scales, stand_ins })
     }
 
-    /// What is to be hidden, of about the strength wanted (1 for what an oracle just sees); none where the
-    /// arm runs away with it or it does nothing.
-    pub fn sized(&self, hidden: Hidden, wanted: f64, random: &mut ChaCha8Rng) -> Option<Sized> {
+    /// A cause of about the strength wanted, with 1 at the threshold of visibility; `None` where the arm runs away
+    /// or the cause has no torque.
+    pub fn spec_of_strength(
+        &self,
+        hidden: HiddenKind,
+        wanted: f64,
+        random: &mut ChaCha8Rng,
+    ) -> Option<SizedCause> {
         let joint = random.random_range(0..self.robot.joint_count());
         let seed = random.random::<u64>();
-        if matches!(hidden, Hidden::Stranger(kind) if !kind.fits(self.robot, joint)) {
+        if matches!(hidden, HiddenKind::Stranger(kind) if !kind.fits(self.robot, joint)) {
             return None;
         }
         let first = self.of_share(hidden, joint, FIRST_SHARE, seed);
@@ -69,43 +79,36 @@ impl<'a> Pilot<'a> {
         self.strength(&sized).map(|_| sized)
     }
 
-    fn of_share(&self, hidden: Hidden, joint: usize, share: f64, seed: u64) -> Sized {
+    fn of_share(&self, hidden: HiddenKind, joint: usize, share: f64, seed: u64) -> SizedCause {
         match hidden {
-            Hidden::Cause(kind) => Sized::Cause(self.bench.effect(kind, joint, share, seed)),
-            Hidden::Stranger(kind) => {
-                Sized::Stranger(self.bench.stranger(kind, joint, share, seed))
+            HiddenKind::Cause(kind) => {
+                SizedCause::Cause(self.bench.effect(kind, joint, share, seed))
+            }
+            HiddenKind::Stranger(kind) => {
+                SizedCause::Stranger(self.bench.stranger(kind, joint, share, seed))
             }
         }
     }
 
-    /// What an oracle sees of it in the first run; none where the arm cannot be simulated with it.
-    fn strength(&self, sized: &Sized) -> Option<Strength> {
+    /// Its visibility in the first run; `None` where the arm cannot be simulated with it.
+    fn strength(&self, sized: &SizedCause) -> Option<Strength> {
         let mut effects = self.base.clone();
         let mut strangers = Vec::new();
         match sized {
-            Sized::Cause(effect) => effects.push(effect.clone()),
-            Sized::Stranger(stranger) => strangers.push(stranger.clone()),
+            SizedCause::Cause(effect) => effects.push(effect.clone()),
+            SizedCause::Stranger(stranger) => strangers.push(stranger.clone()),
         }
         let with = first(self.scenario, &effects, &strangers).ok()?;
         let rows = with.rows().min(self.seen.rows());
         let torque = with.beyond.rows(0, rows) - self.seen.beyond.rows(0, rows);
-        let column = Column { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 };
-        let columns: Vec<Column> =
+        let column = TorqueColumn { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 };
+        let columns: Vec<TorqueColumn> =
             std::iter::once(column).chain(self.stand_ins.iter().cloned()).collect();
         strengths(std::slice::from_ref(&self.seen), &columns, 1, self.noise, &self.scales).pop()
     }
 }
 
-/// An effect or a stranger with a size.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Sized {
-    /// Of the catalogue.
-    Cause(EffectSpec),
-    /// Of no catalogue.
-    Stranger(StrangerSpec),
-}
-
-/// How many times what an oracle just sees.
+/// Strength relative to the threshold of visibility.
 fn over_threshold(strength: &Strength) -> f64 {
     (strength.sigmas / Strength::SIGMAS).min(strength.share / Strength::FLOOR)
 }

@@ -5,41 +5,48 @@ use simulator::scenario::Scenario;
 use simulator::strangers::StrangerSpec;
 use simulator::{StrangerTruth, Truth, simulate_silent};
 
-use super::differences::Difference;
-use super::draw::HiddenThings;
-use crate::oracle::{Column, JointNoise, SeenRun, StandIn, effort_rms, stand_ins, strengths};
+use crate::error::PopulationError;
+use crate::oracle::column::{StandIn, TorqueColumn};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::noise::OracleNoise;
+use crate::oracle::regression::strengths;
+use crate::oracle::scales::torque_scales;
+use crate::oracle::stand_ins::stand_ins;
 use crate::rigid::mass_matrix;
-use crate::{Cause, PopulationError, Role, Unnamed};
+use crate::sheet::{Cause, Role, Unnamed};
+use crate::trial::differences::Difference;
+use crate::trial::hidden::HiddenThings;
 
-/// The runs of a trial without noise, and the torque of each hidden thing in them:
+/// The noise-free runs of a trial, and the torque of each hidden cause in them:
 ///
 /// ```text
 /// torque of k = (effort - bodies along the motion) of the arm  -  the same of the arm without k
 /// ```
 ///
-/// The motion is another where `k` is left out; what that asks of the bodies is taken off on both sides.
-pub(crate) struct Seen {
+/// The motion changes where `k` is left out, so the torque of the bodies is subtracted on both sides.
+pub(crate) struct OracleRuns {
     pub runs: Vec<SeenRun>,
     causes: Vec<(Truth, Vec<DMatrix<f64>>)>,
     strangers: Vec<(StrangerTruth, Vec<DMatrix<f64>>)>,
 }
 
-impl Seen {
-    /// Simulates the runs once with everything and once without each hidden thing.
+impl OracleRuns {
+    /// Simulates the runs once with everything and once without each hidden cause.
     pub fn new(
         scenario: &Scenario,
         friction: &[EffectSpec],
         hidden: &HiddenThings,
     ) -> Result<Self, PopulationError> {
-        let runs = silent(scenario, friction, &hidden.causes, &hidden.strangers)?;
+        let runs = simulate_without_noise(scenario, friction, &hidden.causes, &hidden.strangers)?;
         let without_cause = |k: usize| {
             let others = without(&hidden.causes, k);
-            let runs_without = silent(scenario, friction, &others, &hidden.strangers)?;
+            let runs_without =
+                simulate_without_noise(scenario, friction, &others, &hidden.strangers)?;
             Ok((hidden.causes[k].truth(), beyond(&runs, &runs_without)))
         };
         let without_stranger = |k: usize| {
             let others = without(&hidden.strangers, k);
-            let runs_without = silent(scenario, friction, &hidden.causes, &others)?;
+            let runs_without = simulate_without_noise(scenario, friction, &hidden.causes, &others)?;
             Ok((hidden.strangers[k].truth(), beyond(&runs, &runs_without)))
         };
         let causes: Result<_, PopulationError> =
@@ -50,19 +57,19 @@ impl Seen {
         Ok(Self { runs, causes, strangers })
     }
 
-    /// What torques of each joint count by; see [`crate::Sheet::torque_rms`].
-    pub fn scales(&self, robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
-        scales(&self.runs, robot, noise)
+    /// Scale of torques at each joint; see [`crate::sheet::Sheet::torque_rms`].
+    pub fn scales(&self, robot: &Robot, noise: &[OracleNoise]) -> Vec<f64> {
+        torque_scales(&self.runs, robot, noise)
     }
 
-    /// What an oracle sees of every difference from the nominal model and every hidden thing.
+    /// Visibility of every difference from the nominal model and of every hidden cause.
     pub fn strengths(
         &self,
         robot: &Robot,
         differ: Vec<Difference>,
-        noise: &[JointNoise],
+        noise: &[OracleNoise],
     ) -> (Vec<Cause>, Vec<Unnamed>) {
-        let itself = |torque: &Vec<DMatrix<f64>>| Column {
+        let itself = |torque: &Vec<DMatrix<f64>>| TorqueColumn {
             stands_for: StandIn::Itself,
             torque: torque.clone(),
             prior: 0.0,
@@ -72,7 +79,7 @@ impl Seen {
             differ.into_iter().map(|d| ((d.role, d.truth), d.column)).unzip();
         let hidden = self.causes.iter().map(|(_, torque)| itself(torque));
         let strange = self.strangers.iter().map(|(_, torque)| itself(torque));
-        let columns: Vec<Column> = differ
+        let columns: Vec<TorqueColumn> = differ
             .into_iter()
             .chain(hidden)
             .chain(strange)
@@ -101,22 +108,12 @@ impl Seen {
     }
 }
 
-/// What torques of each joint count by: RMS of its effort, at least the deviation of its noise and a thousandth of
-/// the drive's limit (N m or N).
-pub(crate) fn scales(runs: &[SeenRun], robot: &Robot, noise: &[JointNoise]) -> Vec<f64> {
-    let joint = |(j, (link, noise)): (usize, (&robot::Link, &JointNoise))| {
-        let limit = link.joint.limits.effort.filter(|limit| limit.is_finite()).unwrap_or(0.0);
-        effort_rms(runs, j).max(noise.effort.sqrt()).max(1e-3 * limit).max(1e-6)
-    };
-    robot.links().iter().zip(noise).enumerate().map(joint).collect()
-}
-
 fn without<T: Clone>(all: &[T], k: usize) -> Vec<T> {
     let kept = all.iter().enumerate().filter(|(i, _)| *i != k);
     kept.map(|(_, one)| one.clone()).collect()
 }
 
-fn silent(
+fn simulate_without_noise(
     scenario: &Scenario,
     friction: &[EffectSpec],
     causes: &[EffectSpec],
@@ -128,14 +125,13 @@ fn silent(
     Ok(runs.iter().map(|run| SeenRun::new(scenario.robot(), run)).collect())
 }
 
-/// What one arm's efforts leave beyond its bodies, less the same of another.
+/// Efforts beyond the bodies of one arm minus those of another.
 fn beyond(with: &[SeenRun], without: &[SeenRun]) -> Vec<DMatrix<f64>> {
     let run = |(with, without): (&SeenRun, &SeenRun)| &with.beyond - &without.beyond;
     with.iter().zip(without).map(run).collect()
 }
 
-/// What each joint turns or moves with all others held, drives included, in the middle of its range (kg m2 or
-/// kg).
+/// Inertia of each joint with all others held, drives included, in the middle of its range (kg m2 or kg).
 pub(crate) fn inertias(robot: &Robot) -> Vec<f64> {
     let middle = |link: &robot::Link| {
         link.joint.limits.position.map_or(0.0, |(low, high)| 0.5 * (low + high))

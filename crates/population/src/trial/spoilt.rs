@@ -7,8 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
 use crate::moving::body_torque;
-use crate::oracle::SeenRun;
-use crate::{Strength, Unnamed};
+use crate::oracle::motion::SeenRun;
+use crate::sheet::{Strength, Unnamed};
 
 /// Periods of a log that a logger holds (s).
 const HELD_S: f64 = 1.5;
@@ -16,9 +16,9 @@ const HELD_S: f64 = 1.5;
 /// Height of a spike in position (rad or m).
 const SPIKE: f64 = 0.05;
 
-/// A way in which loggers and the people who set them up spoil logs of an arm that has nothing else.
+/// A fault of a logger or its configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Fault {
+pub(crate) enum LogFault {
     /// The effort of a joint has the other sign.
     EffortSign,
     /// Position and velocity of a joint have the other sign.
@@ -43,7 +43,7 @@ pub(crate) enum Fault {
     TurnJump,
 }
 
-impl Fault {
+impl LogFault {
     const ALL: [Self; 11] = [
         Self::EffortSign,
         Self::PositionSign,
@@ -78,7 +78,7 @@ impl Fault {
 /// A fault of the logs of a trial, with all that was drawn of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spoilt {
-    fault: Fault,
+    fault: LogFault,
     /// The joint, and another one where there is one.
     joints: [usize; 2],
     /// When it begins, as a share of the first log.
@@ -86,35 +86,40 @@ pub(crate) struct Spoilt {
 }
 
 impl Spoilt {
-    /// A fault that an arm of so many joints can have.
+    /// Draws a fault that the arm can have.
     pub fn draw(robot: &Robot, random: &mut ChaCha8Rng) -> Self {
         let count = robot.joint_count();
         let joint = random.random_range(0..count);
         let other = (joint + 1) % count;
         let from = random.random_range(0.3..0.6);
-        let mut fault = Fault::ALL[random.random_range(0..Fault::ALL.len())];
-        if fault == Fault::EffortsExchanged && count == 1 {
-            fault = Fault::EffortSign;
+        let mut fault = LogFault::ALL[random.random_range(0..LogFault::ALL.len())];
+        if fault == LogFault::EffortsExchanged && count == 1 {
+            fault = LogFault::EffortSign;
         }
         Self { fault, joints: [joint, other], from }
     }
 
-    /// Spoils the logs: those of a moment in the first one only, all others in all.
+    /// Applies the fault: momentary ones to the first log, all others to every log.
     pub fn spoil(&self, robot: &Robot, runs: &mut [Run]) {
         let [own, other] = self.joints;
         for run in runs.iter_mut() {
             let length = run.time.len();
             match self.fault {
-                Fault::EffortSign => efforts(&mut run.joints[own]).for_each(|tau| *tau = -*tau),
-                Fault::PositionSign => moved(&mut run.joints[own]).for_each(|x| *x = -*x),
-                Fault::EffortsExchanged => exchange(run, own, other),
-                Fault::EffortUnit => {
+                LogFault::EffortSign => efforts(&mut run.joints[own]).for_each(|tau| *tau = -*tau),
+                LogFault::PositionSign => {
+                    positions_and_derivatives(&mut run.joints[own]).for_each(|x| *x = -*x)
+                }
+                LogFault::EffortsExchanged => exchange(run, own, other),
+                LogFault::EffortUnit => {
                     run.joints.iter_mut().flat_map(efforts).for_each(|tau| *tau *= 1e3);
                 }
-                Fault::EffortWithoutGravity => (0..length).for_each(|i| lift(robot, run, i)),
-                Fault::TimeUnit => run.time.iter_mut().for_each(|t| *t *= 1e3),
-                Fault::TimeStretched => run.time.iter_mut().for_each(|t| *t *= 1.1),
-                Fault::StuckEncoder | Fault::HeldByLogger | Fault::Spikes | Fault::TurnJump => {}
+                LogFault::EffortWithoutGravity => (0..length).for_each(|i| lift(robot, run, i)),
+                LogFault::TimeUnit => run.time.iter_mut().for_each(|t| *t *= 1e3),
+                LogFault::TimeStretched => run.time.iter_mut().for_each(|t| *t *= 1.1),
+                LogFault::StuckEncoder
+                | LogFault::HeldByLogger
+                | LogFault::Spikes
+                | LogFault::TurnJump => {}
             }
         }
         if let Some(first) = runs.first_mut() {
@@ -126,14 +131,14 @@ impl Spoilt {
         let from = (self.from * run.time.len() as f64) as usize;
         let joint = self.joints[0];
         match self.fault {
-            Fault::StuckEncoder => {
+            LogFault::StuckEncoder => {
                 let still = run.joints[joint].position[from];
                 run.joints[joint].position[from..].fill(still);
                 if let Some(velocity) = &mut run.joints[joint].velocity {
                     velocity[from..].fill(0.0);
                 }
             }
-            Fault::HeldByLogger => {
+            LogFault::HeldByLogger => {
                 let end = run.time[from] + HELD_S;
                 let until = run.time.partition_point(|t| *t < end);
                 for signal in run.joints.iter_mut().flat_map(signals) {
@@ -141,35 +146,35 @@ impl Spoilt {
                     signal[from..until].fill(still);
                 }
             }
-            Fault::Spikes => {
+            LogFault::Spikes => {
                 let every = (run.time.len() - from) / 6;
                 for k in 1..=5 {
                     run.joints[joint].position[from + k * every] += SPIKE;
                 }
             }
-            Fault::TurnJump => {
+            LogFault::TurnJump => {
                 run.joints[joint].position[from..].iter_mut().for_each(|q| *q += TAU);
             }
             _ => {}
         }
     }
 
-    /// What is told of it; `clean` are the logs without noise and without the fault.
+    /// Its entry in the sheet; `clean` are the logs without noise and without the fault.
     ///
     /// ```text
     /// share = torque = root of the mean of the sum over j of (r_spoilt - r_clean)^2 / scale^2
     /// ```
     ///
-    /// with `r` what efforts leave beyond the bodies along the motion that is logged; its deviations are those of
-    /// that many samples at a noise of a hundredth of the torque.
-    pub fn told(&self, robot: &Robot, clean: &[Run], scales: &[f64]) -> Unnamed {
+    /// with `r` the efforts beyond the bodies along the logged motion. `sigmas` assumes a noise of a hundredth of the
+    /// torque in every sample.
+    pub fn as_unnamed(&self, robot: &Robot, clean: &[Run], scales: &[f64]) -> Unnamed {
         let mut spoilt = clean.to_vec();
         self.spoil(robot, &mut spoilt);
         let (mut sum, mut count) = (0.0, 0);
         for (clean, spoilt) in clean.iter().zip(&mut spoilt) {
             let before = SeenRun::new(robot, clean);
             spoilt.joints.iter_mut().for_each(|joint| joint.velocity = None);
-            let after = SeenRun::thinned(robot, spoilt, before.thinned);
+            let after = SeenRun::thin(robot, spoilt, before.thinned);
             let rows = before.rows().min(after.rows());
             let other: DMatrix<f64> = after.beyond.rows(0, rows) - before.beyond.rows(0, rows);
             for (column, scale) in other.column_iter().zip(scales) {
@@ -190,11 +195,11 @@ impl Spoilt {
     fn at_joint(&self) -> bool {
         !matches!(
             self.fault,
-            Fault::EffortUnit
-                | Fault::EffortWithoutGravity
-                | Fault::TimeUnit
-                | Fault::TimeStretched
-                | Fault::HeldByLogger
+            LogFault::EffortUnit
+                | LogFault::EffortWithoutGravity
+                | LogFault::TimeUnit
+                | LogFault::TimeStretched
+                | LogFault::HeldByLogger
         )
     }
 }
@@ -204,8 +209,8 @@ fn efforts(joint: &mut Channels) -> impl Iterator<Item = &mut f64> {
     joint.effort.iter_mut().chain(joint.commanded_effort.iter_mut().flatten())
 }
 
-/// Position and velocity of a joint, and what it was asked for.
-fn moved(joint: &mut Channels) -> impl Iterator<Item = &mut f64> {
+/// Position and velocity of a joint, and their references.
+fn positions_and_derivatives(joint: &mut Channels) -> impl Iterator<Item = &mut f64> {
     let Channels { position, velocity, desired_position, desired_velocity, .. } = joint;
     let asked = [desired_position, desired_velocity, &mut joint.desired_acceleration];
     let link = joint.link_position.iter_mut().flatten();
@@ -226,12 +231,12 @@ fn exchange(run: &mut Run, one: usize, other: usize) {
     (run.joints[other].effort, run.joints[other].commanded_effort) = a;
 }
 
-/// Takes the torque of gravity from the efforts of a row.
+/// Subtracts the torque of gravity from the efforts of a row.
 fn lift(robot: &Robot, run: &mut Run, row: usize) {
     let q: Vec<f64> = run.joints.iter().map(|joint| joint.position[row]).collect();
     let rest = vec![0.0; q.len()];
     let mut held = rest.clone();
-    body_torque(robot, [&q, &rest, &rest], &mut held);
+    body_torque(robot, &q, &rest, &rest, &mut held);
     for (joint, held) in run.joints.iter_mut().zip(held) {
         joint.effort[row] -= held;
         if let Some(commanded) = &mut joint.commanded_effort {
@@ -282,7 +287,7 @@ mod tests {
         }
     }
 
-    fn spoilt(fault: Fault) -> Run {
+    fn spoilt(fault: LogFault) -> Run {
         let mut runs = vec![still()];
         Spoilt { fault, joints: [0, 1], from: 0.5 }.spoil(&pendulum(), &mut runs);
         runs.remove(0)
@@ -291,24 +296,25 @@ mod tests {
     #[test]
     fn each_fault_does_what_its_name_says() {
         let tau = 9.81 * 1.1;
-        assert!((spoilt(Fault::EffortSign).joints[0].effort[7] + tau).abs() < 1e-12);
-        let exchanged = spoilt(Fault::EffortsExchanged);
+        assert!((spoilt(LogFault::EffortSign).joints[0].effort[7] + tau).abs() < 1e-12);
+        let exchanged = spoilt(LogFault::EffortsExchanged);
         assert!((exchanged.joints[1].effort[7] - tau).abs() < 1e-12);
         assert!(exchanged.joints[0].effort[7].abs() < 1e-12);
-        assert!((spoilt(Fault::EffortUnit).joints[0].effort[7] - 1e3 * tau).abs() < 1e-9);
-        assert!(spoilt(Fault::EffortWithoutGravity).joints[0].effort[7].abs() < 1e-12);
-        assert!((spoilt(Fault::TimeUnit).time[100] - 1e3).abs() < 1e-9);
-        assert!((spoilt(Fault::TimeStretched).time[100] - 1.1).abs() < 1e-12);
-        assert!((spoilt(Fault::TurnJump).joints[0].position[300] - TAU).abs() < 1e-12);
-        let spikes = spoilt(Fault::Spikes).joints[0].position.iter().filter(|q| **q > 0.0).count();
+        assert!((spoilt(LogFault::EffortUnit).joints[0].effort[7] - 1e3 * tau).abs() < 1e-9);
+        assert!(spoilt(LogFault::EffortWithoutGravity).joints[0].effort[7].abs() < 1e-12);
+        assert!((spoilt(LogFault::TimeUnit).time[100] - 1e3).abs() < 1e-9);
+        assert!((spoilt(LogFault::TimeStretched).time[100] - 1.1).abs() < 1e-12);
+        assert!((spoilt(LogFault::TurnJump).joints[0].position[300] - TAU).abs() < 1e-12);
+        let spikes =
+            spoilt(LogFault::Spikes).joints[0].position.iter().filter(|q| **q > 0.0).count();
         assert_eq!(spikes, 5);
     }
 
     /// A turned sign is off by twice the torque; nothing is said of the arm's other joint.
     #[test]
     fn a_turned_sign_weighs_twice_the_torque() {
-        let fault = Spoilt { fault: Fault::EffortSign, joints: [0, 1], from: 0.5 };
-        let told = fault.told(&pendulum(), &[still()], &[9.81 * 1.1, 1.0]);
+        let fault = Spoilt { fault: LogFault::EffortSign, joints: [0, 1], from: 0.5 };
+        let told = fault.as_unnamed(&pendulum(), &[still()], &[9.81 * 1.1, 1.0]);
         assert!((told.strength.share - 2.0).abs() < 1e-9, "{}", told.strength.share);
         assert_eq!(told.joint.as_deref(), Some("one"));
         assert!(told.strength.visible());
@@ -317,8 +323,8 @@ mod tests {
     #[test]
     fn every_fault_is_drawn() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
-        let drawn: Vec<Fault> =
+        let drawn: Vec<LogFault> =
             (0..300).map(|_| Spoilt::draw(&pendulum(), &mut random).fault).collect();
-        assert!(Fault::ALL.iter().all(|fault| drawn.contains(fault)));
+        assert!(LogFault::ALL.iter().all(|fault| drawn.contains(fault)));
     }
 }

@@ -2,7 +2,7 @@ use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
 use simulator::simulate_silent_start;
 
-use crate::PopulationError;
+use crate::error::PopulationError;
 
 /// Longest step that is tried (ms).
 const LONGEST_MS: f64 = 2.0;
@@ -10,13 +10,13 @@ const LONGEST_MS: f64 = 2.0;
 /// Shortest step that is tried (ms).
 const SHORTEST_MS: f64 = 0.1;
 
-/// Error of the simulation over a step of the encoder that is allowed.
+/// Tolerated error of the simulation, as a share of an encoder step.
 const SHARE_OF_STEP: f64 = 0.1;
 
 /// Length of motion in which two steps are compared (s).
 const COMPARED_S: f64 = 3.0;
 
-/// The longest step (ms) that goes a whole number of times into a period of control, at most so long.
+/// The longest step up to `at_most_ms` that divides a period of control (ms).
 pub(crate) fn whole_step_ms(period_ms: f64, at_most_ms: f64) -> f64 {
     period_ms / (period_ms / at_most_ms - 1e-9).ceil()
 }
@@ -50,13 +50,13 @@ pub(crate) fn step_ms(
     Ok(step)
 }
 
-/// Positions of every joint at the beginning of the first run; none where it cannot be simulated in such steps.
+/// Positions of every joint at the beginning of the first run; `None` where this step cannot be simulated.
 fn positions(scenario: &Scenario, effects: &[EffectSpec]) -> Option<Vec<Vec<f64>>> {
     let run = simulate_silent_start(scenario, effects, COMPARED_S).ok()?;
     Some(run.joints.into_iter().map(|joint| joint.position).collect())
 }
 
-/// Largest distance between two motions, over the step of each joint's encoder.
+/// Largest distance between two motions, in encoder steps.
 fn largest_error(a: &[Vec<f64>], b: &[Vec<f64>], steps: &[f64]) -> f64 {
     let joint = |((a, b), step): ((&Vec<f64>, &Vec<f64>), &f64)| {
         let far = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

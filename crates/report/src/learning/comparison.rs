@@ -1,17 +1,16 @@
 use serde::{Serialize, Serializer};
 
-use crate::json::with_schema;
-use crate::{FileHash, Provenance, ReportError};
+use pages::{FileHash, Provenance, ReportError, with_schema};
 
 /// Name and version of the schema of `learning.json`.
-pub const LEARNING_SCHEMA: &str = "plumbline.learning/1";
+const SCHEMA: &str = "plumbline.learning/1";
 
 /// Models of the torque side by side: how far off they are on logs that took no part, how
 /// sure they are of it, what they cost.
 ///
 /// Whatever is told joint by joint is in the order of `joints`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub struct LearningComparison {
     /// Name of the robot.
     pub robot: String,
     /// The joints.
@@ -123,15 +122,15 @@ fn by_name<S: Serializer>(scales: &[(String, f64)], serializer: S) -> Result<S::
     serializer.collect_map(scales.iter().map(|(name, scale)| (name, scale)))
 }
 
-impl Comparison {
-    /// `learning.json`, in the schema [`LEARNING_SCHEMA`]. A number that is not finite is
+impl LearningComparison {
+    /// `learning.json`, in the schema `plumbline.learning/1`. A number that is not finite is
     /// `null`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(LEARNING_SCHEMA, self)
+        with_schema(SCHEMA, self)
     }
 }
 

@@ -1,10 +1,7 @@
-use super::comparison::Comparison;
-use crate::ReportError;
-use crate::dots::{Dots, JointDots};
-use crate::inks::Place;
-use crate::sheet::Key;
+use crate::learning::comparison::LearningComparison;
+use pages::{Dots, JointDots, LegendKey, Medium, ReportError};
 
-impl Comparison {
+impl LearningComparison {
     /// `figure.svg`: the error of every model at every joint as dots on a logarithmic axis, as
     /// in figure 2 of Nguyen-Tuong & Peters 2010, in a drawing that stands alone.
     ///
@@ -12,10 +9,10 @@ impl Comparison {
     ///
     /// [`ReportError::Format`].
     pub fn figure(&self) -> Result<String, ReportError> {
-        self.drawn(Place::Alone)
+        self.draw(Medium::Alone)
     }
 
-    pub(crate) fn drawn(&self, place: Place) -> Result<String, ReportError> {
+    pub(crate) fn draw(&self, medium: Medium) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(i, joint)| JointDots {
             name: joint.name.clone(),
             values: self
@@ -33,11 +30,11 @@ impl Comparison {
                 self.test.points, self.train.points, self.train.rows
             ),
             axis: "nMSE",
-            keys: Key::of_models(self.models.iter().map(|model| model.name.as_str())),
+            keys: LegendKey::of_models(self.models.iter().map(|model| model.name.as_str())),
             joints: joints.collect(),
             mark: Some((1.0, "as far off as the mean effort")),
         };
-        dots.drawn(place)
+        dots.draw(medium)
     }
 }
 

@@ -1,13 +1,10 @@
 //! What learned models are worth: their errors side by side, and the time of a prediction.
 
-mod comparison;
-mod error_chart;
-mod page;
+pub(crate) mod comparison;
+pub(crate) mod error_chart;
+pub(crate) mod page;
 #[cfg(test)]
 pub(crate) mod sample;
-mod table;
-mod time_chart;
-mod times;
-
-pub use comparison::{ComparedJoint, Comparison, DataSet, KernelRow, LEARNING_SCHEMA, ModelRow};
-pub use times::{Curve, Maker, PredictionTimes, TIMES_SCHEMA, TimePoint};
+pub(crate) mod table;
+pub(crate) mod time_chart;
+pub(crate) mod times;

@@ -1,18 +1,17 @@
 use askama::Template;
 
-use super::comparison::{Comparison, DataSet, KernelRow, ModelRow};
-use crate::grid::{Cell, DIGITS, marked};
-use crate::html::inert;
-use crate::html_grid::{Grid, rendered};
-use crate::inks::Place;
-use crate::numbers::{percents, significant};
-use crate::page::page;
-use crate::{FileHash, Provenance, ReportError};
+use crate::learning::comparison::{
+    ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow,
+};
+use pages::{
+    Cell, FileHash, HtmlGrid, Medium, Provenance, ReportError, TABLE_DIGITS, escape_json,
+    mark_least, percent_range, render_html, render_page, significant,
+};
 
 #[derive(Template)]
-#[template(path = "learning.html")]
+#[template(path = "learning/learning.html")]
 struct Page<'a> {
-    comparison: &'a Comparison,
+    comparison: &'a LearningComparison,
     sentence: String,
     errors: String,
     error_table: String,
@@ -24,7 +23,7 @@ struct Page<'a> {
     json: String,
 }
 
-impl Comparison {
+impl LearningComparison {
     /// `report.html`: the errors of every model, what they cost and what they learned, in one file
     /// that opens offline, and without scripts too.
     ///
@@ -32,14 +31,14 @@ impl Comparison {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let shared = self.without_places();
+        let shared = self.without_folders();
         let kernels = shared.models.iter().filter_map(|model| {
             let kernels = model.kernels.as_ref()?;
             Some(shared.kernel_table(kernels).map(|table| (model.name.as_str(), table)))
         });
-        page(&Page {
+        render_page(&Page {
             sentence: shared.sentence(),
-            errors: shared.drawn(Place::Page)?,
+            errors: shared.draw(Medium::Page)?,
             error_table: shared.by_joint("Joint (nMSE)", |model| &model.nmse)?,
             rms_table: shared.by_joint("Joint (N·m or N)", |model| &model.rmse_nm)?,
             costs: shared.cost_table()?,
@@ -50,23 +49,23 @@ impl Comparison {
                 ("tested on", &shared.test),
             ],
             provenance: &shared.provenance,
-            json: inert(&shared.json()?),
+            json: escape_json(&shared.json()?),
             comparison: &shared,
         })
     }
 
     /// The same without the folders of this machine.
-    fn without_places(&self) -> Self {
+    fn without_folders(&self) -> Self {
         let short = |data: &DataSet| {
             let files = Provenance { files: data.logs.clone(), ..self.provenance.clone() };
-            let logs: Vec<FileHash> = files.without_places().files;
+            let logs: Vec<FileHash> = files.without_folders().files;
             DataSet { logs, ..data.clone() }
         };
         Self {
             train: short(&self.train),
             regression: short(&self.regression),
             test: short(&self.test),
-            provenance: self.provenance.without_places(),
+            provenance: self.provenance.without_folders(),
             ..self.clone()
         }
     }
@@ -87,7 +86,7 @@ impl Comparison {
             self.models.len(),
             best.name,
             self.test.points,
-            significant(error, DIGITS)
+            significant(error, TABLE_DIGITS)
         )
     }
 
@@ -97,12 +96,12 @@ impl Comparison {
         corner: &str,
         numbers: fn(&ModelRow) -> &Vec<f64>,
     ) -> Result<String, ReportError> {
-        let row = |(i, joint): (usize, &crate::ComparedJoint)| {
+        let row = |(i, joint): (usize, &ComparedJoint)| {
             let errors = self.models.iter().map(|model| numbers(model).get(i).copied());
             let errors: Vec<f64> = errors.map(|error| error.unwrap_or(f64::NAN)).collect();
-            (joint.name.clone(), marked(&errors))
+            (joint.name.clone(), mark_least(&errors))
         };
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: corner.to_owned(),
             header: self.models.iter().map(|model| model.name.clone()).collect(),
             rows: self.joints.iter().enumerate().map(row).collect(),
@@ -116,14 +115,14 @@ impl Comparison {
         let row = |model: &ModelRow| {
             let cells = [
                 if model.points == 0 { "-".to_owned() } else { model.points.to_string() },
-                significant(model.training_s, DIGITS),
-                significant(model.prediction_us, DIGITS),
+                significant(model.training_s, TABLE_DIGITS),
+                significant(model.prediction_us, TABLE_DIGITS),
                 model.log_likelihood.map_or("-".to_owned(), |value| significant(value, 6)),
-                model.coverage_95.as_ref().map_or("-".to_owned(), |c| percents(c)),
+                model.coverage_95.as_ref().map_or("-".to_owned(), |c| percent_range(c)),
             ];
             (model.name.clone(), cells.map(Cell::plain).to_vec())
         };
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: "Model".to_owned(),
             header: header.map(str::to_owned).to_vec(),
             rows: self.models.iter().map(row).collect(),
@@ -132,12 +131,12 @@ impl Comparison {
 
     /// The hyperparameters of a model, one row a joint.
     fn kernel_table(&self, kernels: &[KernelRow]) -> Result<String, ReportError> {
-        let row = |(joint, kernel): (&crate::ComparedJoint, &KernelRow)| {
+        let row = |(joint, kernel): (&ComparedJoint, &KernelRow)| {
             let scales = kernel.length_scales.iter();
             let scales = scales.map(|(name, scale)| format!("{name} {}", significant(*scale, 3)));
             let cells = [
-                significant(kernel.signal_variance_nm2.sqrt(), DIGITS),
-                significant(kernel.noise_variance_nm2.sqrt(), DIGITS),
+                significant(kernel.signal_variance_nm2.sqrt(), TABLE_DIGITS),
+                significant(kernel.noise_variance_nm2.sqrt(), TABLE_DIGITS),
                 scales.collect::<Vec<_>>().join(", "),
                 kernel.search.clone(),
             ];
@@ -145,7 +144,7 @@ impl Comparison {
         };
         let header =
             ["Signal (N·m or N)", "Noise (N·m or N)", "Length scales", "How the search ended"];
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: "Joint".to_owned(),
             header: header.map(str::to_owned).to_vec(),
             rows: self.joints.iter().zip(kernels).map(row).collect(),

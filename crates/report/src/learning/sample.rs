@@ -1,19 +1,21 @@
 //! Small results made by hand, for the tests of this module.
 
-use super::comparison::{ComparedJoint, Comparison, DataSet, KernelRow, ModelRow};
-use super::times::{Curve, Maker, PredictionTimes, TimePoint};
-use crate::{FileHash, Provenance};
+use crate::learning::comparison::{
+    ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow,
+};
+use crate::learning::times::{Curve, Maker, PredictionTimes, TimePoint};
+use pages::{FileHash, Provenance};
 
 /// Rigid bodies, a Gaussian process and both, for two joints; nothing is known of the rigid
 /// bodies at the elbow.
-pub fn comparison() -> Comparison {
+pub fn comparison() -> LearningComparison {
     let joint = |name: &str, effort_unit| ComparedJoint { name: name.into(), effort_unit };
     let data = |name: &str, rows, points| DataSet {
         logs: vec![FileHash { role: "log", path: name.into(), sha256: "ab".repeat(32) }],
         rows,
         points,
     };
-    Comparison {
+    LearningComparison {
         robot: "arm".into(),
         joints: vec![joint("shoulder", "N m"), joint("elbow", "N")],
         train: data("train.csv", 6000, 3000),

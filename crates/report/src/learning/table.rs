@@ -1,14 +1,14 @@
-use super::comparison::{Comparison, DataSet, ModelRow};
-use crate::grid::{Cell, Column, DIGITS, grid, marked};
-use crate::numbers::{percents, significant};
-use crate::terminal::{BOLD, WIDTH, entry, first_warnings, notes};
-use crate::wrap::wrapped;
+use crate::learning::comparison::{DataSet, LearningComparison, ModelRow};
+use pages::{
+    BOLD, Cell, GridColumn, TABLE_DIGITS, TERMINAL_WIDTH, mark_least, percent_range, push_entry,
+    push_first_warnings, push_notes, significant, text_grid, wrap,
+};
 
 /// What stands below the errors, row by row.
 const COSTS: [&str; 6] =
     ["", "points", "training (s)", "prediction (µs)", "log likelihood", "in 95 % interval"];
 
-impl Comparison {
+impl LearningComparison {
     /// The comparison as text for a terminal of 100 columns: one column a model; one row a
     /// joint with the error, then what the model costs and how sure it is.
     pub fn text(&self) -> String {
@@ -16,60 +16,71 @@ impl Comparison {
         let labels: Vec<String> = names.chain(COSTS).map(str::to_owned).collect();
         let errors: Vec<Vec<Cell>> = (0..self.joints.len()).map(|i| self.errors(i)).collect();
         let column = |(place, model)| Self::column(model, errors.iter().map(|row| &row[place]));
-        let columns: Vec<Column> = self.models.iter().enumerate().map(column).collect();
+        let columns: Vec<GridColumn> = self.models.iter().enumerate().map(column).collect();
         let mut out = format!("{BOLD}Learned models of {}{BOLD:#}\n\n", self.robot);
-        out.push_str(&grid("nMSE", &labels, &columns));
+        out.push_str(&text_grid("nMSE", &labels, &columns));
         out.push('\n');
         self.legend(&mut out);
         let remarks = self.models.iter().flat_map(|model| {
             model.remarks.iter().map(|remark| format!("{}: {remark}", model.name))
         });
-        notes(&mut out, &remarks.collect::<Vec<_>>());
-        first_warnings(&mut out, &self.warnings, "learning.json");
+        push_notes(&mut out, &remarks.collect::<Vec<_>>());
+        push_first_warnings(&mut out, &self.warnings, "learning.json");
         out
     }
 
     /// The errors of all models at a joint, a star at those that are the least.
     fn errors(&self, joint: usize) -> Vec<Cell> {
         let errors = self.models.iter().map(|model| model.nmse.get(joint).copied());
-        marked(&errors.map(|error| error.unwrap_or(f64::NAN)).collect::<Vec<_>>())
+        mark_least(&errors.map(|error| error.unwrap_or(f64::NAN)).collect::<Vec<_>>())
     }
 
     /// One model: its errors and its costs.
-    fn column<'a>(model: &ModelRow, errors: impl Iterator<Item = &'a Cell>) -> Column {
+    fn column<'a>(model: &ModelRow, errors: impl Iterator<Item = &'a Cell>) -> GridColumn {
         let costs = [
             String::new(),
             if model.points == 0 { "-".to_owned() } else { model.points.to_string() },
-            significant(model.training_s, DIGITS),
-            significant(model.prediction_us, DIGITS),
+            significant(model.training_s, TABLE_DIGITS),
+            significant(model.prediction_us, TABLE_DIGITS),
             model.log_likelihood.map_or("-".to_owned(), log_likelihood),
-            model.coverage_95.as_ref().map_or("-".to_owned(), |c| percents(c)),
+            model.coverage_95.as_ref().map_or("-".to_owned(), |c| percent_range(c)),
         ];
         let costs = costs.into_iter().map(|cost| Cell::plain(cost + " "));
-        Column { header: format!("{} ", model.name), cells: errors.cloned().chain(costs).collect() }
+        GridColumn {
+            header: format!("{} ", model.name),
+            cells: errors.cloned().chain(costs).collect(),
+        }
     }
 
     /// What the words of the table mean and what it is made from.
     fn legend(&self, out: &mut String) {
-        entry(out, "nMSE", "mean square error over the variance of the effort, on held-out logs");
-        entry(out, "*", "the least error at the joint");
-        entry(out, "points", "training or inducing points that a prediction visits");
-        entry(
+        push_entry(
+            out,
+            "nMSE",
+            "mean square error over the variance of the effort, on held-out logs",
+        );
+        push_entry(out, "*", "the least error at the joint");
+        push_entry(out, "points", "training or inducing points that a prediction visits");
+        push_entry(
             out,
             "log likelihood",
             "log marginal likelihood of the samples learned from, all joints",
         );
-        entry(out, "in 95 % interval", "share of the held-out samples, least to most of a joint");
+        push_entry(
+            out,
+            "in 95 % interval",
+            "share of the held-out samples, least to most of a joint",
+        );
         for model in &self.models {
-            for (i, line) in wrapped(&model.words, WIDTH - 19).iter().enumerate() {
-                entry(out, if i == 0 { &model.name } else { "" }, line);
+            for (i, line) in wrap(&model.words, TERMINAL_WIDTH - 19).iter().enumerate() {
+                push_entry(out, if i == 0 { &model.name } else { "" }, line);
             }
         }
-        entry(out, "rigid bodies from", &samples(&self.regression));
-        entry(out, "trained on", &samples(&self.train));
-        entry(out, "tested on", &samples(&self.test));
-        for (i, line) in wrapped(&self.thinning, WIDTH - 19).iter().enumerate() {
-            entry(out, if i == 0 { "thinning" } else { "" }, line);
+        push_entry(out, "rigid bodies from", &samples(&self.regression));
+        push_entry(out, "trained on", &samples(&self.train));
+        push_entry(out, "tested on", &samples(&self.test));
+        for (i, line) in wrap(&self.thinning, TERMINAL_WIDTH - 19).iter().enumerate() {
+            push_entry(out, if i == 0 { "thinning" } else { "" }, line);
         }
     }
 }
@@ -89,7 +100,7 @@ fn samples(data: &DataSet) -> String {
 #[cfg(test)]
 mod tests {
     use crate::learning::sample;
-    use crate::terminal::{WIDTH, without_escapes};
+    use pages::{TERMINAL_WIDTH, without_escapes};
 
     const EXPECTED: &str = "\
 Learned models of arm
@@ -136,6 +147,6 @@ warning: elbow: quantised in steps of 0.01 N m
     fn the_table_marks_the_least_error_of_a_joint() {
         let plain = without_escapes(&sample::comparison().text());
         assert_eq!(plain, EXPECTED);
-        assert!(plain.lines().all(|line| line.chars().count() <= WIDTH));
+        assert!(plain.lines().all(|line| line.chars().count() <= TERMINAL_WIDTH));
     }
 }

@@ -1,12 +1,10 @@
 use askama::Template;
 
-use super::times::{Curve, Maker, PredictionTimes};
-use crate::ReportError;
-use crate::chart::Ink;
-use crate::inks::{Colours, Place};
-use crate::log_axis::{LogAxis, Tick, rounded};
-use crate::sheet::{CHARACTER, Sheet};
-use crate::wrap::shortened;
+use crate::learning::times::{Curve, Maker, PredictionTimes};
+use pages::{
+    AxisTick, CHARACTER_WIDTH, FigureSheet, Ink, LogAxis, Medium, Palette, ReportError, round_px,
+    shorten,
+};
 
 /// Height of the figure, edges of the curves (px): left, right, upper, lower.
 const HEIGHT: f64 = 480.0;
@@ -20,7 +18,7 @@ const TITLE: f64 = 68.0;
 /// that fit (px).
 const NAMES: f64 = 716.0;
 const APART: f64 = 16.0;
-const NAME_CHARACTERS: usize = ((876.0 - NAMES) / CHARACTER) as usize;
+const NAME_CHARACTERS: usize = ((876.0 - NAMES) / CHARACTER_WIDTH) as usize;
 
 /// Period of a control loop of 1 kHz (us).
 const PERIOD_US: f64 = 1000.0;
@@ -32,13 +30,13 @@ const MOST_DECADES: i32 = 9;
 const DASHES: [&str; 3] = ["7 4", "2 3", "9 3 2 3"];
 
 #[derive(Template)]
-#[template(path = "times.svg")]
+#[template(path = "learning/times.svg")]
 struct Drawing {
-    sheet: Sheet,
+    sheet: FigureSheet,
     x: [f64; 2],
     y: [f64; 2],
-    x_ticks: Vec<Tick>,
-    y_ticks: Vec<Tick>,
+    x_ticks: Vec<AxisTick>,
+    y_ticks: Vec<AxisTick>,
     /// Where the period of a fast control loop lies, if it is on the axis.
     period: Option<f64>,
     lines: Vec<Line>,
@@ -63,21 +61,21 @@ impl PredictionTimes {
     ///
     /// [`ReportError::Format`].
     pub fn figure(&self) -> Result<String, ReportError> {
-        self.drawn(Place::Alone)
+        self.draw(Medium::Alone)
     }
 
-    pub(crate) fn drawn(&self, place: Place) -> Result<String, ReportError> {
-        let drawing = Drawing::new(self, place);
+    pub(crate) fn draw(&self, medium: Medium) -> Result<String, ReportError> {
+        let drawing = Drawing::new(self, medium);
         drawing.render().map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
     }
 }
 
 impl Drawing {
-    fn new(times: &PredictionTimes, place: Place) -> Self {
+    fn new(times: &PredictionTimes, medium: Medium) -> Self {
         let points = || times.curves.iter().flat_map(|curve| &curve.points);
-        let saved = match place {
-            Place::Alone => 0.0,
-            Place::Page => TITLE,
+        let saved = match medium {
+            Medium::Alone => 0.0,
+            Medium::Page => TITLE,
         };
         let edges = Y.map(|y| y - saved);
         let [upper, lower] = edges;
@@ -88,14 +86,15 @@ impl Drawing {
         let title =
             format!("Time of one prediction for the {} joints of {}", times.joints, times.robot);
         Self {
-            sheet: Sheet::new(&title, &times.machine, Vec::new(), place).down_to(HEIGHT - saved),
+            sheet: FigureSheet::new(&title, &times.machine, Vec::new(), medium)
+                .down_to(HEIGHT - saved),
             x: X,
             y: edges,
             x_ticks: x.map(|axis| axis.ticks()).unwrap_or_default(),
             y_ticks: y.map(|axis| axis.ticks()).unwrap_or_default(),
             period: y.filter(|axis| axis.holds(PERIOD_US)).map(|axis| axis.at(PERIOD_US)),
             lines: axes
-                .map(|axes| lines(&times.curves, axes, (lower, &place.colours())))
+                .map(|axes| lines(&times.curves, axes, (lower, &medium.palette())))
                 .unwrap_or_default(),
             names: NAMES,
         }
@@ -106,7 +105,7 @@ impl Drawing {
 fn lines(
     curves: &[Curve],
     (x, y): (LogAxis, LogAxis),
-    (lower, colours): (f64, &Colours),
+    (lower, colours): (f64, &Palette),
 ) -> Vec<Line> {
     let (mut models, mut dashes) = (0.., DASHES.iter().cycle());
     let mut lines: Vec<Line> = curves
@@ -122,13 +121,13 @@ fn lines(
                     (colours.soft.to_owned(), dashes.next().copied().unwrap_or_default())
                 }
             };
-            let name = shortened(&curve.name, NAME_CHARACTERS);
+            let name = shorten(&curve.name, NAME_CHARACTERS);
             Some(Line { path: path.join(" "), end, name, name_y: end[1], colour, dashes })
         })
         .collect();
     lines.sort_by(|a, b| a.end[1].total_cmp(&b.end[1]));
     let places = spread(&lines.iter().map(|line| line.end[1]).collect::<Vec<_>>(), lower);
-    lines.iter_mut().zip(places).for_each(|(line, place)| line.name_y = rounded(place));
+    lines.iter_mut().zip(places).for_each(|(line, place)| line.name_y = round_px(place));
     lines
 }
 
@@ -163,7 +162,7 @@ mod tests {
     #[test]
     fn peers_are_dashed_and_equal_ratios_are_equal_lengths() {
         let times = sample::times();
-        let drawing = Drawing::new(&times, Place::Alone);
+        let drawing = Drawing::new(&times, Medium::Alone);
         let find = |name: &str| drawing.lines.iter().find(|line| line.name == name).unwrap();
         assert_eq!(find("scikit-learn").dashes, "7 4");
         assert_eq!((find("rbd").dashes, find("gp").dashes), ("", ""));
@@ -171,9 +170,9 @@ mod tests {
         let at = find("rbd").end[1];
         assert_eq!(find("rbd").path, format!("78,{at} 664,{at}"));
         // 0.1 to 10⁶ us are seven powers of ten: 1 ms is three below the top.
-        assert_eq!(drawing.period, Some(rounded(92.0 + 328.0 * 3.0 / 7.0)));
-        let in_page = Drawing::new(&times, Place::Page);
-        assert_eq!(in_page.period, Some(rounded(24.0 + 328.0 * 3.0 / 7.0)));
+        assert_eq!(drawing.period, Some(round_px(92.0 + 328.0 * 3.0 / 7.0)));
+        let in_page = Drawing::new(&times, Medium::Page);
+        assert_eq!(in_page.period, Some(round_px(24.0 + 328.0 * 3.0 / 7.0)));
     }
 
     #[test]

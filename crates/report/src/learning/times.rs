@@ -1,13 +1,11 @@
 use serde::{Deserialize, Serialize};
 
-use crate::grid::{Cell, Column, grid};
-use crate::json::with_schema;
-use crate::numbers::significant;
-use crate::terminal::notes;
-use crate::{Provenance, ReportError};
+use pages::{
+    Cell, GridColumn, Provenance, ReportError, push_notes, significant, text_grid, with_schema,
+};
 
 /// Name and version of the schema of `prediction_times.json`.
-pub const TIMES_SCHEMA: &str = "plumbline.prediction_times/1";
+const SCHEMA: &str = "plumbline.prediction_times/1";
 
 /// Time of one prediction against the number of training points.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,13 +55,13 @@ pub struct TimePoint {
 }
 
 impl PredictionTimes {
-    /// `prediction_times.json`, in the schema [`TIMES_SCHEMA`].
+    /// `prediction_times.json`, in the schema `plumbline.prediction_times/1`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(TIMES_SCHEMA, self)
+        with_schema(SCHEMA, self)
     }
 
     /// The times as a table for a terminal, one row a number of points.
@@ -73,13 +71,13 @@ impl PredictionTimes {
             "Median time of one prediction for the {} joints of {} (us)\n{}\n\n",
             self.joints, self.robot, self.machine
         );
-        out.push_str(&grid("points", &labels, &columns));
-        notes(&mut out, &self.remarks);
+        out.push_str(&text_grid("points", &labels, &columns));
+        push_notes(&mut out, &self.remarks);
         out
     }
 
     /// One row a number of points, one column a curve.
-    pub(crate) fn table(&self) -> (Vec<String>, Vec<Column>) {
+    pub(crate) fn table(&self) -> (Vec<String>, Vec<GridColumn>) {
         let rows = self.numbers();
         let labels: Vec<String> = rows.iter().map(|n| format!("{n:>6}")).collect();
         let columns = self.curves.iter().map(|curve| {
@@ -87,7 +85,7 @@ impl PredictionTimes {
                 let point = curve.points.iter().find(|point| point.n == n);
                 Cell::plain(point.map_or("-".to_owned(), |p| significant(p.microseconds, 3)))
             });
-            Column { header: curve.name.clone(), cells: cells.collect() }
+            GridColumn { header: curve.name.clone(), cells: cells.collect() }
         });
         (labels, columns.collect())
     }
@@ -105,7 +103,7 @@ impl PredictionTimes {
 #[cfg(test)]
 mod tests {
     use crate::learning::sample;
-    use crate::terminal::without_escapes;
+    use pages::without_escapes;
 
     #[test]
     fn the_table_has_a_row_a_number_of_points_and_a_dash_where_nothing_was_measured() {

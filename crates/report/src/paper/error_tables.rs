@@ -1,11 +1,9 @@
 use evaluation::{LearningErrors, ModelErrors};
 
-use crate::ReportError;
-use crate::dots::{Dots, JointDots};
-use crate::grid::{Cell, Column, DIGITS, marked};
-use crate::inks::Place;
-use crate::numbers::significant;
-use crate::sheet::Key;
+use pages::{
+    Cell, Dots, GridColumn, JointDots, LegendKey, Medium, ReportError, TABLE_DIGITS, mark_least,
+    significant,
+};
 
 /// The errors of some models on some data.
 pub(super) struct ErrorTable<'a> {
@@ -21,11 +19,11 @@ pub(super) struct ErrorTable<'a> {
 
 impl ErrorTable<'_> {
     /// One row a joint, a star at the least error; `more` stands at the right.
-    pub fn columns(&self, more: Option<Column>) -> Vec<Column> {
+    pub fn columns(&self, more: Option<GridColumn>) -> Vec<GridColumn> {
         let rows: Vec<Vec<Cell>> = (0..self.joints.len())
-            .map(|j| marked(&self.models.iter().map(|m| nmse(m, j)).collect::<Vec<_>>()))
+            .map(|j| mark_least(&self.models.iter().map(|m| nmse(m, j)).collect::<Vec<_>>()))
             .collect();
-        let columns = self.models.iter().enumerate().map(|(place, model)| Column {
+        let columns = self.models.iter().enumerate().map(|(place, model)| GridColumn {
             header: format!("{} ", model.model),
             cells: rows.iter().map(|row| row[place].clone()).collect(),
         });
@@ -33,7 +31,7 @@ impl ErrorTable<'_> {
     }
 
     /// The errors as dots on a logarithmic axis.
-    pub fn dots(&self, place: Place) -> Result<String, ReportError> {
+    pub fn dots(&self, place: Medium) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(j, joint)| JointDots {
             name: joint.clone(),
             values: self.models.iter().map(|model| nmse(model, j)).collect(),
@@ -43,21 +41,21 @@ impl ErrorTable<'_> {
             title: self.title.clone(),
             subtitle: format!("{}; logarithmic, lower is better", self.words),
             axis: "nMSE",
-            keys: Key::of_models(self.models.iter().map(|model| model.model.as_str())),
+            keys: LegendKey::of_models(self.models.iter().map(|model| model.model.as_str())),
             joints: joints.collect(),
             mark: Some((1.0, "mean torque")),
         };
-        dots.drawn(place)
+        dots.draw(place)
     }
 }
 
 /// The least error of a process outside over that of the named effects, joint by joint.
-pub(super) fn worse_than_named(errors: &LearningErrors) -> Column {
+pub(super) fn worse_than_named(errors: &LearningErrors) -> GridColumn {
     let cell = |j: usize| {
-        let times = errors.outside_gain(j).map(|times| significant(times, DIGITS) + "x");
+        let times = errors.outside_gain(j).map(|times| significant(times, TABLE_DIGITS) + "x");
         Cell::plain(times.unwrap_or_else(|| "-".to_owned()))
     };
-    Column {
+    GridColumn {
         header: "best gp / named".to_owned(),
         cells: (0..errors.joints.len()).map(cell).collect(),
     }
@@ -91,7 +89,7 @@ mod tests {
             joints: &errors.joints,
             models: &errors.outside,
         };
-        let text = text_of_xml(&table.dots(Place::Alone).unwrap());
+        let text = text_of_xml(&table.dots(Medium::Alone).unwrap());
         for expected in ["nMSE", "shoulder, gp-rbd: 0.200", "named", "mean torque"] {
             assert!(text.contains(expected), "{expected} is missing in {text}");
         }

@@ -1,14 +1,12 @@
 use evaluation::{Claim, LearningErrors};
 use serde::Serialize;
 
-use super::claims::{Quantity, claim_text, claims_sentence};
 use super::error_tables::{ErrorTable, worse_than_named};
 use super::page::{Contents, Drawing, page, table};
-use crate::grid::{Column, grid};
-use crate::inks::Place;
-use crate::json::with_schema;
-use crate::terminal::{BOLD, entry};
-use crate::{Provenance, ReportError};
+use crate::run::claims::{ClaimUnit, claim_text, claims_sentence};
+use pages::{
+    BOLD, GridColumn, Medium, Provenance, ReportError, push_entry, text_grid, with_schema,
+};
 
 /// Name and version of the schema of the `metrics.json` of figure 2.
 pub const LEARNING_FIGURE_SCHEMA: &str = "plumbline.figure_learning/1";
@@ -51,9 +49,9 @@ impl LearningFigureReport<'_> {
     pub fn figures(&self) -> Result<[(&'static str, String); 3], ReportError> {
         let [simulated, real, outside] = self.tables();
         Ok([
-            ("figure2b_simulated.svg", simulated.dots(Place::Alone)?),
-            ("figure2c_real.svg", real.dots(Place::Alone)?),
-            ("outside.svg", outside.dots(Place::Alone)?),
+            ("figure2b_simulated.svg", simulated.dots(Medium::Alone)?),
+            ("figure2c_real.svg", real.dots(Medium::Alone)?),
+            ("outside.svg", outside.dots(Medium::Alone)?),
         ])
     }
 
@@ -66,7 +64,7 @@ impl LearningFigureReport<'_> {
     pub fn page(&self) -> Result<String, ReportError> {
         let drawings = self.tables().into_iter().zip(self.more()).map(|(errors, more)| {
             Ok(Drawing {
-                svg: errors.dots(Place::Page)?,
+                svg: errors.dots(Medium::Page)?,
                 table: table("nMSE", errors.joints, &errors.columns(more))?,
                 title: errors.title,
                 words: format!("{}.", errors.words),
@@ -75,7 +73,7 @@ impl LearningFigureReport<'_> {
         page(Contents {
             kicker: format!("{}: figure 2 of Nguyen-Tuong & Peters 2010", self.errors.robot),
             claims: self.claims,
-            quantity: Quantity::NMSE,
+            quantity: ClaimUnit::NMSE,
             drawings: drawings.collect::<Result<_, ReportError>>()?,
             remarks: &[],
             provenance: self.provenance,
@@ -86,19 +84,23 @@ impl LearningFigureReport<'_> {
     /// The tables and the claims as text for a terminal of 100 columns.
     pub fn text(&self) -> String {
         let mut out = format!("{BOLD}{}.{BOLD:#}\n\n", claims_sentence(self.claims));
-        out.push_str(&claim_text(self.claims, Quantity::NMSE));
+        out.push_str(&claim_text(self.claims, ClaimUnit::NMSE));
         for (errors, more) in self.tables().into_iter().zip(self.more()) {
             out.push_str(&format!("\n{BOLD}{}{BOLD:#}\n", errors.title));
-            out.push_str(&grid("nMSE", errors.joints, &errors.columns(more)));
+            out.push_str(&text_grid("nMSE", errors.joints, &errors.columns(more)));
         }
         out.push('\n');
-        entry(
+        push_entry(
             &mut out,
             "nMSE",
             "mean square error over the variance of the torque, on held-out runs",
         );
-        entry(&mut out, "*", "the least error at the joint");
-        entry(&mut out, "best gp / named", "least error of a Gaussian process over that of named");
+        push_entry(&mut out, "*", "the least error at the joint");
+        push_entry(
+            &mut out,
+            "best gp / named",
+            "least error of a Gaussian process over that of named",
+        );
         out
     }
 
@@ -123,7 +125,7 @@ impl LearningFigureReport<'_> {
     }
 
     /// What stands at the right of their tables.
-    fn more(&self) -> [Option<Column>; 3] {
+    fn more(&self) -> [Option<GridColumn>; 3] {
         [None, None, Some(worse_than_named(self.errors))]
     }
 }
@@ -131,7 +133,7 @@ impl LearningFigureReport<'_> {
 #[cfg(test)]
 mod tests {
     use crate::paper::sample;
-    use crate::terminal::without_escapes;
+    use pages::without_escapes;
 
     #[test]
     fn the_text_has_the_claims_the_tables_and_what_the_named_effects_gain() {

@@ -1,12 +1,8 @@
 use askama::Template;
 use evaluation::Claim;
 
-use super::claims::{ClaimRow, Quantity, claim_rows, claims_sentence};
-use crate::grid::Column;
-use crate::html::inert;
-use crate::html_grid::{Grid, rendered};
-use crate::page::page as whole;
-use crate::{Provenance, ReportError};
+use crate::run::claims::{ClaimRow, ClaimUnit, claim_rows, claims_sentence};
+use pages::{GridColumn, HtmlGrid, Provenance, ReportError, escape_json, render_html, render_page};
 
 /// What the page of a figure shows.
 pub(super) struct Contents<'a> {
@@ -15,7 +11,7 @@ pub(super) struct Contents<'a> {
     /// What is claimed of it.
     pub claims: &'a [Claim],
     /// What the numbers of the claims are.
-    pub quantity: Quantity,
+    pub quantity: ClaimUnit,
     /// The drawings with their tables.
     pub drawings: Vec<Drawing>,
     /// What to know of the numbers.
@@ -50,15 +46,15 @@ struct Page<'a> {
 /// One file that opens offline, and without scripts too.
 pub(super) fn page(contents: Contents) -> Result<String, ReportError> {
     let (id, json) = contents.json;
-    whole(&Page {
+    render_page(&Page {
         kicker: contents.kicker,
         sentence: claims_sentence(contents.claims),
         claims: claim_rows(contents.claims, contents.quantity),
         drawings: contents.drawings,
         remarks: contents.remarks,
         id,
-        provenance: &contents.provenance.without_places(),
-        json: inert(&json),
+        provenance: &contents.provenance.without_folders(),
+        json: escape_json(&json),
     })
 }
 
@@ -66,13 +62,13 @@ pub(super) fn page(contents: Contents) -> Result<String, ReportError> {
 pub(super) fn table(
     corner: &str,
     labels: &[String],
-    columns: &[Column],
+    columns: &[GridColumn],
 ) -> Result<String, ReportError> {
     let row = |(i, label): (usize, &String)| {
         let cells = columns.iter().filter_map(|column| column.cells.get(i).cloned());
         (label.clone(), cells.collect())
     };
-    rendered(&Grid {
+    render_html(&HtmlGrid {
         corner: corner.to_owned(),
         header: columns.iter().map(|column| column.header.trim().to_owned()).collect(),
         rows: labels.iter().enumerate().map(row).collect(),

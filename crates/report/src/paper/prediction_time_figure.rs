@@ -1,12 +1,10 @@
 use evaluation::{Claim, ModelTime};
 use serde::Serialize;
 
-use super::claims::{Quantity, claim_text, claims_sentence};
 use super::page::{Contents, Drawing, page, table};
-use crate::inks::Place;
-use crate::json::with_schema;
-use crate::terminal::BOLD;
-use crate::{PredictionTimes, ReportError};
+use crate::learning::times::PredictionTimes;
+use crate::run::claims::{ClaimUnit, claim_text, claims_sentence};
+use pages::{BOLD, Medium, ReportError, with_schema};
 
 /// Name and version of the schema of the `metrics.json` of figure 1.
 pub const PREDICTION_TIME_FIGURE_SCHEMA: &str = "plumbline.figure_prediction_time/1";
@@ -45,7 +43,7 @@ impl PredictionTimeFigureReport<'_> {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let provenance = self.times.provenance.without_places();
+        let provenance = self.times.provenance.without_folders();
         let times = &PredictionTimes { provenance, ..self.times.clone() };
         let (labels, columns) = times.table();
         let drawing = Drawing {
@@ -55,13 +53,13 @@ impl PredictionTimeFigureReport<'_> {
                  are logarithmic.",
                 times.joints, times.machine
             ),
-            svg: times.drawn(Place::Page)?,
+            svg: times.draw(Medium::Page)?,
             table: table("Training points (time in µs)", &labels, &columns)?,
         };
         page(Contents {
             kicker: format!("{}: figure 1 of Nguyen-Tuong & Peters 2010", times.robot),
             claims: self.claims,
-            quantity: Quantity::MICROSECONDS,
+            quantity: ClaimUnit::MICROSECONDS,
             drawings: vec![drawing],
             remarks: &times.remarks,
             provenance: &times.provenance,
@@ -77,7 +75,7 @@ impl PredictionTimeFigureReport<'_> {
         format!(
             "{BOLD}{}.{BOLD:#}\n\n{}\n{}",
             claims_sentence(self.claims),
-            claim_text(self.claims, Quantity::MICROSECONDS),
+            claim_text(self.claims, ClaimUnit::MICROSECONDS),
             self.times.text()
         )
     }
@@ -103,7 +101,7 @@ mod tests {
 
     use super::*;
     use crate::learning::sample;
-    use crate::terminal::without_escapes;
+    use pages::without_escapes;
 
     #[test]
     fn claims_are_judged_by_the_curves_and_told_above_the_table() {

@@ -2,8 +2,8 @@
 
 use evaluation::{Claim, ClaimCase, LearningErrors, ModelErrors, Scope};
 
-use super::LearningFigureReport;
-use crate::Provenance;
+use super::learning_figure::LearningFigureReport;
+use pages::Provenance;
 
 /// What a [`LearningFigureReport`] borrows.
 pub struct Sample {

@@ -1,9 +1,6 @@
-use super::RunReport;
-use super::rows::{JointNumbers, joint_numbers};
-use crate::ReportError;
-use crate::dots::{Dots, JointDots};
-use crate::inks::Place;
-use crate::sheet::Key;
+use crate::run::rows::{JointNumbers, joint_numbers};
+use crate::run::run_report::RunReport;
+use pages::{Dots, JointDots, LegendKey, Medium, ReportError};
 
 /// Title of the chart of the torque.
 const TORQUE: &str = "error of the torque";
@@ -27,7 +24,7 @@ impl RunReport<'_> {
                 title: format!("{}: {title}", self.metrics.robot),
                 subtitle: String::new(),
                 axis,
-                keys: Key::of_models(["nominal", "extended"].into_iter()),
+                keys: LegendKey::of_models(["nominal", "extended"].into_iter()),
                 joints: joints
                     .map(|(j, (name, numbers))| JointDots {
                         name: name.clone(),
@@ -37,7 +34,7 @@ impl RunReport<'_> {
                     .collect(),
                 mark: None,
             };
-            dots.drawn(Place::Page)
+            dots.draw(Medium::Page)
         };
         let unseen = self.test_runs();
         let [unit, thousandth] = self.position_units();
@@ -88,10 +85,10 @@ impl RunReport<'_> {
             title: format!("{}: error of the tracking with every model", self.metrics.robot),
             subtitle: String::new(),
             axis: self.position_units()[1],
-            keys: Key::of_models(self.metrics.tracking.iter().map(|run| run.model.as_str())),
+            keys: LegendKey::of_models(self.metrics.tracking.iter().map(|run| run.model.as_str())),
             joints: joints.collect(),
             mark: None,
         };
-        dots.drawn(Place::Page)
+        dots.draw(Medium::Page)
     }
 }

@@ -1,8 +1,8 @@
 use evaluation::{Named, PutIn, Score, Size};
 use robot::Robot;
 
-use crate::numbers::{percent, significant, unit};
-use crate::places::{JointUnits, counted};
+use crate::diagnosis::places::JointUnits;
+use pages::{count_noun, percent, significant, unit};
 
 /// What was put in beside what was found of it.
 pub(crate) struct HiddenRow {
@@ -91,7 +91,7 @@ pub(crate) fn stray_sentence(score: &Score) -> Option<String> {
 /// How the answer compares with the truth, in a sentence.
 pub(crate) fn score_sentence(score: &Score) -> String {
     let found = score.put_in.iter().filter(|put_in| put_in.one_of.is_some()).count();
-    let effects = |count: usize| counted(count, "effect");
+    let effects = |count: usize| count_noun(count, "effect");
     match (score.put_in.len(), score.findings.len()) {
         (0, 0) => "Nothing was put in, and nothing was named".to_owned(),
         (0, named) => format!("Nothing was put in, and {} named", effects(named)),

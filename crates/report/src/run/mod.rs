@@ -1,14 +1,12 @@
-//! What came of a run of a scenario: what was put in, what was found, what finding it gains.
+//! A run of a scenario: what was put in, what was found, what finding it gains.
 
-mod charts;
-mod hidden;
-mod page;
-mod rows;
-mod run_report;
+pub(crate) mod charts;
+pub(crate) mod claims;
+pub(crate) mod diagnosis_summary;
+pub(crate) mod hidden;
+pub(crate) mod page;
+pub(crate) mod rows;
+pub(crate) mod run_report;
 #[cfg(test)]
 pub(crate) mod sample;
-mod text;
-mod told;
-
-pub use run_report::{RUN_SCHEMA, RunReport};
-pub use told::{Told, told};
+pub(crate) mod text;

@@ -1,21 +1,19 @@
 use askama::Template;
 use evaluation::ForwardWindow;
 
-use super::RunReport;
-use super::charts::GainChart;
-use super::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
-use super::rows::{GainRow, gain_rows};
-use crate::forward::{drift_in_page, drifts};
-use crate::grid::{Cell, DIGITS};
-use crate::html::inert;
-use crate::html_grid::{Grid, rendered};
-use crate::numbers::significant;
-use crate::page::page as whole;
-use crate::paper::{ClaimRow, claim_rows};
-use crate::{Provenance, ReportError};
+use crate::diagnosis::forward::{drift_in_page, drifts};
+use crate::run::charts::GainChart;
+use crate::run::claims::{ClaimRow, claim_rows};
+use crate::run::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
+use crate::run::rows::{GainRow, gain_rows};
+use crate::run::run_report::RunReport;
+use pages::{
+    Cell, HtmlGrid, Provenance, ReportError, TABLE_DIGITS, escape_json, render_html, render_page,
+    significant,
+};
 
 #[derive(Template)]
-#[template(path = "run.html")]
+#[template(path = "run/run.html")]
 struct Page<'a> {
     robot: &'a str,
     class: &'a str,
@@ -50,16 +48,16 @@ impl RunReport<'_> {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let (metrics, told) = (self.metrics, self.told);
-        let provenance = self.provenance.without_places();
+        let (metrics, summary) = (self.metrics, self.told);
+        let provenance = self.provenance.without_folders();
         let page = Page {
             robot: &metrics.robot,
-            class: &told.class,
-            sentence: &told.sentence,
-            bottom_line: &told.bottom_line,
+            class: &summary.class,
+            sentence: &summary.sentence,
+            bottom_line: &summary.bottom_line,
             score: score_sentence(&metrics.score),
             stray: stray_sentence(&metrics.score),
-            warnings: &told.warnings,
+            warnings: &summary.warnings,
             hidden: hidden_rows(&metrics.score, self.robot),
             unseen: self.test_runs(),
             gains: gain_rows(metrics),
@@ -68,15 +66,15 @@ impl RunReport<'_> {
             drift: drift_in_page(Some(&metrics.forward))?,
             tables: self.tables()?,
             motion: self.motion,
-            claims: claim_rows(&metrics.claims, self.tracked_quantity()),
+            claims: claim_rows(&metrics.claims, self.tracked_unit()),
             all_tracked: self.all_tracked()?,
-            sections: &told.sections,
-            motions: &told.motions,
+            sections: &summary.sections,
+            motions: &summary.motions,
             next: self.next,
             provenance: &provenance,
-            json: inert(&self.json()?),
+            json: escape_json(&self.json()?),
         };
-        whole(&page)
+        render_page(&page)
     }
 
     /// Every number joint by joint, one column a model.
@@ -115,11 +113,11 @@ impl RunReport<'_> {
         let row = |(joint, name): (usize, &String)| {
             let number = |(_, numbers): &(String, Vec<f64>)| {
                 let number = numbers.get(joint).copied().unwrap_or(f64::NAN);
-                Cell::plain(significant(number, DIGITS))
+                Cell::plain(significant(number, TABLE_DIGITS))
             };
             (name.clone(), columns.iter().map(number).collect())
         };
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: "Joint".to_owned(),
             header: columns.iter().map(|(name, _)| name.clone()).collect(),
             rows: self.metrics.joints.iter().enumerate().map(row).collect(),

@@ -1,9 +1,9 @@
 use evaluation::{ForwardWindow, Gain, Metrics};
 
-use crate::forward::drifts;
-use crate::numbers::significant;
+use crate::diagnosis::forward::drifts;
+use pages::significant;
 
-/// Length of time after which the drift is told joint by joint (s).
+/// Length of time after which the drift is with_unit joint by joint (s).
 pub(crate) const TOLD_S: f64 = 0.2;
 
 /// A number before and after, and how many times less it is.
@@ -32,12 +32,12 @@ pub(crate) fn gain_rows(metrics: &Metrics) -> Vec<GainRow> {
 }
 
 fn gain_row(what: String, gain: Option<Gain>, (unit, scale): (&str, f64)) -> GainRow {
-    let told = |value: f64| format!("{} {unit}", significant(scale * value, 3));
+    let with_unit = |value: f64| format!("{} {unit}", significant(scale * value, 3));
     let Some(gain) = gain else {
         return GainRow { what, before: "-".into(), after: "-".into(), times: "-".into() };
     };
     let times = format!("{}x", significant(gain.times(), 2));
-    GainRow { what, before: told(gain.before), after: told(gain.after), times }
+    GainRow { what, before: with_unit(gain.before), after: with_unit(gain.after), times }
 }
 
 /// The numbers of one joint, of the robot as described and of the extended one.

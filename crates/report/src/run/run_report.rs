@@ -1,13 +1,12 @@
 use evaluation::Metrics;
 use robot::Robot;
 
-use super::Told;
-use crate::json::with_schema;
-use crate::paper::Quantity;
-use crate::{Provenance, ReportError};
+use crate::run::claims::ClaimUnit;
+use crate::run::diagnosis_summary::DiagnosisSummary;
+use pages::{Provenance, ReportError, with_schema};
 
 /// Name and version of the schema of `metrics.json`.
-pub const RUN_SCHEMA: &str = "plumbline.run/1";
+const SCHEMA: &str = "plumbline.run/1";
 
 /// Everything that the report of a run shows.
 #[derive(Debug, Clone, Copy)]
@@ -17,7 +16,7 @@ pub struct RunReport<'a> {
     /// The robot as described, for units.
     pub robot: &'a Robot,
     /// The diagnosis.
-    pub told: &'a Told,
+    pub told: &'a DiagnosisSummary,
     /// The beginning of the motion that was tracked, drawn for a page.
     pub motion: &'a str,
     /// Commands for what to do next, each with what it does.
@@ -38,16 +37,16 @@ impl RunReport<'_> {
     }
 
     /// What errors of the tracking are, as they are printed.
-    pub(crate) fn tracked_quantity(&self) -> Quantity {
-        Quantity { scale: 1e3, unit: self.position_units()[1] }
+    pub(crate) fn tracked_unit(&self) -> ClaimUnit {
+        ClaimUnit { scale: 1e3, unit: self.position_units()[1] }
     }
 
-    /// `metrics.json`, in the schema [`RUN_SCHEMA`].
+    /// `metrics.json`, in the schema `plumbline.run/1`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(RUN_SCHEMA, self.metrics)
+        with_schema(SCHEMA, self.metrics)
     }
 }

@@ -6,14 +6,15 @@ use evaluation::{
     TrackedError,
 };
 
-use super::{RunReport, Told, told};
+use crate::run::diagnosis_summary::{DiagnosisSummary, summarise};
+use crate::run::run_report::RunReport;
 use crate::sample::Sample as Diagnosed;
 
 /// What a [`RunReport`] borrows.
 pub struct Sample {
     pub diagnosed: Diagnosed,
     pub metrics: Metrics,
-    pub told: Told,
+    pub told: DiagnosisSummary,
     pub next: [[String; 2]; 1],
 }
 
@@ -34,7 +35,7 @@ impl Sample {
 /// is not.
 pub fn run() -> Sample {
     let diagnosed = crate::sample::arm();
-    let told = told(&diagnosed.report()).unwrap();
+    let told = summarise(&diagnosed.report()).unwrap();
     let next = [["Look at it:".to_owned(), "plumbline view out".to_owned()]];
     Sample { diagnosed, metrics: metrics(), told, next }
 }

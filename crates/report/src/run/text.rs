@@ -1,19 +1,18 @@
-use super::RunReport;
-use super::hidden::{hidden_rows, score_sentence, stray_sentence};
-use super::rows::{gain_rows, joint_numbers};
-use crate::forward::remarks;
-use crate::grid::{Cell, Column, DIGITS, grid};
-use crate::numbers::significant;
-use crate::paper::claim_text;
-use crate::terminal::{BOLD, WIDTH, notes};
-use crate::wrap::wrapped;
+use crate::diagnosis::forward::remarks;
+use crate::run::claims::claim_text;
+use crate::run::hidden::{hidden_rows, score_sentence, stray_sentence};
+use crate::run::rows::{gain_rows, joint_numbers};
+use crate::run::run_report::RunReport;
+use pages::{
+    BOLD, Cell, GridColumn, TABLE_DIGITS, TERMINAL_WIDTH, push_notes, significant, text_grid, wrap,
+};
 
 impl RunReport<'_> {
     /// What came of the run as text for a terminal of 100 columns: the verdict, what was put in
     /// beside what was found, what finding it gains, over all joints and joint by joint.
     pub fn text(&self) -> String {
         let mut out = String::new();
-        for line in wrapped(&format!("{}.", self.told.sentence), WIDTH) {
+        for line in wrap(&format!("{}.", self.told.sentence), TERMINAL_WIDTH) {
             out.push_str(&format!("{BOLD}{line}{BOLD:#}\n"));
         }
         out.push_str(&format!("\n{}\n", self.hidden()));
@@ -22,9 +21,9 @@ impl RunReport<'_> {
         out.push_str(&self.joints());
         if !self.metrics.claims.is_empty() {
             out.push('\n');
-            out.push_str(&claim_text(&self.metrics.claims, self.tracked_quantity()));
+            out.push_str(&claim_text(&self.metrics.claims, self.tracked_unit()));
         }
-        notes(&mut out, &self.remarks());
+        push_notes(&mut out, &self.remarks());
         out
     }
 
@@ -43,10 +42,10 @@ impl RunReport<'_> {
             left(header, cells)
         };
         if !rows.is_empty() {
-            out.push_str(&grid("", &labels, &[column("put in", 1), column("found", 2)]));
+            out.push_str(&text_grid("", &labels, &[column("put in", 1), column("found", 2)]));
         }
         if let Some(stray) = stray_sentence(score) {
-            wrapped(&stray, WIDTH).iter().for_each(|line| out.push_str(&format!("{line}\n")));
+            wrap(&stray, TERMINAL_WIDTH).iter().for_each(|line| out.push_str(&format!("{line}\n")));
         }
         out
     }
@@ -54,7 +53,7 @@ impl RunReport<'_> {
     fn gains(&self) -> String {
         let rows = gain_rows(self.metrics);
         let labels: Vec<String> = rows.iter().map(|row| row.what.clone()).collect();
-        let column = |header: &str, cells: Vec<String>| Column {
+        let column = |header: &str, cells: Vec<String>| GridColumn {
             header: header.to_owned(),
             cells: cells.into_iter().map(Cell::plain).collect(),
         };
@@ -63,14 +62,14 @@ impl RunReport<'_> {
             column("extended", rows.iter().map(|row| row.after.clone()).collect()),
             column("less", rows.iter().map(|row| row.times.clone()).collect()),
         ];
-        grid(&self.test_runs(), &labels, &columns)
+        text_grid(&self.test_runs(), &labels, &columns)
     }
 
     /// One row a joint.
     fn joints(&self) -> String {
         let numbers = joint_numbers(self.metrics);
         let [unit, thousandth] = self.position_units();
-        let column = |header: &str, of: &dyn Fn(usize) -> [f64; 2]| Column {
+        let column = |header: &str, of: &dyn Fn(usize) -> [f64; 2]| GridColumn {
             header: header.to_owned(),
             cells: (0..numbers.len()).map(|joint| Cell::plain(pair(of(joint)))).collect(),
         };
@@ -81,7 +80,7 @@ impl RunReport<'_> {
                 numbers[j].tracking.map(|rms| 1e3 * rms)
             }),
         ];
-        grid("nominal -> extended", &self.metrics.joints, &columns)
+        text_grid("nominal -> extended", &self.metrics.joints, &columns)
     }
 
     /// The runs that took no part in the diagnosis.
@@ -103,16 +102,16 @@ impl RunReport<'_> {
 }
 
 /// A column whose cells stand to the left.
-fn left(header: &str, cells: Vec<String>) -> Column {
+fn left(header: &str, cells: Vec<String>) -> GridColumn {
     let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
     let width = width.max(header.chars().count());
     let fill = |text: &str| format!("{text:<width$}");
-    Column { header: fill(header), cells: cells.iter().map(|c| Cell::plain(fill(c))).collect() }
+    GridColumn { header: fill(header), cells: cells.iter().map(|c| Cell::plain(fill(c))).collect() }
 }
 
 /// Two numbers, the second of which stands in a column of its own.
 fn pair([before, after]: [f64; 2]) -> String {
-    format!("{} -> {:>8}", significant(before, DIGITS), significant(after, DIGITS))
+    format!("{} -> {:>8}", significant(before, TABLE_DIGITS), significant(after, TABLE_DIGITS))
 }
 
 #[cfg(test)]
@@ -120,7 +119,7 @@ mod tests {
     use evaluation::{Claim, ClaimCase, Scope};
 
     use crate::run::sample;
-    use crate::terminal::without_escapes;
+    use pages::without_escapes;
 
     #[test]
     fn the_text_tells_what_was_put_in_what_was_found_and_what_that_gains() {

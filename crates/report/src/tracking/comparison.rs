@@ -1,11 +1,10 @@
 use serde::Serialize;
 
-use crate::decimate::columns;
-use crate::json::with_schema;
-use crate::{ComparedJoint, Provenance, ReportError};
+use crate::learning::comparison::ComparedJoint;
+use pages::{Provenance, ReportError, column_extremes, with_schema};
 
 /// Name and version of the schema of `tracking.json`.
-pub const TRACKING_SCHEMA: &str = "plumbline.tracking/1";
+const SCHEMA: &str = "plumbline.tracking/1";
 
 /// One motion followed with several feedforwards and the same feedback.
 ///
@@ -24,7 +23,7 @@ pub struct TrackingComparison {
     /// What was to be followed, in words.
     pub motion: String,
     /// The gains of the feedback.
-    pub gains: Gains,
+    pub gains: ControllerGains,
     /// What the time of a prediction was, in words.
     pub clock: String,
     /// How long the motion is (s).
@@ -32,7 +31,7 @@ pub struct TrackingComparison {
     /// The runs, in the order of tables and figures.
     pub models: Vec<TrackedModel>,
     /// The errors at other gains, if they were asked for.
-    pub sweep: Option<Sweep>,
+    pub sweep: Option<ErrorSweep>,
     /// What to know before trusting the numbers.
     pub warnings: Vec<String>,
     /// Where it all comes from.
@@ -41,7 +40,7 @@ pub struct TrackingComparison {
 
 /// The gains of the feedback.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Gains {
+pub struct ControllerGains {
     /// Name of the set.
     pub name: String,
     /// Effort per error, by joint (N m/rad).
@@ -117,7 +116,7 @@ pub struct FirstSeconds {
 
 /// The errors at several gains.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Sweep {
+pub struct ErrorSweep {
     /// Name of the set of gains that was scaled.
     pub gains: String,
     /// How much of the motion was followed (s).
@@ -150,7 +149,7 @@ impl FirstSeconds {
         let drawn = |signals: &[&[f64]]| {
             let points = |signal: &&[f64]| {
                 let pairs = time_s.iter().zip(signal.iter()).take_while(|(t, _)| **t <= end);
-                columns(&pairs.map(|(&t, &x)| [t, x]).collect::<Vec<_>>(), COLUMNS)
+                column_extremes(&pairs.map(|(&t, &x)| [t, x]).collect::<Vec<_>>(), COLUMNS)
             };
             signals.iter().map(points).collect()
         };
@@ -159,14 +158,14 @@ impl FirstSeconds {
 }
 
 impl TrackingComparison {
-    /// `tracking.json`, in the schema [`TRACKING_SCHEMA`]. A number that is not finite is
+    /// `tracking.json`, in the schema `plumbline.tracking/1`. A number that is not finite is
     /// `null`.
     ///
     /// # Errors
     ///
     /// [`ReportError::Format`].
     pub fn json(&self) -> Result<String, ReportError> {
-        with_schema(TRACKING_SCHEMA, self)
+        with_schema(SCHEMA, self)
     }
 }
 

@@ -1,7 +1,5 @@
-use super::comparison::TrackingComparison;
-use crate::ReportError;
-use crate::dots::{Dots, JointDots};
-use crate::inks::Place;
+use crate::tracking::comparison::TrackingComparison;
+use pages::{Dots, JointDots, Medium, ReportError};
 
 impl TrackingComparison {
     /// `figure3.svg`: the error of every run at every joint as dots on a logarithmic axis,
@@ -13,10 +11,10 @@ impl TrackingComparison {
     ///
     /// [`ReportError::Format`].
     pub fn error_figure(&self) -> Result<String, ReportError> {
-        self.errors_drawn(Place::Alone)
+        self.draw_errors(Medium::Alone)
     }
 
-    pub(crate) fn errors_drawn(&self, place: Place) -> Result<String, ReportError> {
+    pub(crate) fn draw_errors(&self, medium: Medium) -> Result<String, ReportError> {
         let joints = self.joints.iter().enumerate().map(|(i, joint)| JointDots {
             name: joint.name.clone(),
             values: self.models.iter().map(|model| 1e3 * model.error(i)).collect(),
@@ -34,7 +32,7 @@ impl TrackingComparison {
             joints: joints.collect(),
             mark: None,
         };
-        dots.drawn(place)
+        dots.draw(medium)
     }
 }
 

@@ -1,7 +1,6 @@
-use super::comparison::{TrackedModel, TrackingComparison};
-use crate::ComparedJoint;
-use crate::chart::Ink;
-use crate::sheet::Key;
+use crate::learning::comparison::ComparedJoint;
+use crate::tracking::comparison::{TrackedModel, TrackingComparison};
+use pages::{Ink, LegendKey, significant};
 
 impl ComparedJoint {
     /// Unit of its position.
@@ -23,10 +22,10 @@ impl TrackingComparison {
     }
 
     /// The models as names of a legend; one whose run was stopped says so.
-    pub(crate) fn keys(&self) -> Vec<Key> {
+    pub(crate) fn keys(&self) -> Vec<LegendKey> {
         let key = |(model, ink): (&TrackedModel, Ink)| {
             let stopped = if model.stopped.is_some() { " (stopped)" } else { "" };
-            Key { name: format!("{}{stopped}", model.name), ink }
+            LegendKey { name: format!("{}{stopped}", model.name), ink }
         };
         self.models.iter().zip(self.inks()).map(key).collect()
     }
@@ -43,7 +42,7 @@ impl TrackingComparison {
 
     /// Motion, time and gains of all runs, in words.
     pub(crate) fn circumstances(&self) -> String {
-        let time = crate::significant(self.duration_s, 3);
+        let time = significant(self.duration_s, 3);
         format!("{}, {time} s, gains {}, {}", self.motion, self.gains.name, self.clock)
     }
 }

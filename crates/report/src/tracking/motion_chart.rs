@@ -1,12 +1,11 @@
 use askama::Template;
 use colours::Role;
 
-use super::comparison::TrackingComparison;
-use crate::ReportError;
-use crate::chart::{Axis, Chart, Ink, Series, Shape};
-use crate::html_grid::rendered;
-use crate::inks::Place;
-use crate::sheet::{EDGES, Key, Sheet};
+use crate::tracking::comparison::TrackingComparison;
+use pages::{
+    Axis, Chart, CurveShape, FIGURE_EDGES, FigureSheet, Ink, LegendKey, Medium, ReportError,
+    Series, render_html,
+};
 
 /// Height of the curves of one joint with their letters, and what stands above the first (px).
 const PANEL: f64 = 200.0;
@@ -14,17 +13,17 @@ const ABOVE: f64 = 10.0;
 
 /// Drawings below each other on a sheet.
 #[derive(Template)]
-#[template(path = "motion.svg")]
+#[template(path = "tracking/motion.svg")]
 struct Alone {
-    sheet: Sheet,
+    sheet: FigureSheet,
     panels: Vec<String>,
 }
 
 /// Plots of a page with one axis of time.
 #[derive(Template)]
-#[template(path = "motion.html")]
+#[template(path = "tracking/motion.html")]
 struct InPage {
-    keys: Vec<Key>,
+    keys: Vec<LegendKey>,
     panels: Vec<String>,
 }
 
@@ -39,7 +38,7 @@ impl TrackingComparison {
     ///
     /// [`ReportError::Format`].
     pub fn motion_figure(&self, joints: &[usize]) -> Result<String, ReportError> {
-        self.motion_drawn(joints, Place::Alone)
+        self.draw_motion(joints, Medium::Alone)
     }
 
     /// The same of the three joints with the largest errors, for a page of the program's own.
@@ -54,45 +53,45 @@ impl TrackingComparison {
         joints.sort_by(|a, b| error(b).total_cmp(&error(a)));
         joints.truncate(3);
         joints.sort_unstable();
-        self.motion_drawn(&joints, Place::Page)
+        self.draw_motion(&joints, Medium::Page)
     }
 
-    pub(crate) fn motion_drawn(
+    pub(crate) fn draw_motion(
         &self,
         joints: &[usize],
-        place: Place,
+        medium: Medium,
     ) -> Result<String, ReportError> {
         let known = joints.iter().copied().filter(|&joint| joint < self.joints.len());
         let charts = known.map(|joint| self.motion_of(joint)).filter(|chart| !chart.is_empty());
-        let desired = Key { name: "desired".to_owned(), ink: Ink::Role(Role::Desired) };
-        let keys: Vec<Key> = std::iter::once(desired).chain(self.keys()).collect();
-        match place {
-            Place::Page => {
+        let desired = LegendKey { name: "desired".to_owned(), ink: Ink::Role(Role::Desired) };
+        let keys: Vec<LegendKey> = std::iter::once(desired).chain(self.keys()).collect();
+        match medium {
+            Medium::Page => {
                 let panels = charts.map(|chart| chart.in_page()).collect::<Result<_, _>>()?;
-                rendered(&InPage { keys, panels })
+                render_html(&InPage { keys, panels })
             }
-            Place::Alone => {
+            Medium::Alone => {
                 let title = format!("{}: the first ten seconds", self.robot);
-                let sheet = Sheet::new(&title, &self.circumstances(), keys, place);
+                let sheet = FigureSheet::new(&title, &self.circumstances(), keys, medium);
                 let top = |row: usize| sheet.bottom() + ABOVE + PANEL * row as f64;
                 let panels = charts.enumerate().map(|(row, chart)| {
-                    let chart = Chart { size: (EDGES[1] - 10.0, PANEL), ..chart };
-                    chart.placed([EDGES[0] - 52.0, top(row)], place)
+                    let chart = Chart { size: (FIGURE_EDGES[1] - 10.0, PANEL), ..chart };
+                    chart.draw_at([FIGURE_EDGES[0] - 52.0, top(row)], medium)
                 });
                 let panels: Vec<String> = panels.collect::<Result<_, _>>()?;
                 let bottom = top(panels.len());
-                rendered(&Alone { sheet: sheet.down_to(bottom + ABOVE), panels })
+                render_html(&Alone { sheet: sheet.down_to(bottom + ABOVE), panels })
             }
         }
     }
 
     /// The positions of one joint over the first ten seconds.
     fn motion_of(&self, joint: usize) -> Chart {
-        let desired = Series::of(Role::Desired, Shape::Line(self.desired(joint).to_vec()));
+        let desired = Series::of(Role::Desired, CurveShape::Line(self.desired(joint).to_vec()));
         let models = self.models.iter().zip(self.inks()).map(|(model, ink)| Series {
             name: model.name.clone(),
             ink,
-            shape: Shape::Line(
+            shape: CurveShape::Line(
                 model.first_seconds.measured.get(joint).cloned().unwrap_or_default(),
             ),
         });

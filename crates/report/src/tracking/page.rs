@@ -1,16 +1,13 @@
 use askama::Template;
 
-use super::comparison::{TrackedModel, TrackingComparison};
-use crate::grid::{Cell, DIGITS, marked};
-use crate::html::inert;
-use crate::html_grid::{Grid, rendered};
-use crate::inks::Place;
-use crate::numbers::significant;
-use crate::page::page;
-use crate::{Provenance, ReportError};
+use crate::tracking::comparison::{TrackedModel, TrackingComparison};
+use pages::{
+    Cell, HtmlGrid, Medium, Provenance, ReportError, TABLE_DIGITS, escape_json, mark_least,
+    render_html, render_page, significant,
+};
 
 #[derive(Template)]
-#[template(path = "tracking.html")]
+#[template(path = "tracking/tracking.html")]
 struct Page<'a> {
     robot: &'a str,
     circumstances: String,
@@ -49,31 +46,31 @@ impl TrackingComparison {
         let shown = self.shown_joints();
         let others: Vec<usize> = (0..self.joints.len()).filter(|i| !shown.contains(i)).collect();
         let errors = |model: &TrackedModel, joint| 1e3 * model.error(joint);
-        let provenance = self.provenance.without_places();
+        let provenance = self.provenance.without_folders();
         let shared = Self { provenance: provenance.clone(), ..self.clone() };
         let whole = Page {
             robot: &self.robot,
             circumstances: self.circumstances(),
             sentence: self.sentence(),
             warnings: &self.warnings,
-            errors: self.errors_drawn(Place::Page)?,
+            errors: self.draw_errors(Medium::Page)?,
             error_table: self.by_joint(self.thousandths(), errors, Best::Least)?,
             costs: self.cost_table()?,
             notes: self.notes(),
-            motion: self.motion_drawn(&shown, Place::Page)?,
+            motion: self.draw_motion(&shown, Medium::Page)?,
             other_motions: if others.is_empty() {
                 None
             } else {
-                Some(self.motion_drawn(&others, Place::Page)?)
+                Some(self.draw_motion(&others, Medium::Page)?)
             },
-            sweep: self.sweep_drawn(Place::Page)?,
+            sweep: self.draw_sweep(Medium::Page)?,
             tables: self.more_tables()?,
             models: self.models.iter().map(|m| (m.name.as_str(), m.words.as_str())).collect(),
             gains: self.gain_table()?,
             provenance: &provenance,
-            json: inert(&shared.json()?),
+            json: escape_json(&shared.json()?),
         };
-        page(&whole)
+        render_page(&whole)
     }
 
     /// One row a joint and one column a model.
@@ -86,12 +83,12 @@ impl TrackingComparison {
         let rows = self.joints.iter().enumerate().map(|(i, joint)| {
             let numbers: Vec<f64> = self.models.iter().map(|model| number(model, i)).collect();
             let cells = match best {
-                Best::Least => marked(&numbers),
+                Best::Least => mark_least(&numbers),
                 Best::Nothing => plain(&numbers),
             };
             (joint.name.clone(), cells)
         });
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: format!("Joint ({unit})"),
             header: self.models.iter().map(|model| model.name.clone()).collect(),
             rows: rows.collect(),
@@ -103,7 +100,7 @@ impl TrackingComparison {
         let rows = self.cost_labels().iter().enumerate().skip(1).map(|(row, label)| {
             ((*label).to_owned(), costs.iter().map(|costs| costs[row].clone()).collect())
         });
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: String::new(),
             header: self.models.iter().map(|model| model.name.clone()).collect(),
             rows: rows.collect(),
@@ -155,10 +152,10 @@ impl TrackingComparison {
             let counts = [timing.ticks, timing.missed_deadlines, timing.missed_updates];
             let [ticks, deadlines, updates] = counts.map(|count| Cell::plain(count.to_string()));
             let times = [timing.worst_late_us, timing.latency_99_us, timing.latency_max_us];
-            let [late, usual, longest] = times.map(|us| Cell::plain(significant(us, DIGITS)));
+            let [late, usual, longest] = times.map(|us| Cell::plain(significant(us, TABLE_DIGITS)));
             Some((model.name.clone(), vec![ticks, deadlines, late, updates, usual, longest]))
         });
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: "Model".into(),
             header: header.map(str::to_owned).to_vec(),
             rows: rows.collect(),
@@ -170,7 +167,7 @@ impl TrackingComparison {
             let at = |gains: &[f64]| gains.get(i).copied().unwrap_or(f64::NAN);
             (joint.name.clone(), plain(&[at(&self.gains.kp), at(&self.gains.kd)]))
         });
-        rendered(&Grid {
+        render_html(&HtmlGrid {
             corner: format!("Gains {}", self.gains.name),
             header: ["Kp (N·m/rad or N/m)", "Kd (N·m·s/rad or N·s/m)"].map(str::to_owned).to_vec(),
             rows: rows.collect(),
@@ -179,7 +176,7 @@ impl TrackingComparison {
 }
 
 fn plain(numbers: &[f64]) -> Vec<Cell> {
-    numbers.iter().map(|&number| Cell::plain(significant(number, DIGITS))).collect()
+    numbers.iter().map(|&number| Cell::plain(significant(number, TABLE_DIGITS))).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,10 @@
 //! A small result made by hand, for the tests of this module.
 
-use super::comparison::{FirstSeconds, Gains, Sweep, SweptModel, TrackedModel, TrackingComparison};
-use crate::{ComparedJoint, Provenance};
+use crate::learning::comparison::ComparedJoint;
+use crate::tracking::comparison::{
+    ControllerGains, ErrorSweep, FirstSeconds, SweptModel, TrackedModel, TrackingComparison,
+};
+use pages::Provenance;
 
 /// A hinge and a slide that follow a sine of 1 rad and 1 m with no feedforward, which the slide
 /// loses its encoder with, with rigid bodies, and with both rigid bodies and a process.
@@ -15,7 +18,7 @@ pub fn comparison() -> TrackingComparison {
         robot: "arm".into(),
         joints: vec![joint("shoulder", "N m"), joint("slide", "N")],
         motion: "a sine of 0.5 Hz".into(),
-        gains: Gains { name: "low".into(), kp: vec![20.0, 300.0], kd: vec![1.5, 7.0] },
+        gains: ControllerGains { name: "low".into(), kp: vec![20.0, 300.0], kd: vec![1.5, 7.0] },
         clock: "a prediction takes no time".into(),
         duration_s: 60.0,
         models: vec![
@@ -26,7 +29,7 @@ pub fn comparison() -> TrackingComparison {
             model("rbd", [0.02, 0.004], 0.01),
             model("gp-rbd", [0.005, 0.001], 0.0025),
         ],
-        sweep: Some(Sweep {
+        sweep: Some(ErrorSweep {
             gains: "compliant".into(),
             duration_s: 20.0,
             scales: vec![0.1, 0.25, 1.0],

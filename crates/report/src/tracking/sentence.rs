@@ -1,5 +1,5 @@
-use super::comparison::{TrackedModel, TrackingComparison};
-use crate::numbers::significant;
+use crate::tracking::comparison::{TrackedModel, TrackingComparison};
+use pages::significant;
 
 /// The error that runs are ranked by.
 enum Measure {
@@ -33,18 +33,18 @@ impl TrackingComparison {
             .filter(|(_, error)| error.is_finite())
             .collect();
         ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let told = |(model, error): &(&TrackedModel, f64)| {
+        let name_and_error = |(model, error): &(&TrackedModel, f64)| {
             format!("{} {unit} with {}", significant(1e3 * error, 3), model.name)
         };
         let errors = match ranked.as_slice() {
             [] => return "No run came to its end.".to_owned(),
             [best, next, .., last] => format!(
                 "{}, {}, the next best, and {}, the last",
-                told(best),
-                told(next),
-                told(last)
+                name_and_error(best),
+                name_and_error(next),
+                name_and_error(last)
             ),
-            few => few.iter().map(told).collect::<Vec<_>>().join(" and "),
+            few => few.iter().map(name_and_error).collect::<Vec<_>>().join(" and "),
         };
         format!(
             "RMS error of {subject} of {} at the gains {}: {errors}.",

@@ -1,10 +1,10 @@
 use askama::Template;
 
-use super::comparison::{Sweep, SweptModel, TrackingComparison};
-use crate::inks::{Colours, Place};
-use crate::log_axis::{LogAxis, Tick, rounded};
-use crate::sheet::{EDGES, Key, Sheet};
-use crate::{ReportError, significant};
+use crate::tracking::comparison::{ErrorSweep, SweptModel, TrackingComparison};
+use pages::{
+    AxisTick, FIGURE_EDGES, FigureSheet, LegendKey, LogAxis, Medium, Palette, ReportError,
+    round_px, significant,
+};
 
 /// Joints beside each other, height of a panel, and what stands between two panels, across and
 /// down (px).
@@ -22,9 +22,9 @@ const APART: f64 = 30.0;
 const MOST_DECADES: i32 = 6;
 
 #[derive(Template)]
-#[template(path = "sweep.svg")]
+#[template(path = "tracking/sweep.svg")]
 struct Drawing {
-    sheet: Sheet,
+    sheet: FigureSheet,
     edges: [f64; 2],
     axis: &'static str,
     gains: String,
@@ -37,8 +37,8 @@ struct Panel {
     y: [f64; 2],
     name: String,
     is_first_in_row: bool,
-    x_ticks: Vec<Tick>,
-    y_ticks: Vec<Tick>,
+    x_ticks: Vec<AxisTick>,
+    y_ticks: Vec<AxisTick>,
     curves: Vec<Curve>,
 }
 
@@ -65,20 +65,20 @@ impl TrackingComparison {
     ///
     /// [`ReportError::Format`].
     pub fn sweep_figure(&self) -> Result<Option<String>, ReportError> {
-        self.sweep_drawn(Place::Alone)
+        self.draw_sweep(Medium::Alone)
     }
 
-    pub(crate) fn sweep_drawn(&self, place: Place) -> Result<Option<String>, ReportError> {
+    pub(crate) fn draw_sweep(&self, medium: Medium) -> Result<Option<String>, ReportError> {
         let Some(sweep) = &self.sweep else { return Ok(None) };
-        let drawing = Drawing::new(self, sweep, place);
+        let drawing = Drawing::new(self, sweep, medium);
         let svg = drawing.render();
         svg.map(Some).map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
     }
 }
 
 impl Drawing {
-    fn new(comparison: &TrackingComparison, sweep: &Sweep, place: Place) -> Self {
-        let key = |model: &SweptModel| Key {
+    fn new(comparison: &TrackingComparison, sweep: &ErrorSweep, medium: Medium) -> Self {
+        let key = |model: &SweptModel| LegendKey {
             name: model.name.clone(),
             ink: comparison.ink_of(&model.name),
         };
@@ -91,26 +91,26 @@ impl Drawing {
             sweep.gains
         );
         let keys = sweep.models.iter().map(key).collect();
-        let sheet = Sheet::new(&title, &subtitle, keys, place);
-        let panels = panels((comparison, sweep), sheet.bottom() + 42.0, &place.colours());
+        let sheet = FigureSheet::new(&title, &subtitle, keys, medium);
+        let panels = panels((comparison, sweep), sheet.bottom() + 42.0, &medium.palette());
         let bottom = panels.last().map_or(sheet.bottom(), |panel| panel.y[1]);
         let axis = comparison.thousandths();
         let gains = sweep.gains.clone();
-        Self { sheet: sheet.down_to(bottom + BELOW), edges: EDGES, axis, gains, panels }
+        Self { sheet: sheet.down_to(bottom + BELOW), edges: FIGURE_EDGES, axis, gains, panels }
     }
 }
 
 fn panels(
-    (comparison, sweep): (&TrackingComparison, &Sweep),
+    (comparison, sweep): (&TrackingComparison, &ErrorSweep),
     top: f64,
-    colours: &Colours,
+    colours: &Palette,
 ) -> Vec<Panel> {
     let columns = comparison.joints.len().clamp(1, COLUMNS);
-    let step = (EDGES[1] - EDGES[0] + BETWEEN[0]) / columns as f64;
+    let step = (FIGURE_EDGES[1] - FIGURE_EDGES[0] + BETWEEN[0]) / columns as f64;
     let panels = comparison.joints.iter().enumerate().map_while(|(joint, compared)| {
         let (row, column) = (joint / columns, joint % columns);
-        let left = EDGES[0] + step * column as f64;
-        let x = [rounded(left), rounded(left + step - BETWEEN[0])];
+        let left = FIGURE_EDGES[0] + step * column as f64;
+        let x = [round_px(left), round_px(left + step - BETWEEN[0])];
         let top = top + row as f64 * (PANEL + BETWEEN[1]);
         let y = [top, top + PANEL];
         let errors = sweep.models.iter().flat_map(|model| model.rmse_rad.iter().flatten());
@@ -165,7 +165,7 @@ impl Curve {
 }
 
 /// The gains that were tried, with the numbers that find room.
-fn gain_ticks(scales: &[f64], axis: &LogAxis) -> Vec<Tick> {
+fn gain_ticks(scales: &[f64], axis: &LogAxis) -> Vec<AxisTick> {
     let mut scales: Vec<f64> = scales.iter().copied().filter(|&scale| axis.holds(scale)).collect();
     scales.sort_by(f64::total_cmp);
     let mut free = f64::NEG_INFINITY;
@@ -173,7 +173,7 @@ fn gain_ticks(scales: &[f64], axis: &LogAxis) -> Vec<Tick> {
         let at = axis.at(scale);
         let label = if at < free { String::new() } else { short(scale) };
         free = if label.is_empty() { free } else { at + APART };
-        Tick { at, label }
+        AxisTick { at, label }
     };
     scales.into_iter().map(tick).collect()
 }
@@ -200,7 +200,7 @@ mod tests {
         sweep.scales = vec![0.01, 0.1, 1.0];
         sweep.models[0].rmse_rad = [10.0, 1.0, 0.1].map(|error| vec![error, f64::NAN]).to_vec();
         sweep.models[1].rmse_rad = [1.0, f64::NAN, 0.1].map(|error| vec![error; 2]).to_vec();
-        let drawing = Drawing::new(&comparison, comparison.sweep.as_ref().unwrap(), Place::Alone);
+        let drawing = Drawing::new(&comparison, comparison.sweep.as_ref().unwrap(), Medium::Alone);
         let [hinge, slide] = &drawing.panels[..] else { panic!("two joints") };
         let dots: Vec<[f64; 2]> = hinge.curves[0].dots.iter().map(|dot| dot.at).collect();
         let (across, down) = (dots[1][0] - dots[0][0], dots[1][1] - dots[0][1]);

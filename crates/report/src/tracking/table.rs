@@ -1,8 +1,9 @@
-use super::comparison::{TrackedModel, TrackingComparison, WallTiming};
-use crate::grid::{Cell, Column, DIGITS, grid, marked};
-use crate::numbers::{percent, percents, significant};
-use crate::terminal::{BOLD, WIDTH, entry, first_warnings, notes};
-use crate::wrap::wrapped;
+use crate::learning::comparison::ComparedJoint;
+use crate::tracking::comparison::{TrackedModel, TrackingComparison, WallTiming};
+use pages::{
+    BOLD, Cell, GridColumn, TABLE_DIGITS, TERMINAL_WIDTH, mark_least, percent, percent_range,
+    push_entry, push_first_warnings, push_notes, significant, text_grid, wrap,
+};
 
 /// What stands below the errors, row by row; the last two only where time was measured.
 const COSTS: [&str; 7] = [
@@ -27,12 +28,12 @@ impl TrackingComparison {
         let costs = self.cost_labels().iter().map(|&label| label.to_owned());
         let labels: Vec<String> = labels.into_iter().chain(costs).collect();
         let errors: Vec<Vec<Cell>> =
-            (0..self.joints.len()).map(|joint| marked(&self.errors(joint))).collect();
-        let columns: Vec<Column> = self
+            (0..self.joints.len()).map(|joint| mark_least(&self.errors(joint))).collect();
+        let columns: Vec<GridColumn> = self
             .models
             .iter()
             .enumerate()
-            .map(|(place, model)| Column {
+            .map(|(place, model)| GridColumn {
                 header: format!("{} ", model.name),
                 cells: errors
                     .iter()
@@ -42,15 +43,15 @@ impl TrackingComparison {
             })
             .collect();
         let mut out = String::new();
-        for line in wrapped(&self.sentence(), WIDTH) {
+        for line in wrap(&self.sentence(), TERMINAL_WIDTH) {
             out.push_str(&format!("{BOLD}{line}{BOLD:#}\n"));
         }
         out.push('\n');
-        out.push_str(&grid(&self.corner(), &labels, &columns));
+        out.push_str(&text_grid(&self.corner(), &labels, &columns));
         out.push('\n');
         self.legend(&mut out);
-        notes(&mut out, &self.notes());
-        first_warnings(&mut out, &self.warnings, "tracking.json");
+        push_notes(&mut out, &self.notes());
+        push_first_warnings(&mut out, &self.warnings, "tracking.json");
         out
     }
 
@@ -60,7 +61,7 @@ impl TrackingComparison {
     }
 
     /// A joint, with its unit where joints differ.
-    pub(crate) fn label(&self, joint: &crate::ComparedJoint) -> String {
+    pub(crate) fn label(&self, joint: &ComparedJoint) -> String {
         match self.thousandths() {
             "mrad" | "mm" => joint.name.clone(),
             _ => format!("{} (m{})", joint.name, joint.position_unit()),
@@ -84,16 +85,16 @@ impl TrackingComparison {
     pub(crate) fn costs(&self, model: &TrackedModel) -> Vec<Cell> {
         let tip = |tip: Option<f64>| {
             let tip = tip.filter(|_| model.stopped.is_none());
-            tip.map_or("-".to_owned(), |m| significant(1e3 * m, DIGITS))
+            tip.map_or("-".to_owned(), |m| significant(1e3 * m, TABLE_DIGITS))
         };
         let jumps = shares(&model.largest_jump_nm, &model.effort_rms_nm);
         let costs = [
             String::new(),
             tip(model.tip_rmse_m),
             tip(model.tip_max_m),
-            percents(&shares(&model.feedback_rms_nm, &model.effort_rms_nm)),
+            percent_range(&shares(&model.feedback_rms_nm, &model.effort_rms_nm)),
             percent(jumps.into_iter().reduce(f64::max).unwrap_or(f64::NAN)),
-            significant(model.prediction_us, DIGITS),
+            significant(model.prediction_us, TABLE_DIGITS),
             model.timing.as_ref().map_or("-".to_owned(), missed),
         ];
         let shown = costs.into_iter().take(self.cost_labels().len());
@@ -115,13 +116,13 @@ impl TrackingComparison {
 
     /// What the words of the table mean and what the runs have in common.
     fn legend(&self, out: &mut String) {
-        entry(out, "*", "the least error at the joint");
-        entry(
+        push_entry(out, "*", "the least error at the joint");
+        push_entry(
             out,
             "share of feedback",
             "RMS effort of the feedback over that of all, least to most of a joint",
         );
-        entry(
+        push_entry(
             out,
             "largest jump",
             "of the feedforward between two samples, over the RMS effort of its joint",
@@ -129,16 +130,16 @@ impl TrackingComparison {
         let common = [("motion", &self.motion), ("clock", &self.clock)];
         let models = self.models.iter().map(|model| (model.name.as_str(), &model.words));
         for (word, words) in models.chain(common) {
-            for (i, line) in wrapped(words, WIDTH - 19).iter().enumerate() {
-                entry(out, if i == 0 { word } else { "" }, line);
+            for (i, line) in wrap(words, TERMINAL_WIDTH - 19).iter().enumerate() {
+                push_entry(out, if i == 0 { word } else { "" }, line);
             }
         }
-        entry(out, "duration", &format!("{} s", significant(self.duration_s, DIGITS)));
+        push_entry(out, "duration", &format!("{} s", significant(self.duration_s, TABLE_DIGITS)));
         let gains = |gains: &[f64]| {
-            gains.iter().map(|&k| significant(k, DIGITS)).collect::<Vec<_>>().join(" ")
+            gains.iter().map(|&k| significant(k, TABLE_DIGITS)).collect::<Vec<_>>().join(" ")
         };
-        entry(out, "Kp", &gains(&self.gains.kp));
-        entry(out, "Kd", &gains(&self.gains.kd));
+        push_entry(out, "Kp", &gains(&self.gains.kp));
+        push_entry(out, "Kd", &gains(&self.gains.kd));
     }
 }
 
@@ -187,14 +188,14 @@ warning: shoulder: its gains are below what friction needs
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::without_escapes;
     use crate::tracking::sample;
+    use pages::without_escapes;
 
     #[test]
     fn the_table_marks_the_least_error_of_a_joint_and_leaves_a_stopped_run_out() {
         let plain = without_escapes(&sample::comparison().text());
         assert_eq!(plain, EXPECTED);
-        assert!(plain.lines().all(|line| line.chars().count() <= WIDTH));
+        assert!(plain.lines().all(|line| line.chars().count() <= TERMINAL_WIDTH));
     }
 
     #[test]

@@ -1,12 +1,8 @@
 use askama::Template;
 use evaluation::{Confusion, Group};
 
-use crate::ReportError;
-use crate::chart::Ink;
-use crate::inks::{Colours, Place};
-use crate::log_axis::rounded;
-use crate::sheet::{Key, Sheet};
 use colours::Role;
+use pages::{FigureSheet, Ink, LegendKey, Medium, Palette, ReportError, round_px};
 
 /// Left and right edge of the cells, height of a row, room for the names of the columns and what
 /// is left between two cells (px).
@@ -22,7 +18,7 @@ const DARKEST: f64 = 0.6;
 #[derive(Template)]
 #[template(path = "confusion.svg")]
 struct Drawing {
-    sheet: Sheet,
+    sheet: FigureSheet,
     columns: Vec<(f64, &'static str)>,
     columns_y: f64,
     names_x: f64,
@@ -53,14 +49,15 @@ struct DrawnCell {
 ///
 /// [`ReportError::Format`].
 pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
-    let colours = Place::Page.colours();
-    let key = |name: &str, role| Key { name: name.to_owned(), ink: Ink::Role(role) };
+    let colours = Medium::Page.palette();
+    let key = |name: &str, role| LegendKey { name: name.to_owned(), ink: Ink::Role(role) };
     let keys = vec![
         key("the right effect", Role::Extended),
         key("another effect", Role::Nominal),
         key("nothing", Role::Measured),
     ];
-    let sheet = Sheet::new("What was named first for what was put in", "", keys, Place::Page);
+    let sheet =
+        FigureSheet::new("What was named first for what was put in", "", keys, Medium::Page);
     let top = sheet.bottom() + NAMES + 14.0;
     let wide = (CELLS[1] - CELLS[0]) / confusion.named.len().max(1) as f64;
     let wide = wide.min(WIDEST);
@@ -72,10 +69,10 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
             .iter()
             .enumerate()
             .map(|(column, &count)| DrawnCell {
-                x: rounded(left(column)),
-                width: rounded(wide - BETWEEN),
+                x: round_px(left(column)),
+                width: round_px(wide - BETWEEN),
                 colour: colour(&colours, *put_in, *own, (column, confusion.named.len())),
-                opacity: rounded(
+                opacity: round_px(
                     DARKEST * count as f64 / counts.iter().sum::<usize>().max(1) as f64,
                 ),
                 count,
@@ -90,7 +87,7 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
     let rows: Vec<DrawnRow> = rows.collect();
     let names = confusion.named.iter().enumerate();
     let drawing = Drawing {
-        columns: names.map(|(i, name)| (rounded(left(i) + 0.5 * wide + 4.0), *name)).collect(),
+        columns: names.map(|(i, name)| (round_px(left(i) + 0.5 * wide + 4.0), *name)).collect(),
         columns_y: top - 8.0,
         names_x: CELLS[0] - 10.0,
         sheet: sheet.down_to(top + ROW * rows.len() as f64 + 14.0),
@@ -101,7 +98,7 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
 
 /// Of two effects either may be first: no column is theirs.
 fn colour(
-    colours: &Colours,
+    colours: &Palette,
     put_in: Group,
     own: Option<usize>,
     (column, columns): (usize, usize),

@@ -1,12 +1,8 @@
 use askama::Template;
 use evaluation::{PanelRow, PanelTally, Rate, Share};
 
-use crate::ReportError;
-use crate::chart::Ink;
-use crate::inks::{Colours, Place};
-use crate::log_axis::rounded;
-use crate::sheet::{Key, Sheet};
 use colours::Role;
+use pages::{FigureSheet, Ink, LegendKey, Medium, Palette, ReportError, round_px};
 
 /// Left and right edge of what is shown, height of a row, and of the room above the first (px).
 const SHOWN: [f64; 2] = [220.0, 856.0];
@@ -18,7 +14,7 @@ const NEXT: f64 = 9.0;
 #[derive(Template)]
 #[template(path = "corners.svg")]
 struct Drawing {
-    sheet: Sheet,
+    sheet: FigureSheet,
     edges: [f64; 2],
     top: f64,
     bottom: f64,
@@ -51,29 +47,29 @@ struct Mark {
 ///
 /// [`ReportError::Format`].
 pub fn corner_figure(tally: &PanelTally) -> Result<String, ReportError> {
-    let colours = Place::Page.colours();
-    let key = |name: &str, role| Key { name: name.to_owned(), ink: Ink::Role(role) };
+    let colours = Medium::Page.palette();
+    let key = |name: &str, role| LegendKey { name: name.to_owned(), ink: Ink::Role(role) };
     let keys = vec![
         key("findings that are true", Role::Extended),
         key("visible causes that are named", Role::Measured),
         key("false assurance", Role::Nominal),
     ];
-    let sheet = Sheet::new("Precision, recall and false assurance", "", keys, Place::Page);
+    let sheet = FigureSheet::new("Precision, recall and false assurance", "", keys, Medium::Page);
     let top = sheet.bottom() + AXIS;
     let mut thing = None;
     let rows = tally.rows.iter().enumerate().map(|(place, row)| {
         let y = top + ROW * place as f64;
         let is_first = thing.replace(row.side.thing()).is_some_and(|last| last != row.side.thing());
         let name = format!("{} ({})", row.side, row.trials);
-        DrawnRow { y: rounded(y), name, is_first, marks: marks(row, y, &colours) }
+        DrawnRow { y: round_px(y), name, is_first, marks: marks(row, y, &colours) }
     });
     let rows: Vec<DrawnRow> = rows.collect();
-    let bottom = rounded(top + ROW * rows.len() as f64);
+    let bottom = round_px(top + ROW * rows.len() as f64);
     let tick = |tenth: u32| (at(f64::from(tenth) / 5.0), format!("{} %", 20 * tenth));
     let drawing = Drawing {
         sheet: sheet.down_to(bottom + 14.0),
         edges: SHOWN,
-        top: rounded(top),
+        top: round_px(top),
         bottom,
         ticks: (0..=5).map(tick).collect(),
         rows,
@@ -81,7 +77,7 @@ pub fn corner_figure(tally: &PanelTally) -> Result<String, ReportError> {
     drawing.render().map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
 }
 
-fn marks(row: &PanelRow, y: f64, colours: &Colours) -> Vec<Mark> {
+fn marks(row: &PanelRow, y: f64, colours: &Palette) -> Vec<Mark> {
     let of_rate = |rate: &Rate| Some((rate.value?, rate.interval?, rate.words()));
     let of_share = |share: &Share| {
         let value = share.count as f64 / share.of.max(1) as f64;
@@ -95,7 +91,7 @@ fn marks(row: &PanelRow, y: f64, colours: &Colours) -> Vec<Mark> {
     let mark = |(place, (name, colour, share)): (usize, (&str, _, Option<_>))| {
         let (value, interval, words): (f64, [f64; 2], String) = share?;
         Some(Mark {
-            y: rounded(y + 8.0 + NEXT * place as f64),
+            y: round_px(y + 8.0 + NEXT * place as f64),
             x: at(value),
             ends: interval.map(at),
             colour,
@@ -107,5 +103,5 @@ fn marks(row: &PanelRow, y: f64, colours: &Colours) -> Vec<Mark> {
 
 /// Where a share stands (px).
 fn at(share: f64) -> f64 {
-    rounded(SHOWN[0] + (SHOWN[1] - SHOWN[0]) * share)
+    round_px(SHOWN[0] + (SHOWN[1] - SHOWN[0]) * share)
 }

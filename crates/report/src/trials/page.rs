@@ -3,9 +3,7 @@ use evaluation::{Failure, Group, KindCount, Merged};
 
 use super::confusion_figure::confusion_figure;
 use super::table::table;
-use crate::html::inert;
-use crate::page::page;
-use crate::{Provenance, ReportError};
+use pages::{Provenance, ReportError, escape_json, render_page};
 
 #[derive(Template)]
 #[template(path = "trials.html")]
@@ -41,7 +39,7 @@ pub fn trials_page(
     let json = serde_json::to_string_pretty(merged)
         .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
     let [shares, sizes] = merged.tally.tables();
-    page(&Page {
+    render_page(&Page {
         campaign: merged.campaign.get(..8).unwrap_or(&merged.campaign),
         sentence: sentence(merged),
         doubts,
@@ -53,8 +51,8 @@ pub fn trials_page(
         sizes: table(sizes)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
-        provenance: &provenance.without_places(),
-        json: inert(&json),
+        provenance: &provenance.without_folders(),
+        json: escape_json(&json),
     })
 }
 

@@ -3,9 +3,7 @@ use evaluation::{Failure, KindCount, MergedPanel};
 
 use super::corner_figure::corner_figure;
 use super::table::table;
-use crate::html::inert;
-use crate::page::page;
-use crate::{Provenance, ReportError};
+use pages::{Provenance, ReportError, escape_json, render_page};
 
 #[derive(Template)]
 #[template(path = "panel.html")]
@@ -46,7 +44,7 @@ pub fn panel_page(
         .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
     let [names, verdicts, predictions, baselines, kinds, strangers, slowest] =
         merged.tally.tables();
-    page(&Page {
+    render_page(&Page {
         campaign: merged.campaign.get(..8).unwrap_or(&merged.campaign),
         sentence: sentence(merged),
         doubts,
@@ -61,8 +59,8 @@ pub fn panel_page(
         slowest: table(slowest)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
-        provenance: &provenance.without_places(),
-        json: inert(&json),
+        provenance: &provenance.without_folders(),
+        json: escape_json(&json),
     })
 }
 

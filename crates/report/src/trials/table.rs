@@ -1,8 +1,6 @@
 use evaluation::TextTable;
 
-use crate::ReportError;
-use crate::grid::Cell;
-use crate::html_grid::{Grid, rendered};
+use pages::{Cell, HtmlGrid, ReportError, render_html};
 
 /// A table of texts for a page; the page tells its title.
 ///
@@ -15,7 +13,7 @@ pub fn table(table: TextTable) -> Result<String, ReportError> {
         let mut cells = row.into_iter();
         (cells.next().unwrap_or_default(), cells.map(Cell::plain).collect())
     };
-    rendered(&Grid {
+    render_html(&HtmlGrid {
         corner: header.next().unwrap_or_default(),
         header: header.collect(),
         rows: table.rows.into_iter().map(row).collect(),

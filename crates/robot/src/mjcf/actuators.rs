@@ -1,10 +1,11 @@
 //! `<actuator>`: what a joint's motor can do, and the gains of its servo.
 
-use super::classes::MAIN;
-use super::element::Element;
-use super::joint::largest;
-use super::view::View;
-use crate::{Gain, RobotError};
+use crate::error::RobotError;
+use crate::mjcf::classes::MAIN;
+use crate::mjcf::element::Element;
+use crate::mjcf::joint::largest;
+use crate::mjcf::view::View;
+use crate::structure::control::Gain;
 
 /// What an actuator says of its joint.
 #[derive(Debug, Clone, PartialEq)]

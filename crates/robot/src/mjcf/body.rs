@@ -2,14 +2,18 @@
 
 use nalgebra::{Isometry3, Matrix3};
 
-use super::classes::{Classes, MAIN};
-use super::compiler::{Compiler, InertiaSource};
-use super::element::Element;
-use super::geom::{Geom, Meshes};
-use super::joint::{Motion, driven, motion};
-use super::unread::Unread;
-use super::view::View;
-use crate::{Inertia, Link, Looks, RobotError, RobotWarning};
+use crate::error::RobotError;
+use crate::mjcf::classes::{Classes, MAIN};
+use crate::mjcf::compiler::{Compiler, InertiaSource};
+use crate::mjcf::element::Element;
+use crate::mjcf::geom::{Geom, Meshes};
+use crate::mjcf::joint::{Motion, motion, read_joint};
+use crate::mjcf::unread::Unread;
+use crate::mjcf::view::View;
+use crate::structure::inertia::Inertia;
+use crate::structure::link::Link;
+use crate::structure::looks::Looks;
+use crate::warning::RobotWarning;
 
 /// The frame that what is inside of an element is described in.
 #[derive(Clone)]
@@ -148,7 +152,7 @@ impl<'a> Walk<'a> {
             self.warnings.push(RobotWarning::BaseHeld { joint: name, kind: "free" });
             return Ok(false);
         }
-        let driven = driven(&view, &name, kind, &place.link_from_frame)?;
+        let driven = read_joint(&view, &name, kind, &place.link_from_frame)?;
         self.links.push(Link {
             name: link.to_owned(),
             parent: place.link,

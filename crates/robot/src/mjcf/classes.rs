@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
-use super::element::Element;
-use crate::RobotError;
+use crate::error::RobotError;
+use crate::mjcf::element::Element;
 
 /// Name of the class that every element is of unless it says another.
 pub const MAIN: &str = "main";

@@ -1,7 +1,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::element::Element;
-use crate::RobotError;
+use crate::error::RobotError;
+use crate::mjcf::element::Element;
 
 /// Where the inertia of a body comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

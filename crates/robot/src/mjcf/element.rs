@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::RobotError;
+use crate::error::RobotError;
+use crate::one_line::one_line;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 200;
@@ -98,7 +99,7 @@ impl<'a> Files<'a> {
     /// [`RobotError::Malformed`], [`RobotError::BadElement`] for an include that is read twice, and
     /// what is wrong with an included file.
     pub fn root(&mut self, text: &str) -> Result<Element, RobotError> {
-        let mut root = self.parsed(text)?;
+        let mut root = self.parse(text)?;
         self.expand(&mut root, 0)?;
         Ok(root)
     }
@@ -120,7 +121,7 @@ impl<'a> Files<'a> {
                 return Err(child.bad(format!("{name} is included twice, once was expected")));
             }
             let text = (self.read)(&path)?;
-            let mut included = self.parsed(&text).map_err(|e| e.in_file(&path))?;
+            let mut included = self.parse(&text).map_err(|e| e.in_file(&path))?;
             self.expand(&mut included, depth + 1)?;
             children.append(&mut included.children);
         }
@@ -128,7 +129,7 @@ impl<'a> Files<'a> {
         Ok(())
     }
 
-    fn parsed(&mut self, text: &str) -> Result<Element, RobotError> {
+    fn parse(&mut self, text: &str) -> Result<Element, RobotError> {
         let mut reader = Reader::from_str(text);
         let (mut open, mut root) = (Vec::<Element>::new(), None);
         let (mut line, mut counted) = (1, 0);
@@ -139,7 +140,7 @@ impl<'a> Files<'a> {
             line += text.as_bytes()[counted..at].iter().filter(|&&b| b == b'\n').count();
             counted = at;
             let malformed = |reason: String| RobotError::Malformed { line, reason };
-            match event.map_err(|e| malformed(super::one_line(&e.to_string())))? {
+            match event.map_err(|e| malformed(one_line(&e.to_string())))? {
                 Event::Start(tag) => {
                     if open.len() == MAX_DEPTH {
                         let reason = format!("elements are nested more than {MAX_DEPTH} deep");
@@ -177,7 +178,7 @@ impl<'a> Files<'a> {
         let name = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
         let mut attributes = vec![];
         for found in tag.attributes() {
-            let found = found.map_err(|e| malformed(super::one_line(&e.to_string())))?;
+            let found = found.map_err(|e| malformed(one_line(&e.to_string())))?;
             let value = found.unescape_value().map_err(|e| malformed(e.to_string()))?.into_owned();
             attributes.push((String::from_utf8_lossy(found.key.as_ref()).into_owned(), value));
         }

@@ -6,9 +6,11 @@ use std::path::PathBuf;
 
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, Vector3};
 
-use super::element::Element;
-use super::view::{View, turned_to};
-use crate::{Inertia, RobotError, Shape, Visual};
+use crate::error::RobotError;
+use crate::mjcf::element::Element;
+use crate::mjcf::view::{View, rotation_of_z_to};
+use crate::structure::inertia::Inertia;
+use crate::structure::looks::{Shape, Visual};
 
 /// Density of a shape that does not say another (kg/m³).
 const DENSITY: f64 = 1000.0;
@@ -39,7 +41,7 @@ impl Geom {
             let along = Unit::try_new(from - to, 0.0)
                 .ok_or_else(|| view.element.bad("fromto has two equal ends"))?;
             let middle = Translation3::from(0.5 * (from + to));
-            pose = Isometry3::from_parts(middle, turned_to(&along));
+            pose = Isometry3::from_parts(middle, rotation_of_z_to(&along));
             let half = 0.5 * (to - from).norm();
             let last = if matches!(kind.as_str(), "capsule" | "cylinder") { 1 } else { 2 };
             size.resize(last, size.first().copied().unwrap_or_default());

@@ -1,7 +1,9 @@
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::view::View;
-use crate::{Actuator, Joint, JointKind, Limits, RobotError};
+use crate::error::RobotError;
+use crate::mjcf::view::View;
+use crate::structure::actuator::Actuator;
+use crate::structure::joint::{Joint, JointKind, Limits};
 
 /// How a joint of an MJCF moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +48,7 @@ pub struct Driven {
 /// ```text
 /// parent_from_link = parent_from_body T(pos) motion(q - ref)
 /// ```
-pub fn driven(
+pub fn read_joint(
     view: &View<'_>,
     name: &str,
     kind: Motion,

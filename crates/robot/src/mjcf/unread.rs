@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::element::Element;
-use crate::RobotWarning;
+use crate::mjcf::element::Element;
+use crate::warning::RobotWarning;
 
 /// Elements of the root that say nothing of the motion of the arm alone.
 const HARMLESS: [&str; 12] = [

@@ -1,9 +1,9 @@
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::classes::Classes;
-use super::compiler::Compiler;
-use super::element::Element;
-use crate::RobotError;
+use crate::error::RobotError;
+use crate::mjcf::classes::Classes;
+use crate::mjcf::compiler::Compiler;
+use crate::mjcf::element::Element;
 
 /// An element with the defaults that hold where it stands.
 #[derive(Clone, Copy)]
@@ -91,12 +91,12 @@ impl<'a> View<'a> {
         }
         let Some(z) = self.vector("zaxis")? else { return Ok(None) };
         let z = Unit::try_new(z, 0.0).ok_or_else(none)?;
-        Ok(Some(turned_to(&z)))
+        Ok(Some(rotation_of_z_to(&z)))
     }
 }
 
 /// The least turn that takes the z axis to `z`; about x where that is a half turn.
-pub fn turned_to(z: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
+pub fn rotation_of_z_to(z: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
     UnitQuaternion::rotation_between_axis(&Vector3::z_axis(), z).unwrap_or_else(|| {
         UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
     })

@@ -1,9 +1,11 @@
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 use urdf_rs::JointType;
 
-use crate::part::Mimic;
+use crate::error::RobotError;
 use crate::range::{LARGEST, Most};
-use crate::{Inertia, Joint, JointKind, Limits, RobotError};
+use crate::structure::inertia::Inertia;
+use crate::structure::joint::{Joint, JointKind, Limits};
+use crate::structure::part::Mimic;
 
 /// Pose of the joint in its parent link at position zero.
 pub(super) fn origin(joint: &urdf_rs::Joint) -> Result<Isometry3<f64>, RobotError> {

@@ -1,8 +1,8 @@
 use std::collections::BTreeSet;
 
-use super::convert;
-use crate::RobotError;
-use crate::part::Mimics;
+use crate::error::RobotError;
+use crate::structure::part::Mimics;
+use crate::urdf::convert;
 
 /// The joints that mimic another one; every chain of them ends at a joint that mimics none.
 ///

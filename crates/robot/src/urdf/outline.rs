@@ -1,7 +1,9 @@
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::{RobotError, RobotWarning};
+use crate::error::RobotError;
+use crate::one_line::one_line;
+use crate::warning::RobotWarning;
 
 /// Deepest nesting of elements; a URDF needs six.
 const MAX_DEPTH: usize = 64;
@@ -90,11 +92,6 @@ pub(super) fn outline(text: &str) -> Result<Outline, RobotError> {
             Err(error) => return Err(scan.malformed(one_line(&error.to_string()))),
         }
     }
-}
-
-/// A message without line breaks.
-pub(super) fn one_line(message: &str) -> String {
-    message.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[derive(Default)]

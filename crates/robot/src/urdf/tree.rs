@@ -1,6 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::RobotError;
+use crate::error::RobotError;
 
 /// Which joint hangs on which link; every link is reached from one root.
 #[derive(Debug)]
@@ -53,14 +53,14 @@ impl Tree {
             joints.iter().for_each(|&j| parent[tree.child[j]] = Some(from));
         }
         tree.root = root(&parent, &names)?;
-        match tree.unreached() {
-            Some(link) => Err(looped(&parent, link, &names)),
+        match tree.unreached_link() {
+            Some(link) => Err(loop_error(&parent, link, &names)),
             None => Ok(tree),
         }
     }
 
     /// A link that the root does not reach.
-    fn unreached(&self) -> Option<usize> {
+    fn unreached_link(&self) -> Option<usize> {
         let mut reached = vec![false; self.joints_of.len()];
         let mut stack = vec![self.root];
         while let Some(link) = stack.pop() {
@@ -84,12 +84,12 @@ fn root(parent: &[Option<usize>], names: &[&str]) -> Result<usize, RobotError> {
             line: 1,
             reason: "no <link> was found, at least one was expected".to_owned(),
         }),
-        (None, _) => Err(looped(parent, 0, names)),
+        (None, _) => Err(loop_error(parent, 0, names)),
     }
 }
 
 /// The loop that `link`, or one of its ancestors, is part of, by its first link in the file.
-fn looped(parent: &[Option<usize>], link: usize, names: &[&str]) -> RobotError {
+fn loop_error(parent: &[Option<usize>], link: usize, names: &[&str]) -> RobotError {
     let up = |at: usize| parent[at].unwrap_or(at);
     // As many steps up as there are links end inside the ring, not on a branch of it.
     let inside = (0..parent.len()).fold(link, |at, _| up(at));

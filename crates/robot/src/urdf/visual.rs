@@ -5,9 +5,11 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use urdf_rs::Geometry;
 
-use super::convert;
-use super::outline::{attribute, one_line};
-use crate::{RobotWarning, Shape, Visual};
+use crate::one_line::one_line;
+use crate::structure::looks::{Shape, Visual};
+use crate::urdf::convert;
+use crate::urdf::outline::attribute;
+use crate::warning::RobotWarning;
 
 /// Largest size and distance that is drawn (m): a number beyond it is a mistake.
 const LARGEST_M: f64 = 1e4;
@@ -36,7 +38,7 @@ impl Visuals {
             };
             let robot = format!("<robot name=\"\"><link name=\"\">{xml}</link></robot>");
             match urdf_rs::read_from_string(&robot) {
-                Err(error) => visuals.left_out(&link, &one_line(&error.to_string())),
+                Err(error) => visuals.warn_of_omission(&link, &one_line(&error.to_string())),
                 Ok(robot) => {
                     let own = robot.links.into_iter().flat_map(|l| l.visual);
                     found.extend(own.map(|visual| (link.clone(), visual)));
@@ -47,9 +49,9 @@ impl Visuals {
         let given = found.iter().filter_map(|(_, v)| v.material.clone());
         given.collect::<Vec<_>>().iter().for_each(|m| visuals.learn(m));
         for (link, visual) in found {
-            match visuals.checked(&visual) {
+            match visuals.check(&visual) {
                 Ok(drawn) => visuals.of_link.entry(link).or_default().push(drawn),
-                Err(reason) => visuals.left_out(&link, &reason),
+                Err(reason) => visuals.warn_of_omission(&link, &reason),
             }
         }
         visuals
@@ -60,7 +62,7 @@ impl Visuals {
         self.of_link.remove(link).unwrap_or_default()
     }
 
-    fn left_out(&mut self, link: &str, reason: &str) {
+    fn warn_of_omission(&mut self, link: &str, reason: &str) {
         let (link, reason) = (link.to_owned(), reason.to_owned());
         self.warnings.push(RobotWarning::VisualLeftOut { link, reason });
     }
@@ -72,7 +74,7 @@ impl Visuals {
         }
     }
 
-    fn checked(&self, visual: &urdf_rs::Visual) -> Result<Visual, String> {
+    fn check(&self, visual: &urdf_rs::Visual) -> Result<Visual, String> {
         for value in visual.origin.xyz.0.iter().chain(&visual.origin.rpy.0) {
             if value.is_nan() || value.abs() > LARGEST_M {
                 return Err(format!("its origin holds {value}, up to {LARGEST_M} was expected"));

@@ -1,23 +1,21 @@
 use robot::{Actuator, Robot};
 
-use super::{
+use crate::effects::{
     actuator_delay, actuator_lag, cable_spring, counterbalance, differential_coupling,
     encoder_offset, friction_temperature_drift, load_dependent_friction,
     position_dependent_friction, presliding_friction, stribeck_friction, torque_ripple,
     transmission_ratio,
 };
-use crate::Inject;
+use crate::mechanics::inject::Inject;
 
-/// Inertia of a rotor that holds the bristles of a shared motor where the robot names none
-/// (kg m² or kg).
+/// Rotor inertia assumed for the bristles of a shared motor where the robot states none (kg m² or kg).
 const LEAST_ROTOR: f64 = 1e-3;
 
-/// The effects that the robot's description says of its drives, ready to act, apart from those
-/// that are part of the [`Plant`](crate::Plant).
+/// The effects that the robot's description states, without those in the [`Plant`](crate::Plant).
 ///
-/// Where several meet at a joint, dry friction is gathered before it is bent, and what is
-/// reported is `q / ratio + offset`.
-pub(crate) fn described(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
+/// At a joint with several of them, presliding acts on the sum of all dry friction, and the reported
+/// position is `q / ratio + offset`.
+pub(crate) fn described_effects(robot: &Robot) -> impl Iterator<Item = Box<dyn Inject>> {
     let rotor = |j: usize| {
         let known = robot.links().get(j).map_or(0.0, |link| link.actuator.rotor_inertia);
         known.max(LEAST_ROTOR)
@@ -55,7 +53,7 @@ fn not_zero(value: f64) -> Option<f64> {
     (value.abs() > 0.0).then_some(value)
 }
 
-/// The most dry friction that a drive has while it carries no more than its limit (N m or N).
+/// Largest dry friction of a drive that carries at most its effort limit (N m or N).
 fn largest_dry(drive: &Actuator, effort_limit: f64) -> f64 {
     let wave = 1.0 + drive.friction_wave.map_or(0.0, |wave| wave.share);
     drive.coulomb_forward.max(drive.coulomb_backward).max(0.0) * wave

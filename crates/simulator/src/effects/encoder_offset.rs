@@ -5,8 +5,11 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Inject, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
 
 /// Largest offset that is drawn (rad or m): a joint that stands 17 degrees off is seen by eye.
 const LARGEST_DRAWN: f64 = 0.3;

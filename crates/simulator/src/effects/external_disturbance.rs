@@ -8,8 +8,11 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, link_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, link_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
 
 /// What the world around does to the arm, whatever the arm does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,8 +5,11 @@ use robot::{Robot, Warming};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
 
 /// Largest share of friction that may go: a warm joint keeps some.
 const MAX_SHARE: f64 = 0.9;

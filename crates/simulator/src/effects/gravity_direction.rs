@@ -8,8 +8,12 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, within};
-use crate::{Inject, Plant, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
+use crate::mechanics::plant::Plant;
 
 /// A base that does not stand as the description says: seen from it, gravity is turned.
 ///

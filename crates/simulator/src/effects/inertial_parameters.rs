@@ -6,9 +6,13 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::payload::{body, mass_and_com, symmetric};
-use super::{Effect, Mistake, Surroundings, direction, link_of};
-use crate::{Inject, Plant, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, link_of};
+use crate::effects::payload::{body, mass_and_com, symmetric};
+use crate::effects::surroundings::{Surroundings, direction};
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
+use crate::mechanics::plant::Plant;
 
 /// The mass, centre of mass and inertia that a link truly has.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -8,8 +8,12 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, direction, link_of, within};
-use crate::{Inject, Plant, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, link_of, within};
+use crate::effects::surroundings::{Surroundings, direction};
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
+use crate::mechanics::plant::Plant;
 
 /// Density of what is hung on an arm to load it (kg/m³): steel.
 const DENSITY: f64 = 7850.0;

@@ -5,8 +5,11 @@ use robot::{Actuator, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
 
 /// Damping ratio of a rotor on bristles that a description gives: it has no key for it.
 const DAMPING_RATIO: f64 = 0.5;

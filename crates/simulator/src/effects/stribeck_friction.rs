@@ -5,8 +5,11 @@ use robot::{Robot, Stribeck};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
 
 /// Dry friction that is larger at rest and falls as the motor begins to move.
 ///

@@ -5,9 +5,12 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
 use crate::delay_line::DelayLine;
-use crate::{Inject, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::Inject;
 
 /// Effort and position of different instants in one row of the log.
 ///

@@ -7,8 +7,11 @@ use robot::{Ripple, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Effect, Mistake, Surroundings, joint_of, within};
-use crate::{Efforts, Inject, Moment, Truth};
+use crate::effects::effect::Effect;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::effects::truth::Truth;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
 
 /// Cogging and ripple of a motor: torque that its angle alone decides.
 ///

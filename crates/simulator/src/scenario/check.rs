@@ -5,13 +5,17 @@ use document::{Document, DocumentError, KeyPath};
 use motion::{Motion, MotionError};
 use robot::{Gain, Loaded, Robot};
 
-use super::files::resolved;
-use super::{HiddenSpec, ScenarioSpec};
-use crate::effects::{EffectSpec, Mistake, chain_rank};
-use crate::strangers::{self, StrangerSpec};
-use crate::{Inject, JointSensor, LinkEncoder, Sensors, SimulatorError, Stepping, VelocitySource};
+use crate::effects::mistake::Mistake;
+use crate::effects::spec::EffectSpec;
+use crate::error::SimulatorError;
+use crate::scenario::resolved::resolve;
+use crate::scenario::spec::{HiddenSpec, ScenarioSpec};
+use crate::sensors::{JointSensor, LinkEncoder, Sensors, VelocitySource};
+use crate::simulator::Stepping;
+use crate::strangers::spec::StrangerSpec;
+use crate::{effects, strangers};
 
-/// A scenario whose every value can be meant: ready to run.
+/// A checked scenario, ready to run.
 #[derive(Debug, Clone)]
 pub struct Scenario {
     spec: ScenarioSpec,
@@ -31,7 +35,7 @@ pub struct ScenarioRun {
     pub name: String,
     /// The motion that is followed.
     pub motion: Motion,
-    /// Time that the arm is held before the log begins (s).
+    /// Time for which the arm is held before the log begins (s).
     pub lead_in_s: f64,
 }
 
@@ -40,8 +44,7 @@ impl Scenario {
     ///
     /// # Errors
     ///
-    /// [`SimulatorError::Scenario`], at the value at fault; [`SimulatorError`] for a robot or a
-    /// log that it names and that cannot be used.
+    /// [`SimulatorError::Scenario`] at the value at fault, also for a robot or a log that cannot be used.
     pub fn from_document(document: &Document) -> Result<Self, SimulatorError> {
         let spec: ScenarioSpec = document.parse()?;
         let robot_key = KeyPath::root().key("robot");
@@ -58,7 +61,7 @@ impl Scenario {
         check.hidden()?;
         let rows_per_log = check.rows_per_log()?;
         let runs = check.runs()?;
-        let resolved = resolved(document, &spec);
+        let resolved = resolve(document, &spec);
         Ok(Self {
             robot: loaded.robot,
             robot_file,
@@ -76,12 +79,12 @@ impl Scenario {
         &self.robot
     }
 
-    /// Where the robot was read.
+    /// Path of the robot.
     pub fn robot_file(&self) -> &Path {
         &self.robot_file
     }
 
-    /// The scenario as one text that extends nothing.
+    /// The scenario as one self-contained text.
     pub fn resolved(&self) -> &str {
         &self.resolved
     }
@@ -96,17 +99,17 @@ impl Scenario {
         self.spec.seed
     }
 
-    /// Effects that it states.
+    /// The effects that it states.
     pub fn effects(&self) -> &[EffectSpec] {
         &self.spec.effect
     }
 
-    /// Strangers that it states.
+    /// The strangers that it states.
     pub fn strangers(&self) -> &[StrangerSpec] {
         &self.spec.stranger
     }
 
-    /// Effects that are to be drawn.
+    /// The hidden effects to draw.
     pub fn hidden(&self) -> Option<&HiddenSpec> {
         self.spec.hidden.as_ref()
     }
@@ -117,7 +120,7 @@ impl Scenario {
         Self { spec, ..self.clone() }
     }
 
-    /// What it says.
+    /// Its values.
     pub fn spec(&self) -> &ScenarioSpec {
         &self.spec
     }
@@ -130,7 +133,7 @@ impl Scenario {
         self.stepping
     }
 
-    /// Periods of the controller for one row of the log.
+    /// Periods of the controller per row of the log.
     pub(crate) fn rows_per_log(&self) -> usize {
         self.rows_per_log
     }
@@ -159,7 +162,7 @@ impl Scenario {
     }
 
     /// The same sensors without any error: no noise, no steps, no lag, and velocity as it is.
-    pub(crate) fn silent_sensors(&self) -> Sensors {
+    pub(crate) fn noise_free_sensors(&self) -> Sensors {
         let s = &self.spec.sensors;
         let joint = JointSensor { resolution: 0.0, position_noise: 0.0, effort_noise: 0.0 };
         let ideal = LinkEncoder { resolution: 0.0, noise: 0.0 };
@@ -170,24 +173,6 @@ impl Scenario {
         let joints = vec![joint; self.robot.joint_count()];
         Sensors::new(s.position, s.effort, VelocitySource::Ideal, joints, 0).with_links(links)
     }
-}
-
-/// Effects ready to act, in the order of the chain from command to reading.
-///
-/// # Errors
-///
-/// The index of the first effect that cannot act on the robot, with its mistake.
-pub(crate) fn injected(
-    effects: &[EffectSpec],
-    robot: &Robot,
-) -> Result<Vec<Box<dyn Inject>>, (usize, Mistake)> {
-    let mut ranked = Vec::with_capacity(effects.len());
-    for (index, effect) in effects.iter().enumerate() {
-        let inject = effect.inject(robot).map_err(|mistake| (index, mistake))?;
-        ranked.push((chain_rank(effect.kind()), inject));
-    }
-    ranked.sort_by_key(|(rank, _)| *rank);
-    Ok(ranked.into_iter().map(|(_, inject)| inject).collect())
 }
 
 struct Checker<'a> {
@@ -270,7 +255,7 @@ impl Checker<'_> {
         Ok(gains.into_iter().flatten().collect())
     }
 
-    /// The mistake that a joint has no gains, shown where some are given or else at the robot.
+    /// The error for a joint without gains, shown at the given gains or else at the robot.
     fn no_gains(&self, joint: &str) -> DocumentError {
         let given = &self.spec.control;
         let is_silent = given.gains.is_none()
@@ -359,7 +344,9 @@ impl Checker<'_> {
     }
 
     fn effects(&self) -> Result<(), DocumentError> {
-        let Err((index, mistake)) = injected(&self.spec.effect, &self.loaded.robot) else {
+        let Err((index, mistake)) =
+            effects::chain::inject_all(&self.spec.effect, &self.loaded.robot)
+        else {
             return Ok(());
         };
         let name = self.spec.effect[index].kind().name();
@@ -368,7 +355,7 @@ impl Checker<'_> {
     }
 
     fn strangers(&self) -> Result<(), DocumentError> {
-        let injected = strangers::injected(&self.spec.stranger, &self.loaded.robot);
+        let injected = strangers::chain::inject_all(&self.spec.stranger, &self.loaded.robot);
         let Err((index, mistake)) = injected else { return Ok(()) };
         let name = self.spec.stranger[index].kind().name();
         let path = KeyPath::root().key("stranger").index(index).key(name);

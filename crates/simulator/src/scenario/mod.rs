@@ -1,10 +1,9 @@
 //! Scenario files: what they may say, and how they are checked.
 
-mod check;
-mod files;
-mod spec;
+pub(crate) mod check;
+pub(crate) mod resolved;
+pub(crate) mod spec;
 
-pub(crate) use check::injected;
 pub use check::{Scenario, ScenarioRun};
 pub use spec::{
     ControlSpec, DropoutSpec, EngineSpec, HiddenSpec, Logged, RunSpec, ScenarioSpec, SensorSpec,

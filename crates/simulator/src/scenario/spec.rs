@@ -6,9 +6,9 @@ use motion::MotionSpec;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-use crate::effects::EffectSpec;
-use crate::strangers::StrangerSpec;
-use crate::{EffortSource, PositionSide, VelocitySource};
+use crate::effects::spec::EffectSpec;
+use crate::sensors::{EffortSource, PositionSide, VelocitySource};
+use crate::strangers::spec::StrangerSpec;
 
 /// A scenario: a robot, what is put into it, its sensors and the motions that are logged.
 ///

@@ -3,8 +3,12 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::{Inject, Moment};
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
+use crate::strangers::truth::StrangerTruth;
 
 /// A drive to which small commands are none.
 ///

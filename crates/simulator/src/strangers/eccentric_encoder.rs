@@ -6,8 +6,12 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::Inject;
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::Inject;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
+use crate::strangers::truth::StrangerTruth;
 
 /// Largest eccentricity that is drawn (rad): a disc of 20 mm that is 2 mm off.
 const LARGEST_DRAWN: f64 = 0.1;

@@ -4,9 +4,11 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::strangers::list::for_each_stranger;
+
 /// Makes [`StrangerKind`] of the list of strangers.
 macro_rules! kinds {
-    ($($(#[$meaning:meta])* $kind:ident = $name:literal,)*) => {
+    ($($(#[$meaning:meta])* $kind:ident $name:ident;)*) => {
         /// An effect of no catalogue, by name.
         #[derive(
             Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
@@ -24,39 +26,14 @@ macro_rules! kinds {
             /// The name used in files.
             pub const fn name(self) -> &'static str {
                 match self {
-                    $(Self::$kind => $name,)*
+                    $(Self::$kind => stringify!($name),)*
                 }
             }
         }
     };
 }
 
-kinds! {
-    /// Contact with something that gives.
-    SoftWall = "soft_wall",
-    /// A place that attracts.
-    MagnetWell = "magnet_well",
-    /// Torque from the speed of another joint.
-    SpeedCrosstalk = "speed_crosstalk",
-    /// A drive to which small commands are none.
-    DriveDeadZone = "drive_dead_zone",
-    /// Torque that changes no faster than it can.
-    TorqueRateLimit = "torque_rate_limit",
-    /// Dry friction that grows with the load of the neighbouring joints.
-    TiltingBearing = "tilting_bearing",
-    /// A base that tilts under the weight of its arm.
-    SoftMount = "soft_mount",
-    /// An encoder whose disc is off its centre.
-    EccentricEncoder = "eccentric_encoder",
-    /// Torque that is gone for moments.
-    TorqueDropout = "torque_dropout",
-    /// An integrator in the drive, up to its limit.
-    IntegratorWindup = "integrator_windup",
-    /// Drag with the square of the speed.
-    SquareDrag = "square_drag",
-    /// A place where the joint rubs.
-    Snag = "snag",
-}
+for_each_stranger!(kinds);
 
 impl StrangerKind {
     /// Whether an arm can have it at a joint: what comes from a neighbour needs one, what comes

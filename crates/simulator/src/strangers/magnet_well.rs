@@ -4,10 +4,13 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, span, stiffest, within,
-};
-use crate::{Efforts, Inject, Moment};
+use crate::effects::mistake::Mistake;
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
+use crate::strangers::bump::Bump;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::{Stranger, span, stiffest};
+use crate::strangers::truth::StrangerTruth;
 
 /// A place that attracts the link, as two magnets that pass each other do.
 ///
@@ -30,20 +33,22 @@ pub struct MagnetWell {
     pub peak_nm: f64,
 }
 
+impl MagnetWell {
+    fn bump(&self) -> Bump<'_> {
+        let (centre, width) = (self.centre_rad, self.width_rad);
+        Bump { joint: &self.joint, centre, width, peak: self.peak_nm }
+    }
+}
+
 impl Stranger for MagnetWell {
     const KIND: StrangerKind = StrangerKind::MagnetWell;
 
     fn truth(&self) -> StrangerTruth {
-        let parameters =
-            [("centre", self.centre_rad), ("width", self.width_rad), ("peak", self.peak_nm)];
-        StrangerTruth::at_joint(Self::KIND, &self.joint, &parameters)
+        self.bump().truth(Self::KIND)
     }
 
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
-        let joint = joint_of(robot, &self.joint)?;
-        within("centre_rad", self.centre_rad, -100.0, 100.0)?;
-        within("width_rad", self.width_rad, 1e-4, 100.0)?;
-        within("peak_nm", self.peak_nm, 0.0, 1000.0)?;
+        let joint = self.bump().check(robot)?;
         Ok(Box::new(Injected { joint, well: self.clone() }))
     }
 

@@ -4,8 +4,13 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, span, within};
-use crate::{Efforts, Inject, Moment};
+use crate::effects::mistake::Mistake;
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
+use crate::strangers::bump::Bump;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::{Stranger, span};
+use crate::strangers::truth::StrangerTruth;
 
 /// A place where the joint rubs: a narrow bump of dry friction.
 ///
@@ -28,20 +33,22 @@ pub struct Snag {
     pub peak_nm: f64,
 }
 
+impl Snag {
+    fn bump(&self) -> Bump<'_> {
+        let (centre, width) = (self.centre_rad, self.width_rad);
+        Bump { joint: &self.joint, centre, width, peak: self.peak_nm }
+    }
+}
+
 impl Stranger for Snag {
     const KIND: StrangerKind = StrangerKind::Snag;
 
     fn truth(&self) -> StrangerTruth {
-        let parameters =
-            [("centre", self.centre_rad), ("width", self.width_rad), ("peak", self.peak_nm)];
-        StrangerTruth::at_joint(Self::KIND, &self.joint, &parameters)
+        self.bump().truth(Self::KIND)
     }
 
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
-        let joint = joint_of(robot, &self.joint)?;
-        within("centre_rad", self.centre_rad, -100.0, 100.0)?;
-        within("width_rad", self.width_rad, 1e-4, 100.0)?;
-        within("peak_nm", self.peak_nm, 0.0, 1000.0)?;
+        let joint = self.bump().check(robot)?;
         Ok(Box::new(Injected { joint, snag: self.clone() }))
     }
 

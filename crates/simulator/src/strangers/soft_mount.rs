@@ -7,9 +7,14 @@ use robot::{Link, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, within};
-use crate::effects::horizontal;
-use crate::{Efforts, Inject, Moment, Plant};
+use crate::effects::gravity_direction::horizontal;
+use crate::effects::mistake::{Mistake, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
+use crate::mechanics::plant::Plant;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
+use crate::strangers::truth::StrangerTruth;
 
 /// A base that tilts under the weight of its arm, as one on rubber or on a thin table does.
 ///

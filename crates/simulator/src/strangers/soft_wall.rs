@@ -4,10 +4,12 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, span, stiffest, within,
-};
-use crate::{Efforts, Inject, Moment};
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Efforts, Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::{Stranger, span, stiffest};
+use crate::strangers::truth::StrangerTruth;
 
 /// Something soft in the way of a link: a spring with damping on one side.
 ///

@@ -3,13 +3,29 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::*;
-use crate::Inject;
-use crate::effects::{Mistake, Surroundings};
+use crate::effects::mistake::Mistake;
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::Inject;
+use crate::strangers::drive_dead_zone::DriveDeadZone;
+use crate::strangers::eccentric_encoder::EccentricEncoder;
+use crate::strangers::integrator_windup::IntegratorWindup;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::list::for_each_stranger;
+use crate::strangers::magnet_well::MagnetWell;
+use crate::strangers::snag::Snag;
+use crate::strangers::soft_mount::SoftMount;
+use crate::strangers::soft_wall::SoftWall;
+use crate::strangers::speed_crosstalk::SpeedCrosstalk;
+use crate::strangers::square_drag::SquareDrag;
+use crate::strangers::stranger::Stranger;
+use crate::strangers::tilting_bearing::TiltingBearing;
+use crate::strangers::torque_dropout::TorqueDropout;
+use crate::strangers::torque_rate_limit::TorqueRateLimit;
+use crate::strangers::truth::StrangerTruth;
 
 /// Makes [`StrangerSpec`] of the list of strangers, and calls the [`Stranger`] that it is.
 macro_rules! strangers {
-    ($($(#[$meaning:meta])* $name:ident,)*) => {
+    ($($(#[$meaning:meta])* $name:ident $file:ident;)*) => {
         /// Any stranger, as `[[stranger]]` of a scenario states it: one key, the stranger's name.
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(rename_all = "snake_case")]
@@ -59,29 +75,4 @@ macro_rules! strangers {
     };
 }
 
-strangers! {
-    /// Contact with something that gives.
-    SoftWall,
-    /// A place that attracts.
-    MagnetWell,
-    /// Torque from the speed of another joint.
-    SpeedCrosstalk,
-    /// A drive to which small commands are none.
-    DriveDeadZone,
-    /// Torque that changes no faster than it can.
-    TorqueRateLimit,
-    /// Dry friction that grows with the load of the neighbouring joints.
-    TiltingBearing,
-    /// A base that tilts under the weight of its arm.
-    SoftMount,
-    /// An encoder whose disc is off its centre.
-    EccentricEncoder,
-    /// Torque that is gone for moments.
-    TorqueDropout,
-    /// An integrator in the drive, up to its limit.
-    IntegratorWindup,
-    /// Drag with the square of the speed.
-    SquareDrag,
-    /// A place where the joint rubs.
-    Snag,
-}
+for_each_stranger!(strangers);

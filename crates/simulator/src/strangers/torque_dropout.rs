@@ -6,9 +6,13 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::run::mixed;
-use crate::{Inject, Moment};
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Inject, Moment};
+use crate::seed::mix_seed;
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
+use crate::strangers::truth::StrangerTruth;
 
 /// Torque that is gone for moments, as with a loose plug.
 ///
@@ -104,7 +108,7 @@ impl Injected {
 
 impl Inject for Injected {
     fn on_start(&mut self, q: &[f64]) {
-        let seed = q.iter().fold(self.seed, |seed, q| mixed(seed, q.to_bits()));
+        let seed = q.iter().fold(self.seed, |seed, q| mix_seed(seed, q.to_bits()));
         self.random = ChaCha8Rng::seed_from_u64(seed);
         self.start_s = self.wait();
         self.end_s = f64::NEG_INFINITY;

@@ -4,8 +4,12 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Mistake, Stranger, StrangerKind, StrangerTruth, Surroundings, joint_of, within};
-use crate::{Inject, Moment};
+use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::surroundings::Surroundings;
+use crate::mechanics::inject::{Inject, Moment};
+use crate::strangers::kind::StrangerKind;
+use crate::strangers::stranger::Stranger;
+use crate::strangers::truth::StrangerTruth;
 
 /// Torque that changes no faster than it can, as of a drive short of voltage.
 ///

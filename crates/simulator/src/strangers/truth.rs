@@ -2,9 +2,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::StrangerKind;
+use crate::strangers::kind::StrangerKind;
 
-/// One stranger that was put into a simulation.
+/// One stranger in a simulation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StrangerTruth {
     /// The stranger.

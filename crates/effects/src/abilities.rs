@@ -1,0 +1,74 @@
+//! What some effects have beyond an [`Effect`](crate::effect::Effect): one trait an ability. `P` is the kind of
+//! place of the effect.
+
+use robot::{Actuator, Robot};
+
+use crate::column::Column;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::AtJoint;
+use crate::priors::Priors;
+
+/// Its columns are not linear in one of its parameters, the shape, of which some trial values are compared.
+pub trait HasShape {
+    /// Trial values for the drive of a joint; empty where the drive has a value already.
+    fn shapes(&self, at: AtJoint, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
+
+    /// Gives the drive of `joint` the effect with one of its `shapes` and no size.
+    fn sow(&self, joint: usize, drive: &mut Actuator, shape: f64);
+
+    /// Takes the shape back to that of the drive `before`, where the effect has stayed without size.
+    fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator);
+}
+
+/// It lies between the first encoder of a joint and the link, where a second encoder shows it.
+pub trait BetweenEncoders {
+    /// What one unit of each weight adds to the position that the first encoder reports beyond that of the link
+    /// (rad or m).
+    fn twist(&self, at: AtJoint, motion: &Motion) -> Vec<Column>;
+}
+
+/// Descriptions made by CAD are usually wrong by a known amount.
+pub trait HasCadError<P> {
+    /// Standard deviation of each weight due to the errors that every description has.
+    fn everyday(&self, at: P, robot: &Robot, priors: &Priors) -> Vec<f64>;
+}
+
+/// Few arms have it.
+pub trait IsRare<P> {
+    /// Log odds (nats) against an arm that has the effect there, beyond those against any effect.
+    fn rarity(&self, at: P, robot: &Robot, priors: &Priors) -> f64;
+}
+
+/// Weights within their bounds may still be impossible together.
+pub trait IsRestricted<P> {
+    /// Whether the robot changed by `weights`, each within its bounds, is possible.
+    fn admissible(&self, at: P, robot: &Robot, weights: &[f64], priors: &Priors) -> bool;
+}
+
+/// Whether it is possible shows in the extended robot only.
+pub trait CanBeUnsound<P> {
+    /// Whether the effect is possible in the robot that has it, with all other effects included.
+    fn is_sound(&self, at: P, extended: &Robot, priors: &Priors) -> bool;
+}
+
+/// A simpler effect of the same place is a special case of it.
+pub trait HasPlainer<P> {
+    /// Indices of the weights that, at zero, reduce it to a simpler effect, each with its value in the second of
+    /// the `robots`, nominal and extended.
+    fn more_than_plain(
+        &self,
+        at: P,
+        robots: [&Robot; 2],
+        frame: &Frame,
+        priors: &Priors,
+    ) -> Vec<(usize, f64)>;
+}
+
+/// Logs may show it in one shape and hide it in another.
+pub trait CanHide<P> {
+    /// How many times larger than in `robot` the effect has to be for logs of `frame` to show it, in the shape in
+    /// which they show it least.
+    fn largest_unseen(&self, at: P, robot: &Robot, frame: &Frame, priors: &Priors) -> f64;
+}

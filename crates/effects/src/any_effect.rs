@@ -1,0 +1,196 @@
+use catalogue::{EffectKind, Parameter};
+use robot::{Actuator, Robot};
+
+use crate::abilities::HasShape;
+use crate::column::Column;
+use crate::effect::Effect;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::{AtJoint, Place, TypedPlace};
+use crate::priors::Priors;
+use crate::quantity::Quantity;
+use crate::traits::Nature;
+
+/// An [`Effect`] of any kind of place, as [`model`](crate::model) gives it.
+///
+/// This is the only file in which a [`Place`] becomes that of an effect. At a place of another kind an effect has no
+/// columns and changes no robot.
+pub trait AnyEffect: Sync {
+    /// See [`Effect::kind`].
+    fn kind(&self) -> EffectKind;
+
+    /// See [`Effect::nature`].
+    fn nature(&self) -> Nature;
+
+    /// See [`Effect::remedy`].
+    ///
+    /// # Errors
+    ///
+    /// The reason why the effect cannot be compensated.
+    fn remedy(&self) -> Result<&'static str, &'static str>;
+
+    /// See [`Effect::left_out`].
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str>;
+
+    /// See [`Effect::parameters`].
+    fn parameters(&self) -> &'static [Parameter];
+
+    /// See [`Effect::shape`].
+    fn shape(&self) -> Option<&dyn HasShape>;
+
+    /// See [`Effect::places`].
+    fn places(&self, robot: &Robot) -> Vec<Place>;
+
+    /// See [`Effect::columns`].
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column>;
+
+    /// See [`BetweenEncoders`](crate::BetweenEncoders); no columns of an effect that is elsewhere.
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column>;
+
+    /// See [`Effect::prior`].
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
+
+    /// See [`HasCadError`](crate::HasCadError).
+    fn everyday(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>>;
+
+    /// See [`IsRare`](crate::IsRare); 0 of an effect that is not.
+    fn rarity(&self, place: Place, robot: &Robot, priors: &Priors) -> f64;
+
+    /// See [`Effect::bounds`].
+    fn bounds(&self, place: Place, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)>;
+
+    /// See [`IsRestricted`](crate::IsRestricted).
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64], priors: &Priors) -> bool;
+
+    /// See [`CanBeUnsound`](crate::CanBeUnsound).
+    fn is_sound(&self, place: Place, extended: &Robot, priors: &Priors) -> bool;
+
+    /// See [`HasPlainer`](crate::HasPlainer); empty where the effect is nothing more than its size.
+    fn more_than_plain(
+        &self,
+        place: Place,
+        robots: [&Robot; 2],
+        frame: &Frame,
+        priors: &Priors,
+    ) -> Vec<(usize, f64)>;
+
+    /// See [`CanHide`](crate::CanHide); 1 of an effect that cannot.
+    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame, priors: &Priors) -> f64;
+
+    /// See [`Effect::extend`].
+    fn extend(
+        &self,
+        place: Place,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    );
+
+    /// See [`Effect::quantities`].
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
+}
+
+impl<E: Effect> AnyEffect for E {
+    fn kind(&self) -> EffectKind {
+        Effect::kind(self)
+    }
+
+    fn nature(&self) -> Nature {
+        Effect::nature(self)
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Effect::remedy(self)
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        Effect::left_out(self, drive)
+    }
+
+    fn parameters(&self) -> &'static [Parameter] {
+        Effect::parameters(self)
+    }
+
+    fn shape(&self) -> Option<&dyn HasShape> {
+        Effect::shape(self)
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<Place> {
+        Effect::places(self, robot).into_iter().map(TypedPlace::place).collect()
+    }
+
+    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        E::At::of(place).map(|at| Effect::columns(self, at, motion)).unwrap_or_default()
+    }
+
+    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+        let between = self.between_encoders().zip(AtJoint::of(place));
+        between.map(|(effect, at)| effect.twist(at, motion)).unwrap_or_default()
+    }
+
+    fn prior(&self, place: Place, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
+        E::At::of(place).map(|at| Effect::prior(self, at, robot, scale, priors)).unwrap_or_default()
+    }
+
+    fn everyday(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
+        Some(self.cad_error()?.everyday(E::At::of(place)?, robot, priors))
+    }
+
+    fn rarity(&self, place: Place, robot: &Robot, priors: &Priors) -> f64 {
+        self.rare().zip(E::At::of(place)).map_or(0.0, |(rare, at)| rare.rarity(at, robot, priors))
+    }
+
+    fn bounds(&self, place: Place, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        E::At::of(place).map(|at| Effect::bounds(self, at, robot, priors)).unwrap_or_default()
+    }
+
+    fn admissible(&self, place: Place, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
+        self.restricted().is_none_or(|restricted| {
+            E::At::of(place).is_some_and(|at| restricted.admissible(at, robot, weights, priors))
+        })
+    }
+
+    fn is_sound(&self, place: Place, extended: &Robot, priors: &Priors) -> bool {
+        self.can_be_unsound().is_none_or(|effect| {
+            E::At::of(place).is_some_and(|at| effect.is_sound(at, extended, priors))
+        })
+    }
+
+    fn more_than_plain(
+        &self,
+        place: Place,
+        robots: [&Robot; 2],
+        frame: &Frame,
+        priors: &Priors,
+    ) -> Vec<(usize, f64)> {
+        let plainer = self.plainer().zip(E::At::of(place));
+        plainer
+            .map(|(effect, at)| effect.more_than_plain(at, robots, frame, priors))
+            .unwrap_or_default()
+    }
+
+    fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame, priors: &Priors) -> f64 {
+        let hidden = self.can_hide().zip(E::At::of(place));
+        hidden.map_or(1.0, |(effect, at)| effect.largest_unseen(at, robot, frame, priors))
+    }
+
+    fn extend(
+        &self,
+        place: Place,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    ) {
+        if let Some(at) = E::At::of(place) {
+            Effect::extend(self, at, robot, weights, frame, priors);
+        }
+    }
+
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let at = E::At::of(place);
+        at.map(|at| Effect::quantities(self, at, nominal, extended)).unwrap_or_default()
+    }
+}

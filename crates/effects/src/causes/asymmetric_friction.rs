@@ -1,0 +1,133 @@
+use catalogue::EffectKind;
+use robot::{Actuator, Robot};
+
+use crate::abilities::{HasPlainer, IsRestricted};
+use crate::bounds::{down_to_zero, unbounded};
+use crate::column::{Column, at_joint};
+use crate::effect::{EASED_LEVEL, Effect};
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
+use crate::quantity::{Quantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
+
+/// `forward` for positive and `-backward` for negative velocity: two weights a joint,
+/// the change of the mean level and half the change of the difference.
+pub(crate) struct AsymmetricFriction;
+
+impl Effect for AsymmetricFriction {
+    type At = AtJoint;
+
+    fn kind(&self) -> EffectKind {
+        EffectKind::AsymmetricFriction
+    }
+
+    fn nature(&self) -> Nature {
+        const RELATIONS: &[Relation] = &[
+            Relation::Together(&[EffectKind::CoulombFriction, EffectKind::TorqueOffset]),
+            Relation::PlainerHere(EffectKind::CoulombFriction),
+        ];
+        Nature::new(
+            Linearity::Exact,
+            Imitable::No,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::Direct,
+            RELATIONS,
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok(EASED_LEVEL)
+    }
+
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+        let against = motion.coulomb(j).zip(&motion.direction[j]).map(|(c, s)| c * s.signum());
+        vec![at_joint(j, motion.coulomb(j)), at_joint(j, against)]
+    }
+
+    /// Levels as large as the effort itself.
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, _: &Priors) -> Vec<f64> {
+        vec![scale.effort[j]; 2]
+    }
+
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
+        let a = &robot.links()[j].actuator;
+        [down_to_zero(a.coulomb_forward.min(a.coulomb_backward)), unbounded(1)].concat()
+    }
+
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
+        let [level, skew] = weights else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.coulomb_forward += level + skew;
+            link.actuator.coulomb_backward += level - skew;
+        }
+    }
+
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let robots = [nominal, extended];
+        vec![
+            actuator_quantity(self.kind(), 0, j, robots, |a| a.coulomb_forward),
+            actuator_quantity(self.kind(), 1, j, robots, |a| a.coulomb_backward),
+        ]
+    }
+
+    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+        Some(self)
+    }
+
+    fn plainer(&self) -> Option<&dyn HasPlainer<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl IsRestricted<AtJoint> for AsymmetricFriction {
+    /// A larger difference is that of an offset.
+    fn admissible(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        weights: &[f64],
+        priors: &Priors,
+    ) -> bool {
+        let [level, skew] = weights else { return false };
+        let a = &robot.links()[j].actuator;
+        let (forward, backward) =
+            (a.coulomb_forward + level + skew, a.coulomb_backward + level - skew);
+        (forward - backward).abs() <= priors.asymmetry_limit * (forward + backward)
+    }
+}
+
+impl HasPlainer<AtJoint> for AsymmetricFriction {
+    /// Half the change of the difference: without it both levels have changed alike.
+    fn more_than_plain(
+        &self,
+        AtJoint(j): AtJoint,
+        [nominal, extended]: [&Robot; 2],
+        _: &Frame,
+        _: &Priors,
+    ) -> Vec<(usize, f64)> {
+        let skew = |robot: &Robot| {
+            let a = &robot.links()[j].actuator;
+            0.5 * (a.coulomb_forward - a.coulomb_backward)
+        };
+        vec![(1, skew(extended) - skew(nominal))]
+    }
+}

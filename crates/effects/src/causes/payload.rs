@@ -1,0 +1,97 @@
+use catalogue::EffectKind;
+use nalgebra::Vector3;
+use robot::{Actuator, Inertia, Robot};
+
+use crate::abilities::IsRestricted;
+use crate::causes::inertial_parameters::{InertialParameters, mass_and_com, quantities};
+use crate::column::Column;
+use crate::effect::{Effect, INVERSE_DYNAMICS};
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::InLink;
+use crate::priors::Priors;
+use crate::quantity::Quantity;
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+
+/// `Y_last pi_payload`: ten weights, the inertial parameters of a body held by a last
+/// link, about that link's origin.
+///
+/// The columns are those of the link's own inertial parameters; a payload differs from a
+/// wrong link only in that it must be a body: it weighs something, and within reach.
+pub(crate) struct Payload;
+
+impl Effect for Payload {
+    type At = InLink;
+
+    fn kind(&self) -> EffectKind {
+        EffectKind::Payload
+    }
+
+    fn nature(&self) -> Nature {
+        Nature::new(
+            Linearity::Exact,
+            Imitable::No,
+            Law::Firm,
+            Seat::Elsewhere,
+            Weights::Direct,
+            &[],
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok(INVERSE_DYNAMICS)
+    }
+
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
+    }
+
+    /// Every link that carries no other.
+    fn places(&self, robot: &Robot) -> Vec<InLink> {
+        let carries = |i: usize| robot.links().iter().any(|l| l.parent == Some(i));
+        (0..robot.joint_count()).filter(|&i| !carries(i)).map(InLink).collect()
+    }
+
+    fn columns(&self, place: InLink, motion: &Motion) -> Vec<Column> {
+        InertialParameters.columns(place, motion)
+    }
+
+    fn prior(&self, place: InLink, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
+        InertialParameters.prior(place, robot, scale, priors)
+    }
+
+    /// As for the link's own parameters: what makes it a body is tested together.
+    fn bounds(&self, place: InLink, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
+        InertialParameters.bounds(place, robot, priors)
+    }
+
+    fn extend(
+        &self,
+        place: InLink,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    ) {
+        InertialParameters.extend(place, robot, weights, frame, priors);
+    }
+
+    fn quantities(&self, InLink(link): InLink, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let before = nominal.links()[link].inertia.parameters();
+        let mut body = extended.links()[link].inertia.parameters();
+        body.iter_mut().zip(before).for_each(|(b, a)| *b -= a);
+        quantities(self.kind(), [0.0; 4], mass_and_com(&Inertia::from_parameters(&body)))
+    }
+
+    fn restricted(&self) -> Option<&dyn IsRestricted<InLink>> {
+        Some(self)
+    }
+}
+
+impl IsRestricted<InLink> for Payload {
+    fn admissible(&self, _: InLink, _: &Robot, weights: &[f64], priors: &Priors) -> bool {
+        let [mass, x, y, z, ..] = weights else { return false };
+        *mass > 0.0 && Vector3::new(*x, *y, *z).norm() <= priors.payload_reach_m * mass
+    }
+}

@@ -1,0 +1,164 @@
+use catalogue::EffectKind;
+use robot::{Actuator, Robot};
+
+use crate::abilities::CanBeUnsound;
+use crate::bounds::down_to_zero;
+use crate::column::{Column, at_joint};
+use crate::effect::Effect;
+use crate::motion::drive::{bending, bristles};
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
+use crate::quantity::{Quantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+
+/// Dry friction that builds up over a way. In a robot without, one weight a joint: the friction (N·m or
+/// N) that builds up over a small way instead of at once. In a robot with a way two: the changes of the
+/// way and of the damping, which has no sense until there is a way to damp.
+///
+/// ```text
+/// s(way) - sign(qd)
+/// (level - damping |qd|) (s(1.1 way) - s(0.9 way)) / (0.2 way),   qd - |qd| s(way)
+/// ```
+pub(crate) struct PreslidingFriction;
+
+/// Way for which the column of a robot without one is made (rad or m).
+const SMALL: f64 = 0.002;
+
+/// Relative difference of the ways whose motions are compared.
+const STEP: f64 = 0.1;
+
+/// Least and largest change of a way in one step, over the way.
+const WAY_STEP: (f64, f64) = (-0.5, 1.0);
+
+fn level(drive: &Actuator) -> f64 {
+    0.5 * (drive.coulomb_forward + drive.coulomb_backward)
+}
+
+impl Effect for PreslidingFriction {
+    type At = AtJoint;
+
+    fn kind(&self) -> EffectKind {
+        EffectKind::PreslidingFriction
+    }
+
+    fn nature(&self) -> Nature {
+        const RELATIONS: &[Relation] =
+            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::NearRest)];
+        Nature::new(
+            Linearity::Tangent,
+            Imitable::Yes,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::SeenBy(1),
+            RELATIONS,
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("its level as that of Coulomb friction, not the way over which it builds up")
+    }
+
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+        drive.presliding.map(|_| "presliding_rad")
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+        let (gain, drive) = (motion.gain[j], &motion.drives[j]);
+        let held = |way: f64| bristles(&motion.q[j], way);
+        let Some(way) = drive.presliding else {
+            let slower = held(SMALL).into_iter().zip(&motion.direction[j]);
+            return vec![at_joint(j, slower.map(|(held, s)| gain * (held - s)))];
+        };
+        let (long, short) = (held((1.0 + STEP) * way), held((1.0 - STEP) * way));
+        let (level, damping) = (level(drive), drive.presliding_damping.unwrap_or(0.0));
+        let per_way = gain / (2.0 * STEP * way);
+        let share = |((long, short), qd): ((f64, f64), &f64)| {
+            per_way * (level - damping * qd.abs()) * (long - short)
+        };
+        let longer = long.into_iter().zip(short).zip(&motion.qd[j]).map(share);
+        let speeds = motion.qd[j].iter().zip(&motion.direction[j]);
+        let damped = speeds.map(|(qd, s)| gain * bending(*qd, *s));
+        vec![at_joint(j, longer), at_joint(j, damped)]
+    }
+
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
+        match robot.links()[j].actuator.presliding {
+            Some(_) => vec![priors.presliding_way_sd, scale.effort_per(j, &scale.speed)],
+            None => vec![scale.effort[j]],
+        }
+    }
+
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
+        let drive = &robot.links()[j].actuator;
+        let Some(way) = drive.presliding else { return vec![(0.0, f64::INFINITY)] };
+        let (least, most) = WAY_STEP;
+        let damping = down_to_zero(drive.presliding_damping.unwrap_or(0.0));
+        [vec![(least * way, most * way)], damping].concat()
+    }
+
+    /// To first order in the way, half the friction over a way is all of it over half the way.
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    ) {
+        let [change, damping @ ..] = weights else { return };
+        let Some(link) = robot.link_mut(j) else { return };
+        let drive = &mut link.actuator;
+        let level = level(drive);
+        let way = match drive.presliding {
+            Some(way) => way + change,
+            None if level > 0.0 => SMALL * change / level,
+            None => 0.0,
+        };
+        let resolved = frame.resolution.get(j).map_or(0.0, |r| priors.presliding_resolved * r);
+        if drive.presliding.is_some() || way > 0.0 {
+            // What is not resolved has no way, which is not sound.
+            drive.presliding =
+                Some(if way >= resolved { way } else { 0.5 * priors.presliding_shortest_way });
+        }
+        if let [damping] = damping {
+            drive.presliding_damping = Some(drive.presliding_damping.unwrap_or(0.0) + damping);
+        }
+    }
+
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        let robots = [nominal, extended];
+        let stiffness = |a: &Actuator| a.presliding.map_or(f64::INFINITY, |way| level(a) / way);
+        vec![
+            actuator_quantity(self.kind(), 0, j, robots, stiffness),
+            actuator_quantity(self.kind(), 1, j, robots, level),
+            actuator_quantity(self.kind(), 2, j, robots, |a| a.presliding_damping.unwrap_or(0.0)),
+        ]
+    }
+
+    fn can_be_unsound(&self) -> Option<&dyn CanBeUnsound<AtJoint>> {
+        Some(self)
+    }
+}
+
+impl CanBeUnsound<AtJoint> for PreslidingFriction {
+    /// Whether there is dry friction that builds up, and slowly enough to be told from one that is
+    /// there at once.
+    fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, priors: &Priors) -> bool {
+        let drive = &extended.links()[j].actuator;
+        drive.presliding.is_some_and(|way| way >= priors.presliding_shortest_way)
+            && level(drive) > 0.0
+    }
+}

@@ -1,0 +1,78 @@
+use catalogue::EffectKind;
+use robot::{Actuator, Robot};
+
+use crate::bounds::down_to_zero;
+use crate::column::{Column, at_joint};
+use crate::effect::Effect;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::{AtJoint, every_joint};
+use crate::priors::Priors;
+use crate::quantity::{Quantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+
+/// `viscous qd`: one weight a joint, the change of `viscous`.
+pub(crate) struct ViscousFriction;
+
+impl Effect for ViscousFriction {
+    type At = AtJoint;
+
+    fn kind(&self) -> EffectKind {
+        EffectKind::ViscousFriction
+    }
+
+    fn nature(&self) -> Nature {
+        Nature::new(
+            Linearity::Exact,
+            Imitable::No,
+            Law::Rough,
+            Seat::Elsewhere,
+            Weights::Direct,
+            &[],
+        )
+    }
+
+    fn remedy(&self) -> Result<&'static str, &'static str> {
+        Ok("its torque at the velocity of the motor")
+    }
+
+    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+        None
+    }
+
+    fn places(&self, robot: &Robot) -> Vec<AtJoint> {
+        every_joint(robot)
+    }
+
+    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+        vec![at_joint(j, motion.qd[j].iter().map(|v| motion.gain[j] * v))]
+    }
+
+    /// Friction torque as large as the effort itself at the largest speed.
+    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, _: &Priors) -> Vec<f64> {
+        vec![scale.effort_per(j, &scale.speed)]
+    }
+
+    fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
+        down_to_zero(robot.links()[j].actuator.viscous)
+    }
+
+    fn extend(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &mut Robot,
+        weights: &[f64],
+        _: &Frame,
+        _: &Priors,
+    ) {
+        let [change] = weights else { return };
+        if let Some(link) = robot.link_mut(j) {
+            link.actuator.viscous += change;
+        }
+    }
+
+    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+        vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.viscous)]
+    }
+}

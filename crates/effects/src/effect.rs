@@ -1,0 +1,118 @@
+use catalogue::{EffectKind, Parameter};
+use robot::{Actuator, Robot};
+
+use crate::abilities::{
+    BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare, IsRestricted,
+};
+use crate::column::Column;
+use crate::motion::frame::Frame;
+use crate::motion::run_motion::Motion;
+use crate::motion::scale::Scale;
+use crate::place::TypedPlace;
+use crate::priors::Priors;
+use crate::quantity::Quantity;
+use crate::traits::Nature;
+
+/// What is asked of a motor against dry friction, whatever its law.
+pub(crate) const EASED_LEVEL: &str =
+    "its level in the direction of the motor, eased through rest: tanh(qd / rest speed)";
+
+/// What is asked of the motors against changes of the bodies.
+pub(crate) const INVERSE_DYNAMICS: &str = "inverse dynamics of the robot that has it";
+
+/// The model side of one effect.
+///
+/// Weights are changes from the nominal robot: all zero means the robot as described. Every method without a body
+/// is a question that each effect answers in its own file. The last eight are abilities that few effects have: an
+/// effect with one returns itself there.
+pub trait Effect: Sync {
+    /// Where it acts: at a joint, in a link or at the base.
+    type At: TypedPlace;
+
+    /// The effect.
+    fn kind(&self) -> EffectKind;
+
+    /// What is known of it before any log.
+    fn nature(&self) -> Nature;
+
+    /// What [`Compensation`](crate::Compensation) does against it; where it does nothing, why.
+    ///
+    /// # Errors
+    ///
+    /// The reason why the effect cannot be compensated.
+    fn remedy(&self) -> Result<&'static str, &'static str>;
+
+    /// Key of `robot.toml` that describes it in `drive`, where a torque of one state alone leaves it out: where it
+    /// needs the past, the motion of the other side of a transmission, or other times.
+    fn left_out(&self, drive: &Actuator) -> Option<&'static str>;
+
+    /// Those of its parameters that it finds.
+    fn parameters(&self) -> &'static [Parameter] {
+        self.kind().entry().parameters
+    }
+
+    /// Where it could act in this robot.
+    fn places(&self, robot: &Robot) -> Vec<Self::At>;
+
+    /// One column a weight, for the motion of one run.
+    fn columns(&self, at: Self::At, motion: &Motion) -> Vec<Column>;
+
+    /// Standard deviation of each weight before any data is seen.
+    fn prior(&self, at: Self::At, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
+
+    /// Lowest and highest physically possible value of each weight.
+    fn bounds(&self, at: Self::At, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)>;
+
+    /// Changes the robot by `weights`, whose columns were made in `frame`.
+    fn extend(
+        &self,
+        at: Self::At,
+        robot: &mut Robot,
+        weights: &[f64],
+        frame: &Frame,
+        priors: &Priors,
+    );
+
+    /// The parameters that a user reads, from the robot before and after.
+    fn quantities(&self, at: Self::At, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
+
+    /// See [`HasShape`].
+    fn shape(&self) -> Option<&dyn HasShape> {
+        None
+    }
+
+    /// See [`BetweenEncoders`].
+    fn between_encoders(&self) -> Option<&dyn BetweenEncoders> {
+        None
+    }
+
+    /// See [`HasCadError`].
+    fn cad_error(&self) -> Option<&dyn HasCadError<Self::At>> {
+        None
+    }
+
+    /// See [`IsRare`].
+    fn rare(&self) -> Option<&dyn IsRare<Self::At>> {
+        None
+    }
+
+    /// See [`IsRestricted`].
+    fn restricted(&self) -> Option<&dyn IsRestricted<Self::At>> {
+        None
+    }
+
+    /// See [`CanBeUnsound`].
+    fn can_be_unsound(&self) -> Option<&dyn CanBeUnsound<Self::At>> {
+        None
+    }
+
+    /// See [`HasPlainer`].
+    fn plainer(&self) -> Option<&dyn HasPlainer<Self::At>> {
+        None
+    }
+
+    /// See [`CanHide`].
+    fn can_hide(&self) -> Option<&dyn CanHide<Self::At>> {
+        None
+    }
+}

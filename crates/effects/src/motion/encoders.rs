@@ -1,0 +1,17 @@
+/// Position, velocity and acceleration, each `[joint][sample]`.
+pub(crate) type State = [Vec<Vec<f64>>; 3];
+
+/// Position, velocity and acceleration of one link, each `[sample]`.
+pub(crate) type Link = [Vec<f64>; 3];
+
+/// What the encoders of a run say.
+#[derive(Debug, Clone)]
+pub struct Encoders {
+    /// Position, velocity and acceleration as reported, each `[joint][sample]` (rad or m, /s,
+    /// /s²).
+    pub reported: [Vec<Vec<f64>>; 3],
+    /// The same of the links that have an encoder of their own; `reported` is then the motor's.
+    pub links: Vec<Option<[Vec<f64>; 3]>>,
+    /// Time from when the drives were cold to the first sample (s).
+    pub since_cold_s: f64,
+}

@@ -1,0 +1,33 @@
+use logs::{JointNoise, Prepared, rest_speeds};
+
+/// What all runs of a diagnosis share.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Speed below which a joint counts as at rest (rad/s or m/s).
+    pub rest_speed: Vec<f64>,
+    /// Middle of the range of each joint over all runs (rad or m).
+    pub centre: Vec<f64>,
+    /// Half that range (rad or m).
+    pub reach: Vec<f64>,
+    /// Change of position that the logs resolve: the step of the encoder, or two standard deviations
+    /// of its noise behind four times the cut-off (rad or m).
+    pub resolution: Vec<f64>,
+}
+
+impl Frame {
+    /// What the runs of some logs share.
+    pub fn of_logs(logs: &Prepared) -> Self {
+        let rest_speed = rest_speeds(logs);
+        let spans = (0..rest_speed.len()).map(|j| logs.span(j));
+        let (centre, reach) =
+            spans.map(|(low, high)| (0.5 * (low + high), 0.5 * (high - low))).unzip();
+        let resolution = logs.noise.iter().map(|noise| resolution(noise, logs.cutoff_hz)).collect();
+        Self { rest_speed, centre, reach, resolution }
+    }
+}
+
+/// Change of position that a joint's encoder resolves (rad or m).
+fn resolution(noise: &JointNoise, cutoff_hz: f64) -> f64 {
+    let deviation = (4.0 * cutoff_hz * noise.position.density).sqrt();
+    noise.position.step.unwrap_or(0.0).max(2.0 * deviation)
+}

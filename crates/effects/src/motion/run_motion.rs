@@ -1,0 +1,319 @@
+use std::sync::OnceLock;
+
+use logs::differentiate;
+use robot::{Actuator, Robot, SensingSide};
+
+use crate::column::{Column, Part, at_joint};
+use crate::motion::cable_loop::Loop;
+use crate::motion::compliance::{Compliance, curvature, rate};
+use crate::motion::direction::{direction, stands};
+use crate::motion::drive::{bristles, motor_torque, warmth};
+use crate::motion::encoders::{Encoders, State};
+use crate::motion::frame::Frame;
+use crate::motion::rigid_bodies::{LinkRegressor, link_regressor, loads, tilt};
+use crate::motion::slopes::Slopes;
+use crate::motion::timing::Timing;
+use crate::motion::transmission::{Deflection, Gap, LoadAlong, correct_reading, play};
+
+/// The motion of one run and what the nominal robot makes of it.
+///
+/// All signals are indexed `[joint][sample]`.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    /// Position of the motor, seen at the joint (rad or m).
+    pub q: Vec<Vec<f64>>,
+    /// Velocity of the motor, seen at the joint (rad/s or m/s).
+    pub qd: Vec<Vec<f64>>,
+    /// Acceleration of the motor, seen at the joint (rad/s² or m/s²).
+    pub qdd: Vec<Vec<f64>>,
+    /// Direction of motion, in [-1, 1]: the sign of the velocity, below the rest speed turning
+    /// evenly in brief stands and in proportion to the velocity in others; with presliding, the
+    /// share of dry friction that the bristles hold.
+    pub direction: Vec<Vec<f64>>,
+    /// Velocity as reported, whose sign is that of the motion (rad/s or m/s).
+    qd_reported: Vec<Vec<f64>>,
+    /// Speed below which a joint counts as at rest (rad/s or m/s).
+    rest_speed: Vec<f64>,
+    /// Torque that the transmission carries to the link (N·m or N).
+    pub load: Vec<Vec<f64>>,
+    /// Torque of the nominal robot before its gain and offset (N·m or N).
+    pub torque: Vec<Vec<f64>>,
+    /// Effort that the nominal robot expects in the log (N·m or N).
+    pub effort: Vec<Vec<f64>>,
+    /// Middle of the range of each joint over all runs (rad or m).
+    pub centre: Vec<f64>,
+    /// Reported effort per unit of torque, nominal.
+    pub gain: Vec<f64>,
+    /// Time between samples (s).
+    pub period_s: f64,
+    /// Time from when the drives were cold to the first sample (s).
+    since_cold_s: f64,
+    /// Position, velocity and acceleration of the links.
+    pub(crate) link: State,
+    /// What tilting the base changes, once it has been asked for.
+    tilt: OnceLock<Vec<[Vec<f64>; 2]>>,
+    /// What moving the links changes, once it has been asked for.
+    slopes: OnceLock<Slopes>,
+    /// The nominal robot.
+    robot: Robot,
+    /// The drives of the nominal robot.
+    pub(crate) drives: Vec<Actuator>,
+    /// Load of the links if they moved as was measured, where motor and link part.
+    rigid_load: Option<Vec<Vec<f64>>>,
+    /// How each joint gives that has a spring between its encoder and its link.
+    compliances: Vec<Option<Compliance>>,
+}
+
+impl Motion {
+    /// Evaluates the nominal robot along `reading`: `q`, `qd`, `qdd` as reported (each
+    /// `[joint][sample]`, every `period_s`).
+    ///
+    /// ```text
+    /// q = transmission_ratio (q reported - encoder_offset)
+    /// load   = Y pi + stiffness x + cubic x³ + loop + counterbalance(q_link),   x = q_link - rest
+    /// torque = load + rotor_inertia qdd + viscous qd + dry friction
+    /// effort(t) = transmission_ratio torque_gain torque(t + delay - skew) + torque_offset
+    /// ```
+    ///
+    /// Motor and link part by twist and play: `theta - q = load / elasticity + x`,
+    /// `|x| <= backlash / 2`.
+    ///
+    /// # Panics
+    ///
+    /// When the signals do not have one entry a joint of equal length.
+    pub fn new(robot: &Robot, frame: &Frame, reading: [Vec<Vec<f64>>; 3], period_s: f64) -> Self {
+        let links = vec![None; robot.joint_count()];
+        let encoders = Encoders { reported: reading, links, since_cold_s: 0.0 };
+        Self::seen(robot, frame, encoders, period_s)
+    }
+
+    /// The same where some links have an encoder of their own: there motor and link have parted
+    /// as was measured, whatever the robot says of twist and play.
+    ///
+    /// # Panics
+    ///
+    /// As [`Motion::new`].
+    pub fn seen(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
+        let joints = robot.joint_count();
+        let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
+        let Encoders { reported, links, since_cold_s } = encoders;
+        let qd_reported = reported[1].clone();
+        let Deflection { motor, link, rigid_load, compliances } =
+            Deflection::new(robot, correct_reading(robot, reported), links, period_s);
+        let [q, qd, qdd] = motor;
+        let directions = (0..joints).map(|j| {
+            let by_speed =
+                || direction(qd_reported[j].iter().copied(), frame.rest_speed[j], period_s);
+            drives[j].presliding.map_or_else(by_speed, |way| bristles(&q[j], way))
+        });
+        let direction = directions.collect();
+        let load = loads(robot, &link);
+        let mut motion = Self {
+            q,
+            qd,
+            qdd,
+            direction,
+            qd_reported,
+            rest_speed: frame.rest_speed.clone(),
+            load,
+            torque: vec![Vec::new(); joints],
+            effort: vec![Vec::new(); joints],
+            centre: frame.centre.clone(),
+            gain: drives.iter().map(|a| a.transmission_ratio * a.torque_gain).collect(),
+            period_s,
+            since_cold_s,
+            link,
+            tilt: OnceLock::new(),
+            slopes: OnceLock::new(),
+            robot: robot.clone(),
+            drives,
+            rigid_load,
+            compliances,
+        };
+        motion.add_drives();
+        motion
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        self.q.first().map_or(0, Vec::len)
+    }
+
+    /// Where joint `j` stands for longer than 0.2 s or at either end, by the speed that is reported:
+    /// there its dry friction is anything up to the level, and the effort says nothing of it.
+    pub fn stands(&self, j: usize) -> Vec<bool> {
+        stands(&self.qd_reported[j], self.rest_speed[j], self.period_s)
+    }
+
+    /// Where joint `j` is at rest, however briefly, by the speed that is reported.
+    pub fn rests(&self, j: usize) -> Vec<bool> {
+        self.qd_reported[j].iter().map(|v| v.abs() < self.rest_speed[j]).collect()
+    }
+
+    /// What moving the link of joint `j` changes in the load of every joint: its derivatives by position,
+    /// velocity and acceleration.
+    pub(crate) fn slopes(&self, j: usize) -> &[[Vec<f64>; 3]] {
+        self.slopes.get_or_init(|| Slopes::new(&self.robot, &self.link)).by(j)
+    }
+
+    /// `[joint]`: the load per unit of the ten parameters of a link; none where the joint does not carry it. It is
+    /// evaluated at each call: of all links together it would be the most that a motion holds.
+    pub(crate) fn link_regressor(&self, link: usize) -> LinkRegressor {
+        link_regressor(&self.robot, &self.link, link)
+    }
+
+    /// `[joint]`: the load per radian of tilt about the two horizontal axes.
+    pub(crate) fn tilt(&self) -> &[[Vec<f64>; 2]] {
+        self.tilt.get_or_init(|| tilt(&self.robot, &self.link))
+    }
+
+    /// Adds what the drives do, then gain, offset and time.
+    fn add_drives(&mut self) {
+        for (i, a) in self.drives.iter().enumerate() {
+            let torque = |t: usize| {
+                let (state, load) =
+                    ([self.q[i][t], self.qd[i][t], self.qdd[i][t]], self.load[i][t]);
+                let warmth = self.warmth(i, t);
+                load + motor_torque(a, state, self.direction[i][t], load, warmth)
+            };
+            self.torque[i] = (0..self.samples()).map(torque).collect();
+        }
+        self.add_shared_friction();
+        for (i, a) in self.drives.iter().enumerate() {
+            let scaled = self.torque[i].iter().map(|torque| self.gain[i] * torque).collect();
+            let timed = self.with_timing(i, scaled);
+            self.effort[i] = timed.into_iter().map(|effort| effort + a.torque_offset).collect();
+        }
+    }
+
+    /// How far the drive of joint `i` has warmed up in sample `t`, 0 cold and 1 warm.
+    fn warmth(&self, i: usize, t: usize) -> f64 {
+        let since_cold_s = self.since_cold_s + t as f64 * self.period_s;
+        self.drives[i].warming.map_or(0.0, |w| warmth(since_cold_s / w.time_constant_s))
+    }
+
+    /// Time since the drives were cold (s), sample by sample.
+    pub(crate) fn since_cold_s(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.samples()).map(|t| self.since_cold_s + t as f64 * self.period_s)
+    }
+
+    /// Adds the friction of motors that joints share.
+    fn add_shared_friction(&mut self) {
+        for j in 0..self.drives.len() {
+            let Some(c) = self.drives[j].coupling else { continue };
+            for (k, way) in [1.0, -1.0].into_iter().enumerate() {
+                let motor = self.motor(j, c.other, way * c.ratio);
+                for (t, (w, s)) in motor.into_iter().enumerate() {
+                    let friction = c.viscous[k] * w + c.level[k] * s;
+                    self.torque[j][t] += friction;
+                    self.torque[c.other][t] += way * c.ratio * friction;
+                }
+            }
+        }
+    }
+
+    /// Speed and direction of a motor that turns with joint `j` and, by `ratio`, with another:
+    /// its direction as that of a joint, with the rest speeds added.
+    pub(crate) fn motor(&self, j: usize, other: usize, ratio: f64) -> Vec<(f64, f64)> {
+        let rest = self.rest_speed[j] + ratio.abs() * self.rest_speed[other];
+        let of = |signal: &[Vec<f64>], t: usize| signal[j][t] + ratio * signal[other][t];
+        let speeds = (0..self.samples()).map(|t| of(&self.qd_reported, t));
+        let directions = direction(speeds, rest, self.period_s);
+        directions.into_iter().enumerate().map(|(t, s)| (of(&self.qd, t), s)).collect()
+    }
+
+    /// Effort of joint `j` at the times at which the log has it.
+    pub(crate) fn with_timing(&self, j: usize, effort: Vec<f64>) -> Vec<f64> {
+        Timing::of(&self.drives[j]).as_logged(effort, self.period_s)
+    }
+
+    /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.
+    pub(crate) fn torque_rate(&self, j: usize) -> Column {
+        let gain = self.gain[j];
+        let rate = differentiate(&self.torque[j], self.period_s.recip());
+        at_joint(j, rate.into_iter().map(|r| gain * r))
+    }
+
+    /// Effort per unit of the load of joint `j` in sample `t`: friction may grow with it.
+    fn load_gain(&self, j: usize, t: usize) -> f64 {
+        let pressed = self.load[j][t].signum() * self.direction[j][t];
+        self.gain[j] * (1.0 + self.drives[j].load_friction * pressed)
+    }
+
+    /// Effort of joint `j` per unit of its Coulomb level, which may vary with position.
+    pub(crate) fn coulomb(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
+        let level = move |q: &f64| {
+            let wave = self.drives[j].friction_wave;
+            1.0 + wave.map_or(0.0, |w| w.share * (w.periods * q + w.phase).cos())
+        };
+        let levels = self.q[j].iter().map(level);
+        levels.zip(&self.direction[j]).map(move |(level, s)| self.gain[j] * level * s)
+    }
+
+    /// What a change of the load of joint `j` changes in its effort.
+    pub(crate) fn load_part(&self, j: usize, load: impl Iterator<Item = f64>) -> Part {
+        let values = load.enumerate().map(|(t, load)| self.load_gain(j, t) * load);
+        Part { joint: j, values: values.collect() }
+    }
+
+    /// Load of joint `j` if motor and link moved as one.
+    pub(crate) fn rigid_load(&self, j: usize) -> &[f64] {
+        self.rigid_load.as_ref().map_or(&self.load[j], |load| &load[j])
+    }
+
+    /// Position that the robot has the encoder of joint `j` report minus that of the link, where
+    /// both are measured (rad or m).
+    ///
+    /// ```text
+    /// (q + load / elasticity + x) / transmission_ratio + encoder_offset - q,  |x| <= backlash / 2
+    /// ```
+    pub fn twist(&self, j: usize) -> Vec<f64> {
+        let drive = &self.drives[j];
+        let compliance = drive.elasticity.map_or(0.0, f64::recip);
+        let gap = Gap::of(drive, drive.backlash);
+        let carried = LoadAlong::at_link(&self.load[j], &self.slopes(j)[j]);
+        let play = play(carried, gap, self.period_s);
+        let signals = self.link[0][j].iter().zip(&self.load[j]).zip(play);
+        let twist = |((q, load), x): ((&f64, &f64), f64)| {
+            (q + compliance * load + x) / drive.transmission_ratio + drive.encoder_offset - q
+        };
+        signals.map(twist).collect()
+    }
+
+    /// What changes in the efforts where motor and link of joint `j` part by `twist`, `theta - q`, and by
+    /// what its spring gives to that: the one that was not measured moves otherwise.
+    pub(crate) fn twist_column(&self, j: usize, twist: &[f64]) -> Column {
+        let given = self.compliances[j].as_ref().map(|compliance| compliance.twist_under(twist));
+        let twist = given.as_deref().unwrap_or(twist);
+        let first = rate(twist, self.period_s);
+        let second = curvature(twist, self.period_s);
+        let drive = &self.drives[j];
+        if drive.sensing == SensingSide::Link {
+            let motor = |(v, a): (&f64, &f64)| drive.viscous * v + drive.rotor_inertia * a;
+            let values = first.iter().zip(&second).map(|state| self.gain[j] * motor(state));
+            return vec![Part { joint: j, values: values.collect() }];
+        }
+        let mut column = self.displacement_column(j, [twist, &first, &second]);
+        column.iter_mut().flat_map(|part| &mut part.values).for_each(|v| *v = -*v);
+        column
+    }
+
+    /// What changes in the effort of every joint where the link of joint `j` lies by `s`, with
+    /// `sd`, `sdd`, from where it is taken to be.
+    ///
+    /// ```text
+    /// d load / dq s + d load / dqd sd + d load / dqdd sdd
+    /// ```
+    pub(crate) fn displacement_column(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
+        let dragged = Loop::of(&self.drives[j], &self.link[0][j]).map(|h| h.change_under(s));
+        let part = |i: usize| {
+            let [dq, dqd, dqdd] = &self.slopes(j)[i];
+            let own = dragged.as_ref().filter(|_| i == j);
+            let load = |t: usize| {
+                dq[t] * s[t] + dqd[t] * sd[t] + dqdd[t] * sdd[t] + own.map_or(0.0, |h| h[t])
+            };
+            self.load_part(i, (0..s.len()).map(load))
+        };
+        (0..self.q.len()).map(part).collect()
+    }
+}

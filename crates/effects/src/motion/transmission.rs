@@ -1,0 +1,387 @@
+use std::cell::LazyCell;
+
+use robot::{Actuator, Robot, SensingSide};
+
+use crate::motion::compliance::{Compliance, curvature, rate};
+use crate::motion::encoders::{Link, State};
+use crate::motion::rigid_bodies::loads;
+use crate::motion::slopes::Slopes;
+
+/// The motion of the motors behind what their encoders report:
+/// `q = transmission_ratio (reported - encoder_offset)`.
+pub(crate) fn correct_reading(robot: &Robot, mut reading: State) -> State {
+    for (i, link) in robot.links().iter().enumerate() {
+        let (ratio, offset) = (link.actuator.transmission_ratio, link.actuator.encoder_offset);
+        reading[0][i].iter_mut().for_each(|q| *q = ratio * (*q - offset));
+        reading[1..].iter_mut().for_each(|x| x[i].iter_mut().for_each(|v| *v *= ratio));
+    }
+    reading
+}
+
+/// Motion of the motors and of the links, of which one was measured.
+///
+/// ```text
+/// theta - q = load / elasticity + x,  |x| <= backlash / 2
+/// ```
+///
+/// with the load that the links need as they move, and play `x` under the one that they would need if
+/// they moved as was measured.
+#[derive(Debug)]
+pub(crate) struct Deflection {
+    pub motor: State,
+    pub link: State,
+    /// That load; none where motors and links move as one.
+    pub rigid_load: Option<Vec<Vec<f64>>>,
+    /// Of each joint that has a spring between its encoder and its link.
+    pub compliances: Vec<Option<Compliance>>,
+}
+
+/// Rounds in which the twist of springs and the load where it leaves the links come to agree: the first is
+/// all of it but for gravity's and other joints' share in the change.
+const ROUNDS: usize = 3;
+
+impl Deflection {
+    /// Parts what was `measured` every `period_s`, but for the joints whose `links` were measured
+    /// too.
+    pub fn new(robot: &Robot, measured: State, links: Vec<Option<Link>>, period_s: f64) -> Self {
+        let joints = robot.joint_count();
+        let parts = |(i, l): (usize, &robot::Link)| {
+            let drive = &l.actuator;
+            let seen = links.get(i).is_some_and(Option::is_some);
+            (!seen && (drive.elasticity.is_some() || drive.backlash > 0.0)).then_some(i)
+        };
+        let deflecting: Vec<usize> = robot.links().iter().enumerate().filter_map(parts).collect();
+        let mut motor = measured.clone();
+        let mut link = measured;
+        for (i, seen) in links.into_iter().enumerate() {
+            let signals = seen.into_iter().flatten();
+            link.iter_mut().zip(signals).for_each(|(x, signal)| x[i] = signal);
+        }
+        let mut compliances = vec![None; joints];
+        if deflecting.is_empty() {
+            return Self { motor, link, rigid_load: None, compliances };
+        }
+        let load = loads(robot, &link);
+        let slopes = LazyCell::new(|| Slopes::new(robot, &link));
+        let mut of_motor = Vec::new();
+        for i in deflecting {
+            let drive = &robot.links()[i].actuator;
+            let twist = match drive.backlash > 0.0 {
+                true => {
+                    let carried = LoadAlong::at_motor(&load[i], &slopes.by(i)[i]);
+                    play(carried, Gap::of(drive, drive.backlash), period_s)
+                }
+                false => vec![0.0; load[i].len()],
+            };
+            if drive.sensing == SensingSide::Link {
+                let compliance = drive.elasticity.map_or(0.0, f64::recip);
+                let twist: Vec<f64> =
+                    twist.iter().zip(&load[i]).map(|(x, load)| x + compliance * load).collect();
+                move_joint(&mut motor, i, &twist, period_s);
+                continue;
+            }
+            compliances[i] = drive
+                .elasticity
+                .map(|stiffness| Compliance::new(stiffness.recip(), &slopes.by(i)[i], period_s));
+            of_motor.push((i, twist));
+        }
+        let link = links_behind(robot, link, (of_motor, &compliances), period_s);
+        Self { motor, link, rigid_load: Some(load), compliances }
+    }
+}
+
+/// By how much motor and link of some joints part, `theta - q` along the motion (rad or m).
+type Twists = Vec<(usize, Vec<f64>)>;
+
+/// Motion of the links behind motors with `play` that moved as `measured`, with the springs that give.
+fn links_behind(
+    robot: &Robot,
+    measured: State,
+    (play, compliances): (Twists, &[Option<Compliance>]),
+    period_s: f64,
+) -> State {
+    let behind = |twists: &Twists| {
+        let mut link = measured.clone();
+        for (i, twist) in twists {
+            let back: Vec<f64> = twist.iter().map(|s| -s).collect();
+            move_joint(&mut link, *i, &back, period_s);
+        }
+        link
+    };
+    let mut twists = play.clone();
+    if compliances.iter().all(Option::is_none) {
+        return behind(&twists);
+    }
+    for _ in 0..ROUNDS {
+        let load = loads(robot, &behind(&twists));
+        for ((i, twist), (_, play)) in twists.iter_mut().zip(&play) {
+            let drive = &robot.links()[*i].actuator;
+            let (Some(compliance), Some(stiffness)) = (&compliances[*i], drive.elasticity) else {
+                continue;
+            };
+            let parts = play.iter().zip(twist.iter()).zip(&load[*i]);
+            let missing: Vec<f64> = parts.map(|((x, s), load)| load / stiffness + x - s).collect();
+            twist.iter_mut().zip(compliance.twist_under(&missing)).for_each(|(s, more)| *s += more);
+        }
+    }
+    behind(&twists)
+}
+
+/// Moves joint `i` by `change`.
+fn move_joint(state: &mut State, i: usize, change: &[f64], period_s: f64) {
+    let changes = [change.to_vec(), rate(change, period_s), curvature(change, period_s)];
+    for (x, change) in state.iter_mut().zip(changes) {
+        x[i].iter_mut().zip(change).for_each(|(x, change)| *x += change);
+    }
+}
+
+/// Periods for which a link stays where it has just met its motor: half the response of the low-pass
+/// behind which motions are evaluated, four cut-offs of a diagnosis at sixteen of them.
+const IMPACT_PERIODS: f64 = 2.0;
+
+/// Where the motor stands in a gap: `x = theta - q` with `|x| <= gap / 2`, at the side that
+/// carries the load. When the load changes sign the link is free until the other side meets it,
+/// and does not bounce:
+///
+/// ```text
+/// inertia xdd = load - dload/dq x - dload/dqd xd
+/// xd = 0 at the ends,  xd = compliance d(load)/dt as it leaves one
+/// ```
+///
+/// for a spring that was twisted at the end lets go as fast as its load falls. The load goes straight from sample to sample. A link crosses a gap in a few samples, and in the
+/// third root of the gap: in whole samples it would be crossed too soon, or look too wide. The blow with
+/// which it meets the other side moves its motor, and low-passed it lasts: a load that seems to turn
+/// within `IMPACT_PERIODS` periods of it moves nothing.
+pub(crate) fn play(
+    carried: LoadAlong<'_>,
+    Gap { width, compliance }: Gap,
+    period_s: f64,
+) -> Vec<f64> {
+    let LoadAlong { load, slopes: [by_position, by_velocity, inertia] } = carried;
+    let half = 0.5 * width;
+    let start = half * load.first().copied().unwrap_or(0.0).signum();
+    let mut state =
+        GapState { half, x: start, xd: 0.0, stays_s: 0.0, impact_s: IMPACT_PERIODS * period_s };
+    let mut all: Vec<f64> = load.first().map(|_| start).into_iter().collect();
+    for (t, (ends, inertia)) in load.windows(2).zip(inertia).enumerate() {
+        let per_inertia = |x: f64| x / inertia.max(f64::MIN_POSITIVE);
+        let [stiffness, damping] =
+            [by_position, by_velocity].map(|x| x.get(t).copied().unwrap_or(0.0));
+        let slopes = LinkSlopes {
+            stiffness: per_inertia(stiffness),
+            damping: per_inertia(damping),
+            departure: compliance * inertia,
+        };
+        state.pass([ends[0], ends[1]].map(per_inertia), slopes, period_s);
+        all.push(state.x);
+    }
+    all
+}
+
+/// The load of a link (N·m or N) and its derivatives by the link's position, velocity and
+/// acceleration, sample by sample; no samples of one that is none.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LoadAlong<'a> {
+    load: &'a [f64],
+    slopes: [&'a [f64]; 3],
+}
+
+impl LoadAlong<'_> {
+    /// The load that a link would need where its motor is: in a gap it lies beyond, and needs
+    /// another.
+    pub fn at_motor<'a>(load: &'a [f64], [q, qd, qdd]: &'a [Vec<f64>; 3]) -> LoadAlong<'a> {
+        LoadAlong { load, slopes: [q, qd, qdd] }
+    }
+
+    /// The load of a link where it is.
+    pub fn at_link<'a>(load: &'a [f64], [_, _, qdd]: &'a [Vec<f64>; 3]) -> LoadAlong<'a> {
+        LoadAlong { load, slopes: [&[], &[], qdd] }
+    }
+}
+
+/// Free play between a motor and its link.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gap {
+    /// From one end to the other (rad or m).
+    pub width: f64,
+    /// Of the spring in line with it (rad/(N m) or m/N).
+    pub compliance: f64,
+}
+
+impl Gap {
+    /// That of a drive, of this width (rad or m).
+    pub fn of(drive: &Actuator, width: f64) -> Self {
+        Self { width, compliance: drive.elasticity.map_or(0.0, f64::recip) }
+    }
+}
+
+/// A motor in its play.
+struct GapState {
+    half: f64,
+    x: f64,
+    xd: f64,
+    /// Time that it still stays at its end, and that it stays after a blow (s).
+    stays_s: f64,
+    impact_s: f64,
+}
+
+/// What a link does to its own way through a gap.
+#[derive(Debug, Clone, Copy)]
+struct LinkSlopes {
+    /// Fall of its acceleration per way (1/s²) and per speed (1/s).
+    stiffness: f64,
+    damping: f64,
+    /// Speed at which it leaves an end, over the rate of its acceleration there (s²).
+    departure: f64,
+}
+
+impl GapState {
+    /// Times within one period at which it may leave an end.
+    const DEPARTURES: usize = 2;
+
+    /// Halvings of the time at which an end is met: to 1e-15 of it.
+    const HALVINGS: usize = 50;
+
+    /// Passes a time in which the load goes straight from one value to another, each over the inertia.
+    fn pass(&mut self, [mut from, to]: [f64; 2], slopes: LinkSlopes, mut time_s: f64) {
+        for _ in 0..Self::DEPARTURES {
+            let rise = (to - from) / time_s;
+            let stays_s = self.stays_s.min(time_s);
+            self.stays_s -= stays_s;
+            time_s -= stays_s;
+            if time_s <= 0.0 {
+                return;
+            }
+            from += rise * stays_s;
+            if self.x.abs() >= self.half && self.xd * self.x >= 0.0 {
+                let side = self.x.signum();
+                let own = slopes.stiffness * self.x;
+                if (from - own) * side >= 0.0 {
+                    if (to - own) * side >= 0.0 {
+                        return;
+                    }
+                    // The load lets go where it is none.
+                    time_s -= (own - from) / rise;
+                    (from, self.xd) = (own, slopes.departure * rise);
+                }
+            }
+            let [start, end] = self.accelerations([from, to], slopes, time_s);
+            let jerk = (end - start) / time_s;
+            let after = |t: f64| self.x + t * (self.xd + t * (0.5 * start + t * jerk / 6.0));
+            let end = after(time_s);
+            if end.abs() < self.half {
+                self.xd += time_s * (start + 0.5 * time_s * jerk);
+                self.x = end;
+                return;
+            }
+            let (mut before, mut met) = (0.0, time_s);
+            for _ in 0..Self::HALVINGS {
+                let middle = 0.5 * (before + met);
+                let inside = after(middle).abs() < self.half;
+                *(if inside { &mut before } else { &mut met }) = middle;
+            }
+            (self.x, self.xd, self.stays_s) = (self.half.copysign(end), 0.0, self.impact_s);
+            from += rise * met;
+            time_s -= met;
+            if time_s <= 0.0 {
+                return;
+            }
+        }
+    }
+
+    /// The accelerations at the begin and the end of a time, the latter where the former leads.
+    fn accelerations(&self, [from, to]: [f64; 2], slopes: LinkSlopes, time_s: f64) -> [f64; 2] {
+        let at = |load: f64, x: f64, xd: f64| {
+            load - slopes.stiffness * x.clamp(-self.half, self.half) - slopes.damping * xd
+        };
+        let start = at(from, self.x, self.xd);
+        let way = time_s * (self.xd + 0.5 * time_s * start);
+        [start, at(to, self.x + way, self.xd + time_s * start)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A load that grows as `c t` crosses the gap in `(6 gap inertia / c)^(1/3)`.
+    #[test]
+    fn a_link_crosses_its_play_as_it_falls() {
+        let (gap, inertia, c, period_s) = (0.01, 0.2, 3.0, 1e-4);
+        let time = |t: usize| (t as f64 - 1000.0) * period_s;
+        let load: Vec<f64> = (0..6000).map(|t| c * time(t)).collect();
+        let x = play(
+            LoadAlong { load: &load, slopes: [&[0.0; 6000], &[0.0; 6000], &[inertia; 6000]] },
+            Gap { width: gap, compliance: 0.0 },
+            period_s,
+        );
+        let crossed = x.iter().position(|x| *x >= 0.5 * gap).unwrap();
+        let expected = (6.0 * gap * inertia / c).cbrt();
+        assert!((time(crossed) - expected).abs() < 3.0 * period_s, "{} s", time(crossed));
+        assert!((x[0] + 0.5 * gap).abs() < 1e-15 && (x[5999] - 0.5 * gap).abs() < 1e-15);
+    }
+
+    /// The load turns between two samples; from there the link is `compliance c t + c t³ / (6 inertia)`
+    /// from its end until it has crossed, in eight samples that tell nothing but their own load, or in
+    /// six where a spring lets go.
+    #[test]
+    fn oracle_a_play_that_is_crossed_in_a_few_samples_is_crossed_as_in_many() {
+        let (gap, inertia, c, period_s) = (0.01, 0.2, 3.0, 0.02);
+        let time = |t: usize| (t as f64 - 20.4) * period_s;
+        let load: Vec<f64> = (0..60).map(|t| c * time(t)).collect();
+        for compliance in [0.0, 0.01] {
+            let x = play(
+                LoadAlong { load: &load, slopes: [&[0.0; 60], &[0.0; 60], &[inertia; 60]] },
+                Gap { width: gap, compliance },
+                period_s,
+            );
+            for (t, x) in x.iter().enumerate() {
+                let after = time(t).max(0.0);
+                let way = c * (compliance * after + after.powi(3) / (6.0 * inertia));
+                let expected = (way - 0.5 * gap).min(0.5 * gap);
+                assert!((x - expected).abs() < 1e-12, "{x}, not {expected}, at {} s", time(t));
+            }
+        }
+    }
+
+    /// A link that falls over, its load `c t + k x` at its motor's own position: it leaves an end
+    /// late by `k gap / (2 c)`, and from there is
+    ///
+    /// ```text
+    /// c / k (sinh(w t) / w - t),   w² = k / inertia
+    /// ```
+    ///
+    /// from it.
+    #[test]
+    fn oracle_a_link_that_falls_over_leaves_its_end_late_and_is_soon_at_the_other() {
+        let (gap, inertia, c, k, period_s) = (0.03, 2.5, 30.0, 60.0, 0.01_f64);
+        let time = |t: usize| (t as f64 - 20.4) * period_s;
+        let load: Vec<f64> = (0..100).map(|t| c * time(t)).collect();
+        let carried = LoadAlong { load: &load, slopes: [&[-k; 100], &[0.0; 100], &[inertia; 100]] };
+        let x = play(carried, Gap { width: gap, compliance: 0.0 }, period_s);
+        let w = (k / inertia).sqrt();
+        for (t, x) in x.iter().enumerate() {
+            let after = (time(t) - 0.5 * k * gap / c).max(0.0);
+            let way = c / k * ((w * after).sinh() / w - after);
+            let expected = (way - 0.5 * gap).min(0.5 * gap);
+            assert!((x - expected).abs() < 2e-3 * gap, "{x}, not {expected}, at {} s", time(t));
+        }
+    }
+
+    /// A link that meets its motor throws it forward, for which the load turns until a sample later: it
+    /// does not bounce.
+    #[test]
+    fn a_blow_that_a_low_pass_has_spread_is_no_load_that_turns() {
+        let (gap, inertia, period_s) = (0.01, 0.2, 0.01);
+        let mut load = [-1.0; 60];
+        load[20..].fill(1.0);
+        let at = |load: &[f64]| {
+            let carried = LoadAlong { load, slopes: [&[0.0; 60], &[0.0; 60], &[inertia; 60]] };
+            play(carried, Gap { width: gap, compliance: 0.0 }, period_s)
+        };
+        let met = at(&load).iter().position(|x| *x >= 0.5 * gap).unwrap();
+        load[met] = -3.0;
+        let x = at(&load);
+        assert!(x[met + 1..].iter().all(|x| (x - 0.5 * gap).abs() < 1e-15), "{x:?}");
+    }
+}

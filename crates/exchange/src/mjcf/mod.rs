@@ -1,0 +1,4 @@
+//! The format of MuJoCo.
+
+pub(crate) mod joint;
+pub(crate) mod write;

@@ -1,0 +1,183 @@
+//! The arrays of numbers in the groups of an HDF5 file.
+
+use std::{
+    fs::File,
+    io::{self, Read, Seek, SeekFrom},
+    sync::{Arc, Mutex},
+};
+
+use flate2::read::ZlibDecoder;
+use hdf5_reader::{
+    Dataset, Datatype, FilterRegistry, H5Type, Hdf5File, OpenOptions, Storage, StorageBuffer,
+    error::Error, group::Group,
+};
+
+use crate::{
+    arrays::array::{Array, TOO_LARGE},
+    common::allowance::Allowance,
+};
+
+/// Groups in groups that are looked into.
+const DEEPEST: usize = 8;
+/// Most arrays, and most groups, that are looked at: a file may name one of them again and again.
+const MOST: usize = 10_000;
+/// Kept of chunks that were unpacked (bytes).
+const CACHE: usize = 1 << 22;
+/// Filters of HDF5 by their number: deflate, and two that are refused.
+const DEFLATE: u16 = 1;
+const REFUSED: [u16; 2] = [5, 6];
+
+/// How a program lays its arrays out in HDF5.
+pub(crate) trait Layout {
+    /// Bytes before the superblock: addresses in the file are counted from behind them.
+    fn header_bytes(&self) -> u64;
+
+    /// Whether the arrays of a group are read, by `group.array`.
+    fn is_structure(&self, group: &Group) -> bool;
+
+    /// Rows and columns of the array that a dataset is; none of what holds no numbers or is no table.
+    fn shape(&self, dataset: &Dataset) -> Option<[u64; 2]>;
+
+    /// The numbers of a dataset of such a shape, from its own order to one column after the other.
+    fn sort_by_column(&self, numbers: Vec<f64>, shape: [u64; 2]) -> Vec<f64>;
+}
+
+/// The part of a file behind its header.
+struct BehindHeader {
+    file: Mutex<File>,
+    header_bytes: u64,
+    length: u64,
+}
+
+impl Storage for BehindHeader {
+    fn len(&self) -> u64 {
+        self.length
+    }
+
+    fn read_range(&self, offset: u64, len: usize) -> Result<StorageBuffer, Error> {
+        let is_inside = offset.checked_add(len as u64).is_some_and(|end| end <= self.length);
+        let mut bytes = vec![0; if is_inside { len } else { 0 }];
+        let mut file = self.file.lock().map_err(|_| Error::OffsetOutOfBounds(offset))?;
+        let read = file
+            .seek(SeekFrom::Start(self.header_bytes + offset))
+            .and_then(|_| file.read_exact(&mut bytes));
+        match read {
+            Ok(()) if is_inside => Ok(StorageBuffer::from_vec(bytes)),
+            _ => Err(Error::OffsetOutOfBounds(offset)),
+        }
+    }
+}
+
+/// The arrays of numbers, those in groups by `group.array`.
+///
+/// # Errors
+///
+/// What is wrong with the file, or that it takes more than `allowance`.
+pub(crate) fn read_arrays(
+    file: File,
+    layout: &dyn Layout,
+    allowance: &mut Allowance,
+) -> io::Result<Vec<Array>> {
+    let header_bytes = layout.header_bytes();
+    let length = file.metadata()?.len().saturating_sub(header_bytes);
+    let storage = Arc::new(BehindHeader { file: Mutex::new(file), header_bytes, length });
+    let options = OpenOptions {
+        chunk_cache_bytes: CACHE,
+        filter_registry: Some(filters(Allowance::of(length))),
+        ..OpenOptions::default()
+    };
+    let file = Hdf5File::from_storage_with_options(storage, options).map_err(io::Error::other)?;
+    let mut reading = Reading { layout, allowance, groups: 0, arrays: Vec::new() };
+    reading.group(&file.root_group().map_err(io::Error::other)?, "", DEEPEST)?;
+    Ok(reading.arrays)
+}
+
+/// The filters of chunks. What deflate unpacks is taken from the allowance: that of the crate has no end.
+fn filters(allowance: Allowance) -> FilterRegistry {
+    let left = Mutex::new(allowance);
+    let mut filters = FilterRegistry::new();
+    let deflate = move |packed: &[u8]| -> Result<Vec<u8>, Error> {
+        let told = |error: &dyn ToString| Error::DecompressionError(error.to_string());
+        let mut left = left.lock().map_err(|e| told(&e))?;
+        let (mut source, mut unpacked) = (ZlibDecoder::new(packed), Vec::new());
+        let mut piece = [0; 1 << 12];
+        loop {
+            let length = source.read(&mut piece).map_err(|e| told(&e))?;
+            if length == 0 {
+                return Ok(unpacked);
+            }
+            left.take(length as u64).map_err(|_| told(&TOO_LARGE))?;
+            unpacked.extend_from_slice(&piece[..length]);
+        }
+    };
+    filters.register(DEFLATE, Box::new(move |_, packed, _| deflate(packed)));
+    for number in REFUSED {
+        let refuse = move |_: &_, _: &[u8], _| Err(Error::UnsupportedFilter(number.to_string()));
+        filters.register(number, Box::new(refuse));
+    }
+    filters
+}
+
+struct Reading<'a> {
+    layout: &'a dyn Layout,
+    allowance: &'a mut Allowance,
+    /// Groups so far.
+    groups: usize,
+    arrays: Vec<Array>,
+}
+
+impl Reading<'_> {
+    /// Reads the arrays of a group, and of groups in it.
+    fn group(&mut self, group: &Group, prefix: &str, deepest: usize) -> io::Result<()> {
+        let (groups, datasets) = group.members().map_err(io::Error::other)?;
+        for dataset in &datasets {
+            if self.arrays.len() < MOST {
+                let name = format!("{prefix}{}", dataset.name());
+                let array = self.array(dataset, name)?;
+                self.arrays.extend(array);
+            }
+        }
+        for group in groups.iter().filter(|_| deepest > 0) {
+            self.groups += 1;
+            if self.groups < MOST && self.layout.is_structure(group) {
+                self.group(group, &format!("{prefix}{}.", group.name()), deepest - 1)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The array of a dataset; none of what holds no numbers or is no table.
+    fn array(&mut self, dataset: &Dataset, name: String) -> io::Result<Option<Array>> {
+        let Some(shape) = self.layout.shape(dataset) else { return Ok(None) };
+        let [rows, columns] = shape;
+        // The numbers as they lie there and as they are read.
+        let bytes = rows.saturating_mul(columns).saturating_mul(16);
+        self.allowance.take(bytes).map_err(|_| io::Error::other(TOO_LARGE))?;
+        let numbers = numbers(dataset).map_err(io::Error::other)?;
+        let numbers = numbers.map(|numbers| self.layout.sort_by_column(numbers, shape));
+        Ok(numbers.map(|numbers| Array { name, rows, columns, numbers }))
+    }
+}
+
+/// The numbers of a dataset, in its order; none of another type.
+fn numbers(dataset: &Dataset) -> Result<Option<Vec<f64>>, Error> {
+    fn of<T: H5Type + Copy>(
+        dataset: &Dataset,
+        convert: impl Fn(T) -> f64,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        Ok(Some(dataset.read_array::<T>()?.iter().map(|&x| convert(x)).collect()))
+    }
+    match *dataset.dtype() {
+        Datatype::FloatingPoint { size: 8, .. } => of::<f64>(dataset, |x| x),
+        Datatype::FloatingPoint { size: 4, .. } => of::<f32>(dataset, f64::from),
+        Datatype::FixedPoint { size: 1, signed: true, .. } => of::<i8>(dataset, f64::from),
+        Datatype::FixedPoint { size: 1, signed: false, .. } => of::<u8>(dataset, f64::from),
+        Datatype::FixedPoint { size: 2, signed: true, .. } => of::<i16>(dataset, f64::from),
+        Datatype::FixedPoint { size: 2, signed: false, .. } => of::<u16>(dataset, f64::from),
+        Datatype::FixedPoint { size: 4, signed: true, .. } => of::<i32>(dataset, f64::from),
+        Datatype::FixedPoint { size: 4, signed: false, .. } => of::<u32>(dataset, f64::from),
+        Datatype::FixedPoint { size: 8, signed: true, .. } => of::<i64>(dataset, |x| x as f64),
+        Datatype::FixedPoint { size: 8, signed: false, .. } => of::<u64>(dataset, |x| x as f64),
+        _ => Ok(None),
+    }
+}

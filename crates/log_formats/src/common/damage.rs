@@ -1,0 +1,39 @@
+use crate::common::error::FormatError;
+
+/// What to do with a damaged log.
+#[derive(Debug, Default)]
+pub enum Damage {
+    /// It is refused.
+    #[default]
+    Refused,
+    /// It is read up to the damage; the error found there is kept.
+    CutOff(Option<Box<FormatError>>),
+}
+
+impl Damage {
+    /// Keeps an error that ends the log.
+    ///
+    /// # Errors
+    ///
+    /// The error itself, where the log is to be refused or the error has no place in the log. Of several errors the
+    /// first is kept.
+    pub fn take(&mut self, error: FormatError) -> Result<(), FormatError> {
+        let is_at_a_place = matches!(
+            error,
+            FormatError::Broken { .. }
+                | FormatError::NotANumber { .. }
+                | FormatError::MissingValue { .. }
+                | FormatError::NotFinite { .. }
+                | FormatError::TimeNotIncreasing { .. }
+                | FormatError::WrongFieldCount { .. }
+                | FormatError::Unreadable { .. }
+        );
+        match self {
+            Self::CutOff(found) if is_at_a_place => {
+                found.get_or_insert_with(|| Box::new(error));
+                Ok(())
+            }
+            _ => Err(error),
+        }
+    }
+}

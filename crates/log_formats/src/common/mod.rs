@@ -1,0 +1,12 @@
+//! What all formats share: limits, damage, errors, tables, numbers.
+
+pub(crate) mod allowance;
+pub(crate) mod damage;
+pub(crate) mod error;
+pub(crate) mod excerpt;
+pub(crate) mod guard;
+pub(crate) mod numeral;
+pub(crate) mod sha256;
+pub(crate) mod strangers;
+pub(crate) mod table;
+pub(crate) mod words;

@@ -1,0 +1,85 @@
+use std::{fs::File, io::Read, path::Path};
+
+use crate::{
+    common::{
+        error::FormatError,
+        strangers::{UNKNOWN, is_text, stranger},
+    },
+    format::{Format, Magic},
+    packed::unpack::{Packing, unpack},
+};
+
+/// Bytes of a file that tell its kind.
+const FIRST_BYTES: usize = 4096;
+
+/// The kinds of file that are read.
+pub(crate) struct Formats {
+    /// Those that are told by their bytes.
+    pub by_magic: &'static [&'static dyn Format],
+    /// What text is.
+    pub text: &'static dyn Format,
+}
+
+/// What a file is.
+#[derive(Clone, Copy)]
+pub(crate) enum Kind {
+    /// One that is read.
+    Read(&'static dyn Format),
+    /// Any of those, packed.
+    Packed(Packing),
+}
+
+impl Formats {
+    /// The content of a file, unpacked where it is packed once.
+    pub(crate) fn content(&self, path: &Path) -> Result<(Kind, File), FormatError> {
+        let file = File::open(path).map_err(|e| FormatError::unreadable(path, &e))?;
+        let mut first = Vec::new();
+        (&file)
+            .take(FIRST_BYTES as u64)
+            .read_to_end(&mut first)
+            .map_err(|e| FormatError::unreadable(path, &e))?;
+        match self.kind(path, &first)? {
+            Kind::Packed(packing) => {
+                let look = |piece: &[u8]| self.kind(path, &piece[..piece.len().min(FIRST_BYTES)]);
+                unpack(path, file, packing, look)
+            }
+            kind => Ok((kind, file)),
+        }
+    }
+
+    /// The kind of a file with these first bytes, whatever its name.
+    fn kind(&self, path: &Path, first: &[u8]) -> Result<Kind, FormatError> {
+        if first.is_empty() {
+            return Err(FormatError::Empty { path: path.to_owned() });
+        }
+        let holds =
+            |&(at, bytes): &Magic| first.get(at..).is_some_and(|rest| rest.starts_with(bytes));
+        if let Some(format) = self.by_magic.iter().find(|f| f.magic().iter().any(holds)) {
+            return Ok(Kind::Read(*format));
+        }
+        if let Some(packing) = Packing::ALL.into_iter().find(|p| holds(&p.magic())) {
+            return Ok(Kind::Packed(packing));
+        }
+        if let Some(stranger) = stranger(first) {
+            return Err(FormatError::other_kind(path, stranger));
+        }
+        if is_text(first) {
+            return Ok(Kind::Read(self.text));
+        }
+        let is_called = |f: &&&dyn Format| {
+            let extension = path.extension();
+            f.extension().is_some_and(|e| extension.is_some_and(|own| own.eq_ignore_ascii_case(e)))
+        };
+        Err(match self.by_magic.iter().find(is_called) {
+            Some(format) => not_begun(path, *format),
+            None => FormatError::other_kind(path, UNKNOWN),
+        })
+    }
+}
+
+/// A file that is called as one of a format and does not begin as one.
+fn not_begun(path: &Path, format: &dyn Format) -> FormatError {
+    let begin = format.magic().first().map_or(&[][..], |(_, bytes)| bytes);
+    let reason = format!("it does not begin with {}", String::from_utf8_lossy(begin));
+    FormatError::broken(path, format.name(), &reason)
+}

@@ -1,0 +1,153 @@
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs::File,
+    path::{Path, PathBuf},
+};
+
+use crate::{
+    common::{
+        damage::Damage,
+        error::FormatError,
+        sha256::sha256_of_files,
+        table::{Needed, Table},
+    },
+    format::{Format, Magic, Opened, Request},
+    formats::bag::{
+        folder_files::files_of,
+        joint_state::{JointState, TYPE},
+        joint_states::JointStates,
+        storage::Storage,
+        topic::{MessageSink, Topic},
+    },
+};
+
+/// The topic that is read where no other one is asked for.
+const USUAL_TOPIC: &str = "/joint_states";
+/// The joint states of a bag of ROS 2.
+pub(crate) struct Bag {
+    path: PathBuf,
+    topic: String,
+    states: JointStates,
+}
+
+impl Bag {
+    /// Reads the joint states of a topic from files, one after the other.
+    pub(crate) fn open(
+        path: &Path,
+        files: &[(PathBuf, Storage, File)],
+        topic: Option<&str>,
+        damage: &mut Damage,
+    ) -> Result<Self, FormatError> {
+        let (by_topic, others) = (BTreeMap::new(), BTreeSet::new());
+        let mut states = TopicStates { path, topic, by_topic, others };
+        for (path, storage, file) in files {
+            (storage.read)(path, file, &mut states, damage)?;
+        }
+        states.choose()
+    }
+}
+
+impl Opened for Bag {
+    fn names(&self) -> Result<Vec<String>, FormatError> {
+        Ok(self.states.names().to_vec())
+    }
+
+    /// A message that holds none of the columns that are needed is left out.
+    fn load(&self, needed: &Needed, _: &mut Damage) -> Result<Table, FormatError> {
+        self.states.load(needed).map_err(|(message, column)| FormatError::NotInMessage {
+            path: self.path.clone(),
+            topic: self.topic.clone(),
+            message,
+            column: self.states.names().get(column).cloned().unwrap_or_default(),
+        })
+    }
+
+    fn sha256(&self) -> Result<String, FormatError> {
+        if self.path.is_dir() {
+            return sha256_of_files(files_of(&self.path)?.iter().map(PathBuf::as_path));
+        }
+        sha256_of_files([self.path.as_path()])
+    }
+}
+
+impl Format for Storage {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn magic(&self) -> &'static [Magic] {
+        self.magic
+    }
+
+    fn open(
+        &self,
+        path: &Path,
+        file: File,
+        request: &Request,
+        damage: &mut Damage,
+    ) -> Result<Box<dyn Opened>, FormatError> {
+        let files = [(path.to_owned(), *self, file)];
+        Ok(Box::new(Bag::open(path, &files, request.topic, damage)?))
+    }
+}
+
+/// The joint states of all topics that may be read.
+struct TopicStates<'a> {
+    path: &'a Path,
+    topic: Option<&'a str>,
+    by_topic: BTreeMap<String, JointStates>,
+    /// Topics of other types, with their type.
+    others: BTreeSet<String>,
+}
+
+impl TopicStates<'_> {
+    fn is_wanted(&self, topic: &Topic) -> bool {
+        let is_asked_for = self.topic.is_none_or(|asked| asked == topic.name);
+        topic.kind == TYPE && topic.encoding == "cdr" && is_asked_for
+    }
+
+    /// The joint states that are read.
+    fn choose(mut self) -> Result<Bag, FormatError> {
+        let path = self.path.to_owned();
+        let wanted = self.topic.unwrap_or(USUAL_TOPIC);
+        if let Some(states) = self.by_topic.remove(wanted) {
+            return Ok(Bag { path, topic: wanted.to_owned(), states });
+        }
+        let found: Vec<String> = self.by_topic.keys().cloned().collect();
+        match self.by_topic.pop_first() {
+            Some((topic, states)) if self.by_topic.is_empty() => Ok(Bag { path, topic, states }),
+            Some(_) => Err(FormatError::SeveralTopics { path, found }),
+            None => Err(FormatError::NoTopic {
+                path,
+                topic: self.topic.map(str::to_owned),
+                found: self.others.into_iter().collect(),
+            }),
+        }
+    }
+}
+
+impl MessageSink for TopicStates<'_> {
+    fn add_topic(&mut self, topic: &Topic) {
+        if self.is_wanted(topic) {
+            self.by_topic.entry(topic.name.clone()).or_insert_with(JointStates::new);
+        } else {
+            let named = format!("{} ({}, {})", topic.name, topic.kind, topic.encoding);
+            self.others.insert(named.replace(char::is_control, "?"));
+        }
+    }
+
+    fn wants(&self, topic: &Topic) -> bool {
+        self.is_wanted(topic)
+    }
+
+    fn add_message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError> {
+        let states = self.by_topic.entry(topic.name.clone()).or_insert_with(JointStates::new);
+        let result = JointState::decode(message).and_then(|state| states.push(state));
+        result.map_err(|reason| FormatError::BadMessage {
+            path: self.path.to_owned(),
+            topic: topic.name.replace(char::is_control, "?"),
+            message: states.count() + 1,
+            reason,
+        })
+    }
+}

@@ -1,0 +1,124 @@
+use std::collections::BTreeMap;
+
+use crate::{
+    common::table::{Cell, Needed, Rows, Table},
+    formats::bag::joint_state::JointState,
+};
+
+/// The joint states of a topic, in the order of the log; each may be of other joints.
+#[derive(Debug)]
+pub(crate) struct JointStates {
+    /// Names of the columns, `time` first.
+    names: Vec<String>,
+    columns: BTreeMap<String, usize>,
+    /// Which columns a message fills, by its joints and by which channels it has.
+    layouts: BTreeMap<(Vec<String>, [bool; 3]), usize>,
+    filled: Vec<Vec<usize>>,
+    /// Names in all layouts.
+    named: usize,
+    /// Stamp (ns) and layout of every message.
+    messages: Vec<(i64, usize)>,
+    /// The values of all messages, one after the other.
+    values: Vec<f64>,
+}
+
+/// Most columns of a log: each takes time in every message.
+const MOST_COLUMNS: usize = 10_000;
+/// Most names in all layouts.
+const MOST_NAMES: usize = 1_000_000;
+
+impl JointStates {
+    pub(crate) fn new() -> Self {
+        Self {
+            names: vec!["time".to_owned()],
+            columns: BTreeMap::new(),
+            layouts: BTreeMap::new(),
+            filled: Vec::new(),
+            named: 0,
+            messages: Vec::new(),
+            values: Vec::new(),
+        }
+    }
+
+    /// Names of the columns.
+    pub(crate) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Messages so far.
+    pub(crate) fn count(&self) -> usize {
+        self.messages.len()
+    }
+
+    /// Adds a message; the reason where it does not fit.
+    pub(crate) fn push(&mut self, message: JointState) -> Result<(), String> {
+        for (_, values) in message.channels() {
+            self.values.extend(values);
+        }
+        let has = message.channels().map(|(_, values)| !values.is_empty());
+        let stamp_ns = message.stamp_ns;
+        let fills = has.contains(&true);
+        let key = (if fills { message.names } else { Vec::new() }, has);
+        let layout = match self.layouts.get(&key) {
+            Some(&layout) => layout,
+            None => {
+                let filled = self.filled_by(&key.0, has)?;
+                self.named += key.0.len();
+                if self.named > MOST_NAMES {
+                    return Err("its joints are in ever another order".to_owned());
+                }
+                self.filled.push(filled);
+                self.layouts.insert(key, self.filled.len() - 1);
+                self.filled.len() - 1
+            }
+        };
+        self.messages.push((stamp_ns, layout));
+        Ok(())
+    }
+
+    /// The columns that a message of these joints fills, in the order of its values.
+    fn filled_by(&mut self, joints: &[String], has: [bool; 3]) -> Result<Vec<usize>, String> {
+        let mut filled = Vec::new();
+        for (channel, _) in
+            ["position", "velocity", "effort"].iter().zip(has).filter(|(_, has)| *has)
+        {
+            for joint in joints {
+                let joint = joint.replace(char::is_control, "?");
+                let name = format!("{joint}.{channel}");
+                let next = self.names.len();
+                let column = *self.columns.entry(name.clone()).or_insert(next);
+                if column == next {
+                    self.names.push(name);
+                }
+                filled.push(column);
+            }
+        }
+        let mut once = filled.clone();
+        once.sort_unstable();
+        once.dedup();
+        if once.len() < filled.len() {
+            return Err("it has two joints of one name".to_owned());
+        }
+        if self.names.len() > MOST_COLUMNS {
+            return Err(format!("it is about more than the {MOST_COLUMNS} columns that are read"));
+        }
+        Ok(filled)
+    }
+
+    /// Columns by name. Time is counted from the first message, in which nanoseconds are exact (s).
+    pub(crate) fn load(&self, needed: &Needed) -> Result<Table, (usize, usize)> {
+        let mut rows = Rows::new(&self.names, needed);
+        let start_ns = self.messages.first().map_or(0, |(stamp_ns, _)| *stamp_ns);
+        let mut cells = vec![Cell::Empty; self.names.len()];
+        let mut values = self.values.iter();
+        for (index, (stamp_ns, layout)) in self.messages.iter().enumerate() {
+            cells.fill(Cell::Empty);
+            cells[0] = Cell::Number((stamp_ns - start_ns) as f64 / 1e9);
+            for (&column, &value) in self.filled[*layout].iter().zip(&mut values) {
+                cells[column] = Cell::Number(value);
+            }
+            rows.push(index + 1, &cells).map_err(|column| (index + 1, column))?;
+        }
+        Ok(rows.finish())
+    }
+}

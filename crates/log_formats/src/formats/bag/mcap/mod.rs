@@ -1,0 +1,4 @@
+//! Bags in files of MCAP.
+
+pub(crate) mod mcap_file;
+pub(crate) mod record;

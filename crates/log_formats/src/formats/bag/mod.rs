@@ -1,0 +1,12 @@
+//! Messages as ROS 2 records them, in files of MCAP or SQLite, or a folder of such files.
+
+pub(crate) mod bag_file;
+pub(crate) mod cdr;
+pub(crate) mod folder;
+pub(crate) mod folder_files;
+pub(crate) mod joint_state;
+pub(crate) mod joint_states;
+pub(crate) mod mcap;
+pub(crate) mod sqlite;
+pub(crate) mod storage;
+pub(crate) mod topic;

@@ -1,0 +1,6 @@
+//! Bags in SQLite databases, read without SQLite.
+
+pub(crate) mod pages;
+pub(crate) mod record;
+pub(crate) mod sqlite_file;
+pub(crate) mod table;

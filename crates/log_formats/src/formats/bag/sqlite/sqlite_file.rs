@@ -1,0 +1,192 @@
+//! Bags of ROS 2 in a SQLite database, as rosbag2 writes them with the storage `sqlite3`.
+
+use std::{collections::BTreeMap, fs::File, path::Path};
+
+use crate::{
+    common::{
+        damage::Damage,
+        error::FormatError,
+        guard::guard,
+        strangers::{NO_BAG, UNFINISHED},
+    },
+    formats::bag::{
+        sqlite::{
+            pages::Pages,
+            record::{Value, value},
+            table::{Row, rows},
+        },
+        topic::{MessageSink, Topic},
+    },
+};
+
+/// What a damaged file is called.
+pub(crate) const NAME: &str = "SQLite";
+/// The page of the table of tables.
+const TABLES: u32 = 1;
+/// Most topics of a bag.
+const MOST_TOPICS: usize = 10_000;
+
+/// Reads the messages of a bag in the order in which they were recorded, or up to where it is damaged.
+pub(crate) fn read(
+    path: &Path,
+    file: &File,
+    sink: &mut dyn MessageSink,
+    damage: &mut Damage,
+) -> Result<(), FormatError> {
+    if is_unfinished(path) {
+        return Err(FormatError::other_kind(path, UNFINISHED));
+    }
+    let read = guard(path, NAME, || {
+        let told = |reason: String| FormatError::broken(path, NAME, &reason);
+        Bag { path, pages: Pages::new(file).map_err(told)?, sink }.read()
+    });
+    read.or_else(|error| damage.take(error))
+}
+
+/// Whether a file beside the database holds what was written last.
+fn is_unfinished(path: &Path) -> bool {
+    ["-wal", "-journal"].iter().any(|end| {
+        let mut beside = path.as_os_str().to_owned();
+        beside.push(end);
+        std::fs::metadata(beside).is_ok_and(|data| data.is_file() && data.len() > 0)
+    })
+}
+
+/// A table: the page at which it begins, and the names of its columns.
+struct Table {
+    root: u32,
+    columns: Vec<String>,
+}
+
+struct Bag<'a> {
+    path: &'a Path,
+    pages: Pages<'a>,
+    sink: &'a mut dyn MessageSink,
+}
+
+/// Why a row is not read.
+enum Trouble {
+    Damaged(String),
+    Refused(FormatError),
+}
+
+impl From<String> for Trouble {
+    fn from(reason: String) -> Self {
+        Self::Damaged(reason)
+    }
+}
+
+impl Bag<'_> {
+    fn read(mut self) -> Result<(), FormatError> {
+        let path = self.path;
+        self.read_tables().map_err(|trouble| match trouble {
+            Trouble::Damaged(reason) => FormatError::broken(path, NAME, &reason),
+            Trouble::Refused(error) => error,
+        })
+    }
+
+    fn read_tables(&mut self) -> Result<(), Trouble> {
+        let mut tables = self.tables()?;
+        let (Some(topics), Some(messages)) = (tables.remove("topics"), tables.remove("messages"))
+        else {
+            return Err(Trouble::Refused(FormatError::other_kind(self.path, NO_BAG)));
+        };
+        let topics = self.topics(&topics)?;
+        self.messages(&messages, &topics)
+    }
+
+    /// The tables that a bag is told by.
+    fn tables(&mut self) -> Result<BTreeMap<String, Table>, Trouble> {
+        let mut tables = BTreeMap::new();
+        rows(&mut self.pages, TABLES, |pages, row| -> Result<(), Trouble> {
+            let record = row.record(pages)?;
+            let text = |column| match value(&record, column) {
+                Some(Value::Text(text)) => Some(text),
+                _ => None,
+            };
+            let (Some("table"), Some(name)) = (text(0), text(1)) else { return Ok(()) };
+            if let (Some(Value::Integer(root)), Some(sql), "topics" | "messages") =
+                (value(&record, 3), text(4), name)
+            {
+                let root = u32::try_from(root).map_err(|_| format!("there is no page {root}"))?;
+                tables.insert(name.to_owned(), Table { root, columns: columns(sql) });
+            }
+            Ok(())
+        })?;
+        Ok(tables)
+    }
+
+    /// The topics by their number.
+    fn topics(&mut self, table: &Table) -> Result<BTreeMap<i64, Topic>, Trouble> {
+        let places = ["name", "type", "serialization_format"].map(|name| table.place(name));
+        let [name, kind, encoding] = places;
+        let (name, kind, encoding) = (name?, kind?, encoding?);
+        let mut topics = BTreeMap::new();
+        rows(&mut self.pages, table.root, |pages, row| -> Result<(), Trouble> {
+            let record = row.record(pages)?;
+            let text = |column| match value(&record, column) {
+                Some(Value::Text(text)) => Ok(text.to_owned()),
+                _ => Err(format!("topic {} has no text in column {}", row.id, column + 1)),
+            };
+            let topic = Topic { name: text(name)?, kind: text(kind)?, encoding: text(encoding)? };
+            topics.insert(row.id, topic);
+            if topics.len() > MOST_TOPICS {
+                return Err(format!("it has more than {MOST_TOPICS} topics").into());
+            }
+            Ok(())
+        })?;
+        topics.values().for_each(|topic| self.sink.add_topic(topic));
+        Ok(topics)
+    }
+
+    fn messages(&mut self, table: &Table, topics: &BTreeMap<i64, Topic>) -> Result<(), Trouble> {
+        let (of_topic, of_data) = (table.place("topic_id")?, table.place("data")?);
+        let Self { pages, sink, .. } = self;
+        rows(pages, table.root, |pages, row: &Row| -> Result<(), Trouble> {
+            let number = match value(row.beginning(), of_topic) {
+                Some(Value::Integer(number)) => number,
+                _ => return Err(format!("message {} has no topic", row.id).into()),
+            };
+            let topic = topics
+                .get(&number)
+                .ok_or_else(|| format!("message {} is of topic {number}, of none", row.id))?;
+            if !sink.wants(topic) {
+                return Ok(());
+            }
+            match value(&row.record(pages)?, of_data) {
+                Some(Value::Blob(message)) => {
+                    sink.add_message(topic, message).map_err(Trouble::Refused)
+                }
+                _ => Err(format!("message {} has no data", row.id).into()),
+            }
+        })
+    }
+}
+
+impl Table {
+    /// The place of a column.
+    fn place(&self, name: &str) -> Result<usize, String> {
+        let found = self.columns.iter().position(|column| column == name);
+        found.ok_or_else(|| format!("a table has no column {name}"))
+    }
+}
+
+/// The names of the columns of a statement `CREATE TABLE name(column type, ...)`.
+fn columns(sql: &str) -> Vec<String> {
+    let within = sql.split_once('(').map_or("", |(_, within)| within);
+    let name = |column: &str| column.split_whitespace().next().unwrap_or_default().to_owned();
+    within.split(',').map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_told_by_the_statement_that_made_them() {
+        let sql =
+            "CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER NOT NULL, \n data BLOB)";
+        assert_eq!(columns(sql), ["id", "topic_id", "data"]);
+        assert_eq!(columns("CREATE TABLE broken"), [""]);
+    }
+}

@@ -1,0 +1,219 @@
+use std::{
+    fs::File,
+    io::{self, Read, Seek, SeekFrom, Take},
+    path::{Path, PathBuf},
+};
+
+use crate::{
+    common::{
+        damage::Damage,
+        error::FormatError,
+        sha256::sha256_of_files,
+        strangers::PROSE,
+        table::{Cell, Needed, Rows, Table},
+    },
+    format::{Format, Magic, Opened, Request},
+    formats::csv::dialect::{Dialect, Header, Numerals},
+};
+
+/// Bytes in which the dialect is seen.
+const PREVIEW: u64 = 1 << 18;
+/// Bytes at the end of a file in which a torn row is looked for.
+const TAIL: u64 = 1 << 22;
+
+/// What text is that is of no other kind.
+pub(crate) struct Csv;
+
+impl Format for Csv {
+    fn name(&self) -> &'static str {
+        "CSV"
+    }
+
+    fn magic(&self) -> &'static [Magic] {
+        &[]
+    }
+
+    fn open(
+        &self,
+        path: &Path,
+        file: File,
+        _: &Request,
+        _: &mut Damage,
+    ) -> Result<Box<dyn Opened>, FormatError> {
+        Ok(Box::new(CsvFile::open(path, file)?))
+    }
+}
+
+/// A log as text: rows of numbers below a line of names, or without one.
+pub(crate) struct CsvFile {
+    path: PathBuf,
+    file: File,
+    dialect: Dialect,
+    names: Vec<String>,
+    /// Where a last row begins that was torn while it was written.
+    torn_from: Option<u64>,
+}
+
+impl CsvFile {
+    /// Looks at the dialect, the names and the last row.
+    pub(crate) fn open(path: &Path, file: File) -> Result<Self, FormatError> {
+        let told = |e: io::Error| FormatError::unreadable(path, &e);
+        let mut preview = Vec::new();
+        rewind_to(&file, 0)
+            .and_then(|file| file.take(PREVIEW).read_to_end(&mut preview))
+            .map_err(told)?;
+        let dialect = Dialect::of(&preview);
+        if dialect.header == Header::Names && dialect.has_no_row_in(&preview) {
+            return Err(FormatError::other_kind(path, PROSE));
+        }
+        let torn_from = torn_from(&file).map_err(told)?;
+        let path = path.to_owned();
+        let mut csv = Self { path, file, dialect, names: Vec::new(), torn_from };
+        csv.names = csv.first_names()?;
+        Ok(csv)
+    }
+
+    fn first_names(&self) -> Result<Vec<String>, FormatError> {
+        let mut first = csv::ByteRecord::new();
+        self.records()?
+            .read_byte_record(&mut first)
+            .map_err(|e| FormatError::unreadable(&self.path, &e))?;
+        let fields = self.dialect.fields(&first);
+        Ok(match self.dialect.header {
+            Header::Names => fields.map(|f| String::from_utf8_lossy(f).into_owned()).collect(),
+            Header::Numbers => (1..=fields.count()).map(|k| format!("column_{k}")).collect(),
+        })
+    }
+
+    /// Every record from the line of names on.
+    fn records(&self) -> Result<csv::Reader<Take<&File>>, FormatError> {
+        let start = self.dialect.start as u64;
+        let end = self.torn_from.unwrap_or(u64::MAX);
+        let text =
+            rewind_to(&self.file, start).map_err(|e| FormatError::unreadable(&self.path, &e))?;
+        Ok(self.dialect.records(text.take(end.saturating_sub(start))))
+    }
+
+    /// A row may end in one more separator than the names do.
+    fn check_length(&self, row: usize, record: &csv::ByteRecord) -> Result<(), FormatError> {
+        let (found, expected) = (self.dialect.fields(record).count(), self.names.len());
+        let ends_empty = self.dialect.fields(record).last().is_some_and(<[u8]>::is_empty);
+        if found == expected || (found == expected + 1 && ends_empty) {
+            return Ok(());
+        }
+        Err(FormatError::WrongFieldCount { path: self.path.clone(), row, found, expected })
+    }
+
+    fn not_a_number(
+        &self,
+        row: usize,
+        column: usize,
+        record: &csv::ByteRecord,
+        cells: &[Cell],
+    ) -> FormatError {
+        let (path, name) = (self.path.clone(), self.names[column].clone());
+        if cells[column] == Cell::Empty {
+            return FormatError::MissingValue { path, row, column: name };
+        }
+        let found = self.dialect.fields(record).nth(column).unwrap_or_default();
+        // A message stays one line, whatever the file holds.
+        let found = String::from_utf8_lossy(found).chars().take(40).collect();
+        FormatError::NotANumber { path, row, column: name, found }
+    }
+}
+
+impl Opened for CsvFile {
+    /// In the order of the file; `column_1` and so on where it has none.
+    fn names(&self) -> Result<Vec<String>, FormatError> {
+        Ok(self.names.clone())
+    }
+
+    /// Columns by name: those that are needed, where every field must be a number, and of the
+    /// rest those in which every field is one.
+    fn load(&self, needed: &Needed, damage: &mut Damage) -> Result<Table, FormatError> {
+        let mut rows = Rows::new(&self.names, needed);
+        let mut numerals = vec![Numerals::between(self.dialect.separator); self.names.len()];
+        let mut reader = self.records()?;
+        let mut record = csv::ByteRecord::new();
+        let mut read = |record: &mut csv::ByteRecord| {
+            reader.read_byte_record(record).map_err(|e| FormatError::unreadable(&self.path, &e))
+        };
+        if self.dialect.header == Header::Names {
+            read(&mut record)?;
+        }
+        let mut row = 0;
+        let mut cells = Vec::with_capacity(self.names.len());
+        loop {
+            match read(&mut record) {
+                Ok(true) => row += 1,
+                Ok(false) => break,
+                Err(error) => {
+                    damage.take(error)?;
+                    break;
+                }
+            }
+            if self.dialect.fields(&record).all(<[u8]>::is_empty) {
+                continue;
+            }
+            cells.clear();
+            let fields = self.dialect.fields(&record).zip(&mut numerals);
+            cells.extend(fields.map(|(field, numerals)| numerals.cell(field)));
+            let pushed = self.check_length(row, &record).and_then(|()| {
+                let refused = |column| self.not_a_number(row, column, &record, &cells);
+                rows.push(row, &cells).map_err(refused)
+            });
+            if let Err(error) = pushed {
+                damage.take(error)?;
+                break;
+            }
+        }
+        Ok(rows.finish())
+    }
+
+    fn sha256(&self) -> Result<String, FormatError> {
+        sha256_of_files([self.path.as_path()])
+    }
+
+    fn is_unnamed(&self) -> bool {
+        self.dialect.header == Header::Numbers
+    }
+
+    fn is_torn(&self) -> bool {
+        self.torn_from.is_some()
+    }
+}
+
+fn rewind_to(file: &File, start: u64) -> io::Result<&File> {
+    let mut from = file;
+    from.seek(SeekFrom::Start(start))?;
+    Ok(file)
+}
+
+/// Where a last row begins that was torn while it was written; none when the file is whole.
+///
+/// A row without its newline is torn when the line before it ends in a number in quotes, as
+/// every row does that the crate `logs` writes while a run goes on, and it does not.
+fn torn_from(mut file: &File) -> io::Result<Option<u64>> {
+    let length = file.seek(SeekFrom::End(0))?;
+    let start = length.saturating_sub(TAIL);
+    let last_byte = length.saturating_sub(1);
+    let mut tail = Vec::new();
+    rewind_to(file, last_byte)?.read_to_end(&mut tail)?;
+    if tail == b"\n" || tail.is_empty() {
+        return Ok(None);
+    }
+    tail.clear();
+    rewind_to(file, start)?.read_to_end(&mut tail)?;
+    let mut lines = tail.rsplitn(3, |&byte| byte == b'\n');
+    let (last, before) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
+    let is_torn = ends_in_quoted_number(before) && !ends_in_quoted_number(last);
+    Ok(is_torn.then(|| length - last.len() as u64))
+}
+
+fn ends_in_quoted_number(line: &[u8]) -> bool {
+    let field = line.trim_ascii_end().strip_suffix(b"\"").and_then(|line| {
+        let start = line.iter().rposition(|&byte| byte == b'"')?;
+        std::str::from_utf8(&line[start + 1..]).ok()
+    });
+    field.is_some_and(|field| field.parse::<f64>().is_ok())
+}

@@ -1,0 +1,225 @@
+use crate::common::table::Cell;
+
+/// How the rows of a text are written: what parts the fields, and where the rows begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Dialect {
+    /// The character between two fields; blanks may be several.
+    pub separator: u8,
+    /// Byte of the text at which the names, or the first row, begin.
+    pub start: usize,
+    /// Whether a line of names stands above the rows.
+    pub header: Header,
+}
+
+/// What the first line holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Header {
+    Names,
+    /// Numbers, as all other lines.
+    Numbers,
+}
+
+/// What may part fields; of two that fit alike the first is it.
+const SEPARATORS: [u8; 4] = [b'\t', b';', b',', b' '];
+/// Lines that are looked at.
+const LINES: usize = 20;
+/// Signs before lines that are no rows.
+const COMMENTS: [u8; 2] = [b'#', b'%'];
+
+impl Dialect {
+    /// Seen from the first lines of a text.
+    ///
+    /// Lines that begin with `#` or `%` stand above the rows; the last of them holds the names if
+    /// the line below it holds numbers and as many.
+    pub(crate) fn of(text: &[u8]) -> Self {
+        let bom = if text.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        let (mut start, mut comment) = (bom, None);
+        while text.get(start).is_some_and(|first| COMMENTS.contains(first)) {
+            comment = Some(start);
+            let line = text[start..].iter().position(|&byte| byte == b'\n');
+            start = line.map_or(text.len(), |length| start + length + 1);
+        }
+        let separator = separator(&text[start..]);
+        let first = fields(&text[start..], separator).into_iter().next().unwrap_or_default();
+        let has_numbers =
+            !first.is_empty() && first.iter().all(|field| is_number(field, separator));
+        if !has_numbers {
+            return Self { separator, start, header: Header::Names };
+        }
+        let above = comment.map(|at| at + 1).filter(|&at| {
+            let names = fields(&text[at..start], separator);
+            names.first().is_some_and(|names| names.len() == first.len())
+        });
+        match above {
+            Some(start) => Self { separator, start, header: Header::Names },
+            None => Self { separator, start, header: Header::Numbers },
+        }
+    }
+
+    /// Whether there are lines below the first of a text and none of them, of those that are looked at, is a row: a
+    /// number in it and as many fields as the first has, or several of which most are numbers. A setting is none.
+    pub(crate) fn has_no_row_in(self, text: &[u8]) -> bool {
+        let lines = fields(&text[self.start..], self.separator);
+        let is_row = |first: &Vec<Vec<u8>>, line: &Vec<Vec<u8>>| {
+            let filled = line.iter().filter(|field| !field.is_empty()).count();
+            let numbers = line.iter().filter(|field| is_number(field, self.separator)).count();
+            let is_mostly_numbers = filled > 1 && 2 * numbers > filled;
+            numbers > 0 && (line.len() == first.len() || is_mostly_numbers) && !is_setting(line)
+        };
+        lines.split_first().is_some_and(|(first, below)| {
+            !below.is_empty() && !below.iter().any(|line| is_row(first, line))
+        })
+    }
+
+    /// A reader of the records of a text that starts at `start`.
+    pub(crate) fn records<R: std::io::Read>(self, text: R) -> csv::Reader<R> {
+        reader(text, self.separator)
+    }
+
+    /// The fields of a record.
+    pub(crate) fn fields(self, record: &csv::ByteRecord) -> impl Iterator<Item = &[u8]> {
+        of_record(record, self.separator)
+    }
+}
+
+/// Whether a line sets one thing, as `rate = 3` and `rate: 3` do.
+fn is_setting(line: &[Vec<u8>]) -> bool {
+    line.first().is_some_and(|field| field.ends_with(b":"))
+        || line.get(1).is_some_and(|field| field == b"=")
+}
+
+fn reader<R: std::io::Read>(text: R, separator: u8) -> csv::Reader<R> {
+    // Rows of another length are let through here and refused with their number.
+    let mut builder = csv::ReaderBuilder::new();
+    builder.flexible(true).has_headers(false).trim(csv::Trim::All).delimiter(separator);
+    builder.from_reader(text)
+}
+
+/// Several blanks part two fields as one does.
+fn of_record(record: &csv::ByteRecord, separator: u8) -> impl Iterator<Item = &[u8]> {
+    record.iter().filter(move |field| separator != b' ' || !field.is_empty())
+}
+
+/// The fields of the first lines.
+fn fields(text: &[u8], separator: u8) -> Vec<Vec<Vec<u8>>> {
+    let records = reader(text, separator).into_byte_records().take(LINES).map_while(Result::ok);
+    records.map(|r| of_record(&r, separator).map(<[u8]>::to_vec).collect()).collect()
+}
+
+/// What parts the fields: it parts the first line, and leaves more of the others numbers, in as
+/// many fields as the first has, than any other.
+fn separator(text: &[u8]) -> u8 {
+    let share = |separator: u8| -> Option<f64> {
+        let lines = fields(text, separator);
+        let (first, rows) = lines.split_first().filter(|(first, _)| first.len() > 1)?;
+        let fits = |row: &&Vec<Vec<u8>>| row.len() == first.len();
+        let cells = || rows.iter().filter(fits).flatten();
+        let numbers = cells().filter(|field| is_number(field, separator)).count();
+        let all = cells().count() + first.len() * rows.iter().filter(|row| !fits(row)).count();
+        Some(numbers as f64 / all.max(1) as f64)
+    };
+    let mut best = (b',', -1.0);
+    for separator in SEPARATORS {
+        if let Some(share) = share(separator).filter(|&share| share > best.1) {
+            best = (separator, share);
+        }
+    }
+    best.0
+}
+
+fn is_number(field: &[u8], separator: u8) -> bool {
+    matches!(Numerals::between(separator).cell(field), Cell::Number(_))
+}
+
+/// How the numbers of a column are written.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Numerals {
+    /// What stands before the fraction; not known before a number has one.
+    mark: Option<u8>,
+    /// Whether it may be a comma.
+    commas: bool,
+}
+
+impl Numerals {
+    /// In fields that `separator` parts.
+    pub(crate) fn between(separator: u8) -> Self {
+        Self { mark: None, commas: separator != b',' }
+    }
+
+    /// What a field holds. A comma stands before the fraction, never between thousands; a column
+    /// that has points has no commas.
+    pub(crate) fn cell(&mut self, field: &[u8]) -> Cell {
+        if field.is_empty() {
+            return Cell::Empty;
+        }
+        let Ok(text) = std::str::from_utf8(field) else { return Cell::Text };
+        let (has_comma, has_point) = (text.contains(','), text.contains('.'));
+        let number: Option<f64> = match (has_comma, has_point) {
+            (false, _) => text.parse().ok(),
+            (true, false) if self.commas => text.replacen(',', ".", 1).parse().ok(),
+            (true, _) => None,
+        };
+        let mark = if has_comma { Some(b',') } else { has_point.then_some(b'.') };
+        match number {
+            Some(_) if mark.is_some() && self.mark.is_some() && mark != self.mark => Cell::Text,
+            Some(number) => {
+                self.mark = self.mark.or(mark);
+                Cell::Number(number)
+            }
+            None => Cell::Text,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_separator_is_what_leaves_numbers() {
+        for (text, expected) in [
+            ("time,q\n0,1\n", b','),
+            ("time;q\n0,0;1,5\n", b';'),
+            ("0,0;1,5\n0,1;1,6\n", b';'),
+            ("time\tq of joint\n0\t1\n", b'\t'),
+            ("time q\n0,1 0,2\n", b' '),
+            ("0.1   0.2  0.3\n0.2 0.3 0.4\n", b' '),
+            ("time, q one, r\n0, 1, 2\n", b','),
+            ("time,\"a;b;c\"\n0,1\n", b','),
+            ("time,note\n0,a b\n", b','),
+            ("time\n0\n", b','),
+            ("", b','),
+        ] {
+            let found = Dialect::of(text.as_bytes()).separator;
+            assert_eq!(found as char, expected as char, "{text}");
+        }
+    }
+
+    #[test]
+    fn names_stand_above_the_rows_or_nowhere() {
+        for (text, start, header) in [
+            ("\u{feff}time,q\n0,1\n", 3, Header::Names),
+            ("0,1\n1,2\n", 0, Header::Numbers),
+            ("# time q\n0 1\n1 2\n", 1, Header::Names),
+            ("# arm 3\n# at noon\n0 1\n1 2\n", 9, Header::Names),
+            ("# arm 3\n# at noon today\n0 1\n1 2\n", 24, Header::Numbers),
+            ("% of june\ntime,q\n1,2\n", 10, Header::Names),
+            ("#", 1, Header::Names),
+        ] {
+            let found = Dialect::of(text.as_bytes());
+            assert_eq!((found.start, found.header), (start, header), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_comma_stands_before_the_fraction_where_it_parts_no_fields() {
+        let mut column = Numerals::between(b';');
+        assert_eq!(column.cell(b"3"), Cell::Number(3.0));
+        assert_eq!(column.cell(b"-0,5e-1"), Cell::Number(-0.05));
+        assert_eq!(column.cell(b"0.5"), Cell::Text, "points beside commas");
+        assert_eq!(column.cell(b"1.234,5"), Cell::Text);
+        assert_eq!(column.cell(b"1,234,5"), Cell::Text);
+        assert_eq!(column.cell(b""), Cell::Empty);
+        assert_eq!(Numerals::between(b',').cell(b"0,5"), Cell::Text);
+    }
+}

@@ -1,0 +1,89 @@
+//! Arrays in the groups of an HDF5 file.
+
+use std::{
+    fs::File,
+    io::{self, Read, Seek},
+    path::Path,
+};
+
+use hdf5_reader::{Dataset, group::Group};
+
+use crate::{
+    arrays::{
+        array_file::ArrayFile,
+        hdf5_tree::{Layout, read_arrays},
+    },
+    common::{damage::Damage, error::FormatError},
+    format::{Format, Magic, Opened, Request},
+};
+
+/// What a damaged file is called.
+const NAME: &str = "HDF5";
+const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
+/// Bytes that a program may put before the signature.
+const USER_BLOCK: usize = 512;
+
+/// Arrays in the groups of an HDF5 file; one in groups is `group.array`.
+pub(crate) struct Hdf5;
+
+impl Format for Hdf5 {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn magic(&self) -> &'static [Magic] {
+        &[(0, SIGNATURE), (USER_BLOCK, SIGNATURE)]
+    }
+
+    fn open(
+        &self,
+        path: &Path,
+        file: File,
+        request: &Request,
+        _: &mut Damage,
+    ) -> Result<Box<dyn Opened>, FormatError> {
+        let header = header_bytes(&file).map_err(|e| FormatError::unreadable(path, &e))?;
+        let layout = RowByRow { header_bytes: header };
+        let decode = |file, allowance: &mut _| read_arrays(file, &layout, allowance);
+        Ok(Box::new(ArrayFile::read(path, file, NAME, request.time, decode)?))
+    }
+}
+
+/// Bytes before the signature.
+fn header_bytes(mut file: &File) -> io::Result<u64> {
+    let mut first = [0; SIGNATURE.len()];
+    file.rewind()?;
+    file.read_exact(&mut first)?;
+    Ok(if first == SIGNATURE { 0 } else { USER_BLOCK as u64 })
+}
+
+/// Every dataset of numbers, one row after the other.
+struct RowByRow {
+    header_bytes: u64,
+}
+
+impl Layout for RowByRow {
+    fn header_bytes(&self) -> u64 {
+        self.header_bytes
+    }
+
+    fn is_structure(&self, _: &Group) -> bool {
+        true
+    }
+
+    fn shape(&self, dataset: &Dataset) -> Option<[u64; 2]> {
+        match *dataset.shape() {
+            [rows] => Some([rows, 1]),
+            [rows, columns] => Some([rows, columns]),
+            _ => None,
+        }
+    }
+
+    fn sort_by_column(&self, numbers: Vec<f64>, [rows, columns]: [u64; 2]) -> Vec<f64> {
+        if rows == 1 || columns == 1 {
+            return numbers;
+        }
+        let width = columns as usize;
+        (0..width).flat_map(|k| numbers.iter().skip(k).step_by(width.max(1)).copied()).collect()
+    }
+}

@@ -1,0 +1,168 @@
+use std::{collections::BTreeMap, fs::File, io::Read, ops::Range, path::Path, sync::Arc};
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::{
+    common::{
+        damage::Damage,
+        error::FormatError,
+        sha256::sha256_of_files,
+        table::{Needed, Table},
+    },
+    content::Formats,
+    format::Opened,
+    formats::{
+        lerobot::dataset::{DESCRIPTION, DataFile, Dataset, open},
+        parquet::{list_column::part_name, parquet_file::ParquetFile},
+    },
+};
+
+/// What a damaged description is called.
+const NAME: &str = "LeRobot";
+/// A description is not read beyond this (bytes).
+const LONGEST_DESCRIPTION: u64 = 1 << 24;
+/// One episode of a dataset.
+pub(crate) struct Episode {
+    /// The files that hold rows of it, with these rows.
+    files: Vec<(Arc<DataFile>, ParquetFile, Vec<Range<usize>>)>,
+    names: Vec<String>,
+    /// Columns that are called by the name of a joint, with their name in the files.
+    by_joint: BTreeMap<String, String>,
+}
+
+/// What is read of `meta/info.json`.
+#[derive(Deserialize)]
+struct Info {
+    features: BTreeMap<String, Feature>,
+}
+
+/// One column of the dataset.
+#[derive(Deserialize)]
+struct Feature {
+    #[serde(default)]
+    names: Value,
+}
+
+impl Episode {
+    /// Looks for the rows of an episode, which may be left out where there is one only; `dataset` is that of `path`,
+    /// where it is known.
+    pub(crate) fn open(
+        path: &Path,
+        episode: Option<u64>,
+        dataset: Option<&Dataset>,
+        formats: &Formats,
+    ) -> Result<Self, FormatError> {
+        let known = dataset.filter(|dataset| dataset.folder == path).cloned();
+        let dataset =
+            known.map_or_else(|| Dataset::of_folder(path, formats), |dataset| Ok(Some(dataset)))?;
+        let found = dataset.as_ref().map(Dataset::episodes).unwrap_or_default();
+        let wanted = match (episode, found.as_slice()) {
+            (Some(episode), found) if found.contains(&episode) => episode,
+            (None, [only]) => *only,
+            (asked, found) => {
+                let (path, found) = (path.to_owned(), found.to_vec());
+                return Err(FormatError::Episode { path, asked, found });
+            }
+        };
+        let mut files = Vec::new();
+        for file in dataset.into_iter().flat_map(|dataset| dataset.files) {
+            if let Some(rows) = file.rows.get(&wanted).cloned() {
+                let parquet = open(&file.path, formats)?;
+                files.push((file, parquet, rows));
+            }
+        }
+        let mut names = files.first().map_or(Ok(Vec::new()), |(_, file, _)| file.names())?;
+        let by_joint = by_joint(&read_info(path)?, &names);
+        names.extend(by_joint.keys().cloned());
+        Ok(Self { files, names, by_joint })
+    }
+}
+
+impl Opened for Episode {
+    /// `action[0]` and so on, and `action[elbow]` where a joint is named.
+    fn names(&self) -> Result<Vec<String>, FormatError> {
+        Ok(self.names.clone())
+    }
+
+    fn load(&self, needed: &Needed, _: &mut Damage) -> Result<Table, FormatError> {
+        let in_file = |name: &'_ str| self.by_joint.get(name).map_or(name.to_owned(), Clone::clone);
+        let signals: Vec<String> = needed.signals.iter().map(|name| in_file(name)).collect();
+        let time = in_file(needed.time);
+        let signals = signals.iter().map(String::as_str).collect();
+        let asked = Needed { time: &time, signals, excerpt: None };
+        let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        let mut rows = 0;
+        for (_, file, ranges) in &self.files {
+            let table = file.load_rows(&asked, Some(ranges))?;
+            // A column that is not whole in every file is none.
+            columns.retain(|name, _| table.columns.contains_key(name));
+            for (name, samples) in table.columns {
+                if rows == 0 || columns.contains_key(&name) {
+                    columns.entry(name).or_default().extend(samples);
+                }
+            }
+            rows += ranges.iter().map(ExactSizeIterator::len).sum::<usize>();
+        }
+        for name in &needed.signals {
+            if let Some(samples) = self.by_joint.get(*name).and_then(|own| columns.get(own)) {
+                columns.insert((*name).to_owned(), samples.clone());
+            }
+        }
+        let is_other_name =
+            |name: &String| !needed.contains(name) && self.by_joint.values().any(|own| own == name);
+        columns.retain(|name, _| !is_other_name(name));
+        Ok(Table { columns, ..Table::default() }.excerpt(needed))
+    }
+
+    /// SHA-256 of the files that hold rows of the episode, one after the other, in hexadecimal. That of a file which
+    /// holds all of them is worked out once for the dataset.
+    fn sha256(&self) -> Result<String, FormatError> {
+        let all = || sha256_of_files(self.files.iter().map(|(_, file, _)| file.path()));
+        let [(file, ..)] = self.files.as_slice() else { return all() };
+        if let Some(hash) = file.sha256.get() {
+            return Ok(hash.clone());
+        }
+        let hash = all()?;
+        Ok(file.sha256.get_or_init(|| hash).clone())
+    }
+}
+
+fn read_info(path: &Path) -> Result<Info, FormatError> {
+    let path = path.join(DESCRIPTION);
+    let mut text = String::new();
+    let file = File::open(&path).map_err(|e| FormatError::unreadable(&path, &e))?;
+    let read = file.take(LONGEST_DESCRIPTION).read_to_string(&mut text);
+    read.map_err(|e| FormatError::unreadable(&path, &e))?;
+    serde_json::from_str(&text).map_err(|e| FormatError::broken(&path, NAME, &e))
+}
+
+/// `action[elbow]` for `action[2]` where the third name of `action` is that of the joint `elbow`.
+fn by_joint(info: &Info, columns: &[String]) -> BTreeMap<String, String> {
+    let mut by_joint = BTreeMap::new();
+    for (feature, Feature { names }) in &info.features {
+        for (k, name) in names_in(names).into_iter().enumerate() {
+            let (own, named) = (part_name(feature, k), format!("{feature}[{}]", joint_of(name)));
+            if columns.contains(&own) && !columns.contains(&named) {
+                by_joint.entry(named).or_insert(own);
+            }
+        }
+    }
+    by_joint
+}
+
+/// The names of a feature, a list or one in a table such as `{ motors = [...] }`.
+fn names_in(names: &Value) -> Vec<&str> {
+    match names {
+        Value::Array(list) => list.iter().map(|name| name.as_str().unwrap_or_default()).collect(),
+        Value::Object(table) => table.values().flat_map(names_in).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The joint that a name such as `elbow.pos` or `main_elbow` speaks of.
+fn joint_of(name: &str) -> &str {
+    const QUANTITIES: [&str; 6] = [".pos", ".position", ".vel", ".velocity", ".effort", ".torque"];
+    let stem = QUANTITIES.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);
+    stem.strip_prefix("main_").unwrap_or(stem)
+}

@@ -1,0 +1,113 @@
+use std::{
+    fs::File,
+    io::{self, BufReader, Read, Seek, SeekFrom},
+    path::Path,
+};
+
+use hdf5_reader::{Dataset, group::Group};
+
+use crate::{
+    arrays::{
+        array::Array,
+        array_file::ArrayFile,
+        hdf5_tree::{Layout, read_arrays},
+    },
+    common::{allowance::Allowance, damage::Damage, error::FormatError},
+    format::{Format, Magic, Opened, Request},
+    formats::matlab::element::{Elements, Order},
+};
+
+/// What a damaged file is called.
+const NAME: &str = "MATLAB";
+/// Bytes of the header of version 5; its last two tell the order of bytes.
+const HEADER: usize = 128;
+
+/// Arrays as elements one after the other (save -v7 and earlier). Fields of a structure are `log.q`.
+pub(crate) struct Matlab5;
+
+/// Arrays in HDF5 behind a header of MATLAB (save -v7.3). Fields of a structure are `log.q`.
+pub(crate) struct Matlab73;
+
+impl Format for Matlab5 {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn magic(&self) -> &'static [Magic] {
+        &[(0, b"MATLAB 5.0 MAT-file")]
+    }
+
+    fn open(
+        &self,
+        path: &Path,
+        file: File,
+        request: &Request,
+        _: &mut Damage,
+    ) -> Result<Box<dyn Opened>, FormatError> {
+        Ok(Box::new(ArrayFile::read(path, file, NAME, request.time, read_elements)?))
+    }
+}
+
+impl Format for Matlab73 {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn magic(&self) -> &'static [Magic] {
+        &[(0, b"MATLAB 7.3 MAT-file")]
+    }
+
+    fn open(
+        &self,
+        path: &Path,
+        file: File,
+        request: &Request,
+        _: &mut Damage,
+    ) -> Result<Box<dyn Opened>, FormatError> {
+        let decode = |file, allowance: &mut _| read_arrays(file, &Matlab73, allowance);
+        Ok(Box::new(ArrayFile::read(path, file, NAME, request.time, decode)?))
+    }
+}
+
+impl Layout for Matlab73 {
+    fn header_bytes(&self) -> u64 {
+        512
+    }
+
+    /// `#refs#` holds what cells refer to, `#subsystem#` objects; a sparse array is a group as well.
+    fn is_structure(&self, group: &Group) -> bool {
+        !group.name().starts_with('#') && group.attribute("MATLAB_sparse").is_err()
+    }
+
+    /// An array of m x n lies there as a dataset of n x m, whose order is that of MATLAB: column by column.
+    fn shape(&self, dataset: &Dataset) -> Option<[u64; 2]> {
+        let class = dataset.attribute("MATLAB_class").and_then(|class| class.read_string());
+        let is_other = matches!(class.as_deref(), Ok("char" | "cell" | "function_handle"))
+            || dataset.attribute("MATLAB_empty").is_ok();
+        match *dataset.shape() {
+            [columns, rows] if !is_other => Some([rows, columns]),
+            _ => None,
+        }
+    }
+
+    fn sort_by_column(&self, numbers: Vec<f64>, _: [u64; 2]) -> Vec<f64> {
+        numbers
+    }
+}
+
+/// The arrays of a file of version 5.
+fn read_elements(file: File, allowance: &mut Allowance) -> io::Result<Vec<Array>> {
+    let mut file = BufReader::with_capacity(1 << 16, file);
+    let mut header = [0; HEADER];
+    file.rewind()?;
+    file.read_exact(&mut header)?;
+    let order = if header.ends_with(b"IM") { Order::Little } else { Order::Big };
+    let (mut arrays, mut at) = (vec![], HEADER as u64);
+    let mut elements = Elements { order, allowance };
+    while let Some((mut own, length)) = elements.next(&mut file)? {
+        arrays.append(&mut own);
+        at += length;
+        file.seek(SeekFrom::Start(at))?;
+    }
+    Ok(arrays)
+}

@@ -1,0 +1,164 @@
+use std::io::{self, BufReader, Read};
+
+use crate::{
+    common::numeral::Numeral,
+    formats::numpy::npy_header::{NpyHeader, Order},
+};
+
+/// The columns of an array of NumPy, and where their numbers lie.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct NumpyArray {
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// Numbers in each of them.
+    pub samples: u64,
+    /// What lies at each place of a row, in the order of the columns.
+    places: Vec<Place>,
+    /// Bytes of a row.
+    row: usize,
+    layout: Layout,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Place {
+    at: usize,
+    numeral: Numeral,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Layout {
+    RowByRow,
+    ColumnByColumn,
+}
+
+/// Most columns of an array; one that has more is a picture or a list of features.
+const MOST_COLUMNS: u64 = 10_000;
+/// Longest row of records (bytes).
+const LONGEST_ROW: u64 = 1 << 20;
+
+impl NumpyArray {
+    /// The columns of an array, which are its own where it has a name: `tau`, `q[0]`,
+    /// `log.time`; else `column_1` or the names of its records.
+    ///
+    /// Samples run along the first index, or along the second one where only that has
+    /// `samples`. None for what is no table of numbers.
+    pub(crate) fn new(
+        name: Option<&str>,
+        header: &NpyHeader,
+        samples: Option<u64>,
+    ) -> Option<Self> {
+        if header.is_record {
+            return Self::of_records(name, header);
+        }
+        let numeral = header.item.as_ref()?.first()?.item.numeral?;
+        let (samples, width, layout) = match *header.shape.as_slice() {
+            [samples] => (samples, None, Layout::RowByRow),
+            [first, second] => {
+                let is_turned = Some(first) != samples && Some(second) == samples;
+                let layout = match (header.order, is_turned) {
+                    (Order::C, false) | (Order::Fortran, true) => Layout::RowByRow,
+                    _ => Layout::ColumnByColumn,
+                };
+                let (samples, width) = if is_turned { (second, first) } else { (first, second) };
+                (samples, Some(width), layout)
+            }
+            _ => return None,
+        };
+        let count = width.unwrap_or(1);
+        if !(1..=MOST_COLUMNS).contains(&count) {
+            return None;
+        }
+        let column = |k: u64| match (name, width) {
+            (None, _) => format!("column_{}", k + 1),
+            (Some(name), None) => name.to_owned(),
+            (Some(name), Some(_)) => format!("{name}[{k}]"),
+        };
+        let place = |k: u64| Place { at: k as usize * numeral.bytes(), numeral };
+        Some(Self {
+            columns: (0..count).map(column).collect(),
+            samples,
+            places: (0..count).map(place).collect(),
+            row: count as usize * numeral.bytes(),
+            layout,
+        })
+    }
+
+    fn of_records(name: Option<&str>, header: &NpyHeader) -> Option<Self> {
+        let [samples] = *header.shape.as_slice() else { return None };
+        let prefix = name.map(|name| format!("{name}.")).unwrap_or_default();
+        let (mut columns, mut places, mut row) = (Vec::new(), Vec::new(), 0_u64);
+        for field in header.item.as_ref()? {
+            let count = field.count.unwrap_or(1);
+            let end = row.checked_add(count.checked_mul(field.item.bytes)?)?;
+            if end > LONGEST_ROW {
+                return None;
+            }
+            if let Some(numeral) = field.item.numeral.filter(|_| count <= MOST_COLUMNS) {
+                let own = format!("{prefix}{}", field.name);
+                columns.extend((0..count).map(|k| match field.count {
+                    None => own.clone(),
+                    Some(_) => format!("{own}[{k}]"),
+                }));
+                let at = |k: u64| (row + k * field.item.bytes) as usize;
+                places.extend((0..count).map(|k| Place { at: at(k), numeral }));
+            }
+            row = end;
+        }
+        let is_table = (1..=MOST_COLUMNS as usize).contains(&columns.len());
+        let (row, layout) = (row as usize, Layout::RowByRow);
+        is_table.then_some(Self { columns, samples, places, row, layout })
+    }
+
+    /// Whether it has a column of this name.
+    pub(crate) fn has(&self, column: &str) -> bool {
+        self.columns.iter().any(|name| name == column)
+    }
+
+    /// Bytes of its numbers in a file; none where that is more than there can be.
+    pub(crate) fn packed_bytes(&self) -> Option<u64> {
+        self.samples.checked_mul(self.row as u64)
+    }
+
+    /// Bytes of its numbers in memory.
+    pub(crate) fn unpacked_bytes(&self) -> u64 {
+        self.samples.saturating_mul(8).saturating_mul(self.places.len() as u64)
+    }
+
+    /// The numbers of every column, from what follows the header.
+    ///
+    /// # Errors
+    ///
+    /// Those of the source; one that ends early, or goes on behind the numbers.
+    pub(crate) fn read(&self, source: impl Read) -> io::Result<Vec<Vec<f64>>> {
+        // Room is made as numbers come, not as many as the header says.
+        let mut columns = vec![Vec::new(); self.places.len()];
+        let mut source = BufReader::with_capacity(1 << 16, source);
+        let mut bytes = vec![0; self.row];
+        match self.layout {
+            Layout::RowByRow => {
+                for _ in 0..self.samples {
+                    source.read_exact(&mut bytes)?;
+                    for (column, place) in columns.iter_mut().zip(&self.places) {
+                        column.push(place.numeral.read(&bytes[place.at..]));
+                    }
+                }
+            }
+            Layout::ColumnByColumn => {
+                for (column, place) in columns.iter_mut().zip(&self.places) {
+                    let bytes = &mut bytes[..place.numeral.bytes()];
+                    for _ in 0..self.samples {
+                        source.read_exact(bytes)?;
+                        column.push(place.numeral.read(bytes));
+                    }
+                }
+            }
+        }
+        // The end of an entry of a zip archive is where its checksum is looked at.
+        match source.read(&mut [0])? {
+            0 => Ok(columns),
+            _ => {
+                Err(io::Error::new(io::ErrorKind::InvalidData, "it is longer than its header says"))
+            }
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Tables of Parquet, with columns of numbers and of lists.
+
+pub(crate) mod array_numbers;
+pub(crate) mod growing_columns;
+pub(crate) mod list_column;
+pub(crate) mod parquet_file;

@@ -1,0 +1,3 @@
+//! Files that are packed with gzip or zstd around another kind.
+
+pub(crate) mod unpack;

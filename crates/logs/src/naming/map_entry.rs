@@ -1,0 +1,228 @@
+//! Entries of a column map: a name, a list of names, or a table with unit and factor.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+
+use log_formats::TimeScale;
+
+use crate::naming::unit::Unit;
+
+/// Where a signal is found in a file, and how it is converted:
+///
+/// ```text
+/// signal = scale * factor(unit) * value + offset
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct MappedColumn {
+    /// Name of the column.
+    pub column: String,
+    /// Unit of the values in the file; SI and radians where it is left out.
+    pub unit: Option<Unit>,
+    /// Factor, such as a torque constant or the sign of an axis.
+    pub scale: f64,
+    /// Added last, in SI units and radians.
+    pub offset: f64,
+}
+
+impl MappedColumn {
+    /// A value of the file as a signal (SI units, radians).
+    pub fn convert(&self, value: f64) -> f64 {
+        self.scale * self.unit.map_or(1.0, Unit::factor) * value + self.offset
+    }
+
+    /// The same conversion of a column of time.
+    pub(crate) fn time_scale(&self) -> TimeScale {
+        let factor = self.scale * self.unit.map_or(1.0, Unit::factor);
+        TimeScale { factor, offset_s: self.offset }
+    }
+}
+
+/// Where a signal of all joints is found: a pattern of names, or a name a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Pattern {
+    pub column: Names,
+    pub unit: Option<Unit>,
+    /// Factors, one for all joints or one a joint.
+    pub scale: Numbers,
+    /// Likewise.
+    pub offset: Numbers,
+}
+
+/// Names of columns.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Names {
+    Pattern(String),
+    Each(Vec<String>),
+}
+
+/// Numbers of joints.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Numbers {
+    All(f64),
+    Each(Vec<f64>),
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ColumnTable {
+    column: String,
+    unit: Option<Unit>,
+    #[serde(default = "one")]
+    scale: f64,
+    #[serde(default)]
+    offset: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PatternTable {
+    column: Names,
+    unit: Option<Unit>,
+    scale: Option<Numbers>,
+    offset: Option<Numbers>,
+}
+
+impl From<String> for MappedColumn {
+    fn from(column: String) -> Self {
+        Self { column, unit: None, scale: 1.0, offset: 0.0 }
+    }
+}
+
+impl From<ColumnTable> for MappedColumn {
+    fn from(ColumnTable { column, unit, scale, offset }: ColumnTable) -> Self {
+        Self { column, unit, scale, offset }
+    }
+}
+
+impl From<Names> for Pattern {
+    fn from(column: Names) -> Self {
+        Self { column, unit: None, scale: Numbers::All(1.0), offset: Numbers::All(0.0) }
+    }
+}
+
+impl From<PatternTable> for Pattern {
+    fn from(PatternTable { column, unit, scale, offset }: PatternTable) -> Self {
+        let of = |given: Option<Numbers>, usual| given.unwrap_or(Numbers::All(usual));
+        Self { column, unit, scale: of(scale, 1.0), offset: of(offset, 0.0) }
+    }
+}
+
+/// Takes a string, a list or a table, each in its own way. A mistake inside keeps its place, which
+/// it would lose in an untagged enumeration.
+struct Either<T> {
+    expected: &'static str,
+    of: PhantomData<T>,
+}
+
+impl<'de> Visitor<'de> for Either<MappedColumn> {
+    type Value = MappedColumn;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.expected)
+    }
+
+    fn visit_str<E: de::Error>(self, name: &str) -> Result<MappedColumn, E> {
+        Ok(name.to_owned().into())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MappedColumn, A::Error> {
+        ColumnTable::deserialize(MapAccessDeserializer::new(map)).map(Into::into)
+    }
+}
+
+impl<'de> Visitor<'de> for Either<Pattern> {
+    type Value = Pattern;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.expected)
+    }
+
+    fn visit_str<E: de::Error>(self, name: &str) -> Result<Pattern, E> {
+        Ok(Names::Pattern(name.to_owned()).into())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Pattern, A::Error> {
+        let names = Vec::deserialize(SeqAccessDeserializer::new(list))?;
+        Ok(Names::Each(names).into())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Pattern, A::Error> {
+        PatternTable::deserialize(MapAccessDeserializer::new(map)).map(Into::into)
+    }
+}
+
+impl<'de> Visitor<'de> for Either<Names> {
+    type Value = Names;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.expected)
+    }
+
+    fn visit_str<E: de::Error>(self, name: &str) -> Result<Names, E> {
+        Ok(Names::Pattern(name.to_owned()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Names, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Names::Each)
+    }
+}
+
+impl<'de> Visitor<'de> for Either<Numbers> {
+    type Value = Numbers;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.expected)
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Numbers, E> {
+        Ok(Numbers::All(value))
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Numbers, E> {
+        Ok(Numbers::All(value as f64))
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Numbers, E> {
+        Ok(Numbers::All(value as f64))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Numbers, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Numbers::Each)
+    }
+}
+
+impl<'de> Deserialize<'de> for MappedColumn {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a column or a table with column, unit, scale, offset";
+        deserializer.deserialize_any(Either::<Self> { expected, of: PhantomData })
+    }
+}
+
+impl<'de> Deserialize<'de> for Pattern {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a pattern of columns, a list of them, or a table with column, unit, scale, \
+                        offset";
+        deserializer.deserialize_any(Either::<Self> { expected, of: PhantomData })
+    }
+}
+
+impl<'de> Deserialize<'de> for Names {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a pattern of columns or a list of them";
+        deserializer.deserialize_any(Either::<Self> { expected, of: PhantomData })
+    }
+}
+
+impl<'de> Deserialize<'de> for Numbers {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a number or a list of them";
+        deserializer.deserialize_any(Either::<Self> { expected, of: PhantomData })
+    }
+}

@@ -1,0 +1,134 @@
+use std::path::Path;
+
+use log_formats::FormatError;
+use robot::Robot;
+
+use crate::{
+    error::LogError,
+    naming::nearest::nearest,
+    reading::{options::ReadOptions, source::Source},
+    runs::run::Channel,
+};
+
+/// Looks for the columns of the signals.
+pub(crate) struct Finder<'f, 'a> {
+    pub path: &'f Path,
+    pub names: &'f [String],
+    pub is_unnamed: bool,
+    pub options: &'f ReadOptions<'a>,
+}
+
+impl<'a> Finder<'_, 'a> {
+    pub(crate) fn joint(
+        &self,
+        joint: &str,
+        robot: &Robot,
+    ) -> Result<Vec<(Channel, Source<'a>)>, LogError> {
+        let mut sources = Vec::new();
+        let is_computed = self.is_effort_computed(robot);
+        for channel in Channel::ALL.into_iter().filter(|c| !is_computed || *c != Channel::Effort) {
+            let source = self.source(joint, channel);
+            if self.names.contains(&source.column) {
+                sources.push((channel, source));
+            } else if source.mapped.is_some() {
+                let purpose = format!(
+                    "the column map names it for the {} of joint {joint}{}",
+                    channel.suffix(),
+                    self.other_effort(joint, channel)
+                );
+                return Err(self.no_column(&source.column, &purpose));
+            } else if channel.is_required() {
+                return Err(self.absent(joint, channel, source.column, robot));
+            } else if is_computed && channel == Channel::DesiredPosition {
+                let purpose = format!(
+                    "the goal of joint {joint}, which effort_source in robot.toml computes its effort from, was expected there"
+                );
+                return Err(self.no_column(&source.column, &purpose));
+            }
+        }
+        Ok(sources)
+    }
+
+    /// Whether the robot's efforts are those of a position loop, and no other effort is asked for.
+    pub(crate) fn is_effort_computed(&self, robot: &Robot) -> bool {
+        self.options.effort == Channel::Effort.suffix()
+            && robot.links().iter().all(|link| link.actuator.position_loop.is_some())
+    }
+
+    /// The end of the error for a missing effort: the hint at `effort_source`, where the log has a goal.
+    fn other_effort(&self, joint: &str, channel: Channel) -> &'static str {
+        let goal = self.source(joint, Channel::DesiredPosition).column;
+        if channel == Channel::Effort && self.names.contains(&goal) {
+            ", or effort_source in robot.toml for servos whose logs hold none"
+        } else {
+            ""
+        }
+    }
+
+    fn source(&self, joint: &str, channel: Channel) -> Source<'a> {
+        let suffix = match channel {
+            Channel::Effort => self.options.effort,
+            _ => channel.suffix(),
+        };
+        // The map describes the usual effort, not another one that was asked for.
+        let usual = suffix == channel.suffix();
+        let mapped = self.options.map.filter(|_| usual).and_then(|m| m.channel(joint, channel));
+        let column = mapped.map_or_else(|| format!("{joint}.{suffix}"), |m| m.column.clone());
+        Source { column, mapped }
+    }
+
+    fn absent(&self, joint: &str, channel: Channel, column: String, robot: &Robot) -> LogError {
+        if self.is_unnamed {
+            return self.unnamed();
+        }
+        let prefix = format!("{joint}.");
+        let own = |name: &&String| name.starts_with(&prefix);
+        if channel != Channel::Position || self.names.iter().any(|n| own(&n)) {
+            let purpose = format!(
+                "the {} of joint {joint} was expected there{}",
+                channel.suffix(),
+                self.other_effort(joint, channel)
+            );
+            // A column of another joint is no misspelling of this one's.
+            let nearest = nearest(&column, self.names.iter().filter(own).map(String::as_str));
+            let path = self.path.to_owned();
+            return FormatError::NoColumn { path, column, purpose, nearest }.into();
+        }
+        let found: Box<[String]> = self
+            .names
+            .iter()
+            .filter_map(|n| n.strip_suffix(".position"))
+            .map(str::to_owned)
+            .collect();
+        let strange = found.iter().map(String::as_str).filter(|n| robot.joint_index(n).is_none());
+        let nearest = nearest(joint, strange);
+        let position = |joint: &str| self.source(joint, Channel::Position).column;
+        let has = |joint: &&str| self.names.iter().any(|n| *n == position(joint));
+        let shared = robot.joint_names().filter(has).map(str::to_owned).collect();
+        LogError::JointAbsent {
+            path: self.path.to_owned(),
+            joint: joint.to_owned(),
+            column: column.into(),
+            shared,
+            found,
+            nearest,
+        }
+    }
+
+    fn unnamed(&self) -> LogError {
+        LogError::NoNames { path: self.path.to_owned(), columns: self.names.len() }
+    }
+
+    pub(crate) fn no_column(&self, column: &str, purpose: &str) -> LogError {
+        if self.is_unnamed {
+            return self.unnamed();
+        }
+        FormatError::NoColumn {
+            path: self.path.to_owned(),
+            column: column.to_owned(),
+            purpose: purpose.to_owned(),
+            nearest: nearest(column, self.names.iter().map(String::as_str)),
+        }
+        .into()
+    }
+}

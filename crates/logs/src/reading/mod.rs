@@ -1,0 +1,9 @@
+//! From a file to a checked run.
+
+pub(crate) mod finder;
+pub(crate) mod options;
+pub(crate) mod plan;
+pub(crate) mod position_loop;
+pub(crate) mod presets;
+pub(crate) mod read;
+pub(crate) mod source;

@@ -1,0 +1,113 @@
+use std::fmt;
+
+/// A change of a run while it was read: something put right, left out or computed.
+///
+/// Rows are those of the file, counted from 1.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mend {
+    /// Rows with an impossible sample were left out.
+    LeftOut {
+        /// The column.
+        column: String,
+        /// The first such row.
+        row: usize,
+        /// What it holds there, in the unit of the signal.
+        found: f64,
+        /// Why it is impossible, as the end of `but ...`.
+        expectation: String,
+        /// How many rows.
+        count: usize,
+    },
+    /// Time stamps of arrival were replaced by an even clock.
+    EvenClock {
+        /// Its step (s).
+        step_s: f64,
+        /// Largest distance of a stamp from it (s).
+        largest_s: f64,
+    },
+    /// Efforts were computed from the position loop of `robot.toml`; the log has none.
+    FromPositionLoop,
+    /// Only stretches of long logs are used, spread evenly over them.
+    Stretches {
+        /// Lengths of the gaps between the stretches of this run (s).
+        gaps_s: Vec<f64>,
+        /// Length of what is used of all logs, and of all logs (s).
+        all: [f64; 2],
+    },
+    /// Full turns by which a position jumped were taken out.
+    Turns {
+        /// The column.
+        column: String,
+        /// The first row after a jump.
+        row: usize,
+        /// How many jumps.
+        count: usize,
+    },
+}
+
+impl Mend {
+    /// How much of all logs is used, in words; `None` for other changes.
+    pub fn taken(&self) -> Option<String> {
+        let Self::Stretches { all, .. } = self else { return None };
+        let [taken_min, whole_min] = all.map(|seconds| seconds / 60.0);
+        Some(format!("of {whole_min:.1} min of logs {taken_min:.1} min take part"))
+    }
+
+    /// Number of gaps that it leaves in the run.
+    pub(crate) fn gaps(&self) -> usize {
+        match self {
+            Self::Stretches { gaps_s, .. } => gaps_s.len(),
+            _ => 0,
+        }
+    }
+
+    /// Whether both are the same change of all logs, which is reported once.
+    pub(crate) fn says_of_all(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::FromPositionLoop, Self::FromPositionLoop) => true,
+            (Self::Stretches { all, .. }, Self::Stretches { all: others, .. }) => {
+                all.map(f64::to_bits) == others.map(f64::to_bits)
+            }
+            _ => false,
+        }
+    }
+}
+
+impl fmt::Display for Mend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LeftOut { column, row, found, expectation, count } => {
+                write!(f, "column {column}, row {row}: found {found}, but {expectation}; ")?;
+                match count {
+                    1 => write!(f, "the row is left out"),
+                    _ => write!(f, "it and {} more such rows are left out", count - 1),
+                }
+            }
+            Self::EvenClock { step_s, largest_s } => write!(
+                f,
+                "its stamps are up to {:.3} ms off an even clock of {:.4} ms, which is taken instead of them",
+                1e3 * largest_s,
+                1e3 * step_s
+            ),
+            Self::FromPositionLoop => f.write_str(
+                "no effort was measured: it is taken as kp (goal - q) - kd qd with the gains of effort_source in \
+                 robot.toml. Every size in N m is one in units of these gains: the scale of all efforts cannot be \
+                 known from such a log, and a torque constant is the error of a gain as well as that of a motor",
+            ),
+            Self::Stretches { .. } => write!(
+                f,
+                "{}, in stretches of a minute or less that are spread evenly over them, so that memory and time do \
+                 not grow with their length. Intervals are those of what takes part; --all-samples takes the rest too",
+                self.taken().unwrap_or_default()
+            ),
+            Self::Turns { column, row, count } => {
+                let more =
+                    if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+                write!(
+                    f,
+                    "column {column}, row {row}{more}: the position jumps by full turns, which are taken out"
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The cut-off, the columns and the noise of a log: what has to be known before it is filtered.
+
+use crate::{
+    error::LogError,
+    runs::run::Run,
+    signals::{
+        cutoff::{self, Bounds, Cutoff},
+        filter::LowPass,
+        filtered::{ORDER, SETTLING_PERIODS},
+        motion_band::BandInputs,
+        noise::JointNoise,
+        origin::Sources,
+        readings::Readings,
+        sources::{Comparison, Disagreement},
+        uniform::{UniformRun, moving},
+        warning::LogWarning,
+    },
+};
+
+/// What is chosen for a log, the same for all of its runs.
+pub(crate) struct Choice {
+    pub cutoff: Cutoff,
+    /// Of each joint.
+    pub sources: Vec<Sources>,
+    /// Of each joint.
+    pub noise: Vec<JointNoise>,
+    /// Columns that are not used.
+    pub warnings: Vec<LogWarning>,
+}
+
+/// Chooses for runs and their pieces; `given_hz` is a cut-off that was asked for.
+///
+/// The noise of the positions tells the motion's band, the motion's band which columns agree with
+/// their derivatives, and the noise of those columns how far up acceleration can be had.
+///
+/// # Errors
+///
+/// [`LogError::CutoffOutOfRange`].
+pub(crate) fn choose(
+    runs: &[Run],
+    pieces: &[UniformRun],
+    given_hz: Option<f64>,
+) -> Result<Choice, LogError> {
+    let moving = &moving(pieces);
+    let readings = Readings { runs, pieces, moving };
+    let joints = 0..pieces.first().map_or(0, |piece| piece.joints.len());
+    let (positions, in_pieces): (Vec<_>, Vec<_>) =
+        joints.clone().map(|j| readings.position(j)).unzip();
+    let motion = BandInputs { pieces, moving, noise: &in_pieces }.band();
+    let slowest_hz = pieces.iter().map(|p| p.rate_hz).fold(f64::INFINITY, f64::min);
+    let bounds = Bounds::new(&motion, slowest_hz);
+    let motion_hz = bounds.motion_hz();
+    let comparison = Comparison { cutoff_hz: given_hz.unwrap_or(bounds.by_motion()), motion_hz };
+    for piece in pieces {
+        LowPass::new(ORDER, comparison.cutoff_hz, piece.rate_hz)?;
+    }
+
+    let names: Vec<&str> =
+        runs.iter().take(1).flat_map(|run| &run.joints).map(|j| j.name.as_str()).collect();
+    let mut chosen = Columns { pieces, moving, comparison, names: &names, warnings: Vec::new() };
+    let sources: Result<Vec<_>, _> = joints.clone().map(|j| chosen.sources(j)).collect();
+    let (sources, warnings) = (sources?, chosen.warnings);
+    let noise: Vec<_> = joints.map(|j| readings.noise(j, sources[j], positions[j])).collect();
+    let cutoff = match given_hz {
+        Some(hz) => Cutoff { cutoff_hz: hz, motion_hz, reason: format!("{hz} Hz: it was given") },
+        None => cutoff::choose(&bounds, &motion, &noise, &names),
+    };
+    Ok(Choice { cutoff, sources, noise, warnings })
+}
+
+/// Looks for columns that can be used.
+struct Columns<'a> {
+    pieces: &'a [UniformRun],
+    moving: &'a [Vec<bool>],
+    comparison: Comparison,
+    names: &'a [&'a str],
+    warnings: Vec<LogWarning>,
+}
+
+impl Columns<'_> {
+    /// Where the signals of a joint come from; keeps what is to be said of it.
+    fn sources(&mut self, joint: usize) -> Result<Sources, LogError> {
+        let shortest_s = 3.0 * SETTLING_PERIODS / self.comparison.cutoff_hz;
+        let in_motion: Vec<bool> = self
+            .pieces
+            .iter()
+            .zip(self.moving)
+            .map(|(piece, m)| m[joint] && piece.duration_s() >= shortest_s)
+            .collect();
+        let (sources, found) = self.comparison.sources(self.pieces, &in_motion, joint)?;
+        let name = self.names.get(joint).copied().unwrap_or_default();
+        for warning in found.iter().map(|d: &Disagreement| d.warning(self.pieces, name)) {
+            let left = self.warnings.iter_mut().try_fold(warning, |left, known| known.join(left));
+            self.warnings.extend(left);
+        }
+        Ok(sources)
+    }
+}

@@ -1,0 +1,135 @@
+//! Which columns velocity and acceleration come from.
+
+use crate::{
+    error::LogError,
+    signals::{
+        agreement::Agreement,
+        filter::LowPass,
+        filtered::{Band, ORDER, settled_range},
+        origin::{Origin, Sources},
+        uniform::UniformRun,
+        warning::LogWarning,
+    },
+};
+
+/// A measured column that is not the derivative it should be.
+pub(crate) struct Disagreement {
+    piece: usize,
+    agreement: Agreement,
+    derivative: Derivative,
+}
+
+/// Which derivative of the position a column is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Derivative {
+    Velocity,
+    Acceleration,
+}
+
+/// The bands that columns and derivatives are compared in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Comparison {
+    /// Cut-off of the low-pass (Hz).
+    pub cutoff_hz: f64,
+    /// Frequency below which the motion lies (Hz).
+    pub motion_hz: f64,
+}
+
+impl Comparison {
+    /// The sources of a joint: its columns where they agree with the derivatives in every piece in
+    /// which it moves (`in_motion`). Tells where they do not.
+    pub(crate) fn sources(
+        &self,
+        pieces: &[UniformRun],
+        in_motion: &[bool],
+        joint: usize,
+    ) -> Result<(Sources, Vec<Disagreement>), LogError> {
+        let (mut sources, mut disagreements) = (Sources::POSITION, Vec::new());
+        let has_none = |p: &UniformRun| {
+            let raw = &p.joints[joint];
+            raw.velocity.is_none() && raw.acceleration.is_none()
+        };
+        if pieces.iter().all(has_none) {
+            return Ok((sources, disagreements));
+        }
+        let bands = |sources: Sources| -> Result<Vec<Band>, LogError> {
+            let band = |p: &UniformRun| {
+                let low_pass = LowPass::new(ORDER, self.cutoff_hz, p.rate_hz)?;
+                Ok(Band::of(&p.joints[joint], &low_pass, p.rate_hz).take(sources, p.rate_hz))
+            };
+            pieces.iter().map(band).collect()
+        };
+        for derivative in [Derivative::Velocity, Derivative::Acceleration] {
+            let bands = bands(sources)?;
+            let worst = self.worst(pieces, in_motion, |piece| derivative.pair(&bands[piece]));
+            match worst {
+                Some((_, agreement)) if agreement.holds(self.motion_hz) => {
+                    *derivative.origin(&mut sources) = Origin::Measured;
+                }
+                Some((piece, agreement)) => {
+                    disagreements.push(Disagreement { piece, agreement, derivative });
+                }
+                None => {}
+            }
+        }
+        Ok((sources, disagreements))
+    }
+
+    /// The worst agreement of a measured column with its derivative over the pieces in motion;
+    /// `None` where a piece does not have the column or none can be compared.
+    fn worst<'b>(
+        &self,
+        pieces: &[UniformRun],
+        in_motion: &[bool],
+        pair: impl Fn(usize) -> Option<(&'b [f64], &'b [f64])>,
+    ) -> Option<(usize, Agreement)> {
+        let pairs: Option<Vec<_>> = (0..pieces.len()).map(pair).collect();
+        let compared = pieces.iter().zip(pairs?).enumerate().filter(|(k, _)| in_motion[*k]);
+        compared
+            .filter_map(|(k, (piece, (m, d)))| Some((k, self.agreement(piece.rate_hz, m, d)?)))
+            .max_by(|a, b| a.1.deviation(self.motion_hz).total_cmp(&b.1.deviation(self.motion_hz)))
+    }
+
+    /// A measured column against its derivative, both low-passed, away from their ends.
+    fn agreement(&self, rate_hz: f64, measured: &[f64], derived: &[f64]) -> Option<Agreement> {
+        let kept = settled_range(measured.len(), rate_hz, self.cutoff_hz);
+        Agreement::of(&measured[kept.clone()], &derived[kept], rate_hz, self.cutoff_hz)
+    }
+
+    /// The velocity column of a joint against the derivative of its position.
+    pub(crate) fn velocity_agreement(&self, piece: &UniformRun, joint: usize) -> Option<Agreement> {
+        let low_pass = LowPass::new(ORDER, self.cutoff_hz, piece.rate_hz).ok()?;
+        let band = Band::of(&piece.joints[joint], &low_pass, piece.rate_hz);
+        self.agreement(piece.rate_hz, band.velocity.as_deref()?, &band.qd)
+    }
+}
+
+impl Derivative {
+    /// The column, and the derivative of what lies below it.
+    fn pair(self, band: &Band) -> Option<(&[f64], &[f64])> {
+        match self {
+            Self::Velocity => Some((band.velocity.as_deref()?, &band.qd)),
+            Self::Acceleration => Some((band.acceleration.as_deref()?, &band.qdd)),
+        }
+    }
+
+    fn origin(self, sources: &mut Sources) -> &mut Origin {
+        match self {
+            Self::Velocity => &mut sources.velocity,
+            Self::Acceleration => &mut sources.acceleration,
+        }
+    }
+}
+
+impl Disagreement {
+    pub(crate) fn warning(&self, pieces: &[UniformRun], joint: &str) -> LogWarning {
+        let (run, joints) = (pieces[self.piece].name.clone(), vec![joint.to_owned()]);
+        let Agreement { lag_s, scale, .. } = self.agreement;
+        match self.derivative {
+            Derivative::Velocity => LogWarning::VelocityDisagrees { run, joints, lag_s, scale },
+            Derivative::Acceleration => {
+                LogWarning::AccelerationDisagrees { run, joints, lag_s, scale }
+            }
+        }
+    }
+}

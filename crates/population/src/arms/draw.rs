@@ -1,0 +1,22 @@
+use rand_chacha::ChaCha8Rng;
+
+use crate::arms::arm::SampledArm;
+use crate::arms::{generated, wam};
+use crate::corner::ArmClass;
+use crate::error::PopulationError;
+
+impl SampledArm {
+    /// An arm of a class; a generated one has so many joints.
+    pub(crate) fn draw(
+        class: ArmClass,
+        count: usize,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Self, PopulationError> {
+        match class {
+            ArmClass::Wam => wam::draw(random),
+            ArmClass::Hobby | ArmClass::Cobot | ArmClass::Industrial => {
+                generated::draw(class, count, random)
+            }
+        }
+    }
+}

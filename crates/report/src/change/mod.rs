@@ -1,0 +1,3 @@
+//! What changed between two sets of logs.
+
+pub(crate) mod page;

@@ -1,0 +1,141 @@
+use diagnosis::{
+    DataSummary, EffectAt, Estimate, Finding, InverseGain, JointReport, RuledOut, Unexplained,
+    Verdict,
+};
+use evaluation::ForwardGap;
+use serde::{Serialize, Serializer};
+
+use crate::diagnosis::report::Report;
+use crate::diagnosis::residual::ResidualModel;
+use pages::{Provenance, ReportError, to_json};
+
+/// `diagnosis.json`: the diagnosis in the schema [`diagnosis::SCHEMA`], with provenance.
+///
+/// A number that is not finite is `null`.
+///
+/// # Errors
+///
+/// [`ReportError::Format`].
+pub fn json(report: &Report) -> Result<String, ReportError> {
+    let document = Document::new(report);
+    to_json(&document)
+}
+
+/// [`Diagnosis`] as it is written: parameters by name, provenance at the end.
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: &'a str,
+    robot: &'a str,
+    verdict: Verdict,
+    joints: &'a [JointReport],
+    findings: Vec<FindingByName<'a>>,
+    unexplained: &'a [Unexplained],
+    ruled_out: &'a [RuledOut],
+    gain: Gains<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_model: Option<&'a ResidualModel>,
+    data: &'a DataSummary,
+    warnings: &'a [String],
+    provenance: &'a Provenance,
+}
+
+/// What the extended model buys: in predicting torque, and in simulating motion.
+#[derive(Serialize)]
+struct Gains<'a> {
+    inverse: &'a InverseGain,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    forward: Option<&'a ForwardGap>,
+}
+
+#[derive(Serialize)]
+struct FindingByName<'a> {
+    #[serde(flatten)]
+    at: &'a EffectAt,
+    #[serde(serialize_with = "by_name")]
+    parameters: &'a [Estimate],
+    share_explained: f64,
+    log_evidence: f64,
+    held_out_gain: f64,
+    not_separable_from: &'a [EffectAt],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    told_apart_by: Option<&'a str>,
+    evidence: &'a [String],
+    undetermined: &'a [String],
+}
+
+impl<'a> Document<'a> {
+    fn new(report: &Report<'a>) -> Self {
+        let diagnosis = report.diagnosis;
+        Self {
+            schema: diagnosis.schema,
+            robot: &diagnosis.robot,
+            verdict: diagnosis.verdict,
+            joints: &diagnosis.joints,
+            findings: diagnosis.findings.iter().map(FindingByName::new).collect(),
+            unexplained: &diagnosis.unexplained,
+            ruled_out: &diagnosis.ruled_out,
+            gain: Gains { inverse: &diagnosis.gain.inverse, forward: report.forward },
+            residual_model: report.residual,
+            data: &diagnosis.data,
+            warnings: &diagnosis.warnings,
+            provenance: report.provenance,
+        }
+    }
+}
+
+impl<'a> FindingByName<'a> {
+    fn new(finding: &'a Finding) -> Self {
+        Self {
+            at: &finding.at,
+            parameters: &finding.parameters,
+            share_explained: finding.share_explained,
+            log_evidence: finding.log_evidence,
+            held_out_gain: finding.held_out_gain,
+            not_separable_from: &finding.not_separable_from,
+            told_apart_by: finding.told_apart_by,
+            evidence: &finding.evidence,
+            undetermined: &finding.undetermined,
+        }
+    }
+}
+
+/// What stands under the name of a parameter.
+#[derive(Serialize)]
+struct Value<'a> {
+    value: f64,
+    ci95: [f64; 2],
+    noise95: [f64; 2],
+    nominal: f64,
+    unit: &'a str,
+    determined: bool,
+}
+
+fn by_name<S: Serializer>(parameters: &[Estimate], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(parameters.iter().map(|p| {
+        let &Estimate { name, value, ci95, noise95, nominal, unit, determined } = p;
+        (name, Value { value, ci95, noise95, nominal, unit, determined })
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::sample;
+
+    #[test]
+    fn parameters_stand_under_their_names_and_not_a_number_is_null() {
+        let mut sample = sample::arm();
+        sample.diagnosis.findings[0].log_evidence = f64::NAN;
+        let text = super::json(&sample.report()).unwrap();
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["schema"], "plumbline.diagnosis/1");
+        let finding = &value["findings"][0];
+        assert_eq!(finding["effect"], "coulomb_friction");
+        assert_eq!(finding["joint"], "shoulder");
+        let codes = [finding, &finding["not_separable_from"][0], &value["ruled_out"][0]];
+        assert_eq!(codes.map(|at| &at["code"]), ["FR02", "FR01", "EN02"]);
+        assert_eq!(finding["parameters"]["level"]["unit"], "N m");
+        assert_eq!(finding["parameters"]["level"]["ci95"][1], 2.2);
+        assert!(finding["log_evidence"].is_null());
+        assert!(value["provenance"]["files"][0]["sha256"].is_string());
+    }
+}

@@ -1,0 +1,42 @@
+use pages::Provenance;
+
+use crate::diagnosis::residual::ResidualModel;
+
+/// Everything that a report shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Report<'a> {
+    /// The answer.
+    pub diagnosis: &'a diagnosis::Diagnosis,
+    /// The signals behind it, one entry a run.
+    pub traces: &'a [diagnosis::RunTraces],
+    /// The robot as it was given, for units and for the joint of a link.
+    pub robot: &'a robot::Robot,
+    /// The model of what the findings leave, where one was learned.
+    pub residual: Option<&'a ResidualModel>,
+    /// How far simulations drift from the logs, where that was measured.
+    pub forward: Option<&'a evaluation::ForwardGap>,
+    /// The extended robot in files of other programs, and what became of every quantity.
+    pub descriptions: &'a [(exchange::Format, exchange::Export)],
+    /// Where the answer comes from.
+    pub provenance: &'a Provenance,
+}
+
+impl<'a> Report<'a> {
+    /// What a diagnosis of logs of `robot` came to, and no more.
+    pub fn new(
+        outcome: &'a diagnosis::Outcome,
+        robot: &'a robot::Robot,
+        provenance: &'a Provenance,
+    ) -> Self {
+        let diagnosis::Outcome { diagnosis, traces, .. } = outcome;
+        Self {
+            diagnosis,
+            traces,
+            robot,
+            residual: None,
+            forward: None,
+            descriptions: &[],
+            provenance,
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! The moving arm on rapier: what it is built from, and the hooks by which effects act on it.
+
+pub(crate) mod arm;
+pub(crate) mod engine;
+pub(crate) mod inject;
+pub(crate) mod plant;
+pub(crate) mod transmission;

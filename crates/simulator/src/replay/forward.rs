@@ -1,0 +1,157 @@
+use std::collections::BTreeMap;
+
+use logs::{Channels, PreparedRun, Run};
+use rayon::prelude::*;
+use robot::{Machine, MachineFault, Robot};
+
+use crate::error::SimulatorError;
+use crate::replay::record::{
+    EncoderState, STEP_S, check_rate, encoder_state, held_torque, simulator_of_record,
+    start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
+};
+
+/// Consecutive windows in which a record is simulated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Windows {
+    /// Length of a window (s), rounded to whole samples.
+    pub window_s: f64,
+    /// Longest step of the engine (s). Each sample of the record takes a whole number of steps.
+    pub longest_step_s: f64,
+}
+
+impl Windows {
+    /// Windows of this length (s), with steps of at most 0.1 ms.
+    pub fn of(window_s: f64) -> Self {
+        Self { window_s, longest_step_s: STEP_S }
+    }
+}
+
+/// Drift of a simulation from a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForwardReplay {
+    /// Length of a window (s).
+    pub window_s: f64,
+    /// Number of windows, without overlap.
+    pub windows: usize,
+    /// Faults of windows in which a joint ran away; these windows do not count in the drift.
+    pub runaways: Vec<MachineFault>,
+    /// Root mean square over the windows of `q_simulated - q_measured` at their ends, for each
+    /// joint (rad or m); `None` when a joint ran away in every window.
+    pub drift_rms: Option<Vec<f64>>,
+    /// The simulated motion: positions and velocities of every sample of every window, with the
+    /// measured positions as `<joint>.measured_position`.
+    pub motion: Run,
+}
+
+/// Simulates a robot under the torques of a record, starting each window from a recorded state.
+///
+/// ```text
+/// (q, qd)(t_start) = measured,   tau(t) = measured,   drift = q_simulated - q_measured
+/// ```
+///
+/// A commanded torque is held from its sample to the next. A measured torque is the mean of both
+/// samples. Efforts that are logged late are shifted back by the robot's skew. Windows run in
+/// parallel. Positions are compared as the robot's encoders would report them.
+///
+/// Each transmission starts in static equilibrium under the load that follows from the drive's
+/// description and the first torque. One encoder cannot show whether it was really oscillating.
+///
+/// # Errors
+///
+/// [`SimulatorError`] when the robot cannot be simulated, [`SimulatorError::TooSlow`] below one row a
+/// second, or [`SimulatorError::TooShort`] when no window fits into the record.
+pub fn replay_torque(
+    robot: &Robot,
+    record: &PreparedRun,
+    windows: Windows,
+) -> Result<ForwardReplay, SimulatorError> {
+    let Windows { window_s, longest_step_s } = windows;
+    check_rate(record)?;
+    let record = &*with_efforts_in_time(robot, record);
+    let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
+    let count = record.time.len().saturating_sub(1) / samples;
+    if count == 0 {
+        return Err(too_short(record, window_s));
+    }
+    let starts: Vec<usize> = (0..count).map(|w| w * samples).collect();
+    let windows: Result<Vec<Window>, SimulatorError> = starts
+        .par_iter()
+        .map(|&start| roll_window(robot, record, start, samples, longest_step_s))
+        .collect();
+    let windows = windows?;
+    let (mut squares, mut kept) = (vec![0.0; robot.joint_count()], 0_usize);
+    for (window, start) in windows.iter().zip(&starts) {
+        let (Some(EncoderState { q, .. }), None) = (window.states.last(), &window.fault) else {
+            continue;
+        };
+        kept += 1;
+        for (i, square) in squares.iter_mut().enumerate() {
+            *square += (q[i] - record.joints[i].q[start + samples]).powi(2);
+        }
+    }
+    Ok(ForwardReplay {
+        window_s: samples as f64 / record.rate_hz,
+        windows: count,
+        drift_rms: (kept > 0).then(|| squares.iter().map(|s| (s / kept as f64).sqrt()).collect()),
+        motion: motion_of(robot, record, &starts, &windows),
+        runaways: windows.into_iter().filter_map(|w| w.fault).collect(),
+    })
+}
+
+/// Result of one window: positions and velocities at every sample after its start.
+struct Window {
+    states: Vec<EncoderState>,
+    fault: Option<MachineFault>,
+}
+
+fn roll_window(
+    robot: &Robot,
+    record: &PreparedRun,
+    start: usize,
+    samples: usize,
+    longest_step_s: f64,
+) -> Result<Window, SimulatorError> {
+    let robot = &*with_friction_of_sample(robot, record, start);
+    let mut simulator = simulator_of_record(robot, record.rate_hz, longest_step_s)?;
+    start_at_sample(&mut simulator, robot, record, start);
+    let mut window = Window { states: Vec::with_capacity(samples), fault: None };
+    for sample in start..start + samples {
+        let tau = held_torque(robot, record, sample);
+        if let Err(fault) = simulator.actuate(&tau) {
+            window.fault = Some(fault);
+            break;
+        }
+        window.states.push(encoder_state(&simulator, robot));
+    }
+    Ok(window)
+}
+
+fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[Window]) -> Run {
+    let sample = |start: usize, i: usize| start + 1 + i;
+    let places: Vec<(usize, &EncoderState)> = windows
+        .iter()
+        .zip(starts)
+        .flat_map(|(w, &s)| w.states.iter().enumerate().map(move |(i, x)| (sample(s, i), x)))
+        .collect();
+    let joint = |(j, name): (usize, &str)| Channels {
+        name: name.to_owned(),
+        position: places.iter().map(|(_, at)| at.q[j]).collect(),
+        velocity: Some(places.iter().map(|(_, at)| at.qd[j]).collect()),
+        effort: places.iter().map(|(k, _)| record.joints[j].effort[*k]).collect(),
+        ..Channels::default()
+    };
+    let measured = |(j, name): (usize, &str)| {
+        let column = places.iter().map(|(k, _)| record.joints[j].q[*k]).collect();
+        (format!("{name}.measured_position"), column)
+    };
+    Run {
+        name: record.name.clone(),
+        source: Default::default(),
+        sha256: String::new(),
+        is_torn: false,
+        mended: Vec::new(),
+        time: places.iter().map(|(k, _)| record.time[*k]).collect(),
+        joints: robot.joint_names().enumerate().map(joint).collect(),
+        extra: robot.joint_names().enumerate().map(measured).collect::<BTreeMap<_, _>>(),
+    }
+}

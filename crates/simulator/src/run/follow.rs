@@ -1,0 +1,123 @@
+use motion::State;
+use robot::{Gain, Machine, MachineFault, Reading, Robot};
+
+use crate::effects::spec::EffectSpec;
+use crate::error::SimulatorError;
+use crate::mechanics::inject::Inject;
+use crate::scenario::check::ScenarioRun;
+use crate::sensors::Sensors;
+use crate::simulator::{Simulator, Stepping};
+use crate::strangers::spec::StrangerSpec;
+use crate::{effects, strangers};
+
+/// The effects and strangers in an arm.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Causes<'a> {
+    pub effects: &'a [EffectSpec],
+    pub strangers: &'a [StrangerSpec],
+}
+
+/// One row of a log, with the reference that was followed.
+#[derive(Debug, Clone)]
+pub(crate) struct ControlRow {
+    pub reading: Reading,
+    /// Readings of the encoders at the links; `None` for a joint without one.
+    pub links: Vec<Option<f64>>,
+    pub command: Vec<f64>,
+    pub reference: State,
+}
+
+/// A motion and the controller that follows it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Following<'a> {
+    pub gains: &'a [Gain],
+    pub robot: &'a Robot,
+    pub run: &'a ScenarioRun,
+    /// Longest part of the motion that is followed (s).
+    pub longest_s: f64,
+}
+
+/// Builds a simulator. Strangers of the drive act first, then the effects, then all other strangers.
+pub(crate) fn simulator(
+    robot: &Robot,
+    causes: Causes<'_>,
+    sensors: Sensors,
+    stepping: Stepping,
+) -> Result<Simulator, SimulatorError> {
+    let Causes { effects, strangers } = causes;
+    let injected: Vec<Box<dyn Inject>> =
+        effects::chain::inject_all(effects, robot).map_err(|(index, mistake)| {
+            SimulatorError::Effect {
+                effect: effects[index].kind(),
+                key: mistake.key.to_owned(),
+                found: mistake.found,
+            }
+        })?;
+    let around = strangers::chain::inject_all(strangers, robot).map_err(|(index, mistake)| {
+        SimulatorError::Stranger {
+            stranger: strangers[index].kind(),
+            key: mistake.key.to_owned(),
+            found: mistake.found,
+        }
+    })?;
+    let all = around.ahead.into_iter().chain(injected).chain(around.behind);
+    Simulator::new(robot, all.collect(), sensors, stepping)
+}
+
+/// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, within the torque limits.
+///
+/// A motion that starts at rest is held at its start for the lead-in before time zero. Any other
+/// motion starts without a lead-in.
+pub(crate) fn follow(
+    simulator: &mut Simulator,
+    following: &Following<'_>,
+    on_second: &dyn Fn(),
+) -> Result<Vec<ControlRow>, MachineFault> {
+    let Following { gains, robot, run, longest_s } = *following;
+    let period_s = simulator.period_s();
+    let mut reference = run.motion.at(0.0);
+    let at_rest = reference.qd.iter().all(|qd| qd.abs() <= 1e-9);
+    let lead_in = if at_rest { (run.lead_in_s / period_s).round() as usize } else { 0 };
+    simulator.start_moving(&reference.q, &reference.qd);
+    simulator.count_down(lead_in);
+    let count = (run.motion.duration_s().min(longest_s) / period_s).round() as usize + 1;
+    let mut reading = Reading::zero(robot.joint_count());
+    let mut command = vec![0.0; robot.joint_count()];
+    let mut rows = Vec::with_capacity(count);
+    for tick in 0..lead_in + count {
+        let time_s = (tick as f64 - lead_in as f64) * period_s;
+        if tick > lead_in {
+            run.motion.sample(time_s, &mut reference);
+        }
+        simulator.read(&mut reading)?;
+        feedback(gains, robot, &reference, &reading, &mut command);
+        simulator.actuate(&command)?;
+        let mut row = Reading::default();
+        simulator.record(&reading, &mut row);
+        let links = simulator.record_links(&reading);
+        if tick >= lead_in {
+            row.time_s = time_s;
+            let (command, reference) = (command.clone(), reference.clone());
+            rows.push(ControlRow { reading: row, links, command, reference });
+            if (time_s + period_s).floor() > time_s.floor() {
+                on_second();
+            }
+        }
+    }
+    Ok(rows)
+}
+
+fn feedback(
+    gains: &[Gain],
+    robot: &Robot,
+    reference: &State,
+    reading: &Reading,
+    command: &mut [f64],
+) {
+    for (i, (gain, link)) in gains.iter().zip(robot.links()).enumerate() {
+        let limit = link.joint.limits.effort.unwrap_or(f64::INFINITY);
+        let tau =
+            gain.kp * (reference.q[i] - reading.q[i]) + gain.kd * (reference.qd[i] - reading.qd[i]);
+        command[i] = tau.clamp(-limit, limit);
+    }
+}

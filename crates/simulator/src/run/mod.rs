@@ -1,0 +1,8 @@
+//! From a scenario to logs: the controller that follows its motions, hidden effects, what is written.
+
+pub(crate) mod effect_sizer;
+pub(crate) mod follow;
+pub(crate) mod hidden;
+pub(crate) mod log;
+pub(crate) mod simulate;
+pub(crate) mod write;

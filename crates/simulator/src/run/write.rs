@@ -1,0 +1,89 @@
+use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+use logs::LogError;
+use serde::Serialize;
+
+use crate::effects::truth::Truth;
+use crate::error::SimulatorError;
+use crate::run::simulate::Simulation;
+use crate::scenario::check::Scenario;
+use crate::strangers::truth::StrangerTruth;
+
+/// File format of logs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LogFormat {
+    /// Parquet with one `f64` column per signal.
+    Parquet,
+    /// Text with one row per line.
+    Csv,
+}
+
+impl LogFormat {
+    /// Extension of such files.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Parquet => "parquet",
+            Self::Csv => "csv",
+        }
+    }
+}
+
+/// Writes the logs, the resolved scenario and `truth.json` into a folder.
+///
+/// Every file is written atomically. An old `truth.json` is removed first and the new one is written
+/// last, so that a `truth.json` always belongs to the logs beside it.
+///
+/// # Errors
+///
+/// [`SimulatorError::Log`] when a file cannot be written.
+pub fn write(
+    folder: &Path,
+    scenario: &Scenario,
+    simulation: &Simulation,
+    format: LogFormat,
+) -> Result<(), SimulatorError> {
+    let coded = simulation.truth.iter().map(|truth| Coded { code: truth.effect.code(), truth });
+    let sealed = Sealed {
+        seed: scenario.seed(),
+        effects: coded.collect(),
+        strangers: &simulation.strangers,
+    };
+    let truth = serde_json::to_string_pretty(&sealed).unwrap_or_default() + "\n";
+    let truth_file = folder.join("truth.json");
+    match std::fs::remove_file(&truth_file) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            return Err(LogError::Unwritable { path: truth_file, reason: error.to_string() }.into());
+        }
+        _ => {}
+    }
+    for run in &simulation.runs {
+        let path = folder.join(format!("{}.{}", run.name, format.extension()));
+        match format {
+            LogFormat::Parquet => logs::write_parquet(&path, run)?,
+            LogFormat::Csv => logs::write_csv(&path, run)?,
+        }
+    }
+    let scenario_file = folder.join("scenario.toml");
+    for (path, text) in [(&scenario_file, scenario.resolved()), (&truth_file, &truth)] {
+        logs::replace_file(path, |file| Ok(file.write_all(text.as_bytes())?))?;
+    }
+    Ok(())
+}
+
+/// `truth.json`
+#[derive(Serialize)]
+struct Sealed<'a> {
+    seed: u64,
+    effects: Vec<Coded<'a>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    strangers: &'a [StrangerTruth],
+}
+
+/// What was put in, and the code of its effect beside the name.
+#[derive(Serialize)]
+struct Coded<'a> {
+    code: &'static str,
+    #[serde(flatten)]
+    truth: &'a Truth,
+}
