@@ -27,6 +27,8 @@ use crate::thresholds::verdict::VerdictThresholds;
 /// with and without the change. Fields that have the same value have it for reasons of their own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Thresholds {
+    /// What is assumed of the size of every effect before any log.
+    pub priors: Priors,
     /// What is wrong with logs as a whole.
     pub inspection: InspectionThresholds,
     /// What logs can be asked for.
@@ -39,8 +41,6 @@ pub struct Thresholds {
     pub tones: ToneThresholds,
     /// Limits of the efforts.
     pub limits: LimitThresholds,
-    /// What is believed of effects before any log, and the limits of that.
-    pub priors: Priors,
     /// Which hypotheses become findings.
     pub search: SearchThresholds,
     /// How well a size is known.

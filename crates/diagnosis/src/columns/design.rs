@@ -46,8 +46,6 @@ pub(crate) struct Design {
     pub rate_hz: f64,
     /// The frame in which the columns were evaluated.
     pub frame: Frame,
-    /// What was believed of the effects beforehand.
-    pub priors: Priors,
     /// Joints that moved; the rows of others take no part.
     pub moved: Vec<bool>,
     /// Which joints move in which run, `[run][joint]`.
@@ -56,6 +54,7 @@ pub(crate) struct Design {
     pub motion: Vec<usize>,
     /// The signal that it explains.
     pub response: Response,
+    pub priors: Priors,
 }
 
 /// A robot along all runs, and what the logs have of these.
@@ -132,9 +131,9 @@ impl Design {
             runs: Vec::new(),
             rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
             frame,
-            priors: log.thresholds.priors,
             moved: log.rows(),
             response: log.response,
+            priors: log.thresholds.priors,
             moves: Vec::new(),
             motion: Vec::new(),
         };

@@ -116,7 +116,7 @@ impl Exclusions<'_> {
         model.iter().copied().find(|&g| {
             let group = &problem.design.groups[g];
             group.joints.iter().any(|j| self.doubted.contains(j))
-                && !group.hypothesis.is_sound(robot, &problem.design.priors)
+                && !group.hypothesis.is_sound(robot, &problem.thresholds.priors)
         })
     }
 }

@@ -1,3 +1,4 @@
+use effects::Priors;
 use nalgebra::{Cholesky, DMatrix};
 use robot::Robot;
 
@@ -36,7 +37,7 @@ impl<'a> Unnamed<'a> {
     pub fn new(selection: &Selection<'a>, model: &Model, fit: &Fit) -> Self {
         let problem = selection.problem;
         let (design, info) = (problem.design, &problem.info);
-        let prior = prior_of_small_errors(design, selection.robot);
+        let prior = prior_of_small_errors(design, selection.robot, &problem.thresholds.priors);
         let mut covariance = DMatrix::zeros(fit.columns.len(), fit.columns.len());
         for h in 0..design.groups.len() {
             let columns = problem.new_columns(model, h);
@@ -77,10 +78,10 @@ impl<'a> Unnamed<'a> {
 }
 
 /// Standard deviations of all weights, those of links from errors of CAD.
-fn prior_of_small_errors(design: &Design, robot: &Robot) -> Vec<f64> {
+fn prior_of_small_errors(design: &Design, robot: &Robot, priors: &Priors) -> Vec<f64> {
     let mut prior = design.prior.clone();
     for group in &design.groups {
-        let Some(small) = group.hypothesis.everyday(robot, &design.priors) else {
+        let Some(small) = group.hypothesis.everyday(robot, priors) else {
             continue;
         };
         group.columns.iter().zip(small).for_each(|(&column, sd)| prior[column] = sd);

@@ -204,7 +204,7 @@ pub(crate) fn undetermined(problem: &Problem, model: &Model, fitted: &LinearFit)
     model.iter().copied().find(|&g| {
         let group = &problem.design.groups[g];
         let estimates = || uncertainty.estimates(fitted, group.hypothesis, &[]);
-        !group.hypothesis.is_sound(&robot, &problem.design.priors)
+        !group.hypothesis.is_sound(&robot, &problem.thresholds.priors)
             || group.columns.len() == 1 && estimates().iter().all(holds)
             || is_unchanged_body(&uncertainty, fitted, group.hypothesis)
             || is_no_more_than_plain(&uncertainty, fitted, group.hypothesis)

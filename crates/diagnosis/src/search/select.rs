@@ -260,7 +260,7 @@ impl Selection<'_> {
         let is_rare = |g: &usize| {
             let rarity = self.problem.design.groups[*g]
                 .hypothesis
-                .rarity(self.robot, &self.problem.design.priors);
+                .rarity(self.robot, &self.problem.thresholds.priors);
             let least = self.least_evidence(*g) + rarity;
             rarity > 0.0 && self.evidence_beyond_simpler(&model_without(model, *g), *g) < least
         };
@@ -318,7 +318,7 @@ impl Selection<'_> {
         let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
         // Friction whose best level is negative is held at zero, which is no change.
         let changes = own.iter().any(|w| w.abs() > 0.0);
-        changes && group.hypothesis.admissible(self.robot, &own, &self.problem.design.priors)
+        changes && group.hypothesis.admissible(self.robot, &own, &self.problem.thresholds.priors)
     }
 
     /// Whether `larger`, which has `g`, lowers the error of held-out blocks by enough: by the practical share, or by half of
