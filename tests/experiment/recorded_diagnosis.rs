@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use checks::arms::workspace_root;
 use diagnosis::{Outcome, Settings, Silent};
 use document::Document;
-use experiment::{Diagnosed, ExperimentError, record_diagnosis};
+use experiment::{DiagnosedLogs, ExperimentError, record_diagnosis};
 use logs::{PrepareSettings, Prepared, Run};
 use recording::{Contents, RecordingError};
 use robot::{Loaded, Robot};
@@ -53,7 +53,7 @@ impl Case {
 
     fn record(&self, path: &Path) -> Result<recording::Written, Box<ExperimentError>> {
         let Self { loaded, runs, outcome, .. } = self;
-        let diagnosed = Diagnosed { loaded, runs, outcome, verdict: "# Explained" };
+        let diagnosed = DiagnosedLogs { loaded, runs, outcome, verdict: "# Explained" };
         record_diagnosis(path, &diagnosed, &Silent).map_err(Box::new)
     }
 

@@ -194,8 +194,8 @@ fn strangers_stand_in_the_truth_and_in_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &scenario, &simulation, LogFormat::Csv).unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-        let sealed = experiment::Sealed::open(folder.path()).unwrap();
-        assert_eq!((sealed.strangers, sealed.effects), (simulation.strangers, vec![]));
+        let blinded = experiment::Blinded::open(folder.path()).unwrap();
+        assert_eq!((blinded.strangers, blinded.effects), (simulation.strangers, vec![]));
         let name = StrangerKind::ALL[index].name();
         assert!(read("truth.json").contains(name) && !read("one.csv").contains(name));
     }

@@ -43,15 +43,15 @@ pub use models::relevance::Relevance;
 pub use models::residual::{Residual, ResidualJoint, learn_residual};
 pub use progress::Progress;
 pub use replay::forward_gap::{Drift, ForwardGap, ForwardWindow, forward_gap, forward_gap_of_logs};
-pub use replay::record_diagnosis::{Diagnosed, record_diagnosis};
+pub use replay::record_diagnosis::{DiagnosedLogs, record_diagnosis};
 pub use scenario::feedforward_kind::FeedforwardKind;
 pub use scenario::tracking_scenario::{TrackingScenario, document_at, known_runs, motion_at};
 pub use scenario::tracking_spec::{
     AheadSpec, ClockSpec, ErrorRateSpec, LearnSpec, Measured, PredictionSpec, PredictionTimeSpec,
     SweepSpec, TrackingControlSpec, TrackingSpec,
 };
-pub use scoring::blinded::Sealed;
-pub use scoring::score::{Named, PutIn, Score};
+pub use scoring::blinded::Blinded;
+pub use scoring::score::{Named, Injected, Score};
 pub use scoring::size::{Estimated, Size};
 pub use scoring::stored;
 pub use stage::{Inputs, Product, Stage, Staged, sha256};

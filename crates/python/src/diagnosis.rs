@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use ::diagnosis::{Outcome, Settings};
 use cli::{SearchArguments, hashes_of, provenance_of};
-use experiment::{Diagnosed, ForwardGap};
+use experiment::{DiagnosedLogs, ForwardGap};
 use logs::Run;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -208,7 +208,7 @@ impl PyDiagnosis {
         if !recording {
             return Ok(());
         }
-        let diagnosed = Diagnosed {
+        let diagnosed = DiagnosedLogs {
             loaded: &self.robot,
             runs: self.outcome.read.as_deref().unwrap_or(&self.runs),
             outcome: &self.outcome,

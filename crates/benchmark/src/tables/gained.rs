@@ -116,7 +116,7 @@ mod tests {
 
     use super::*;
     use experiment::Named;
-    use experiment::PutIn;
+    use experiment::Injected;
 
     fn score(share_explained: f64, before: f64) -> Score {
         let at = EffectAt { effect: CoulombFriction, joint: Some("a".to_owned()), link: None };
@@ -124,7 +124,7 @@ mod tests {
         let not_separable_from = Vec::new();
         Score {
             seed: 1,
-            put_in: vec![PutIn {
+            put_in: vec![Injected {
                 at: at.clone(),
                 finding: Some(0),
                 one_of: Some(0),

@@ -1,5 +1,5 @@
 use catalogue::{EffectKind, Parameter};
-use experiment::{PutIn, Score};
+use experiment::{Injected, Score};
 use serde::Serialize;
 
 use crate::statistics::share::Share;
@@ -72,7 +72,7 @@ fn size_of(kind: EffectKind) -> Option<&'static Parameter> {
 }
 
 /// What was put in: the length of a vector, the distance of a factor from 1, or the number.
-fn size(put_in: &PutIn, parameter: &Parameter) -> Option<f64> {
+fn size(put_in: &Injected, parameter: &Parameter) -> Option<f64> {
     let value = |name: &str| put_in.sizes.iter().find(|s| s.name == name).map(|s| s.truth);
     match parameter.name {
         "tilt_1" => Some(value("tilt_1")?.hypot(value("tilt_2")?)),

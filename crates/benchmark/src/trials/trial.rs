@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use catalogue::EffectKind;
 use diagnosis::{Outcome, Settings, Silent};
 use document::Document;
-use experiment::{Experiment, Score, Sealed};
+use experiment::{Experiment, Score, Blinded};
 use logs::Run;
 use robot::{Loaded, Robot};
 use simulator::LogFormat;
@@ -131,9 +131,9 @@ fn score_answer(
     answer: &Outcome,
     without: &[EffectKind],
 ) -> Result<Score, BenchmarkError> {
-    let sealed = Sealed::open(folder)?;
-    let unknown = sealed.effects.iter().any(|truth| without.contains(&truth.effect));
-    let score = Score::new(&answer.diagnosis, &sealed.effects, sealed.seed);
+    let blinded = Blinded::open(folder)?;
+    let unknown = blinded.effects.iter().any(|truth| without.contains(&truth.effect));
+    let score = Score::new(&answer.diagnosis, &blinded.effects, blinded.seed);
     Ok(Score { looked_for: !unknown, ..score })
 }
 
@@ -143,5 +143,5 @@ fn holds(folder: &Path, scenario: &Scenario) -> bool {
     let said = |document| spec(document).map(|spec| ScenarioSpec { robot: PathBuf::new(), ..spec });
     let there = Document::read(folder.join("scenario.toml")).ok().and_then(said);
     let wanted = Document::from_text("scenario.toml", scenario.resolved()).ok().and_then(said);
-    folder.join(Sealed::FILE).is_file() && wanted.is_some() && there == wanted
+    folder.join(Blinded::FILE).is_file() && wanted.is_some() && there == wanted
 }

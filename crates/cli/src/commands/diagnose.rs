@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use diagnosis::{Diagnosis, Progress, Verdict};
 use exchange::{Export, Format};
-use experiment::{Diagnosed, ExperimentError, ForwardGap};
+use experiment::{DiagnosedLogs, ExperimentError, ForwardGap};
 use logs::Run;
 use recording::RecordingError;
 use report::{Report, ReportError};
@@ -114,7 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     };
     let json = report::json(&report)?;
     write(&arguments.out, &loaded, &outcome, &report, &json, residual.as_ref())?;
-    let diagnosed = Diagnosed {
+    let diagnosed = DiagnosedLogs {
         loaded: &loaded,
         runs: read,
         outcome: &outcome,
@@ -222,7 +222,7 @@ pub fn write(
 /// # Errors
 ///
 /// [`ExperimentError::Recording`] where the disk refuses it.
-fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<PathBuf>, CliError> {
+fn record(arguments: &Arguments, diagnosed: &DiagnosedLogs<'_>) -> Result<Option<PathBuf>, CliError> {
     if arguments.no_recording || !recording::IS_BUILT {
         // One of an earlier diagnosis would show something else than the report beside it.
         let _ = std::fs::remove_file(arguments.out.join(RECORDING));
@@ -249,7 +249,7 @@ fn record(arguments: &Arguments, diagnosed: &Diagnosed<'_>) -> Result<Option<Pat
 /// Those of [`experiment::record_diagnosis`]; no recording is then there.
 pub fn write_recording(
     out: &Path,
-    diagnosed: &Diagnosed<'_>,
+    diagnosed: &DiagnosedLogs<'_>,
     progress: &dyn Progress,
 ) -> Result<PathBuf, Box<ExperimentError>> {
     let (path, begun) = (out.join(RECORDING), out.join(BEGUN));

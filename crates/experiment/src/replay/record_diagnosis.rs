@@ -19,7 +19,7 @@ const BLOCK: usize = 110;
 
 /// A diagnosis to be looked at.
 #[derive(Debug, Clone, Copy)]
-pub struct Diagnosed<'a> {
+pub struct DiagnosedLogs<'a> {
     /// The robot as it was given, with its shapes.
     pub loaded: &'a Loaded,
     /// The logs that were diagnosed.
@@ -54,10 +54,10 @@ pub struct Diagnosed<'a> {
 /// [`ExperimentError::Recording`].
 pub fn record_diagnosis(
     path: &Path,
-    diagnosed: &Diagnosed<'_>,
+    diagnosed: &DiagnosedLogs<'_>,
     progress: &dyn Progress,
 ) -> Result<recording::Written, ExperimentError> {
-    let Diagnosed { loaded, outcome, runs, .. } = *diagnosed;
+    let DiagnosedLogs { loaded, outcome, runs, .. } = *diagnosed;
     let cutoff_hz = Some(outcome.diagnosis.data.cutoff_hz);
     let records = prepare(&distinct(runs), &PrepareSettings { cutoff_hz })?.runs;
     let title = format!("{}: measured and simulated", loaded.robot.name());

@@ -7,7 +7,7 @@ use crate::error::ExperimentError;
 
 /// The truth about simulated logs, read only after they are diagnosed.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Sealed {
+pub struct Blinded {
     /// The seed that everything was drawn from.
     pub seed: u64,
     /// What was put in.
@@ -17,7 +17,7 @@ pub struct Sealed {
     pub strangers: Vec<StrangerTruth>,
 }
 
-impl Sealed {
+impl Blinded {
     /// Name of its file, beside the logs.
     pub const FILE: &str = "truth.json";
 

@@ -15,7 +15,7 @@ pub struct Score {
     /// The seed that everything was drawn from.
     pub seed: u64,
     /// What was put in.
-    pub put_in: Vec<PutIn>,
+    pub put_in: Vec<Injected>,
     /// Whether the diagnosis looked for it; if not, the right answer is that something is unknown.
     pub looked_for: bool,
     /// The verdict over all joints.
@@ -39,7 +39,7 @@ pub struct Score {
 
 /// An effect that was put in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PutIn {
+pub struct Injected {
     /// The effect and its place.
     #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
@@ -72,9 +72,9 @@ impl Score {
     pub fn new(diagnosis: &Diagnosis, truth: &[Truth], seed: u64) -> Self {
         let mut findings: Vec<&Finding> = diagnosis.findings.iter().collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
-        let put_in = |truth| PutIn::new(truth, &findings, &diagnosis.ruled_out);
-        let put_in: Vec<PutIn> = truth.iter().map(put_in).collect();
-        let among_first = |of: fn(&PutIn) -> Option<usize>| match put_in.len() {
+        let put_in = |truth| Injected::new(truth, &findings, &diagnosis.ruled_out);
+        let put_in: Vec<Injected> = truth.iter().map(put_in).collect();
+        let among_first = |of: fn(&Injected) -> Option<usize>| match put_in.len() {
             0 => findings.is_empty(),
             k => put_in.iter().all(|p| of(p).is_some_and(|finding| finding < k)),
         };
@@ -114,7 +114,7 @@ impl Score {
     /// Whether the logs show the injected effects. They do not where an effect is missed, no false
     /// one is named in its place, and the diagnosis calls its size too small to be found.
     pub fn visible(&self) -> bool {
-        let large = |p: &PutIn| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
+        let large = |p: &Injected| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
         self.found() || !self.stray.is_empty() || self.put_in.iter().all(large)
     }
 
@@ -137,7 +137,7 @@ impl Score {
     }
 }
 
-impl PutIn {
+impl Injected {
     fn new(truth: &Truth, findings: &[&Finding], ruled_out: &[RuledOut]) -> Self {
         let (effect, joint, link) = (truth.effect, truth.joint.clone(), truth.link.clone());
         let at = EffectAt { effect, joint, link };

@@ -1,4 +1,4 @@
-use experiment::{Named, PutIn, Score, Size};
+use experiment::{Named, Injected, Score, Size};
 use robot::Robot;
 
 use crate::diagnosis::places::JointUnits;
@@ -28,7 +28,7 @@ pub(crate) fn hidden_rows(score: &Score, robot: &Robot) -> Vec<HiddenRow> {
     score.put_in.iter().map(|put_in| row(put_in, &score.findings, robot)).collect()
 }
 
-fn row(put_in: &PutIn, findings: &[Named], robot: &Robot) -> HiddenRow {
+fn row(put_in: &Injected, findings: &[Named], robot: &Robot) -> HiddenRow {
     let share = |finding: usize| {
         let share = findings.get(finding).map_or(f64::NAN, |named| named.share_explained);
         percent(share)
@@ -55,7 +55,7 @@ fn row(put_in: &PutIn, findings: &[Named], robot: &Robot) -> HiddenRow {
     HiddenRow { hidden: put_in.at.words(), found, class, sizes }
 }
 
-fn size_row(put_in: &PutIn, size: &Size, robot: &Robot) -> SizeRow {
+fn size_row(put_in: &Injected, size: &Size, robot: &Robot) -> SizeRow {
     let parameters = put_in.at.effect.entry().parameters;
     let known = parameters.iter().find(|parameter| parameter.name == size.name);
     let slides = put_in.at.joint.as_ref().is_some_and(|joint| {

@@ -2,7 +2,7 @@
 
 use diagnosis::{EffectAt, Verdict};
 use experiment::{
-    Drift, Estimated, ForwardGap, ForwardWindow, Metrics, Named, PutIn, Score, Size, TorqueError,
+    Drift, Estimated, ForwardGap, ForwardWindow, Metrics, Named, Injected, Score, Size, TorqueError,
     TrackedError,
 };
 
@@ -111,14 +111,14 @@ fn score() -> Score {
         stray: vec![at(catalogue::EffectKind::Backlash, "elbow")],
         gains: None,
         put_in: vec![
-            PutIn {
+            Injected {
                 at: friction,
                 finding: Some(0),
                 one_of: Some(0),
                 sizes: vec![level],
                 of_smallest: None,
             },
-            PutIn {
+            Injected {
                 at: payload,
                 finding: None,
                 one_of: None,

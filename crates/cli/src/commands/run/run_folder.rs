@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use diagnosis::Settings;
-use experiment::{ExperimentError, Inputs, Product, Sealed, Stage, Staged};
+use experiment::{ExperimentError, Inputs, Product, Blinded, Stage, Staged};
 use logs::{ReadOptions, Run};
 use report::{Report, Told};
 use robot::{Loaded, Robot};
@@ -102,7 +102,7 @@ impl RunFolder<'_> {
             let simulation = simulator::simulate(drawn, &second)?;
             simulator::write(&self.out.join(logs), plant, &simulation, LogFormat::Parquet)?;
             let runs = plant.runs().iter().map(|run| log_file(logs, &run.name));
-            let others = ["scenario.toml", Sealed::FILE].map(|name| logs.join(name));
+            let others = ["scenario.toml", Blinded::FILE].map(|name| logs.join(name));
             Ok(Product { value: (), files: runs.chain(others).collect() })
         })
     }

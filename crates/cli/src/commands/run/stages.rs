@@ -2,7 +2,7 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use experiment::{
-    Diagnosed, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product, Score, Sealed,
+    DiagnosedLogs, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product, Score, Blinded,
     Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap, torque_errors,
     track_all, tracking_claims,
 };
@@ -100,7 +100,7 @@ impl Stages<'_> {
     /// Diagnoses the logs through their files, and when that is written opens the truth.
     fn diagnosis(&self) -> Result<Staged<Found>, CliError> {
         let names: Vec<&str> = self.experiment.learned().collect();
-        let mut inputs = self.inputs("")?.and_file(&self.out.join(LOGS).join(Sealed::FILE))?;
+        let mut inputs = self.inputs("")?.and_file(&self.out.join(LOGS).join(Blinded::FILE))?;
         for name in &names {
             inputs = inputs.and(name.as_bytes()).and_file(&self.out.join(log_file(name)))?;
         }
@@ -111,13 +111,13 @@ impl Stages<'_> {
             let robot = (self.experiment.plant().robot_file(), loaded);
             let DiagnosedRuns { outcome, verdict, told } =
                 self.folder().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
-            let diagnosed = Diagnosed { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
+            let diagnosed = DiagnosedLogs { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             if recording::IS_BUILT {
                 diagnose::write_recording(self.out, &diagnosed, self.watch)
                     .map_err(|error| *error)?;
             }
-            let sealed = Sealed::open(&self.out.join(LOGS))?;
-            let score = Score::new(&outcome.diagnosis, &sealed.effects, sealed.seed);
+            let blinded = Blinded::open(&self.out.join(LOGS))?;
+            let score = Score::new(&outcome.diagnosis, &blinded.effects, blinded.seed);
             let mut files = diagnosis_files(Path::new(DIAGNOSIS));
             files.extend(recording::IS_BUILT.then(|| PathBuf::from(RECORDING)));
             Ok(Product { value: Found { told, score }, files })
