@@ -4,7 +4,7 @@ use benchmark::{Answers, Costs, HeldOut};
 use catalogue::EffectKind;
 use diagnosis::{DataSummary, Diagnosis, EffectAt, Finding, Gain, InverseGain, SCHEMA, Verdict};
 use population::{
-    Cause, Corner, EffortClass, Knowledge, MotionClass, Origin, Role, Sheet, Strength, Unnamed,
+    TrueCause, Corner, EffortClass, Knowledge, MotionClass, Origin, CauseRole, TruthSheet, Strength, TrueStranger,
 };
 use simulator::Truth;
 
@@ -90,13 +90,13 @@ pub fn corner() -> Corner {
 }
 
 /// An arm of two joints with these causes and nothing else.
-pub fn sheet(causes: &[(EffectKind, &str, Strength)]) -> Sheet {
-    let cause = |&(effect, joint, strength): &(EffectKind, &str, Strength)| Cause {
-        role: Role::Hidden,
+pub fn sheet(causes: &[(EffectKind, &str, Strength)]) -> TruthSheet {
+    let cause = |&(effect, joint, strength): &(EffectKind, &str, Strength)| TrueCause {
+        role: CauseRole::Hidden,
         truth: Truth::at_joint(effect, joint, &[]),
         strength,
     };
-    Sheet {
+    TruthSheet {
         seed: 7,
         corner: corner(),
         knowledge: Knowledge::Whole,
@@ -107,6 +107,6 @@ pub fn sheet(causes: &[(EffectKind, &str, Strength)]) -> Sheet {
     }
 }
 
-pub fn stranger(strength: Strength) -> Unnamed {
-    Unnamed { name: "soft_wall".to_owned(), joint: None, strength }
+pub fn stranger(strength: Strength) -> TrueStranger {
+    TrueStranger { name: "soft_wall".to_owned(), joint: None, strength }
 }

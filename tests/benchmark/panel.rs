@@ -6,12 +6,12 @@ use benchmark::{
 };
 use catalogue::EffectKind::{Backlash, CoulombFriction, Payload, TorqueOffset, ViscousFriction};
 use diagnosis::{EffectAt, Estimate, Finding, Verdict};
-use population::{Knowledge, MotionClass, Sheet, Strength};
+use population::{Knowledge, MotionClass, TruthSheet, Strength};
 use report::Provenance;
 
 use crate::made_up::{FAINT, SEEN, answers, at, finding, sheet, stranger};
 
-fn judge(sheet: &Sheet, verdict: Verdict, findings: Vec<Finding>) -> Judgement {
+fn judge(sheet: &TruthSheet, verdict: Verdict, findings: Vec<Finding>) -> Judgement {
     Judgement::new(sheet, &answers(verdict, findings))
 }
 
@@ -68,11 +68,11 @@ fn false_assurance_is_a_good_verdict_about_what_is_hidden() {
     let causes = [(CoulombFriction, "elbow", SEEN)];
     let named = || vec![finding(at(CoulombFriction, "elbow"), 0.5, &[])];
     let hiding = sheet(&causes);
-    let with_stranger = Sheet { strangers: vec![stranger(SEEN)], ..sheet(&causes) };
-    let with_faint_one = Sheet { strangers: vec![stranger(FAINT)], ..sheet(&causes) };
+    let with_stranger = TruthSheet { strangers: vec![stranger(SEEN)], ..sheet(&causes) };
+    let with_faint_one = TruthSheet { strangers: vec![stranger(FAINT)], ..sheet(&causes) };
     let clean = sheet(&[(CoulombFriction, "elbow", FAINT)]);
     let assured =
-        |sheet: &Sheet, verdict, findings| judge(sheet, verdict, findings).false_assurance();
+        |sheet: &TruthSheet, verdict, findings| judge(sheet, verdict, findings).false_assurance();
     assert_eq!(assured(&hiding, Verdict::Consistent, Vec::new()), Some(true));
     assert_eq!(assured(&hiding, Verdict::Consistent, named()), Some(true));
     assert_eq!(assured(&hiding, Verdict::Explained, named()), Some(false));
@@ -103,11 +103,11 @@ fn a_false_alarm_is_a_name_or_an_open_verdict_where_nothing_is() {
 #[test]
 fn of_recorded_logs_only_what_was_added_is_asked_for() {
     let other = || vec![finding(at(Backlash, "elbow"), 0.5, &[])];
-    let added = Sheet { knowledge: Knowledge::Added, ..sheet(&[(CoulombFriction, "elbow", SEEN)]) };
+    let added = TruthSheet { knowledge: Knowledge::Added, ..sheet(&[(CoulombFriction, "elbow", SEEN)]) };
     let one = judge(&added, Verdict::PartlyExplained, other());
     assert_eq!((one.precision(), part(one.recall())), (None, (0.0, 1.0)));
     assert_eq!((one.right(), one.false_alarm(), one.names_falsely()), (Some(false), None, false));
-    let plain = Sheet { knowledge: Knowledge::None, ..sheet(&[]) };
+    let plain = TruthSheet { knowledge: Knowledge::None, ..sheet(&[]) };
     let one = judge(&plain, Verdict::Explained, other());
     assert_eq!((one.precision(), part(one.recall())), (None, (0.0, 0.0)));
     assert_eq!((one.right(), one.false_alarm(), one.false_assurance()), (None, None, None));
@@ -140,7 +140,7 @@ fn errors_are_those_of_joints_over_their_torque() {
     // A joint without effort has no error to speak of.
     let mut said = answers(Verdict::Explained, Vec::new());
     said.held_out.nominal = Some(vec![Some(3.0), Some(0.8)]);
-    let resting = Sheet { torque_rms: vec![10.0, 0.0], ..sheet(&[]) };
+    let resting = TruthSheet { torque_rms: vec![10.0, 0.0], ..sheet(&[]) };
     let nominal = Judgement::new(&resting, &said).prediction.nominal.unwrap();
     assert!(nominal.joints[1].is_none() && (nominal.all - 0.3).abs() < 1e-12);
     // Nor has one that stands all along.
@@ -230,7 +230,7 @@ fn panel() -> Vec<Judgement> {
     let mut alarm =
         judge(&sheet(&[]), Verdict::Explained, vec![finding(at(Payload, "elbow"), 0.6, &[])]);
     alarm.corner.logs = 4;
-    let strange = Sheet { strangers: vec![stranger(SEEN)], ..sheet(&[]) };
+    let strange = TruthSheet { strangers: vec![stranger(SEEN)], ..sheet(&[]) };
     let strange = judge(&strange, Verdict::Unexplained, Vec::new());
     let all = [sweep, rest, alarm, strange].into_iter().enumerate();
     all.map(|(k, one)| Judgement { seed: k as u64, ..one }).collect()

@@ -20,7 +20,7 @@ fn describable() -> World {
 fn loaded() -> World {
     World::nominal().body(|mut robot| {
         let inertia = &mut robot.link_mut(6).unwrap().inertia;
-        *inertia = inertia.merged_with(&robot::Inertia {
+        *inertia = inertia.with_body(&robot::Inertia {
             mass: 1.0,
             com_in_link: 0.1 * nalgebra::Vector3::z(),
             about_com: nalgebra::Matrix3::identity() * (0.4 * 0.03 * 0.03),

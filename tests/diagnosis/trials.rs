@@ -229,7 +229,7 @@ fn shifted_forearm(robot: Robot) -> Robot {
 /// A ball of 1 kg and 3 cm radius, 10 cm before the palm's origin.
 pub fn loaded(robot: Robot) -> Robot {
     changed(robot, "palm", |i| {
-        i.merged_with(&Inertia {
+        i.with_body(&Inertia {
             mass: 1.0,
             com_in_link: 0.1 * Vector3::z(),
             about_com: Matrix3::identity() * (0.4 * 0.03 * 0.03),

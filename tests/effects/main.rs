@@ -12,7 +12,7 @@ use effects::{
     Column, Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Priors,
     Scale, hypotheses, model,
 };
-use robot::{Coupling, Robot, Stribeck, TorqueSource, Warming, Wave};
+use robot::{Coupling, Robot, Stribeck, TorqueSource, Warming, FrictionWave};
 
 const SAMPLES: usize = 40;
 
@@ -60,7 +60,7 @@ fn shaped(size: f64) -> Robot {
     for j in 0..robot.joint_count() {
         let a = &mut robot.link_mut(j).unwrap().actuator;
         a.stribeck = Some(Stribeck { excess: 0.3 * size, velocity: 0.2 });
-        a.friction_wave = Some(Wave { share: 0.4 * size, periods: 5.0, phase: 0.3 });
+        a.friction_wave = Some(FrictionWave { share: 0.4 * size, periods: 5.0, phase: 0.3 });
         let [viscous_lost, coulomb_lost] = [0.2 * size, 0.1 * size];
         a.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: 3.0 });
         let [level, viscous] = [[0.2, 0.1], [0.05, 0.1]].map(|of| of.map(|v| size * v));

@@ -2,7 +2,7 @@
 
 use checks::arms::wam;
 use effects::{Compensated, Compensation};
-use robot::{Actuator, Machine, Reading, Ripple, Robot, SensingSide, Stribeck, Wave};
+use robot::{Actuator, Machine, Reading, Ripple, Robot, SensingSide, Stribeck, FrictionWave};
 use simulator::{
     EffortSource, JointSensor, PositionSide, Sensors, Simulator, Stepping, VelocitySource,
 };
@@ -33,7 +33,7 @@ fn worn_out() -> Robot {
         let a = &mut robot.link_mut(j).unwrap().actuator;
         a.stribeck = Some(Stribeck { excess: 0.5 * level, velocity: 0.2 });
         a.load_friction = 0.1;
-        a.friction_wave = Some(Wave { share: 0.4, periods: 5.0, phase: 1.0 });
+        a.friction_wave = Some(FrictionWave { share: 0.4, periods: 5.0, phase: 1.0 });
         a.ripple = Some(Ripple { amplitude: 0.3 * level, periods: 12.0, phase: 0.5 });
         a.lag_s = 0.012;
         (a.encoder_offset, a.transmission_ratio) = (0.02, 1.02);

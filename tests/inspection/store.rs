@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use inspection::{Observation, Spoils, inspect};
-use population::Sheet;
+use population::TruthSheet;
 use robot::Robot;
 
 use crate::recorded::read_logs;
@@ -17,7 +17,7 @@ fn trials(root: &Path) -> Vec<PathBuf> {
     let inner = |folder: PathBuf| std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path());
     let of_a_key = |f: &PathBuf| f.is_dir() && f.file_name().is_some_and(|name| name.len() == 2);
     let folders = inner(root.to_owned()).filter(of_a_key).flat_map(inner);
-    let mut all: Vec<PathBuf> = folders.filter(|f| f.join(Sheet::FILE).exists()).collect();
+    let mut all: Vec<PathBuf> = folders.filter(|f| f.join(TruthSheet::FILE).exists()).collect();
     all.sort();
     all
 }
@@ -40,7 +40,7 @@ fn unspoilt_trials_of_a_store_are_let_through() {
     let mut faults: BTreeMap<String, Count> = BTreeMap::new();
     let (mut unspoilt, mut wrong, mut slowest_s) = (0, Vec::new(), 0.0_f64);
     for folder in trials(Path::new(&root)) {
-        let sheet = Sheet::open(&folder).unwrap();
+        let sheet = TruthSheet::open(&folder).unwrap();
         let fault = sheet.strangers.iter().find(|s| s.name.starts_with("log: "));
         let robot = Robot::load(&folder.join("nominal/robot.toml")).unwrap().robot;
         let Ok(runs) = read_logs(&folder.join("logs"), &robot) else {

@@ -5,10 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use document::Document;
-use population::{ArmClass, MotionClass, PopulationSpec, Role, Sheet, make};
+use population::{ArmClass, MotionClass, PopulationSpec, CauseRole, TruthSheet, make};
 use rayon::ThreadPoolBuilder;
 use simulator::scenario::Scenario;
-use simulator::simulate_silent;
+use simulator::simulate_noise_free;
 
 /// Short trials of one class.
 pub fn short(class: ArmClass, causes: [usize; 2]) -> PopulationSpec {
@@ -95,7 +95,7 @@ fn a_step_of_the_simulation_is_a_tenth_of_the_encoders() {
             let scenario = Scenario::from_document(&document).unwrap();
             let first = scenario.runs()[0].name.clone();
             let (effects, step) = (scenario.effects().to_vec(), scenario.spec().engine.step_ms);
-            let runs = simulate_silent(&scenario, &|name| name == first, &effects, &[]).unwrap();
+            let runs = simulate_noise_free(&scenario, &|name| name == first, &effects, &[]).unwrap();
             (runs[0].clone(), step)
         };
         let (coarse, step) = moved(None);
@@ -116,9 +116,9 @@ fn friction_is_everywhere_and_as_strong_as_its_sensor_shows() {
     for (class, seed) in [(ArmClass::Hobby, 5), (ArmClass::Industrial, 6)] {
         let folder = tempfile::tempdir().unwrap();
         let sheet = make(&short(class, [0, 0]), seed, folder.path()).unwrap();
-        assert_eq!(sheet, Sheet::open(folder.path()).unwrap());
+        assert_eq!(sheet, TruthSheet::open(folder.path()).unwrap());
         let background: Vec<_> =
-            sheet.causes.iter().filter(|c| c.role == Role::Background).collect();
+            sheet.causes.iter().filter(|c| c.role == CauseRole::Background).collect();
         assert_eq!(background.len(), 2 * sheet.joints.len(), "{class}");
         for cause in background {
             let level = cause.truth.parameters.values().next().unwrap().abs();

@@ -9,7 +9,7 @@ use checks::recorded::folder;
 use checks::synthetic::whole_run;
 use logs::{Channels, Run};
 use population::{
-    Knowledge, Law, Origin, PointMass, PopulationError, RecordedTrial, Transplant, available,
+    Knowledge, AddedLaw, Origin, PointMass, PopulationError, RecordedTrial, Transplant, available,
     draw_recorded, point_mass_torque,
 };
 use rand::RngExt;
@@ -282,13 +282,13 @@ fn a_large_transplant_is_visible_and_a_tiny_one_is_not() {
     let (robot, run) = carriage_run([0.0, 1.2]);
     let strength = |law| Transplant { law, joint: 1 }.strength(&robot, std::slice::from_ref(&run));
     let large = [
-        Law::Coulomb { level: 0.5 },
-        Law::Offset { offset: -0.5 },
-        Law::Viscous { viscous: 0.5 },
-        Law::Load { coefficient: 0.3 },
-        Law::Ripple { amplitude: 0.3, periods: 40.0, phase: 1.0 },
-        Law::Well { peak: 1.0, centre: 0.3, width: 0.1 },
-        Law::Drag { coefficient: 0.2 },
+        AddedLaw::Coulomb { level: 0.5 },
+        AddedLaw::Offset { offset: -0.5 },
+        AddedLaw::Viscous { viscous: 0.5 },
+        AddedLaw::Load { coefficient: 0.3 },
+        AddedLaw::Ripple { amplitude: 0.3, periods: 40.0, phase: 1.0 },
+        AddedLaw::Well { peak: 1.0, centre: 0.3, width: 0.1 },
+        AddedLaw::Drag { coefficient: 0.2 },
     ];
     for law in large {
         let found = strength(law);
@@ -296,10 +296,10 @@ fn a_large_transplant_is_visible_and_a_tiny_one_is_not() {
         assert!(found.visible(), "{law:?} {found:?}");
     }
     let tiny = [
-        Law::Coulomb { level: 0.002 },
-        Law::Offset { offset: 0.002 },
-        Law::Ripple { amplitude: 0.002, periods: 40.0, phase: 1.0 },
-        Law::Well { peak: 0.002, centre: 0.3, width: 0.1 },
+        AddedLaw::Coulomb { level: 0.002 },
+        AddedLaw::Offset { offset: 0.002 },
+        AddedLaw::Ripple { amplitude: 0.002, periods: 40.0, phase: 1.0 },
+        AddedLaw::Well { peak: 0.002, centre: 0.3, width: 0.1 },
     ];
     for law in tiny {
         let found = strength(law);
@@ -312,7 +312,7 @@ fn a_large_transplant_is_visible_and_a_tiny_one_is_not() {
 #[test]
 fn a_transplant_that_everyday_columns_make_up_is_not_visible_however_large() {
     let (robot, run) = carriage_run([0.0, 1.2]);
-    let spring = Transplant { law: Law::Spring { stiffness: 1.0, rest: 0.4 }, joint: 1 };
+    let spring = Transplant { law: AddedLaw::Spring { stiffness: 1.0, rest: 0.4 }, joint: 1 };
     let found = spring.strength(&robot, std::slice::from_ref(&run));
     assert!(found.torque > 0.3 && found.share < 0.02 && !found.visible(), "{found:?}");
 }
@@ -320,7 +320,7 @@ fn a_transplant_that_everyday_columns_make_up_is_not_visible_however_large() {
 #[test]
 fn the_share_and_weight_of_an_offset_are_its_size_over_the_effort() {
     let (robot, run) = carriage_run([0.0, 1.2]);
-    let offset = Transplant { law: Law::Offset { offset: 1.0 }, joint: 1 };
+    let offset = Transplant { law: AddedLaw::Offset { offset: 1.0 }, joint: 1 };
     let found = offset.strength(&robot, std::slice::from_ref(&run));
     let with = rms(run.joints[1].effort.iter().map(|e| e + 1.0).collect::<Vec<_>>().iter());
     assert!((found.torque - 1.0 / with).abs() < 1e-9, "{found:?}");
@@ -334,7 +334,7 @@ fn the_share_and_weight_of_an_offset_are_its_size_over_the_effort() {
 fn a_late_effort_is_that_of_before() {
     let (robot, mut run) = carriage_run([0.3, 1.2]);
     let before = run.clone();
-    Transplant { law: Law::Late { skew: 0.010 }, joint: 0 }.add(&robot, &mut run);
+    Transplant { law: AddedLaw::Late { skew: 0.010 }, joint: 0 }.add(&robot, &mut run);
     for (with, plain) in run.joints.iter().zip(&before.joints) {
         let halfway = |i: usize| 0.5 * (plain.effort[i - 3] + plain.effort[i - 2]);
         let worst = (3..2500).map(|i| (with.effort[i] - halfway(i)).abs()).fold(0.0, f64::max);
@@ -346,8 +346,8 @@ fn a_late_effort_is_that_of_before() {
 #[test]
 fn a_magnet_pulls_most_a_width_from_its_middle_and_drag_grows_with_the_square_of_speed() {
     let (robot, run) = carriage_run([0.0, 1.2]);
-    let at = |law: Law| law.torque(&robot, &run, 1);
-    let [rise, well] = at(Law::Well { peak: 2.0, centre: 0.3, width: 0.1 }).try_into().unwrap();
+    let at = |law: AddedLaw| law.torque(&robot, &run, 1);
+    let [rise, well] = at(AddedLaw::Well { peak: 2.0, centre: 0.3, width: 0.1 }).try_into().unwrap();
     assert!(rise.iter().all(|torque| torque.abs() < 1e-12));
     let largest = well.iter().copied().fold(0.0, f64::max);
     assert!((largest - 2.0).abs() < 0.02, "{largest}");
@@ -358,7 +358,7 @@ fn a_magnet_pulls_most_a_width_from_its_middle_and_drag_grows_with_the_square_of
             assert!((torque.abs() - 2.0).abs() < 0.02, "{q} {torque}");
         }
     }
-    let drag = &at(Law::Drag { coefficient: 0.5 })[1];
+    let drag = &at(AddedLaw::Drag { coefficient: 0.5 })[1];
     let w = 0.5 * TAU;
     for (t, torque) in run.time.iter().zip(drag).skip(5).take(2490) {
         let qd = 1.2 * w * (w * t).cos();

@@ -1,4 +1,4 @@
-use robot::{Gain, Loaded, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave};
+use robot::{PdGain, Loaded, Ripple, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave};
 
 use super::{arm_with, load};
 
@@ -64,7 +64,7 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((b.load_friction, b.presliding, b.lag_s), (0.05, Some(0.001), 0.003));
     assert_eq!((a.presliding_damping, b.presliding_damping), (None, Some(0.7)));
     assert_eq!((b.encoder_offset, b.transmission_ratio), (-0.02, 1.01));
-    assert_eq!(b.friction_wave, Some(Wave { share: 0.2, periods: 7.0, phase: 0.5 }));
+    assert_eq!(b.friction_wave, Some(FrictionWave { share: 0.2, periods: 7.0, phase: 0.5 }));
     assert_eq!(b.ripple, Some(Ripple { amplitude: 0.06, periods: 120.0, phase: 0.0 }));
     assert_eq!((a.effort_skew_s, b.effort_skew_s), (0.0, -0.002));
     assert_eq!((a.load_friction, a.lag_s, a.encoder_offset), (0.0, 0.0, 0.0));
@@ -79,8 +79,8 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((i.m21, i.m31, i.m32), (0.01, 0.02, 0.03));
     assert_eq!(loaded.robot.gravity_in_base().as_slice(), [0.0, 9.81, 0.0]);
     assert_eq!(loaded.control.rate_hz, Some(250.0));
-    assert_eq!(loaded.control.gains, [Some(Gain { kp: 9.0, kd: 1.0 }), None]);
-    let soft = [Gain { kp: 1.0, kd: 3.0 }, Gain { kp: 2.0, kd: 4.0 }];
+    assert_eq!(loaded.control.gains, [Some(PdGain { kp: 9.0, kd: 1.0 }), None]);
+    let soft = [PdGain { kp: 1.0, kd: 3.0 }, PdGain { kp: 2.0, kd: 4.0 }];
     assert_eq!(loaded.control.gain_sets["soft"], soft);
     assert_eq!(loaded.control.differentials, [[1, 0]]);
     assert!(loaded.urdf_path.ends_with("arm.urdf"));

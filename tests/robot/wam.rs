@@ -1,5 +1,5 @@
 use nalgebra::{Isometry3, Point3};
-use robot::{Gain, Robot, SensingSide, TorqueSource};
+use robot::{PdGain, Robot, SensingSide, TorqueSource};
 use serde_json::Value;
 
 use super::{in_workspace, wam};
@@ -49,7 +49,7 @@ fn the_wam_is_what_its_readme_says() {
     let drive = &robot.links()[3].actuator;
     assert_eq!((drive.sensing, drive.torque_source), (SensingSide::Motor, TorqueSource::Commanded));
     assert_eq!(loaded.control.rate_hz, Some(500.0));
-    assert_eq!(loaded.control.gains[1], Some(Gain { kp: 2500.0, kd: 20.0 }));
+    assert_eq!(loaded.control.gains[1], Some(PdGain { kp: 2500.0, kd: 20.0 }));
     assert_eq!(loaded.control.differentials, [[1, 2], [4, 5]]);
     let sets: Vec<&str> = loaded.control.gain_sets.keys().map(String::as_str).collect();
     assert_eq!(sets, ["compliant", "low-quarter", "low-tenth", "stiff"]);

@@ -1,7 +1,7 @@
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use robot::{
-    Inertia, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck, TorqueSource, Warming, Wave,
+    Inertia, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave,
 };
 
 use super::{in_workspace, wam};
@@ -107,7 +107,7 @@ proptest! {
         }
         a.presliding = dry.map(|(.., way)| way);
         a.presliding_damping = dry.map(|(_, velocity, ..)| velocity);
-        a.friction_wave = waves.map(|(share, periods, phase, _)| Wave { share, periods, phase });
+        a.friction_wave = waves.map(|(share, periods, phase, _)| FrictionWave { share, periods, phase });
         let share = |of: f64| waves.map_or(0.0, |(share, ..)| share * of.max(0.0));
         a.warming = waves.map(|(_, periods, ..)| Warming {
             viscous_lost: share(a.viscous),

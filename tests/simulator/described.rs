@@ -1,6 +1,6 @@
 //! What the robot's description says acts as the effect of the same name that is put in.
 
-use robot::{Actuator, Reading, Ripple, Robot, Stribeck, Warming, Wave};
+use robot::{Actuator, Reading, Ripple, Robot, Stribeck, Warming, FrictionWave};
 
 use crate::rig::{FINE, Row, STEPPING, flywheel, run, simulator};
 
@@ -78,7 +78,7 @@ const DESCRIBED: [(&str, Describe); 9] = [
     (
         "position_dependent_friction = { joint = 'joint', level_nm = 0.5, share = 0.4, \
          periods_per_turn = 40.0, phase_rad = 0.7 }",
-        |a| a.friction_wave = Some(Wave { share: 0.4, periods: 40.0, phase: 0.7 }),
+        |a| a.friction_wave = Some(FrictionWave { share: 0.4, periods: 40.0, phase: 0.7 }),
     ),
     (
         "coulomb_friction = { joint = 'joint', level_nm = 0.5 }\n[[effect]]\n\
@@ -173,7 +173,7 @@ fn oracle_described_dry_friction_adds_up_behind_one_set_of_bristles() {
     let speed = 0.2;
     let robot = wheel(|a| {
         (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.3);
-        a.friction_wave = Some(Wave { share: 0.4, periods: 0.0, phase: 0.0 });
+        a.friction_wave = Some(FrictionWave { share: 0.4, periods: 0.0, phase: 0.0 });
         a.stribeck = Some(Stribeck { excess: 0.25, velocity: speed });
         a.presliding = Some(0.002);
     });

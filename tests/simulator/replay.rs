@@ -1,6 +1,6 @@
 use checks::arms::{wam, workspace_root};
 use logs::{PreparedJoint, PreparedRun};
-use robot::{Actuator, Gain, Robot, TorqueSource};
+use robot::{Actuator, PdGain, Robot, TorqueSource};
 use simulator::scenario::Scenario;
 use simulator::{SimulatorError, Windows, replay_motion, replay_torque};
 
@@ -153,7 +153,7 @@ fn drift_is_told_of_the_joint_that_drifted() {
     assert_eq!(replay.motion.time[..], record.time[1..=700]);
 }
 
-fn gains() -> Vec<Gain> {
+fn gains() -> Vec<PdGain> {
     let loaded = Robot::load(&workspace_root().join("robots/wam7/robot.toml")).unwrap();
     loaded.control.gains.iter().map(|gain| gain.unwrap()).collect()
 }

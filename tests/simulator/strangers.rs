@@ -9,7 +9,7 @@ use robot::Robot;
 use simulator::scenario::Scenario;
 use simulator::strangers::{StrangerKind, StrangerSpec, StrangerTruth};
 use simulator::{
-    EffectSizer, LogFormat, Simulator, SimulatorError, Stepping, drawn, simulate, simulate_silent,
+    EffectSizer, LogFormat, Simulator, SimulatorError, Stepping, draw_hidden_effects, simulate, simulate_noise_free,
     write,
 };
 
@@ -62,7 +62,7 @@ fn there_is_a_stranger_of_every_kind_and_its_truth_and_scenario_hold_it() {
         // Whoever reads the resolved text has the same arm.
         let again = Document::from_text("resolved", scenario.resolved()).unwrap();
         assert_eq!(Scenario::from_document(&again).unwrap().strangers(), scenario.strangers());
-        assert_eq!(drawn(&scenario).unwrap().strangers(), scenario.strangers());
+        assert_eq!(draw_hidden_effects(&scenario).unwrap().strangers(), scenario.strangers());
         let truth = stranger.truth();
         let joint = (*kind != StrangerKind::SoftMount).then(|| "j4_elbow_pitch".to_owned());
         assert_eq!((truth.stranger, &truth.joint, &truth.link), (*kind, &joint, &None));
@@ -122,7 +122,7 @@ fn moving() -> Scenario {
 }
 
 fn silent(scenario: &Scenario, strangers: &[StrangerSpec]) -> Run {
-    simulate_silent(scenario, &|_| true, &[], strangers).unwrap().remove(0)
+    simulate_noise_free(scenario, &|_| true, &[], strangers).unwrap().remove(0)
 }
 
 /// Share of torque that a stranger adds to what is asked for: at its joint, or over all.
@@ -188,7 +188,7 @@ fn strangers_stand_in_the_truth_and_in_nothing_else() {
         let simulation = simulate(&scenario, &|| {}).unwrap();
         assert_eq!(simulation.strangers, [scenario.strangers()[0].truth()]);
         assert_eq!(simulation.truth, []);
-        let silent = simulate_silent(&scenario, &|name| name == "one", &[], scenario.strangers());
+        let silent = simulate_noise_free(&scenario, &|name| name == "one", &[], scenario.strangers());
         // The sensors of the scenario are perfect.
         assert_eq!(silent.unwrap(), simulation.runs);
         let folder = tempfile::tempdir().unwrap();
@@ -232,9 +232,9 @@ fn silent_runs_have_what_is_given_and_no_error() {
     plain.set("sensors.log_rate_hz=250.0").unwrap();
     plain.set("sensors.link_position_resolution_rad={ j4_elbow_pitch = 0.0 }").unwrap();
     let plain = Scenario::from_document(&plain).unwrap();
-    let silent = simulate_silent(&noisy, &|_| true, &[], &[]).unwrap();
+    let silent = simulate_noise_free(&noisy, &|_| true, &[], &[]).unwrap();
     assert_eq!(silent, simulate(&plain, &|| {}).unwrap().runs);
-    let own = simulate_silent(&noisy, &|_| true, noisy.effects(), noisy.strangers()).unwrap();
+    let own = simulate_noise_free(&noisy, &|_| true, noisy.effects(), noisy.strangers()).unwrap();
     assert_ne!(silent, own);
-    assert!(simulate_silent(&noisy, &|_| false, &[], &[]).unwrap().is_empty());
+    assert!(simulate_noise_free(&noisy, &|_| false, &[], &[]).unwrap().is_empty());
 }

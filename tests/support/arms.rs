@@ -150,7 +150,7 @@ pub fn kinetic_energy(robot: &Robot, q: &[f64], qd: &[f64]) -> f64 {
 /// Everything that can be found in a drive.
 pub fn put_in_everything(drive: &mut Actuator) {
     drive.stribeck = Some(robot::Stribeck { excess: 0.2, velocity: 0.05 });
-    drive.friction_wave = Some(robot::Wave { share: 0.3, periods: 5.0, phase: 0.7 });
+    drive.friction_wave = Some(robot::FrictionWave { share: 0.3, periods: 5.0, phase: 0.7 });
     drive.viscous = 0.3;
     drive.warming =
         Some(robot::Warming { viscous_lost: 0.1, coulomb_lost: 0.2, time_constant_s: 900.0 });

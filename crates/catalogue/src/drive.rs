@@ -1,6 +1,6 @@
 //! Drive: from the commanded effort to the torque that acts.
 
-use crate::entry::{Entry, TORQUE, always, parameter, phase};
+use crate::entry::{EffectEntry, TORQUE, always, parameter, phase};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, CableSpring, ExternalDisturbance,
@@ -10,7 +10,7 @@ use crate::kind::EffectKind::{
     ViscousFriction,
 };
 
-pub(crate) const TORQUE_RIPPLE: Entry = Entry {
+pub(crate) const TORQUE_RIPPLE: EffectEntry = EffectEntry {
     kind: TorqueRipple,
     family: Family::Drive,
     words: "torque ripple",
@@ -38,7 +38,7 @@ pub(crate) const TORQUE_RIPPLE: Entry = Entry {
     source: "Holtz & Springob 1996",
 };
 
-pub(crate) const TORQUE_CONSTANT: Entry = Entry {
+pub(crate) const TORQUE_CONSTANT: EffectEntry = EffectEntry {
     kind: TorqueConstant,
     family: Family::Drive,
     words: "torque constant",
@@ -66,7 +66,7 @@ pub(crate) const TORQUE_CONSTANT: Entry = Entry {
     source: "Gautier & Briot 2014",
 };
 
-pub(crate) const TORQUE_OFFSET: Entry = Entry {
+pub(crate) const TORQUE_OFFSET: EffectEntry = EffectEntry {
     kind: TorqueOffset,
     family: Family::Drive,
     words: "torque offset",
@@ -87,7 +87,7 @@ pub(crate) const TORQUE_OFFSET: Entry = Entry {
     source: "Sousa & Cortesao 2014",
 };
 
-pub(crate) const ACTUATOR_LAG: Entry = Entry {
+pub(crate) const ACTUATOR_LAG: EffectEntry = EffectEntry {
     kind: ActuatorLag,
     family: Family::Drive,
     words: "actuator lag",
@@ -106,7 +106,7 @@ pub(crate) const ACTUATOR_LAG: Entry = Entry {
     source: "first-order low-pass",
 };
 
-pub(crate) const ACTUATOR_DELAY: Entry = Entry {
+pub(crate) const ACTUATOR_DELAY: EffectEntry = EffectEntry {
     kind: ActuatorDelay,
     family: Family::Drive,
     words: "actuator delay",
@@ -120,7 +120,7 @@ pub(crate) const ACTUATOR_DELAY: Entry = Entry {
     source: "transport delay",
 };
 
-pub(crate) const TORQUE_SATURATION: Entry = Entry {
+pub(crate) const TORQUE_SATURATION: EffectEntry = EffectEntry {
     kind: TorqueSaturation,
     family: Family::Drive,
     words: "torque saturation",

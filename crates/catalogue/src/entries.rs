@@ -1,11 +1,11 @@
-use crate::entry::Entry;
+use crate::entry::EffectEntry;
 use crate::family::Family;
 use crate::kind::EffectKind;
 use crate::{drive, environment, friction, inertia, sensing, transmission};
 
 impl EffectKind {
     /// The description of this effect.
-    pub const fn entry(self) -> &'static Entry {
+    pub const fn entry(self) -> &'static EffectEntry {
         match self {
             Self::ViscousFriction => &friction::VISCOUS,
             Self::CoulombFriction => &friction::COULOMB,
@@ -49,7 +49,7 @@ impl EffectKind {
 
     /// The motion that distinguishes it from `rivals`; `None` without rivals. With a payload among them it is the
     /// payload's, since only a second log can decide then.
-    pub fn told_apart_from(self, rivals: impl IntoIterator<Item = Self>) -> Option<&'static str> {
+    pub fn distinguishing_motion(self, rivals: impl IntoIterator<Item = Self>) -> Option<&'static str> {
         let mut rivals = rivals.into_iter().peekable();
         rivals.peek()?;
         let payload = rivals.find(|kind| *kind == Self::Payload);

@@ -20,7 +20,7 @@ pub struct Parameter {
 
 /// The description of an effect, in words.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Entry {
+pub struct EffectEntry {
     /// The effect.
     pub kind: EffectKind,
     /// The family.

@@ -1,6 +1,6 @@
 //! Environment: the mounting of the arm, and forces from outside.
 
-use crate::entry::{Entry, POSITION, TORQUE, always, parameter, phase};
+use crate::entry::{EffectEntry, POSITION, TORQUE, always, parameter, phase};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     AsymmetricFriction, CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance,
@@ -8,7 +8,7 @@ use crate::kind::EffectKind::{
     TorqueOffset, TorqueRipple, TorqueSaturation,
 };
 
-pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
+pub(crate) const GRAVITY_DIRECTION: EffectEntry = EffectEntry {
     kind: GravityDirection,
     family: Family::Environment,
     words: "gravity direction",
@@ -25,7 +25,7 @@ pub(crate) const GRAVITY_DIRECTION: Entry = Entry {
     source: "Featherstone 2008",
 };
 
-pub(crate) const CABLE_SPRING: Entry = Entry {
+pub(crate) const CABLE_SPRING: EffectEntry = EffectEntry {
     kind: CableSpring,
     family: Family::Environment,
     words: "cable spring",
@@ -58,7 +58,7 @@ pub(crate) const CABLE_SPRING: Entry = Entry {
     source: "linear elasticity; the loop: Al-Bender, Lampaert & Swevers 2005",
 };
 
-pub(crate) const EXTERNAL_DISTURBANCE: Entry = Entry {
+pub(crate) const EXTERNAL_DISTURBANCE: EffectEntry = EffectEntry {
     kind: ExternalDisturbance,
     family: Family::Environment,
     words: "external disturbance",
@@ -96,7 +96,7 @@ pub(crate) const EXTERNAL_DISTURBANCE: Entry = Entry {
     source: "virtual work of the force",
 };
 
-pub(crate) const COUNTERBALANCE: Entry = Entry {
+pub(crate) const COUNTERBALANCE: EffectEntry = EffectEntry {
     kind: Counterbalance,
     family: Family::Environment,
     words: "counterbalance",

@@ -1,6 +1,6 @@
 //! Friction: what resists the motion of one joint.
 
-use crate::entry::{Entry, TORQUE, always, parameter, phase};
+use crate::entry::{EffectEntry, TORQUE, always, parameter, phase};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, Backlash, CableSpring, CoulombFriction,
@@ -9,7 +9,7 @@ use crate::kind::EffectKind::{
     TorqueOffset, TorqueRipple, ViscousFriction,
 };
 
-pub(crate) const VISCOUS: Entry = Entry {
+pub(crate) const VISCOUS: EffectEntry = EffectEntry {
     kind: ViscousFriction,
     family: Family::Friction,
     words: "viscous friction",
@@ -34,7 +34,7 @@ pub(crate) const VISCOUS: Entry = Entry {
     source: "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
 };
 
-pub(crate) const COULOMB: Entry = Entry {
+pub(crate) const COULOMB: EffectEntry = EffectEntry {
     kind: CoulombFriction,
     family: Family::Friction,
     words: "Coulomb friction",
@@ -58,7 +58,7 @@ pub(crate) const COULOMB: Entry = Entry {
     source: "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
 };
 
-pub(crate) const ASYMMETRIC: Entry = Entry {
+pub(crate) const ASYMMETRIC: EffectEntry = EffectEntry {
     kind: AsymmetricFriction,
     family: Family::Friction,
     words: "asymmetric friction",
@@ -75,7 +75,7 @@ pub(crate) const ASYMMETRIC: Entry = Entry {
     source: "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
 };
 
-pub(crate) const STRIBECK: Entry = Entry {
+pub(crate) const STRIBECK: EffectEntry = EffectEntry {
     kind: StribeckFriction,
     family: Family::Friction,
     words: "Stribeck friction",
@@ -98,7 +98,7 @@ pub(crate) const STRIBECK: Entry = Entry {
     source: "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
 };
 
-pub(crate) const PRESLIDING: Entry = Entry {
+pub(crate) const PRESLIDING: EffectEntry = EffectEntry {
     kind: PreslidingFriction,
     family: Family::Friction,
     words: "presliding friction",
@@ -121,7 +121,7 @@ pub(crate) const PRESLIDING: Entry = Entry {
     source: "Canudas de Wit, Olsson, Astrom & Lischinsky 1995",
 };
 
-pub(crate) const LOAD_DEPENDENT: Entry = Entry {
+pub(crate) const LOAD_DEPENDENT: EffectEntry = EffectEntry {
     kind: LoadDependentFriction,
     family: Family::Friction,
     words: "load-dependent friction",
@@ -140,7 +140,7 @@ pub(crate) const LOAD_DEPENDENT: Entry = Entry {
     source: "Bittencourt & Gunnarsson 2012",
 };
 
-pub(crate) const POSITION_DEPENDENT: Entry = Entry {
+pub(crate) const POSITION_DEPENDENT: EffectEntry = EffectEntry {
     kind: PositionDependentFriction,
     family: Family::Friction,
     words: "position-dependent friction",
@@ -164,7 +164,7 @@ pub(crate) const POSITION_DEPENDENT: Entry = Entry {
     source: "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
 };
 
-pub(crate) const TEMPERATURE_DRIFT: Entry = Entry {
+pub(crate) const TEMPERATURE_DRIFT: EffectEntry = EffectEntry {
     kind: FrictionTemperatureDrift,
     family: Family::Friction,
     words: "friction temperature drift",

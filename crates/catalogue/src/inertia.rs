@@ -1,6 +1,6 @@
 //! Inertia: the bodies that a drive moves and carries.
 
-use crate::entry::{Entry, Parameter, always, parameter};
+use crate::entry::{EffectEntry, Parameter, always, parameter};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     CableSpring, Counterbalance, EncoderOffset, ExternalDisturbance, GravityDirection,
@@ -17,7 +17,7 @@ const fn body(mass: (f64, f64), com: (f64, f64)) -> [Parameter; 4] {
     ]
 }
 
-pub(crate) const PAYLOAD: Entry = Entry {
+pub(crate) const PAYLOAD: EffectEntry = EffectEntry {
     kind: Payload,
     family: Family::Inertia,
     words: "payload",
@@ -38,7 +38,7 @@ pub(crate) const PAYLOAD: Entry = Entry {
     source: "Gautier & Khalil 1990",
 };
 
-pub(crate) const INERTIAL_PARAMETERS: Entry = Entry {
+pub(crate) const INERTIAL_PARAMETERS: EffectEntry = EffectEntry {
     kind: InertialParameters,
     family: Family::Inertia,
     words: "inertial parameters",
@@ -62,7 +62,7 @@ pub(crate) const INERTIAL_PARAMETERS: Entry = Entry {
     source: "Gautier & Khalil 1990; Wensing, Kim & Slotine 2018",
 };
 
-pub(crate) const ROTOR_INERTIA: Entry = Entry {
+pub(crate) const ROTOR_INERTIA: EffectEntry = EffectEntry {
     kind: RotorInertia,
     family: Family::Inertia,
     words: "rotor inertia",

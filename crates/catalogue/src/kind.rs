@@ -102,11 +102,11 @@ mod tests {
     fn a_payload_among_rivals_says_what_tells_them_apart() {
         let own = EffectKind::CoulombFriction.entry().told_apart_by;
         let rivals = [EffectKind::ViscousFriction, EffectKind::StribeckFriction];
-        assert_eq!(EffectKind::CoulombFriction.told_apart_from(rivals), Some(own));
-        assert_eq!(EffectKind::CoulombFriction.told_apart_from([]), None);
+        assert_eq!(EffectKind::CoulombFriction.distinguishing_motion(rivals), Some(own));
+        assert_eq!(EffectKind::CoulombFriction.distinguishing_motion([]), None);
         let payload = EffectKind::Payload.entry().told_apart_by;
         let rivals = [EffectKind::GravityDirection, EffectKind::Payload];
-        assert_eq!(EffectKind::InertialParameters.told_apart_from(rivals), Some(payload));
+        assert_eq!(EffectKind::InertialParameters.distinguishing_motion(rivals), Some(payload));
     }
 
     /// Never to be changed, only added to: see [`EffectKind::code`].

@@ -23,6 +23,6 @@ mod kind;
 mod sensing;
 mod transmission;
 
-pub use entry::{Entry, Parameter};
+pub use entry::{EffectEntry, Parameter};
 pub use family::Family;
 pub use kind::{EffectKind, UnknownEffect};

@@ -1,13 +1,13 @@
 //! Sensing: from true values to reported ones.
 
-use crate::entry::{Entry, POSITION, always, parameter};
+use crate::entry::{EffectEntry, POSITION, always, parameter};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, EncoderOffset, GravityDirection, InertialParameters, TimeSkew,
     TransmissionRatio, ViscousFriction,
 };
 
-pub(crate) const ENCODER_OFFSET: Entry = Entry {
+pub(crate) const ENCODER_OFFSET: EffectEntry = EffectEntry {
     kind: EncoderOffset,
     family: Family::Sensing,
     words: "encoder offset",
@@ -27,7 +27,7 @@ pub(crate) const ENCODER_OFFSET: Entry = Entry {
     source: "substitution of the true position",
 };
 
-pub(crate) const TIME_SKEW: Entry = Entry {
+pub(crate) const TIME_SKEW: EffectEntry = EffectEntry {
     kind: TimeSkew,
     family: Family::Sensing,
     words: "time skew",

@@ -1,6 +1,6 @@
 //! Transmission: between motor and link.
 
-use crate::entry::{Entry, POSITION, TORQUE, always, parameter};
+use crate::entry::{EffectEntry, POSITION, TORQUE, always, parameter};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, Backlash, CoulombFriction, DifferentialCoupling, EncoderOffset,
@@ -8,7 +8,7 @@ use crate::kind::EffectKind::{
     TorqueRipple, TransmissionRatio,
 };
 
-pub(crate) const BACKLASH: Entry = Entry {
+pub(crate) const BACKLASH: EffectEntry = EffectEntry {
     kind: Backlash,
     family: Family::Transmission,
     words: "backlash",
@@ -24,7 +24,7 @@ pub(crate) const BACKLASH: Entry = Entry {
     source: "Nordin & Gutman 2002",
 };
 
-pub(crate) const JOINT_ELASTICITY: Entry = Entry {
+pub(crate) const JOINT_ELASTICITY: EffectEntry = EffectEntry {
     kind: JointElasticity,
     family: Family::Transmission,
     words: "joint elasticity",
@@ -47,7 +47,7 @@ pub(crate) const JOINT_ELASTICITY: Entry = Entry {
     source: "Spong 1987",
 };
 
-pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
+pub(crate) const DIFFERENTIAL_COUPLING: EffectEntry = EffectEntry {
     kind: DifferentialCoupling,
     family: Family::Transmission,
     words: "differential coupling",
@@ -92,7 +92,7 @@ pub(crate) const DIFFERENTIAL_COUPLING: Entry = Entry {
     source: "virtual work over the differential",
 };
 
-pub(crate) const TRANSMISSION_RATIO: Entry = Entry {
+pub(crate) const TRANSMISSION_RATIO: EffectEntry = EffectEntry {
     kind: TransmissionRatio,
     family: Family::Transmission,
     words: "transmission ratio",

@@ -1,8 +1,8 @@
-use catalogue::{Entry, Parameter};
+use catalogue::{EffectEntry, Parameter};
 use diagnosis::Diagnosed;
 
 /// What is known of an effect: names of its facts and parameters, and what each is.
-pub fn facts(entry: &Entry) -> Vec<(&'static str, String)> {
+pub fn facts(entry: &EffectEntry) -> Vec<(&'static str, String)> {
     let rivals: Vec<String> = entry.confused_with.iter().map(|k| k.label()).collect();
     let mut facts = vec![
         ("is", entry.summary.to_owned()),
@@ -40,7 +40,7 @@ pub fn meaning(parameter: &Parameter) -> String {
 }
 
 /// Whether the diagnosis can name the effect, with what, or why not.
-fn diagnosed(entry: &Entry) -> String {
+fn diagnosed(entry: &EffectEntry) -> String {
     match diagnosis::diagnosed(entry.kind) {
         Ok(Diagnosed { how, parameters }) if parameters.len() == entry.parameters.len() => {
             format!("yes, {how}")

@@ -1,7 +1,7 @@
 use robot::{Loaded, Robot};
 
 use crate::error::ExchangeError;
-use crate::fate::Fated;
+use crate::fate::QuantityFate;
 use crate::fates::fates;
 use crate::format::Format;
 use crate::reported::at_reported_positions;
@@ -14,7 +14,7 @@ pub struct Export {
     /// The file.
     pub text: String,
     /// The fate of every quantity beyond rigid bodies.
-    pub fates: Vec<Fated>,
+    pub fates: Vec<QuantityFate>,
     /// The robot that the file describes, in reported positions, with approximated quantities as written.
     pub robot: Robot,
 }

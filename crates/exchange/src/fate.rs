@@ -61,7 +61,7 @@ impl fmt::Display for Fate {
 
 /// A quantity of the robot and how the file represents it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Fated {
+pub struct QuantityFate {
     /// The joint, the link or `robot`.
     pub at: String,
     /// The quantity with its size and unit.

@@ -1,12 +1,12 @@
 use robot::{Link, Loaded};
 
-use crate::fate::{Fate, Fated};
+use crate::fate::{Fate, QuantityFate};
 use crate::format::Format;
 use crate::numbers::size;
 use crate::quantity::{DriveQuantity, quantities};
 use crate::{mjcf, sdf, urdf, usd};
 
-pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
+pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<QuantityFate> {
     let robot = &loaded.robot;
     let mut fates = vec![];
     let gravity = robot.gravity_in_base();
@@ -19,7 +19,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
             Format::Isaac => Fate::exact("gravityDirection, gravityMagnitude of a PhysicsScene"),
         };
         let what = format!("gravity ({x}, {y}, {z}) m/s²");
-        fates.push(Fated { at: "robot".to_owned(), what, fate });
+        fates.push(QuantityFate { at: "robot".to_owned(), what, fate });
     }
     for (link, old) in robot.links().iter().zip(loaded.robot_in_urdf.links()) {
         let is_told = matches!(format, Format::Mjcf | Format::Isaac);
@@ -29,7 +29,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
         }
         for (quantity, what) in quantities(robot, link) {
             let fate = fate_of(quantity, link, format);
-            fates.push(Fated { at: link.joint.name.clone(), what, fate });
+            fates.push(QuantityFate { at: link.joint.name.clone(), what, fate });
         }
     }
     for lock in &loaded.locked {
@@ -38,7 +38,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<Fated> {
             _ => Fate::exact("what it carries is part of the body it is fixed to"),
         };
         let what = format!("locked at {}", size(lock.position));
-        fates.push(Fated { at: lock.joint.clone(), what, fate });
+        fates.push(QuantityFate { at: lock.joint.clone(), what, fate });
     }
     fates
 }
@@ -53,7 +53,7 @@ pub(crate) fn fate_of(quantity: DriveQuantity, link: &Link, format: Format) -> F
     }
 }
 
-fn inertia(link: &Link, format: Format) -> Fated {
+fn inertia(link: &Link, format: Format) -> QuantityFate {
     let defects = link.inertia.defects();
     let fate = match (format, defects.is_empty()) {
         (Format::Urdf, _) if !link.merged.is_empty() => {
@@ -69,5 +69,5 @@ fn inertia(link: &Link, format: Format) -> Fated {
         _ => Fate::exact("<inertial>"),
     };
     let what = format!("mass {} kg, centre, moments", size(link.inertia.mass));
-    Fated { at: link.name.clone(), what, fate }
+    QuantityFate { at: link.name.clone(), what, fate }
 }

@@ -27,5 +27,5 @@ mod xml_text;
 
 pub use error::ExchangeError;
 pub use export::{Export, export};
-pub use fate::{Fate, Fated};
+pub use fate::{Fate, QuantityFate};
 pub use format::Format;

@@ -121,7 +121,7 @@ impl Experiment {
     ///
     /// [`ExperimentError::Simulator`] when no effect could be drawn.
     pub fn drawn(&self) -> Result<TrackingScenario, ExperimentError> {
-        Ok(self.scenario.of_arm(simulator::drawn(self.plant())?))
+        Ok(self.scenario.of_arm(simulator::draw_hidden_effects(self.plant())?))
     }
 
     /// `drawn`, the scenario with the effects of its arm, as it is to be tracked: where no scenario

@@ -9,7 +9,7 @@ use crate::text_file::write_text;
 
 /// The truth about a trial, `sheet.json`, kept apart until its logs are diagnosed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Sheet {
+pub struct TruthSheet {
     /// The seed of every draw.
     pub seed: u64,
     /// The class of the trial.
@@ -22,9 +22,9 @@ pub struct Sheet {
     /// noise and a thousandth of the drive's limit.
     pub torque_rms: Vec<f64>,
     /// Effects of the catalogue by which the arm differs from its nominal model.
-    pub causes: Vec<Cause>,
+    pub causes: Vec<TrueCause>,
     /// Effects outside the catalogue in the arm.
-    pub strangers: Vec<Unnamed>,
+    pub strangers: Vec<TrueStranger>,
 }
 
 /// How much of the causes in the logs is known.
@@ -41,9 +41,9 @@ pub enum Knowledge {
 
 /// An effect of the catalogue by which an arm differs from its nominal model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Cause {
+pub struct TrueCause {
     /// Why it is there.
-    pub role: Role,
+    pub role: CauseRole,
     /// The effect, its place, and its parameters beyond the nominal model.
     #[serde(flatten)]
     pub truth: Truth,
@@ -54,7 +54,7 @@ pub struct Cause {
 /// Why a cause is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Role {
+pub enum CauseRole {
     /// Everyday friction of a joint.
     Background,
     /// An error of the nominal model: a body, a rotor.
@@ -65,7 +65,7 @@ pub enum Role {
 
 /// An effect outside the catalogue in an arm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Unnamed {
+pub struct TrueStranger {
     /// Its name among the strangers of the simulator.
     pub name: String,
     /// The joint it acts at, where it has one.
@@ -87,7 +87,7 @@ pub struct Unnamed {
 /// torque = root of the mean of the sum over j of c_j^2 / scale_j^2
 /// ```
 ///
-/// with the scales of [`Sheet::torque_rms`].
+/// with the scales of [`TruthSheet::torque_rms`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Strength {
     /// Its size over the least standard deviation that an unbiased estimate can have.
@@ -111,7 +111,7 @@ impl Strength {
     }
 }
 
-impl Sheet {
+impl TruthSheet {
     /// Name of its file.
     pub const FILE: &str = "sheet.json";
 

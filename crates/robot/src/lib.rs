@@ -31,13 +31,13 @@ pub use machine::{Machine, MachineFault, Reading};
 pub use meshes::folders::MeshFolders;
 pub use meshes::packages::Packages;
 pub use structure::actuator::{
-    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
+    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave,
 };
-pub use structure::control::{ControlSettings, Gain};
+pub use structure::control::{ControlSettings, PdGain};
 pub use structure::inertia::{Inertia, InertiaDefect};
 pub use structure::joint::{Joint, JointKind, Limits};
 pub use structure::link::Link;
 pub use structure::looks::{Looks, Shape, Visual};
-pub use structure::part::{LockedJoint, Part};
+pub use structure::part::{LockedJoint, JointSelection};
 pub use structure::robot::Robot;
 pub use warning::RobotWarning;

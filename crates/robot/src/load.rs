@@ -7,10 +7,10 @@ use crate::loaded::Loaded;
 use crate::meshes::folders::MeshFolders;
 use crate::meshes::packages::Packages;
 use crate::robot_toml::file::DescriptionFile;
-use crate::structure::control::{ControlSettings, Gain};
+use crate::structure::control::{ControlSettings, PdGain};
 use crate::structure::lumping::Lumping;
 
-use crate::structure::part::{Part, positions};
+use crate::structure::part::{JointSelection, positions};
 use crate::structure::robot::Robot;
 use crate::warning::RobotWarning;
 use crate::whole_robot::WholeRobot;
@@ -100,14 +100,14 @@ impl Robot {
     /// What is wrong with the URDF, without the name of a file.
     pub fn from_urdf(text: &str) -> Result<Self, RobotError> {
         let model = urdf::parse::parse(text)?;
-        let mut loaded = Loaded::from_urdf(&model, Part::default(), Path::new(""))?;
+        let mut loaded = Loaded::from_urdf(&model, JointSelection::default(), Path::new(""))?;
         loaded.check(&model)?;
         Ok(loaded.robot)
     }
 }
 
 impl Loaded {
-    fn from_urdf(model: &WholeRobot, part: Part, path: &Path) -> Result<Self, RobotError> {
+    fn from_urdf(model: &WholeRobot, part: JointSelection, path: &Path) -> Result<Self, RobotError> {
         let whole = &model.robot;
         let locked = part.locks(whole, &model.mimics)?;
         let lumping = Lumping::new(whole, &positions(&locked));
@@ -138,7 +138,7 @@ impl Loaded {
         }
         let kept = |name: &&str| joints.iter().any(|joint| joint == name);
         let names = || self.robot.joint_names();
-        let part = Part {
+        let part = JointSelection {
             joints: Some(names().filter(kept).map(str::to_owned).collect()),
             locked: self.part.locked.clone(),
         };
@@ -221,7 +221,7 @@ fn read_model(text: &str, path: &Path) -> Result<WholeRobot, RobotError> {
 }
 
 /// The gains that a file gives, one entry a joint.
-fn whole_gains(model: &WholeRobot) -> Vec<Option<Gain>> {
+fn whole_gains(model: &WholeRobot) -> Vec<Option<PdGain>> {
     let mut gains = model.gains.clone();
     gains.resize(model.robot.joint_count(), None);
     gains

@@ -5,7 +5,7 @@ use document::KeyPath;
 use crate::misfit::Misfit;
 use crate::structure::control::ControlSettings;
 use crate::structure::looks::Looks;
-use crate::structure::part::{LockedJoint, Part};
+use crate::structure::part::{LockedJoint, JointSelection};
 use crate::structure::robot::Robot;
 use crate::warning::RobotWarning;
 
@@ -28,7 +28,7 @@ pub struct Loaded {
     /// Names of the links fixed to the base, which play no part in the dynamics.
     pub fixed_to_base: Vec<String>,
     /// Which joints were selected and which locked, as `robot.toml` states it.
-    pub part: Part,
+    pub part: JointSelection,
     /// The joints of the URDF that are locked, in its order.
     pub locked: Vec<LockedJoint>,
     /// How the real robot is controlled; empty without a `robot.toml`.

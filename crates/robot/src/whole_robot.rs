@@ -1,4 +1,4 @@
-use crate::structure::control::Gain;
+use crate::structure::control::PdGain;
 use crate::structure::looks::Looks;
 use crate::structure::part::Mimics;
 use crate::structure::robot::Robot;
@@ -18,7 +18,7 @@ pub(crate) struct WholeRobot {
     pub without_mass: Vec<String>,
     pub mimics: Mimics,
     /// Gains of servos, one entry a joint; a URDF has none.
-    pub gains: Vec<Option<Gain>>,
+    pub gains: Vec<Option<PdGain>>,
     /// The text with what it includes, where it includes something.
     pub expanded: Option<String>,
     pub warnings: Vec<RobotWarning>,

@@ -28,7 +28,7 @@ pub use replay::forward::{ForwardReplay, Windows, replay_torque};
 pub use replay::motion::{MotionReplay, replay_motion};
 pub use run::effect_sizer::EffectSizer;
 pub use run::simulate::{
-    Simulation, arm, drawn, simulate, simulate_only, simulate_silent, simulate_silent_start,
+    Simulation, arm, draw_hidden_effects, simulate, simulate_only, simulate_noise_free, simulate_noise_free_start,
 };
 pub use run::write::{LogFormat, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use motion::State;
-use robot::{Gain, Reading};
+use robot::{PdGain, Reading};
 
 use crate::error;
 use crate::error::TrackingError;
@@ -16,7 +16,7 @@ use crate::torque_limits::TorqueLimits;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Controller {
     /// Gains of every joint.
-    pub gains: Vec<Gain>,
+    pub gains: Vec<PdGain>,
     /// Torque limits of the motors.
     pub limits: TorqueLimits,
     /// Where the rate of the error comes from.
@@ -116,7 +116,7 @@ mod tests {
     const PERIOD_S: f64 = 0.002;
 
     fn controller(kp: f64, kd: f64, error_rate: ErrorRate) -> Controller {
-        Controller { gains: vec![Gain { kp, kd }], limits: TorqueLimits::none(1), error_rate }
+        Controller { gains: vec![PdGain { kp, kd }], limits: TorqueLimits::none(1), error_rate }
     }
 
     /// The feedback of every tick when the reference and the position are functions of time.

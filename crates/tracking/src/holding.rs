@@ -1,7 +1,7 @@
 use dynamics::Dynamics;
 use motion::Motion;
 use nalgebra::DMatrix;
-use robot::{Gain, Robot};
+use robot::{PdGain, Robot};
 
 /// Time between the positions of a motion that are looked at (s).
 const SPACING_S: f64 = 0.1;
@@ -28,7 +28,7 @@ const STEP: f64 = 1e-4;
 ///
 /// Kelly 1997, whose condition for PD control with the gravity of the reference is
 /// `kp > |dg/dq|`; here along a motion.
-pub fn holds(robot: &Robot, gains: &[Gain], motion: &Motion) -> bool {
+pub fn holds(robot: &Robot, gains: &[PdGain], motion: &Motion) -> bool {
     assert_eq!(gains.len(), robot.joint_count(), "one gain a joint");
     let dynamics = Dynamics::new(robot);
     let mut ws = dynamics.workspace();
@@ -110,7 +110,7 @@ mod tests {
     fn oracle_an_upright_pendulum_is_held_from_the_stiffness_of_its_weight_on() {
         let robot = pendulum();
         let weight = 2.0 * 9.81 * 0.5;
-        let gains = |k: [f64; 2]| k.map(|k| Gain { kp: weight * k, kd: 0.0 });
+        let gains = |k: [f64; 2]| k.map(|k| PdGain { kp: weight * k, kd: 0.0 });
         let upright = motion(&robot, 0.0);
         for (k, expected) in [([5.05, 1.5], true), ([4.95, 1.5], false), ([9.0, 0.9], false)] {
             assert_eq!(holds(&robot, &gains(k), &upright), expected, "{k:?}");

@@ -2,7 +2,7 @@
 
 use learner::{Mean, Model, ModelKind, RobotTorque};
 use motion::{Motion, MotionSpec};
-use robot::{Gain, Machine, MachineFault, Reading, Robot};
+use robot::{PdGain, Machine, MachineFault, Reading, Robot};
 
 use crate::controller::{Controller, ErrorRate};
 use crate::feedforward::{Feedforward, Prediction};
@@ -144,7 +144,7 @@ impl Machine for TestPlant {
 /// Gains of the only joint.
 pub fn controller(kp: f64, kd: f64) -> Controller {
     let error_rate = ErrorRate::default();
-    Controller { gains: vec![Gain { kp, kd }], limits: TorqueLimits::none(1), error_rate }
+    Controller { gains: vec![PdGain { kp, kd }], limits: TorqueLimits::none(1), error_rate }
 }
 
 /// A feedforward that is a function of time.

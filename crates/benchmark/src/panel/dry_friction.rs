@@ -1,6 +1,6 @@
 use catalogue::EffectKind;
 use diagnosis::Estimate;
-use population::Cause;
+use population::TrueCause;
 use simulator::Truth;
 
 use crate::panel::place::place;
@@ -17,8 +17,8 @@ pub(super) struct DryFriction {
 
 impl DryFriction {
     /// Of all causes at the joint of `cause` but itself.
-    pub fn beside(cause: &Cause, all: &[Cause]) -> Self {
-        let is_beside = |other: &&Cause| {
+    pub fn beside(cause: &TrueCause, all: &[TrueCause]) -> Self {
+        let is_beside = |other: &&TrueCause| {
             place(other) != place(cause)
                 && cause.truth.joint.is_some()
                 && other.truth.joint == cause.truth.joint
@@ -81,14 +81,14 @@ impl DryFriction {
 
 #[cfg(test)]
 mod tests {
-    use population::{Role, Strength};
+    use population::{CauseRole, Strength};
 
     use super::*;
 
-    fn cause(effect: EffectKind, joint: &str, parameters: &[(&str, f64)]) -> Cause {
+    fn cause(effect: EffectKind, joint: &str, parameters: &[(&str, f64)]) -> TrueCause {
         let truth = Truth::at_joint(effect, joint, parameters);
         let strength = Strength { sigmas: 10.0, share: 0.5, torque: 0.1 };
-        Cause { role: Role::Background, truth, strength }
+        TrueCause { role: CauseRole::Background, truth, strength }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 use diagnosis::{EffectAt, Finding};
 use experiment::{Size, stored};
-use population::{Cause, Role, Strength};
+use population::{TrueCause, CauseRole, Strength};
 use serde::{Deserialize, Serialize};
 
 use crate::panel::dry_friction::DryFriction;
@@ -14,7 +14,7 @@ pub struct JudgedCause {
     #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
     /// Why it is there.
-    pub role: Role,
+    pub role: CauseRole,
     /// What an oracle sees of it.
     pub strength: Strength,
     /// The finding that names it, counted from 0.
@@ -32,7 +32,7 @@ pub struct JudgedCause {
 impl JudgedCause {
     /// One of `all` causes, beside what is found and what the baselines claim.
     pub(super) fn new(
-        (cause, all): (&Cause, &[Cause]),
+        (cause, all): (&TrueCause, &[TrueCause]),
         findings: &[&Finding],
         claims: [&[BaselineClaim]; 2],
     ) -> Self {

@@ -1,6 +1,6 @@
 use diagnosis::{EffectAt, Finding, Verdict};
 use experiment::stored;
-use population::{Corner, Knowledge, Sheet, Unnamed};
+use population::{Corner, Knowledge, TruthSheet, TrueStranger};
 use serde::{Deserialize, Serialize};
 
 use crate::panel::answers::{Answers, Costs};
@@ -30,7 +30,7 @@ pub struct Judgement {
     /// The causes that are in the data.
     pub causes: Vec<JudgedCause>,
     /// Effects of no catalogue that are in the data.
-    pub strangers: Vec<Unnamed>,
+    pub strangers: Vec<TrueStranger>,
     /// What the two questions name.
     pub two_questions: Vec<BaselineClaim>,
     /// What plain least squares names.
@@ -43,7 +43,7 @@ pub struct Judgement {
 
 impl Judgement {
     /// Scores the answers to a trial by what is true of it.
-    pub fn new(sheet: &Sheet, answers: &Answers) -> Self {
+    pub fn new(sheet: &TruthSheet, answers: &Answers) -> Self {
         let diagnosis = answers.diagnosis.as_ref();
         let mut findings: Vec<&Finding> =
             diagnosis.iter().flat_map(|diagnosis| &diagnosis.findings).collect();
@@ -54,7 +54,7 @@ impl Judgement {
         let claims = [&two_questions[..], &least_squares[..]];
         let judged = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
         let stranger =
-            |other: &Unnamed| Unnamed { strength: finite(other.strength), ..other.clone() };
+            |other: &TrueStranger| TrueStranger { strength: finite(other.strength), ..other.clone() };
         Self {
             seed: sheet.seed,
             corner: sheet.corner.clone(),

@@ -1,8 +1,8 @@
 use diagnosis::EffectAt;
-use population::Cause;
+use population::TrueCause;
 
 /// The effect of a cause and its place.
-pub(super) fn place(cause: &Cause) -> EffectAt {
+pub(super) fn place(cause: &TrueCause) -> EffectAt {
     let (joint, link) = (cause.truth.joint.clone(), cause.truth.link.clone());
     EffectAt { effect: cause.truth.effect, joint, link }
 }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use diagnosis::{DiagnosisError, Outcome, Settings, Silent};
 use experiment::{ExperimentError, robot_error};
-use population::{Came, Origin, PopulationSpec, Remade, Sheet, Store};
+use population::{Came, Origin, PopulationSpec, Remade, TruthSheet, Store};
 use robot::{Loaded, Robot};
 
 use crate::baselines::baseline::Baseline;
@@ -62,7 +62,7 @@ pub fn run(
         }
     };
     let answers = answers(&folder, made_s)?;
-    let judgement = Judgement::new(&Sheet::open(&folder)?, &answers);
+    let judgement = Judgement::new(&TruthSheet::open(&folder)?, &answers);
     Ok(Judged { judgement, remade })
 }
 

@@ -1,5 +1,5 @@
 use anstyle::Style;
-use catalogue::Entry;
+use catalogue::EffectEntry;
 
 use crate::commands::effects as list;
 use crate::effect_facts::facts;
@@ -27,7 +27,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     Ok(ExitStatus::Good)
 }
 
-fn explanation(entry: &Entry) -> String {
+fn explanation(entry: &EffectEntry) -> String {
     let bold = Style::new().bold();
     let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.label(), entry.kind);
     for (name, value) in facts(entry) {

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use exchange::{Export, Fated, Format};
+use exchange::{Export, QuantityFate, Format};
 use serde::Serialize;
 
 use crate::error::CliError;
@@ -71,7 +71,7 @@ struct Exports {
 struct Written {
     format: &'static str,
     path: String,
-    quantities: Vec<Fated>,
+    quantities: Vec<QuantityFate>,
 }
 
 /// Writes the robot in other formats and prints what became of every quantity, and what that costs on logs.

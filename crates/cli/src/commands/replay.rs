@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
 use report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
-use robot::{Gain, Loaded, Robot};
+use robot::{PdGain, Loaded, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::columns::LogArguments;
@@ -86,7 +86,7 @@ impl Replay {
         let forward =
             windows.map(|ms| simulator::replay_torque(robot, record, Windows::of(1e-3 * ms)));
         let forward = forward.collect::<Result<_, _>>()?;
-        let gains: Option<Vec<Gain>> = loaded.control.gains.iter().copied().collect();
+        let gains: Option<Vec<PdGain>> = loaded.control.gains.iter().copied().collect();
         let gains = gains.filter(|g| g.len() == robot.joint_count());
         let motion = gains.map(|gains| simulator::replay_motion(robot, &gains, record));
         Ok(Self { forward, motion: motion.transpose()? })

@@ -69,7 +69,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 /// a warning, as its files are there to be changed.
 fn try_out(arguments: &Arguments) -> Result<(), CliError> {
     let scenario = Scenario::from_document(&Document::read(arguments.out.join("scenario.toml"))?)?;
-    if let Err(error) = simulator::simulate_silent_start(&scenario, &[], TRIAL_S) {
+    if let Err(error) = simulator::simulate_noise_free_start(&scenario, &[], TRIAL_S) {
         warn(&format!("the scenario does not run yet: {error}; other gains or rotors may help"));
     }
     Ok(())

@@ -197,7 +197,7 @@ impl FindingBuilder<'_> {
             share_explained: share(before),
             held_out_gain: share(without),
             log_evidence: 0.0,
-            told_apart_by: kind(&g).told_apart_from(rivals.iter().map(kind)),
+            told_apart_by: kind(&g).distinguishing_motion(rivals.iter().map(kind)),
             not_separable_from: rivals
                 .iter()
                 .map(|&h| effect_at(robot, problem.design.groups[h].hypothesis))

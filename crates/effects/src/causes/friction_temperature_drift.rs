@@ -137,7 +137,7 @@ impl Effect for FrictionTemperatureDrift {
         let drive = &mut link.actuator;
         let Some(known) = of(drive) else { return };
         let lost = |known: f64, change: &f64| (known + change).max(0.0);
-        drive.warming = Some(drive.lost_at_most(Warming {
+        drive.warming = Some(drive.limit_warming(Warming {
             viscous_lost: lost(known.viscous_lost, viscous),
             coulomb_lost: lost(known.coulomb_lost, coulomb),
             time_constant_s: known.time_constant_s + time.first().unwrap_or(&0.0),
@@ -192,7 +192,7 @@ impl HasShape for FrictionTemperatureDrift {
         if drive.warming.is_some_and(|w| w.viscous_lost <= 0.0 && w.coulomb_lost <= 0.0) {
             drive.warming = before.warming;
         }
-        drive.warming = drive.warming.map(|warming| drive.lost_at_most(warming));
+        drive.warming = drive.warming.map(|warming| drive.limit_warming(warming));
     }
 }
 

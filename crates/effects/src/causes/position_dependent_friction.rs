@@ -2,7 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use catalogue::EffectKind;
 use nalgebra::Complex;
-use robot::{Actuator, Robot, Wave};
+use robot::{Actuator, Robot, FrictionWave};
 
 use crate::abilities::{CanBeUnsound, CanHide, HasShape};
 use crate::bounds::unbounded;
@@ -33,7 +33,7 @@ fn level(drive: &Actuator) -> f64 {
 }
 
 /// The wave of a drive, as amplitude (N·m or N) and phase in one number.
-fn amplitude(drive: &Actuator) -> Option<(Complex<f64>, Wave)> {
+fn amplitude(drive: &Actuator) -> Option<(Complex<f64>, FrictionWave)> {
     drive.friction_wave.map(|w| (Complex::from_polar(level(drive) * w.share, w.phase), w))
 }
 
@@ -71,7 +71,7 @@ impl Effect for PositionDependentFriction {
     }
 
     fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
-        let Some((wave, Wave { periods, phase, .. })) = amplitude(&motion.drives[j]) else {
+        let Some((wave, FrictionWave { periods, phase, .. })) = amplitude(&motion.drives[j]) else {
             return Vec::new();
         };
         let drive = &motion.drives[j];
@@ -124,7 +124,7 @@ impl Effect for PositionDependentFriction {
         let Some(link) = robot.link_mut(j) else { return };
         let drive = &mut link.actuator;
         let level = level(drive);
-        let Some((wave, Wave { phase, .. })) = amplitude(drive) else { return };
+        let Some((wave, FrictionWave { phase, .. })) = amplitude(drive) else { return };
         let changed = wave + Complex::new(*cosine, -sine) * Complex::from_polar(1.0, phase);
         if let Some(known) = &mut drive.friction_wave {
             let periods = periods.first().unwrap_or(&0.0);
@@ -136,7 +136,7 @@ impl Effect for PositionDependentFriction {
 
     fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
         let robots = [nominal, extended];
-        let wave = |pick: fn(Wave) -> f64, none: f64| {
+        let wave = |pick: fn(FrictionWave) -> f64, none: f64| {
             move |a: &Actuator| a.friction_wave.map_or(none, pick)
         };
         vec![
@@ -178,7 +178,7 @@ impl HasShape for PositionDependentFriction {
     }
 
     fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
-        drive.friction_wave = Some(Wave { share: 0.0, periods: shape, phase: 0.0 });
+        drive.friction_wave = Some(FrictionWave { share: 0.0, periods: shape, phase: 0.0 });
     }
 
     fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {

@@ -224,7 +224,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use proptest::prelude::*;
-    use robot::{Ripple, Robot, Stribeck, Wave};
+    use robot::{Ripple, Robot, Stribeck, FrictionWave};
 
     use super::*;
     use crate::motion::drive::drive_torque;
@@ -374,7 +374,7 @@ mod tests {
             a.load_friction = 0.04;
             (a.spring_stiffness, a.spring_rest) = (2.0, 0.1);
             (a.spring_cubic, a.spring_hysteresis) = (0.5, 0.15);
-            a.friction_wave = Some(Wave { share: 0.3, periods: 3.0, phase: 0.5 });
+            a.friction_wave = Some(FrictionWave { share: 0.3, periods: 3.0, phase: 0.5 });
             a.ripple = Some(Ripple { amplitude: 0.2, periods: 40.0, phase: -1.0 });
         });
         for qd in [-0.2_f64, -0.01, 0.0, 0.01, 0.2] {

@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
-    use robot::{Actuator, Counterbalance, Coupling, Ripple, Robot, Stribeck, Wave};
+    use robot::{Actuator, Counterbalance, Coupling, Ripple, Robot, Stribeck, FrictionWave};
 
     use crate::compensation::feedforward::{Compensated, Compensation};
     use crate::model::remedy;
@@ -51,7 +51,7 @@ mod tests {
             K::LoadDependentFriction => |a| a.load_friction = 0.05,
             K::PositionDependentFriction => |a| {
                 (a.coulomb_forward, a.coulomb_backward) = (0.5, 0.5);
-                a.friction_wave = Some(Wave { share: 0.3, periods: 3.0, phase: 0.0 });
+                a.friction_wave = Some(FrictionWave { share: 0.3, periods: 3.0, phase: 0.0 });
             },
             K::TorqueRipple => {
                 |a| a.ripple = Some(Ripple { amplitude: 0.1, periods: 60.0, phase: 0.0 })

@@ -20,7 +20,7 @@ pub(crate) fn dry_friction(drive: &Actuator, [q, qd]: [f64; 2], direction: f64, 
 
 #[cfg(test)]
 mod tests {
-    use robot::{Stribeck, Wave};
+    use robot::{Stribeck, FrictionWave};
 
     use super::*;
 
@@ -31,7 +31,7 @@ mod tests {
         let all = Actuator {
             stribeck: Some(Stribeck { excess: 0.5, velocity: 0.1 }),
             load_friction: 0.05,
-            friction_wave: Some(Wave { share: 0.25, periods: 4.0, phase: 1.0 }),
+            friction_wave: Some(FrictionWave { share: 0.25, periods: 4.0, phase: 1.0 }),
             ..coulomb.clone()
         };
         // At the Stribeck velocity, on the top of the wave and half a period on.

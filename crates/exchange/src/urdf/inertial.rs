@@ -16,5 +16,5 @@ pub fn with_change(own: &Inertia, old: &Inertia, new: &Inertia) -> Inertia {
 pub fn from_urdf(mass: f64, pose: &Isometry3<f64>, moments: [f64; 6]) -> Inertia {
     let [xx, xy, xz, yy, yz, zz] = moments;
     let about_com = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    Inertia { mass, com_in_link: Vector3::zeros(), about_com }.seen_from(pose)
+    Inertia { mass, com_in_link: Vector3::zeros(), about_com }.in_frame(pose)
 }

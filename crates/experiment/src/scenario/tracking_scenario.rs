@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
 use motion::{Motion, MotionSpec};
-use robot::{Gain, Loaded, Robot};
+use robot::{PdGain, Loaded, Robot};
 use simulator::scenario::Scenario;
 
 use crate::error::ExperimentError;
@@ -19,8 +19,8 @@ pub struct TrackingScenario {
     plant_file: PathBuf,
     loaded: Loaded,
     motion: Motion,
-    gains: Vec<Gain>,
-    swept_gains: Vec<Gain>,
+    gains: Vec<PdGain>,
+    swept_gains: Vec<PdGain>,
     resolved: String,
 }
 
@@ -64,17 +64,17 @@ impl TrackingScenario {
     /// The same with the softest gains of `robot.toml` that hold all these robots against gravity
     /// along the motion ([`tracking::holds`]), the stiffest where none do.
     pub(crate) fn held(&self, robots: &[&Robot]) -> Self {
-        let mut sets: Vec<(&String, &Vec<Gain>)> = self.loaded.control.gain_sets.iter().collect();
-        let stiffness = |gains: &[Gain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
+        let mut sets: Vec<(&String, &Vec<PdGain>)> = self.loaded.control.gain_sets.iter().collect();
+        let stiffness = |gains: &[PdGain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
         sets.sort_by(|a, b| stiffness(a.1).total_cmp(&stiffness(b.1)));
         let holds =
-            |gains: &[Gain]| robots.iter().all(|robot| tracking::holds(robot, gains, &self.motion));
+            |gains: &[PdGain]| robots.iter().all(|robot| tracking::holds(robot, gains, &self.motion));
         let softest = sets.iter().find(|(_, gains)| holds(gains)).or(sets.last());
         softest.map_or_else(|| self.clone(), |(name, gains)| self.with_gains(name, gains))
     }
 
     /// The same with the gains of a set of this name.
-    fn with_gains(&self, name: &str, gains: &[Gain]) -> Self {
+    fn with_gains(&self, name: &str, gains: &[PdGain]) -> Self {
         let mut scenario = Self { gains: gains.to_vec(), ..self.clone() };
         name.clone_into(&mut scenario.spec.control.gains);
         let resolved = Document::from_text("scenario.toml", &self.resolved);
@@ -121,7 +121,7 @@ impl TrackingScenario {
     }
 
     /// Gains of the feedback, one a joint.
-    pub fn gains(&self) -> &[Gain] {
+    pub fn gains(&self) -> &[PdGain] {
         &self.gains
     }
 
@@ -151,7 +151,7 @@ impl TrackingScenario {
     }
 
     /// The range of gains, and the set that it scales.
-    pub fn sweep(&self) -> Option<(&SweepSpec, &[Gain])> {
+    pub fn sweep(&self) -> Option<(&SweepSpec, &[PdGain])> {
         Some((self.spec.sweep.as_ref()?, &self.swept_gains))
     }
 
@@ -268,7 +268,7 @@ impl Checker<'_> {
         Err(self.mistake(path, format!("{value}, a number from {low} to {high} was expected")))
     }
 
-    fn gain_set(&self, path: &KeyPath, name: &str) -> Result<Vec<Gain>, DocumentError> {
+    fn gain_set(&self, path: &KeyPath, name: &str) -> Result<Vec<PdGain>, DocumentError> {
         let sets = &self.loaded.control.gain_sets;
         sets.get(name).cloned().ok_or_else(|| {
             let names: Vec<&str> = sets.keys().map(String::as_str).collect();
@@ -276,7 +276,7 @@ impl Checker<'_> {
         })
     }
 
-    fn gains(&self) -> Result<Vec<Gain>, DocumentError> {
+    fn gains(&self) -> Result<Vec<PdGain>, DocumentError> {
         let control = &self.spec.control;
         let path = KeyPath::root().key("control");
         let mut gains = self.gain_set(&path.key("gains"), &control.gains)?;
@@ -343,7 +343,7 @@ impl Checker<'_> {
         Ok(())
     }
 
-    fn sweep(&self) -> Result<Vec<Gain>, DocumentError> {
+    fn sweep(&self) -> Result<Vec<PdGain>, DocumentError> {
         let Some(sweep) = &self.spec.sweep else { return Ok(Vec::new()) };
         let path = KeyPath::root().key("sweep");
         let gains = self.gain_set(&path.key("gains"), &sweep.gains)?;

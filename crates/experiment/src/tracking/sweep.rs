@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use robot::Gain;
+use robot::PdGain;
 use tracking::{Event, Tick, Watch};
 
 use crate::error::ExperimentError;
@@ -81,8 +81,8 @@ pub fn sweep(
     Ok(Some(GainSweep { gains, duration_s, scales, models }))
 }
 
-fn scale_gains(gains: &[Gain], scale: f64) -> Vec<Gain> {
-    gains.iter().map(|g| Gain { kp: scale * g.kp, kd: scale.sqrt() * g.kd }).collect()
+fn scale_gains(gains: &[PdGain], scale: f64) -> Vec<PdGain> {
+    gains.iter().map(|g| PdGain { kp: scale * g.kp, kd: scale.sqrt() * g.kd }).collect()
 }
 
 /// Ends a run at a time, or when the user does.

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use logs::Run;
 use nalgebra::Point3;
 use rayon::prelude::*;
-use robot::{Gain, Machine};
+use robot::{PdGain, Machine};
 use tracking::{
     Ahead, Clock, Controller, ErrorRate, Feedforward, GravityFeedforward, Metrics,
     ModelFeedforward, NamedFeedforward, NoFeedforward, Prediction, Settings, TorqueLimits,
@@ -71,7 +71,7 @@ pub fn track_all(
 /// The feedback of a scenario, with these gains.
 pub(crate) fn controller(
     scenario: &TrackingScenario,
-    gains: &[Gain],
+    gains: &[PdGain],
 ) -> Result<Controller, ExperimentError> {
     let limits = scenario.robot().links().iter();
     let limits = limits.map(|link| link.joint.limits.effort.unwrap_or(f64::INFINITY)).collect();

@@ -1,4 +1,4 @@
-use robot::Gain;
+use robot::PdGain;
 
 use crate::runs::run::Channels;
 
@@ -11,7 +11,7 @@ use crate::runs::run::Channels;
 ///
 /// `goal` is `desired_position`; `qd` is the velocity of the log where it has one. At the ends the difference is that
 /// with the one neighbour. Without a goal there is no effort.
-pub(crate) fn effort(gain: Gain, time: &[f64], channels: &Channels) -> Vec<f64> {
+pub(crate) fn effort(gain: PdGain, time: &[f64], channels: &Channels) -> Vec<f64> {
     let q = &channels.position;
     let Some(goal) = &channels.desired_position else { return Vec::new() };
     let last = time.len().saturating_sub(1);
@@ -35,7 +35,7 @@ mod tests {
             desired_position: Some(vec![1.0, 1.0, 1.0]),
             ..Channels::default()
         };
-        let gain = Gain { kp: 10.0, kd: 2.0 };
+        let gain = PdGain { kp: 10.0, kd: 2.0 };
         let time = [0.0, 1.0, 3.0];
         assert_eq!(effort(gain, &time, &channels), [8.0, -8.0 / 3.0, -33.0]);
         let channels = Channels { velocity: Some(vec![0.5; 3]), ..channels };

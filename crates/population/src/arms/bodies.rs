@@ -83,7 +83,7 @@ impl SampledBody {
     pub(crate) fn in_turned_frame(self, new_from_old: &Rotation3<f64>) -> Self {
         let pose = Isometry3::from_parts(Translation3::identity(), (*new_from_old).into());
         Self {
-            inertia: self.inertia.seen_from(&pose),
+            inertia: self.inertia.in_frame(&pose),
             link_from_hull: pose * self.link_from_hull,
             ..self
         }

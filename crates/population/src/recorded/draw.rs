@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
 use crate::recorded::cut::rate_hz;
-use crate::recorded::law::{Law, most_periods};
+use crate::recorded::law::{AddedLaw, most_periods};
 use crate::recorded::point_mass::PointMass;
 use crate::recorded::size::Measured;
 use crate::recorded::transplant::Transplant;
@@ -47,34 +47,34 @@ pub(super) fn draw(robot: &Robot, runs: &[Run], random: &mut ChaCha8Rng) -> Opti
 }
 
 /// A law of some size.
-fn some_law(measured: &Measured, joint: usize, random: &mut ChaCha8Rng) -> Law {
+fn some_law(measured: &Measured, joint: usize, random: &mut ChaCha8Rng) -> AddedLaw {
     let (low, high) = measured.range(joint);
     let side = |random: &mut ChaCha8Rng| if random.random_bool(0.5) { 1.0 } else { -1.0 };
     let inside = |random: &mut ChaCha8Rng| low + (high - low) * random.random_range(0.25..0.75);
     match random.random_range(0..LAWS) {
-        0 => Law::Coulomb { level: 1.0 },
-        1 => Law::Viscous { viscous: 1.0 },
+        0 => AddedLaw::Coulomb { level: 1.0 },
+        1 => AddedLaw::Viscous { viscous: 1.0 },
         2 => {
             let shift = side(random) * random.random_range(0.3..1.0);
-            Law::Asymmetric { forward: 1.0 + shift, backward: 1.0 - shift }
+            AddedLaw::Asymmetric { forward: 1.0 + shift, backward: 1.0 - shift }
         }
-        3 => Law::Offset { offset: side(random) },
-        4 => Law::Gain { gain: 1.0 + side(random) },
-        5 => Law::Spring { stiffness: 1.0, rest: inside(random) },
-        6 => Law::Load { coefficient: 1.0 },
+        3 => AddedLaw::Offset { offset: side(random) },
+        4 => AddedLaw::Gain { gain: 1.0 + side(random) },
+        5 => AddedLaw::Spring { stiffness: 1.0, rest: inside(random) },
+        6 => AddedLaw::Load { coefficient: 1.0 },
         7 => {
             let rate_hz = measured.runs.first().map_or(0.0, rate_hz);
             let most = most_periods(rate_hz, measured.speed_rms(joint)).min(PERIODS[1]);
             let periods = log_uniform([PERIODS[0].min(0.5 * most), most], random).round().max(1.0);
-            Law::Ripple { amplitude: 1.0, periods, phase: random.random_range(-PI..PI) }
+            AddedLaw::Ripple { amplitude: 1.0, periods, phase: random.random_range(-PI..PI) }
         }
-        8 => Law::Drag { coefficient: 1.0 },
+        8 => AddedLaw::Drag { coefficient: 1.0 },
         9 => {
             let width = (high - low) * random.random_range(0.03..0.1);
-            Law::Well { peak: 1.0, centre: inside(random), width }
+            AddedLaw::Well { peak: 1.0, centre: inside(random), width }
         }
-        10 => Law::PointMass(PointMass { mass: 1.0, com: somewhere(random) }),
-        _ => Law::Late { skew: side(random) * SOME_SKEW_S },
+        10 => AddedLaw::PointMass(PointMass { mass: 1.0, com: somewhere(random) }),
+        _ => AddedLaw::Late { skew: side(random) * SOME_SKEW_S },
     }
 }
 
@@ -87,10 +87,10 @@ fn somewhere(random: &mut ChaCha8Rng) -> [f64; 3] {
 }
 
 /// Limits a law to sizes that arms have.
-fn within_bounds(law: Law) -> Law {
+fn within_bounds(law: AddedLaw) -> AddedLaw {
     match law {
-        Law::PointMass(body) => Law::PointMass(PointMass { mass: body.mass.min(HEAVIEST), ..body }),
-        Law::Late { skew } => Law::Late { skew: skew.clamp(-LATEST_S, LATEST_S) },
+        AddedLaw::PointMass(body) => AddedLaw::PointMass(PointMass { mass: body.mass.min(HEAVIEST), ..body }),
+        AddedLaw::Late { skew } => AddedLaw::Late { skew: skew.clamp(-LATEST_S, LATEST_S) },
         _ => law,
     }
 }

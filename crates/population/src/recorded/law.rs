@@ -16,7 +16,7 @@ const CREEP: f64 = 0.01;
 /// `dry(qd) = qd / 0.01 rad/s`, limited to -1 and 1. Units are SI. A positive torque increases the effort of the
 /// drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Law {
+pub enum AddedLaw {
     /// `level dry(qd)`.
     Coulomb {
         /// Level (N m).
@@ -89,7 +89,7 @@ pub enum Law {
     },
 }
 
-impl Law {
+impl AddedLaw {
     /// The torque that it adds to each joint of a run; a law of one joint acts at `joint`.
     pub fn torque(&self, robot: &Robot, run: &Run, joint: usize) -> Vec<Vec<f64>> {
         match self {

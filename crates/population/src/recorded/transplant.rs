@@ -3,16 +3,16 @@ use logs::Run;
 use robot::Robot;
 use simulator::Truth;
 
-use crate::recorded::law::Law;
+use crate::recorded::law::AddedLaw;
 use crate::recorded::signals::average;
 use crate::recorded::size::{Added, Measured, Own};
-use crate::sheet::{Cause, Role, Strength, Unnamed};
+use crate::sheet::{TrueCause, CauseRole, Strength, TrueStranger};
 
 /// A cause added to the efforts of recorded logs as a closed form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transplant {
     /// The torque.
-    pub law: Law,
+    pub law: AddedLaw,
     /// Index of the joint where it acts; unused by laws of all joints.
     pub joint: usize,
 }
@@ -20,9 +20,9 @@ pub struct Transplant {
 /// The entry of a transplant in a sheet.
 pub(super) enum AddedCause {
     /// An effect of the catalogue.
-    Named(Cause),
+    Named(TrueCause),
     /// An effect outside the catalogue.
-    Stranger(Unnamed),
+    Stranger(TrueStranger),
 }
 
 impl Transplant {
@@ -45,7 +45,7 @@ impl Transplant {
     /// not count.
     pub(super) fn added(&self, robot: &Robot, runs: &[Run]) -> Added {
         let added = |run: &Run| match self.law {
-            Law::Late { .. } => self.law.torque(robot, &smooth(run), self.joint),
+            AddedLaw::Late { .. } => self.law.torque(robot, &smooth(run), self.joint),
             _ => self.law.torque(robot, run, self.joint),
         };
         runs.iter().map(added).collect()
@@ -54,9 +54,9 @@ impl Transplant {
     /// The everyday column that it is itself. Asymmetric friction is dry friction with two levels.
     fn own(&self) -> Own {
         match self.law {
-            Law::Coulomb { .. } | Law::Asymmetric { .. } => Own::Direction,
-            Law::Viscous { .. } => Own::Velocity,
-            Law::Offset { .. } => Own::Constant,
+            AddedLaw::Coulomb { .. } | AddedLaw::Asymmetric { .. } => Own::Direction,
+            AddedLaw::Viscous { .. } => Own::Velocity,
+            AddedLaw::Offset { .. } => Own::Constant,
             _ => Own::Nothing,
         }
     }
@@ -68,38 +68,38 @@ impl Transplant {
         let at = |effect, parameters: &[(&str, f64)]| Truth::at_joint(effect, here, parameters);
         let stranger = |name: &str| {
             let joint = Some(here.to_owned());
-            AddedCause::Stranger(Unnamed { name: name.to_owned(), joint, strength })
+            AddedCause::Stranger(TrueStranger { name: name.to_owned(), joint, strength })
         };
         let truth = match self.law {
-            Law::Coulomb { level } => at(EffectKind::CoulombFriction, &[("level", level)]),
-            Law::Viscous { viscous } => at(EffectKind::ViscousFriction, &[("viscous", viscous)]),
-            Law::Asymmetric { forward, backward } => {
+            AddedLaw::Coulomb { level } => at(EffectKind::CoulombFriction, &[("level", level)]),
+            AddedLaw::Viscous { viscous } => at(EffectKind::ViscousFriction, &[("viscous", viscous)]),
+            AddedLaw::Asymmetric { forward, backward } => {
                 at(EffectKind::AsymmetricFriction, &[("forward", forward), ("backward", backward)])
             }
-            Law::Offset { offset } => at(EffectKind::TorqueOffset, &[("offset", offset)]),
-            Law::Gain { gain } => at(EffectKind::TorqueConstant, &[("gain", gain)]),
-            Law::Spring { stiffness, rest } => {
+            AddedLaw::Offset { offset } => at(EffectKind::TorqueOffset, &[("offset", offset)]),
+            AddedLaw::Gain { gain } => at(EffectKind::TorqueConstant, &[("gain", gain)]),
+            AddedLaw::Spring { stiffness, rest } => {
                 let loop_of_none = [("cubic", 0.0), ("hysteresis", 0.0)];
                 let spring = [("stiffness", stiffness), ("rest", rest)];
                 at(EffectKind::CableSpring, &[spring, loop_of_none].concat())
             }
-            Law::Load { coefficient } => {
+            AddedLaw::Load { coefficient } => {
                 at(EffectKind::LoadDependentFriction, &[("coefficient", coefficient)])
             }
-            Law::Ripple { amplitude, periods, phase } => at(
+            AddedLaw::Ripple { amplitude, periods, phase } => at(
                 EffectKind::TorqueRipple,
                 &[("amplitude", amplitude), ("periods_per_turn", periods), ("phase", phase)],
             ),
-            Law::PointMass(body) => {
+            AddedLaw::PointMass(body) => {
                 let [x, y, z] = body.com;
                 let parameters = [("mass", body.mass), ("com_x", x), ("com_y", y), ("com_z", z)];
                 Truth::at_link(EffectKind::Payload, tip, &parameters)
             }
-            Law::Late { skew } => Truth::everywhere(EffectKind::TimeSkew, &[("skew", skew)]),
-            Law::Drag { .. } => return stranger("square_drag"),
-            Law::Well { .. } => return stranger("magnet_well"),
+            AddedLaw::Late { skew } => Truth::everywhere(EffectKind::TimeSkew, &[("skew", skew)]),
+            AddedLaw::Drag { .. } => return stranger("square_drag"),
+            AddedLaw::Well { .. } => return stranger("magnet_well"),
         };
-        AddedCause::Named(Cause { role: Role::Hidden, truth, strength })
+        AddedCause::Named(TrueCause { role: CauseRole::Hidden, truth, strength })
     }
 }
 

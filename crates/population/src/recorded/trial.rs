@@ -14,7 +14,7 @@ use crate::recorded::signals::rms;
 use crate::recorded::size::Measured;
 use crate::recorded::transplant::AddedCause;
 use crate::robot_files::RobotFiles;
-use crate::sheet::{Knowledge, Sheet};
+use crate::sheet::{Knowledge, TruthSheet};
 
 /// A trial of recorded logs.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub struct RecordedTrial {
     /// Held-out logs.
     pub held_out: Vec<Run>,
     /// The known truth.
-    pub sheet: Sheet,
+    pub sheet: TruthSheet,
 }
 
 /// Draws a trial from the recorded logs below the folder `data`. [`Origin::Recorded`] keeps the logs as they are,
@@ -122,7 +122,7 @@ fn plain_trial(arm: &RecordedArm, robot: &Robot, steps: &[f64], split: Split) ->
         length_s: length,
         repeats: paths.len() > 1 && paths.windows(2).all(|pair| pair[0] == pair[1]),
     };
-    let sheet = Sheet {
+    let sheet = TruthSheet {
         seed: 0,
         corner,
         knowledge: Knowledge::None,

@@ -6,12 +6,12 @@ use simulator::Truth;
 use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::stand_ins::dry;
-use crate::sheet::Role;
+use crate::sheet::CauseRole;
 use crate::trial::background::Friction;
 
 /// A difference of an arm from its nominal model, with the torque that it causes.
 pub(crate) struct Difference {
-    pub role: Role,
+    pub role: CauseRole,
     pub truth: Truth,
     pub column: TorqueColumn,
 }
@@ -57,21 +57,21 @@ pub(crate) fn differences(
         let slope = friction[j].viscous + real.viscous - known.viscous;
         let rotor = real.rotor_inertia - known.rotor_inertia;
         add(
-            Role::Background,
+            CauseRole::Background,
             at(K::CoulombFriction, "level", level),
             StandIn::Dry(j),
             level,
             &|run, i| dry(run.qd[(i, j)]),
         );
         add(
-            Role::Background,
+            CauseRole::Background,
             at(K::ViscousFriction, "viscous", slope),
             StandIn::Viscous(j),
             slope,
             &|run, i| run.qd[(i, j)],
         );
         add(
-            Role::Nominal,
+            CauseRole::Nominal,
             at(K::RotorInertia, "inertia", rotor),
             StandIn::Rotor(j),
             rotor,
@@ -82,7 +82,7 @@ pub(crate) fn differences(
         if link.inertia != model.inertia {
             let column = body(truth, l, &model.inertia, runs);
             all.push(Difference {
-                role: Role::Nominal,
+                role: CauseRole::Nominal,
                 truth: weighs(&link.name, &link.inertia),
                 column,
             });

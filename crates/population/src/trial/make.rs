@@ -8,14 +8,14 @@ use rand_chacha::rand_core::SeedableRng;
 use robot::{Loaded, Robot};
 use simulator::effects::EffectSpec;
 use simulator::scenario::{EngineSpec, RunSpec, Scenario, ScenarioSpec};
-use simulator::{EffortSource, SimulatorError, simulate_only, simulate_silent};
+use simulator::{EffortSource, SimulatorError, simulate_only, simulate_noise_free};
 
 use crate::bench::{BenchWishes, LabBench, draw_bench};
 use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
 use crate::oracle::noise::{OracleNoise, ReadingError};
 use crate::robot_files::RobotFiles;
-use crate::sheet::{Knowledge, Sheet};
+use crate::sheet::{Knowledge, TruthSheet};
 use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
@@ -51,7 +51,7 @@ const ROUGHLY_KNOWN: f64 = 0.25;
 /// # Errors
 ///
 /// [`PopulationError`] when no drawn arm can be simulated, or a file cannot be written.
-pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<Sheet, PopulationError> {
+pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<TruthSheet, PopulationError> {
     let mut failed = None;
     for attempt in 0..TRIES {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -81,7 +81,7 @@ fn make_once(
     seed: u64,
     folder: &Path,
     random: &mut ChaCha8Rng,
-) -> Result<Sheet, PopulationError> {
+) -> Result<TruthSheet, PopulationError> {
     let clean = random.random_bool(spec.clean);
     let bench = draw_bench(&wishes(spec, random), random)?;
     let model = if clean { Model::Right } else { Model::AsModelsAre };
@@ -268,14 +268,14 @@ impl Draft {
         hidden: &HiddenThings,
         spoilt: Option<Spoilt>,
         folder: &Path,
-    ) -> Result<Sheet, PopulationError> {
+    ) -> Result<TruthSheet, PopulationError> {
         let scenario = self.scenario(step, hidden)?;
         let mut noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
         in_range(&self.truth.robot, &noisy.runs)?;
         let seen = self.oracle_runs(step, hidden)?;
         let effects = [self.friction(), hidden.causes.clone()].concat();
         let silent = |scenario, wanted: &dyn Fn(&str) -> bool| {
-            simulate_silent(scenario, wanted, &effects, &hidden.strangers)
+            simulate_noise_free(scenario, wanted, &effects, &hidden.strangers)
         };
         let held_out = silent(&scenario, &|name| name == HELD_OUT)?;
         let drives = match self.bench.sensors.effort {
@@ -292,7 +292,7 @@ impl Draft {
             spoilt.spoil(&self.truth.robot, &mut noisy.runs);
         }
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
-        let sheet = Sheet {
+        let sheet = TruthSheet {
             seed: self.seed,
             corner: self.corner(&noisy.runs),
             knowledge: Knowledge::Whole,

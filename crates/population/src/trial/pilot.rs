@@ -4,7 +4,7 @@ use robot::Robot;
 use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
 use simulator::strangers::StrangerSpec;
-use simulator::{EffectSizer, simulate_silent};
+use simulator::{EffectSizer, simulate_noise_free};
 
 use crate::error::PopulationError;
 use crate::oracle::column::{StandIn, TorqueColumn};
@@ -119,7 +119,7 @@ fn first(
     strangers: &[StrangerSpec],
 ) -> Result<SeenRun, PopulationError> {
     let name = scenario.runs().first().map_or("", |run| run.name.as_str());
-    let runs = simulate_silent(scenario, &|wanted| wanted == name, effects, strangers)?;
+    let runs = simulate_noise_free(scenario, &|wanted| wanted == name, effects, strangers)?;
     let run = runs.first().ok_or(PopulationError::NoRun)?;
     Ok(SeenRun::new(scenario.robot(), run))
 }

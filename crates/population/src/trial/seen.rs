@@ -3,7 +3,7 @@ use robot::Robot;
 use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
 use simulator::strangers::StrangerSpec;
-use simulator::{StrangerTruth, Truth, simulate_silent};
+use simulator::{StrangerTruth, Truth, simulate_noise_free};
 
 use crate::error::PopulationError;
 use crate::oracle::column::{StandIn, TorqueColumn};
@@ -13,7 +13,7 @@ use crate::oracle::regression::strengths;
 use crate::oracle::scales::torque_scales;
 use crate::oracle::stand_ins::stand_ins;
 use crate::rigid::mass_matrix;
-use crate::sheet::{Cause, Role, Unnamed};
+use crate::sheet::{TrueCause, CauseRole, TrueStranger};
 use crate::trial::differences::Difference;
 use crate::trial::hidden::HiddenThings;
 
@@ -68,7 +68,7 @@ impl OracleRuns {
         robot: &Robot,
         differ: Vec<Difference>,
         noise: &[OracleNoise],
-    ) -> (Vec<Cause>, Vec<Unnamed>) {
+    ) -> (Vec<TrueCause>, Vec<TrueStranger>) {
         let itself = |torque: &Vec<DMatrix<f64>>| TorqueColumn {
             stands_for: StandIn::Itself,
             torque: torque.clone(),
@@ -89,16 +89,16 @@ impl OracleRuns {
         let mut strengths = strengths(&self.runs, &columns, count, noise, &scales).into_iter();
         let roles = places
             .into_iter()
-            .chain(self.causes.iter().map(|(truth, _)| (Role::Hidden, truth.clone())));
-        let mut causes: Vec<Cause> = roles
+            .chain(self.causes.iter().map(|(truth, _)| (CauseRole::Hidden, truth.clone())));
+        let mut causes: Vec<TrueCause> = roles
             .zip(strengths.by_ref())
-            .map(|((role, truth), strength)| Cause { role, truth, strength })
+            .map(|((role, truth), strength)| TrueCause { role, truth, strength })
             .collect();
         // A link that is hidden on purpose is told once: its parameters are stated in whole.
         let link = |truth: &Truth| (truth.effect, truth.link.clone());
         let hidden: Vec<_> = self.causes.iter().map(|(truth, _)| link(truth)).collect();
-        causes.retain(|c| c.role != Role::Nominal || !hidden.contains(&link(&c.truth)));
-        let unnamed = |((truth, _), strength): (&(StrangerTruth, _), _)| Unnamed {
+        causes.retain(|c| c.role != CauseRole::Nominal || !hidden.contains(&link(&c.truth)));
+        let unnamed = |((truth, _), strength): (&(StrangerTruth, _), _)| TrueStranger {
             name: truth.stranger.name().to_owned(),
             joint: truth.joint.clone(),
             strength,
@@ -121,7 +121,7 @@ fn simulate_without_noise(
 ) -> Result<Vec<SeenRun>, PopulationError> {
     let effects = [friction, causes].concat();
     let wanted = |name: &str| name != "held_out";
-    let runs = simulate_silent(scenario, &wanted, &effects, strangers)?;
+    let runs = simulate_noise_free(scenario, &wanted, &effects, strangers)?;
     Ok(runs.iter().map(|run| SeenRun::new(scenario.robot(), run)).collect())
 }
 

@@ -8,7 +8,7 @@ use robot::Robot;
 
 use crate::moving::body_torque;
 use crate::oracle::motion::SeenRun;
-use crate::sheet::{Strength, Unnamed};
+use crate::sheet::{Strength, TrueStranger};
 
 /// Periods of a log that a logger holds (s).
 const HELD_S: f64 = 1.5;
@@ -167,7 +167,7 @@ impl Spoilt {
     ///
     /// with `r` the efforts beyond the bodies along the logged motion. `sigmas` assumes a noise of a hundredth of the
     /// torque in every sample.
-    pub fn as_unnamed(&self, robot: &Robot, clean: &[Run], scales: &[f64]) -> Unnamed {
+    pub fn as_unnamed(&self, robot: &Robot, clean: &[Run], scales: &[f64]) -> TrueStranger {
         let mut spoilt = clean.to_vec();
         self.spoil(robot, &mut spoilt);
         let (mut sum, mut count) = (0.0, 0);
@@ -185,7 +185,7 @@ impl Spoilt {
         let share = (sum / count.max(1) as f64).sqrt();
         let joint = robot.joint_names().nth(self.joints[0]).map(str::to_owned);
         let sigmas = 100.0 * share * (count as f64).sqrt();
-        Unnamed {
+        TrueStranger {
             name: self.fault.name().to_owned(),
             joint: self.at_joint().then_some(joint).flatten(),
             strength: Strength { sigmas, share, torque: share },

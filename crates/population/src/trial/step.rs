@@ -1,6 +1,6 @@
 use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
-use simulator::simulate_silent_start;
+use simulator::simulate_noise_free_start;
 
 use crate::error::PopulationError;
 
@@ -52,7 +52,7 @@ pub(crate) fn step_ms(
 
 /// Positions of every joint at the beginning of the first run; `None` where this step cannot be simulated.
 fn positions(scenario: &Scenario, effects: &[EffectSpec]) -> Option<Vec<Vec<f64>>> {
-    let run = simulate_silent_start(scenario, effects, COMPARED_S).ok()?;
+    let run = simulate_noise_free_start(scenario, effects, COMPARED_S).ok()?;
     Some(run.joints.into_iter().map(|joint| joint.position).collect())
 }
 

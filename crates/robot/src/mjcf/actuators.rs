@@ -5,7 +5,7 @@ use crate::mjcf::classes::MAIN;
 use crate::mjcf::element::Element;
 use crate::mjcf::joint::largest;
 use crate::mjcf::view::View;
-use crate::structure::control::Gain;
+use crate::structure::control::PdGain;
 
 /// What an actuator says of its joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Motor {
     /// Largest torque or force at the joint.
     pub effort: Option<f64>,
     /// Gains of a servo that holds a position.
-    pub gain: Option<Gain>,
+    pub gain: Option<PdGain>,
     /// Lag of the torque (s).
     pub lag_s: Option<f64>,
     /// Delay of the torque (s).
@@ -56,7 +56,7 @@ pub fn motors<'a>(
     Ok((motors, others))
 }
 
-fn gain(view: &View<'_>, gear: f64) -> Result<Option<Gain>, RobotError> {
+fn gain(view: &View<'_>, gear: f64) -> Result<Option<PdGain>, RobotError> {
     let [kp, kd] = match view.element.name.as_str() {
         "position" => [view.number("kp")?.unwrap_or(1.0), view.number("kv")?.unwrap_or(0.0)],
         "general" if view.text("biastype") == Some("affine") => {
@@ -66,5 +66,5 @@ fn gain(view: &View<'_>, gear: f64) -> Result<Option<Gain>, RobotError> {
         _ => return Ok(None),
     };
     let at_joint = gear * gear;
-    Ok((kp > 0.0 && kd >= 0.0).then_some(Gain { kp: at_joint * kp, kd: at_joint * kd }))
+    Ok((kp > 0.0 && kd >= 0.0).then_some(PdGain { kp: at_joint * kp, kd: at_joint * kd }))
 }

@@ -123,7 +123,7 @@ impl<'a> Walk<'a> {
                     self.links[link].merged.push(name);
                 }
                 if let Some(inertia) = inertia {
-                    self.links[link].inertia.add(&inertia.seen_from(&place.link_from_frame));
+                    self.links[link].inertia.add(&inertia.in_frame(&place.link_from_frame));
                 }
             }
             None => {
@@ -223,5 +223,5 @@ fn inertial(view: &View<'_>) -> Result<Inertia, RobotError> {
         (None, None) => Matrix3::zeros(),
     };
     let own = Inertia { mass, com_in_link: nalgebra::Vector3::zeros(), about_com };
-    Ok(own.seen_from(&view.pose()?))
+    Ok(own.in_frame(&view.pose()?))
 }

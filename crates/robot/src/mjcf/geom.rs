@@ -68,7 +68,7 @@ impl Geom {
             com_in_link: Vector3::zeros(),
             about_com: Matrix3::from_diagonal(&(mass * moments)),
         };
-        Some(own.seen_from(&self.body_from_shape))
+        Some(own.in_frame(&self.body_from_shape))
     }
 
     /// Volume (m³) and principal moments per mass (m²).

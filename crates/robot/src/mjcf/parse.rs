@@ -11,7 +11,7 @@ use crate::mjcf::element::{Element, Files};
 use crate::mjcf::unread::Unread;
 use crate::mjcf::view::View;
 use crate::mjcf::{actuators, geom};
-use crate::structure::control::Gain;
+use crate::structure::control::PdGain;
 use crate::structure::inertia::Inertia;
 use crate::structure::link::Link;
 use crate::structure::part::{Mimic, Mimics};
@@ -94,7 +94,7 @@ fn gravity<'a>(
 }
 
 /// Puts what the motors can do into the links; the gains of their servos come back.
-fn drive(links: &mut [Link], motors: &[Motor]) -> Vec<Option<Gain>> {
+fn drive(links: &mut [Link], motors: &[Motor]) -> Vec<Option<PdGain>> {
     let mut gains = vec![None; links.len()];
     for motor in motors {
         let Some(index) = links.iter().position(|l| l.joint.name == motor.joint) else { continue };

@@ -9,9 +9,9 @@ use crate::misfit::Misfit;
 use crate::range::{Range, in_range};
 use crate::robot_toml::joint_entry::{JointEntry, gain};
 use crate::structure::actuator::{SensingSide, TorqueSource};
-use crate::structure::control::Gain;
+use crate::structure::control::PdGain;
 use crate::structure::inertia::Inertia;
-use crate::structure::part::Part;
+use crate::structure::part::JointSelection;
 use crate::warning::RobotWarning;
 
 /// The keys of `robot.toml`: what a URDF cannot say.
@@ -93,8 +93,8 @@ pub(crate) struct InertiaEntry {
 
 impl Description {
     /// The joints that the file lets move and where it locks the others.
-    pub(crate) fn part(&self) -> Part {
-        Part { joints: self.joints.clone(), locked: self.locked.clone() }
+    pub(crate) fn part(&self) -> JointSelection {
+        JointSelection { joints: self.joints.clone(), locked: self.locked.clone() }
     }
 
     /// Applies every key to the robot, whose locked joints are already merged. Keys of a locked joint
@@ -172,7 +172,7 @@ impl Description {
 
 impl GainEntry {
     /// One pair of gains a joint.
-    fn gains(&self, site: &KeyPath, expected: usize) -> Result<Vec<Gain>, Misfit> {
+    fn gains(&self, site: &KeyPath, expected: usize) -> Result<Vec<PdGain>, Misfit> {
         for (quantity, list) in
             [("kp_nm_per_rad", &self.kp_nm_per_rad), ("kd_nm_s_per_rad", &self.kd_nm_s_per_rad)]
         {

@@ -6,7 +6,7 @@ use crate::error::RobotError;
 use crate::loaded::Loaded;
 use crate::misfit::Misfit;
 use crate::robot_toml::description::Description;
-use crate::structure::part::Part;
+use crate::structure::part::JointSelection;
 use crate::whole_robot::WholeRobot;
 
 /// A parsed `robot.toml`, with the place of every value for error messages.
@@ -48,7 +48,7 @@ impl DescriptionFile {
     /// # Errors
     ///
     /// [`RobotError::InToml`] for a joint that does not move, a joint named twice, or an impossible position.
-    pub fn part(&self, model: &WholeRobot) -> Result<Part, RobotError> {
+    pub fn part(&self, model: &WholeRobot) -> Result<JointSelection, RobotError> {
         let part = self.description.part();
         let checked = part.check(&model.robot, &model.mimics);
         checked.map_err(|misfit| misfit.locate_in(&self.document))?;

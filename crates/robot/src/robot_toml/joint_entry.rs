@@ -5,9 +5,9 @@ use crate::loaded::Loaded;
 use crate::misfit::Misfit;
 use crate::range::{Range, in_range};
 use crate::structure::actuator::{
-    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, Wave,
+    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave,
 };
-use crate::structure::control::Gain;
+use crate::structure::control::PdGain;
 
 /// `[joint.<name>]`
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
@@ -320,14 +320,14 @@ impl JointEntry {
         Ok(Some(Stribeck { excess, velocity }))
     }
 
-    fn wave(&self, site: &KeyPath) -> Result<Option<Wave>, Misfit> {
+    fn wave(&self, site: &KeyPath) -> Result<Option<FrictionWave>, Misfit> {
         let Some(WaveEntry { share, periods_per_turn, phase_rad }) = self.friction_wave else {
             return Ok(None);
         };
         in_range(site, "friction_wave.share", share, Range::Share)?;
         in_range(site, "friction_wave.periods_per_turn", periods_per_turn, Range::NotNegative)?;
         in_range(site, "friction_wave.phase_rad", phase_rad, Range::Finite)?;
-        Ok(Some(Wave { share, periods: periods_per_turn, phase: phase_rad }))
+        Ok(Some(FrictionWave { share, periods: periods_per_turn, phase: phase_rad }))
     }
 
     fn warming(&self, site: &KeyPath, a: &Actuator) -> Result<Option<Warming>, Misfit> {
@@ -412,7 +412,7 @@ impl JointEntry {
         }))
     }
 
-    fn gain(&self, site: &KeyPath) -> Result<Option<Gain>, Misfit> {
+    fn gain(&self, site: &KeyPath) -> Result<Option<PdGain>, Misfit> {
         match (self.kp_nm_per_rad, self.kd_nm_s_per_rad) {
             (None, None) => Ok(None),
             (Some(kp), Some(kd)) => gain(site, kp, kd).map(Some),
@@ -432,8 +432,8 @@ fn incomplete<T>(site: &KeyPath, found: &str, expected: &str) -> Result<T, Misfi
 }
 
 /// A pair of gains, if they can be used.
-pub(crate) fn gain(site: &KeyPath, kp: f64, kd: f64) -> Result<Gain, Misfit> {
+pub(crate) fn gain(site: &KeyPath, kp: f64, kd: f64) -> Result<PdGain, Misfit> {
     in_range(site, "kp_nm_per_rad", kp, Range::Positive)?;
     in_range(site, "kd_nm_s_per_rad", kd, Range::NotNegative)?;
-    Ok(Gain { kp, kd })
+    Ok(PdGain { kp, kd })
 }

@@ -11,8 +11,8 @@ use crate::robot_toml::file::DescriptionFile;
 use crate::robot_toml::joint_entry::{
     CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WarmingEntry, WaveEntry,
 };
-use crate::structure::actuator::{SensingSide, TorqueSource, Warming, Wave};
-use crate::structure::control::Gain;
+use crate::structure::actuator::{SensingSide, TorqueSource, Warming, FrictionWave};
+use crate::structure::control::PdGain;
 use crate::structure::inertia::Inertia;
 use crate::structure::link::Link;
 use crate::structure::robot::Robot;
@@ -70,7 +70,7 @@ impl Loaded {
     }
 }
 
-fn gain_entry(gains: &[Gain]) -> GainEntry {
+fn gain_entry(gains: &[PdGain]) -> GainEntry {
     GainEntry {
         kp_nm_per_rad: gains.iter().map(|g| g.kp).collect(),
         kd_nm_s_per_rad: gains.iter().map(|g| g.kd).collect(),
@@ -81,7 +81,7 @@ fn gain_entry(gains: &[Gain]) -> GainEntry {
 fn effort_source(robot: &Robot) -> Option<EffortSourceEntry> {
     let gains = robot.links().iter().map(|link| link.actuator.position_loop);
     gains
-        .collect::<Option<Vec<Gain>>>()
+        .collect::<Option<Vec<PdGain>>>()
         .map(|gains| EffortSourceEntry::PositionLoop(gain_entry(&gains)))
 }
 
@@ -109,7 +109,7 @@ fn gravity(new: &Robot, old: &Robot) -> Option<[f64; 3]> {
     (gravity != old.gravity_in_base()).then_some(gravity.into())
 }
 
-fn joint_entry(new: &Link, old: &Link, names: &[&str], gain: Option<Gain>) -> JointEntry {
+fn joint_entry(new: &Link, old: &Link, names: &[&str], gain: Option<PdGain>) -> JointEntry {
     let (a, b) = (&new.actuator, &old.actuator);
     let (forward, backward) = (
         if_changed(a.coulomb_forward, b.coulomb_forward),
@@ -169,8 +169,8 @@ fn joint_entry(new: &Link, old: &Link, names: &[&str], gain: Option<Gain>) -> Jo
     }
 }
 
-fn wave_entry(wave: Wave) -> WaveEntry {
-    let Wave { share, periods, phase } = wave;
+fn wave_entry(wave: FrictionWave) -> WaveEntry {
+    let FrictionWave { share, periods, phase } = wave;
     WaveEntry { share, periods_per_turn: periods, phase_rad: phase }
 }
 

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::structure::control::Gain;
+use crate::structure::control::PdGain;
 
 /// Where the position of a joint is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -51,7 +51,7 @@ pub struct Stribeck {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Wave {
+pub struct FrictionWave {
     /// Amplitude over the mean, from 0 to 1.
     pub share: f64,
     /// Periods in a turn of the joint; phase per way at a prismatic one (rad/m).
@@ -149,7 +149,7 @@ pub struct Coupling {
 /// s       = sign(qd), 0 at rest; with presliding ds = (dq - |dq| s) / presliding
 /// ```
 ///
-/// [`Wave`], [`Stribeck`], [`Warming`], [`Ripple`] and [`Counterbalance`] define the other terms.
+/// [`FrictionWave`], [`Stribeck`], [`Warming`], [`Ripple`] and [`Counterbalance`] define the other terms.
 /// `viscous` and `coulomb` are those of the cold drive. `tau_rb`, the spring and the counterbalance
 /// act at the link, all other terms at the motor.
 ///
@@ -190,7 +190,7 @@ pub struct Actuator {
     /// unknown.
     pub presliding_damping: Option<f64>,
     /// Variation of the Coulomb level with position; `None` without it.
-    pub friction_wave: Option<Wave>,
+    pub friction_wave: Option<FrictionWave>,
     /// Friction lost while the drive warms up; `None` for friction that stays.
     pub warming: Option<Warming>,
     /// Torque ripple of the motor; `None` without it.
@@ -234,12 +234,12 @@ pub struct Actuator {
     pub torque_source: TorqueSource,
     /// Gains from which missing efforts are computed, `effort = kp (goal - q) - kd qd`; `None` where
     /// efforts are logged.
-    pub position_loop: Option<Gain>,
+    pub position_loop: Option<PdGain>,
 }
 
 impl Actuator {
     /// Limits the friction lost by warming to the friction of the cold drive.
-    pub fn lost_at_most(&self, warming: Warming) -> Warming {
+    pub fn limit_warming(&self, warming: Warming) -> Warming {
         let level = self.coulomb_forward.min(self.coulomb_backward);
         Warming {
             viscous_lost: warming.viscous_lost.min(self.viscous.max(0.0)),
@@ -254,7 +254,7 @@ impl Actuator {
     /// left = exp(-since_cold / time_constant)
     /// friction' = friction - lost (1 - left),   lost' = lost left
     /// ```
-    pub fn warmed(&self, since_cold_s: f64) -> Self {
+    pub fn after_warming(&self, since_cold_s: f64) -> Self {
         let Some(cold) = self.warming else { return self.clone() };
         let left = (-since_cold_s.max(0.0) / cold.time_constant_s).exp();
         let Warming { viscous_lost, coulomb_lost, time_constant_s } = cold;
@@ -326,7 +326,7 @@ mod tests {
             warming: Some(warming),
             ..Actuator::default()
         };
-        let later = cold.warmed(200.0).warmed(400.0);
+        let later = cold.after_warming(200.0).after_warming(400.0);
         let share = 1.0 - (-1.0_f64).exp();
         for (found, expected) in [
             (later.viscous, 0.4 - 0.1 * share),
@@ -335,7 +335,7 @@ mod tests {
         ] {
             assert!((found - expected).abs() < 1e-15, "{found}, not {expected}");
         }
-        let warm = later.warmed(f64::INFINITY);
+        let warm = later.after_warming(f64::INFINITY);
         assert!((warm.viscous - 0.3).abs() < 1e-15 && (warm.coulomb_backward - 0.1).abs() < 1e-15);
         assert_eq!(warm.warming.map(|w| (w.viscous_lost, w.coulomb_lost)), Some((0.0, 0.0)));
     }

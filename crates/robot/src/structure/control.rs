@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Gains of the joint controller: `tau = kp error + kd error_rate`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Gain {
+pub struct PdGain {
     /// Position gain (N·m/rad or N/m).
     pub kp: f64,
     /// Velocity gain (N·m·s/rad or N·s/m).
@@ -18,9 +18,9 @@ pub struct ControlSettings {
     /// Rate of the control loop (Hz).
     pub rate_hz: Option<f64>,
     /// The gains in use, one entry per joint.
-    pub gains: Vec<Option<Gain>>,
+    pub gains: Vec<Option<PdGain>>,
     /// Named sets of gains, each with one entry per joint.
-    pub gain_sets: BTreeMap<String, Vec<Gain>>,
+    pub gain_sets: BTreeMap<String, Vec<PdGain>>,
     /// Pairs of joints, by index, that two motors drive together.
     ///
     /// One motor turns with the sum of both joints, the other with their difference. The torque

@@ -80,7 +80,7 @@ impl Inertia {
     /// ```text
     /// c' = R c + p,  I' = R I R'     with (R, p) = new_from_old
     /// ```
-    pub fn seen_from(&self, new_from_old: &Isometry3<f64>) -> Self {
+    pub fn in_frame(&self, new_from_old: &Isometry3<f64>) -> Self {
         let r = new_from_old.rotation.to_rotation_matrix().into_inner();
         let turned = r * self.about_com * r.transpose();
         Self {
@@ -96,7 +96,7 @@ impl Inertia {
     /// m = m1 + m2,  c = (m1 c1 + m2 c2) / m,  d = c2 - c1
     /// I = I1 + I2 + (m1 m2 / m) (d'd 1 - d d')
     /// ```
-    pub fn merged_with(&self, other: &Self) -> Self {
+    pub fn with_body(&self, other: &Self) -> Self {
         let mass = self.mass + other.mass;
         if mass.abs() <= 0.0 {
             return Self { about_com: self.about_com + other.about_com, ..self.clone() };
@@ -113,7 +113,7 @@ impl Inertia {
 
     /// Adds a body that is fixed to this one. Adding to [`zero`](Self::zero) copies it without rounding.
     pub(crate) fn add(&mut self, part: &Self) {
-        *self = if *self == Self::zero() { part.clone() } else { self.merged_with(part) };
+        *self = if *self == Self::zero() { part.clone() } else { self.with_body(part) };
     }
 
     /// The pseudo-inertia about the link origin, positive definite exactly when the

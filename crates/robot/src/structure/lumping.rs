@@ -4,7 +4,7 @@ use nalgebra::Isometry3;
 
 use crate::error::RobotError;
 use crate::structure::actuator::{Actuator, Coupling};
-use crate::structure::control::{ControlSettings, Gain};
+use crate::structure::control::{ControlSettings, PdGain};
 use crate::structure::link::Link;
 use crate::structure::looks::Looks;
 use crate::structure::robot::Robot;
@@ -61,7 +61,7 @@ impl Lumping {
             if place.moves {
                 links.push(self.moving(link));
             } else if let Some(body) = place.body.and_then(|b| links.get_mut(b)) {
-                body.inertia.add(&link.inertia.seen_from(&place.body_from_link));
+                body.inertia.add(&link.inertia.in_frame(&place.body_from_link));
                 body.merged.push(link.name.clone());
                 body.merged.extend_from_slice(&link.merged);
             }
@@ -128,7 +128,7 @@ impl Lumping {
     pub fn control(&self, whole: &ControlSettings) -> ControlSettings {
         let new = |joint: &usize| self.places.get(*joint).filter(|p| p.moves).and_then(|p| p.body);
         let pair = |pair: &[usize; 2]| Some([new(&pair[0])?, new(&pair[1])?]);
-        let set = |(name, gains): (&String, &Vec<Gain>)| (name.clone(), self.moving_of(gains));
+        let set = |(name, gains): (&String, &Vec<PdGain>)| (name.clone(), self.moving_of(gains));
         ControlSettings {
             rate_hz: whole.rate_hz,
             gains: self.moving_of(&whole.gains),

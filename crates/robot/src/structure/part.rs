@@ -9,7 +9,7 @@ use crate::structure::robot::Robot;
 
 /// Which joints of a robot move. All others are locked, which fixes the links that they carry.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Part {
+pub struct JointSelection {
     /// Names of the joints that move; `None` for all that are not locked.
     pub joints: Option<Vec<String>>,
     /// Positions of locked joints (rad or m); a joint that neither field names is locked at zero.
@@ -43,7 +43,7 @@ pub(crate) struct Mimic {
 /// The master of each joint with `<mimic>`.
 pub(crate) type Mimics = BTreeMap<String, Mimic>;
 
-impl Part {
+impl JointSelection {
     /// Whether every joint moves that can.
     pub fn is_whole(&self) -> bool {
         *self == Self::default()

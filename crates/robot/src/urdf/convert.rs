@@ -46,7 +46,7 @@ pub(super) fn inertia(link: &urdf_rs::Link) -> Result<Inertia, RobotError> {
         i.ixz, i.iyz, i.izz,
     );
     let in_own_axes = Inertia { mass, com_in_link: Vector3::zeros(), about_com };
-    Ok(in_own_axes.seen_from(&pose(origin)))
+    Ok(in_own_axes.in_frame(&pose(origin)))
 }
 
 /// A moving joint, given the pose of its parent link in the body that link belongs to.

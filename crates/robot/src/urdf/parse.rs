@@ -163,7 +163,7 @@ impl Walk<'_> {
                 }
             };
             if let (Some(b), Some(own)) = (body, &self.inertias[visit.link]) {
-                moving[b].inertia.add(&own.seen_from(&body_from_link));
+                moving[b].inertia.add(&own.in_frame(&body_from_link));
             }
             parts.push(Part { link: name, index: visit.link, body, body_from_link });
             stack.extend(self.tree.joints_of[visit.link].iter().rev().map(|&j| Visit {

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::{Robot, Wave};
+use robot::{Robot, FrictionWave};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +56,7 @@ impl Effect for PositionDependentFriction {
         within("periods_per_turn", self.periods_per_turn, 0.0, 10_000.0)?;
         within("phase_rad", self.phase_rad, -TAU, TAU)?;
         let wave =
-            Wave { share: self.share, periods: self.periods_per_turn, phase: self.phase_rad };
+            FrictionWave { share: self.share, periods: self.periods_per_turn, phase: self.phase_rad };
         Ok(Box::new(Injected { joint, level: self.level_nm, wave }))
     }
 
@@ -73,19 +73,19 @@ impl Effect for PositionDependentFriction {
 }
 
 /// What makes the dry friction that a joint has so far vary with its position.
-pub(super) fn varying(joint: usize, wave: Wave) -> Box<dyn Inject> {
+pub(super) fn varying(joint: usize, wave: FrictionWave) -> Box<dyn Inject> {
     Box::new(Varying { joint, wave })
 }
 
 /// `1 + share cos(periods q + phase)`.
-fn over_mean(wave: &Wave, q: f64) -> f64 {
+fn over_mean(wave: &FrictionWave, q: f64) -> f64 {
     1.0 + wave.share * (wave.periods * q + wave.phase).cos()
 }
 
 struct Injected {
     joint: usize,
     level: f64,
-    wave: Wave,
+    wave: FrictionWave,
 }
 
 impl Inject for Injected {
@@ -97,7 +97,7 @@ impl Inject for Injected {
 
 struct Varying {
     joint: usize,
-    wave: Wave,
+    wave: FrictionWave,
 }
 
 impl Inject for Varying {

@@ -29,7 +29,7 @@ impl Plant {
     /// Fixes a body, given in the frame of the link, to a link.
     pub fn attach(&mut self, link: usize, body: &Inertia) {
         if let Some(link) = self.robot.link_mut(link) {
-            link.inertia = link.inertia.merged_with(body);
+            link.inertia = link.inertia.with_body(body);
         }
     }
 

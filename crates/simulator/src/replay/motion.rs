@@ -1,5 +1,5 @@
 use logs::{Channels, PreparedRun, Run};
-use robot::{Gain, Machine, Reading, Robot};
+use robot::{PdGain, Machine, Reading, Robot};
 
 use crate::error::SimulatorError;
 use crate::replay::record::{
@@ -37,7 +37,7 @@ pub struct MotionReplay {
 /// [`SimulatorError::TooShort`] when the record has no two samples.
 pub fn replay_motion(
     robot: &Robot,
-    gains: &[Gain],
+    gains: &[PdGain],
     record: &PreparedRun,
 ) -> Result<MotionReplay, SimulatorError> {
     check_rate(record)?;

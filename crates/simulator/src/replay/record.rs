@@ -56,7 +56,7 @@ pub(crate) fn with_friction_of_sample<'a>(
     let mut robot = robot.clone();
     for j in 0..robot.joint_count() {
         let Some(link) = robot.link_mut(j) else { continue };
-        link.actuator = link.actuator.warmed(record.time[sample] - record.session_start_s);
+        link.actuator = link.actuator.after_warming(record.time[sample] - record.session_start_s);
     }
     Cow::Owned(robot)
 }
@@ -228,7 +228,7 @@ pub(crate) fn simulator_of_record(
 
 #[cfg(test)]
 mod tests {
-    use robot::{Ripple, Stribeck, Wave};
+    use robot::{Ripple, Stribeck, FrictionWave};
 
     use super::*;
 
@@ -280,7 +280,7 @@ mod tests {
             coulomb_backward: 0.4,
             stribeck: Some(Stribeck { excess: 0.2, velocity: 0.1 }),
             load_friction: 0.1,
-            friction_wave: Some(Wave { share: 0.3, periods: 3.0, phase: 0.5 }),
+            friction_wave: Some(FrictionWave { share: 0.3, periods: 3.0, phase: 0.5 }),
             ripple: Some(Ripple { amplitude: 0.2, periods: 40.0, phase: -1.0 }),
             torque_gain: 1.1,
             torque_offset: 0.05,

@@ -1,5 +1,5 @@
 use motion::State;
-use robot::{Gain, Machine, MachineFault, Reading, Robot};
+use robot::{PdGain, Machine, MachineFault, Reading, Robot};
 
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;
@@ -30,7 +30,7 @@ pub(crate) struct ControlRow {
 /// A motion and the controller that follows it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Following<'a> {
-    pub gains: &'a [Gain],
+    pub gains: &'a [PdGain],
     pub robot: &'a Robot,
     pub run: &'a ScenarioRun,
     /// Longest part of the motion that is followed (s).
@@ -108,7 +108,7 @@ pub(crate) fn follow(
 }
 
 fn feedback(
-    gains: &[Gain],
+    gains: &[PdGain],
     robot: &Robot,
     reference: &State,
     reading: &Reading,

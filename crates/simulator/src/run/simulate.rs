@@ -81,7 +81,7 @@ pub fn simulate_only(
 /// # Errors
 ///
 /// [`SimulatorError`] when the arm cannot be simulated, or a joint ran away.
-pub fn simulate_silent(
+pub fn simulate_noise_free(
     scenario: &Scenario,
     wanted: &dyn Fn(&str) -> bool,
     effects: &[EffectSpec],
@@ -94,12 +94,12 @@ pub fn simulate_silent(
     runs.collect()
 }
 
-/// The first `longest_s` seconds of a scenario's first run, simulated as in [`simulate_silent`].
+/// The first `longest_s` seconds of a scenario's first run, simulated as in [`simulate_noise_free`].
 ///
 /// # Errors
 ///
-/// As [`simulate_silent`].
-pub fn simulate_silent_start(
+/// As [`simulate_noise_free`].
+pub fn simulate_noise_free_start(
     scenario: &Scenario,
     effects: &[EffectSpec],
     longest_s: f64,
@@ -143,7 +143,7 @@ pub fn arm(scenario: &Scenario, part: u64) -> Result<Simulator, SimulatorError> 
 /// # Errors
 ///
 /// [`SimulatorError`] when no effect could be drawn.
-pub fn drawn(scenario: &Scenario) -> Result<Scenario, SimulatorError> {
+pub fn draw_hidden_effects(scenario: &Scenario) -> Result<Scenario, SimulatorError> {
     Ok(scenario.with_effects(all_effects(scenario)?))
 }
 

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
 use motion::{Motion, MotionError};
-use robot::{Gain, Loaded, Robot};
+use robot::{PdGain, Loaded, Robot};
 
 use crate::effects::mistake::Mistake;
 use crate::effects::spec::EffectSpec;
@@ -22,7 +22,7 @@ pub struct Scenario {
     robot: Robot,
     robot_file: PathBuf,
     resolved: String,
-    gains: Vec<Gain>,
+    gains: Vec<PdGain>,
     stepping: Stepping,
     rows_per_log: usize,
     runs: Vec<ScenarioRun>,
@@ -125,7 +125,7 @@ impl Scenario {
         &self.spec
     }
 
-    pub(crate) fn gains(&self) -> &[Gain] {
+    pub(crate) fn gains(&self) -> &[PdGain] {
         &self.gains
     }
 
@@ -222,10 +222,10 @@ impl Checker<'_> {
         self.spec.control.rate_hz.or(self.loaded.control.rate_hz).unwrap_or(500.0)
     }
 
-    fn gains(&self) -> Result<Vec<Gain>, DocumentError> {
+    fn gains(&self) -> Result<Vec<PdGain>, DocumentError> {
         let control = KeyPath::root().key("control");
         let settings = &self.loaded.control;
-        let mut gains: Vec<Option<Gain>> = match &self.spec.control.gains {
+        let mut gains: Vec<Option<PdGain>> = match &self.spec.control.gains {
             None => settings.gains.clone(),
             Some(name) => match settings.gain_sets.get(name) {
                 Some(set) => set.iter().copied().map(Some).collect(),
@@ -244,7 +244,7 @@ impl Checker<'_> {
             self.by_joint(&control.key(key), map, 1e6)?;
             for (name, &value) in map {
                 let Some(joint) = self.loaded.robot.joint_index(name) else { continue };
-                let gain = gains[joint].get_or_insert(Gain { kp: 0.0, kd: 0.0 });
+                let gain = gains[joint].get_or_insert(PdGain { kp: 0.0, kd: 0.0 });
                 if key == "kp_nm_per_rad" { gain.kp = value } else { gain.kd = value }
             }
         }

@@ -43,7 +43,7 @@ fn titles(goal: Goal, robot: &Robot) -> (String, &'static str) {
     let words = |c| cause::words(c, robot);
     match goal {
         Goal::Separate { finding, rival } => {
-            let help = finding.kind.told_apart_from([rival.kind]).unwrap_or_default();
+            let help = finding.kind.distinguishing_motion([rival.kind]).unwrap_or_default();
             (format!("{} or {}", words(finding), words(rival)), help)
         }
         Goal::Determine { finding } => {

@@ -1,6 +1,6 @@
 use dynamics::Dynamics;
 use nalgebra::DMatrix;
-use robot::{Gain, Robot};
+use robot::{PdGain, Robot};
 
 /// Postures that inertia and weight are looked at in.
 const POSTURES: usize = 48;
@@ -26,7 +26,7 @@ pub struct Drive {
     /// Inertia of the rotor (kg m² or kg).
     pub rotor: f64,
     /// Gains of the controller.
-    pub gain: Gain,
+    pub gain: PdGain,
     /// Whether the rotor is a guess.
     pub rotor_guessed: bool,
     /// Whether the gains are.
@@ -42,7 +42,7 @@ pub struct Drive {
 /// ```
 ///
 /// the extremes over postures within the limits.
-pub fn drives(robot: &Robot, known: &[Option<Gain>], rate_hz: f64) -> Vec<Drive> {
+pub fn drives(robot: &Robot, known: &[Option<PdGain>], rate_hz: f64) -> Vec<Drive> {
     let n = robot.joint_count();
     let dynamics = Dynamics::new(robot);
     let postures: Vec<Vec<f64>> = (0..POSTURES).map(|k| posture(robot, k)).collect();
@@ -74,7 +74,7 @@ pub fn drives(robot: &Robot, known: &[Option<Gain>], rate_hz: f64) -> Vec<Drive>
             let given = known.get(j).copied().flatten();
             Drive {
                 rotor: rotors[j],
-                gain: given.unwrap_or(Gain { kp: round(kp), kd: round(kd) }),
+                gain: given.unwrap_or(PdGain { kp: round(kp), kd: round(kd) }),
                 rotor_guessed: robot.links()[j].actuator.rotor_inertia <= 0.0,
                 gain_guessed: given.is_none(),
             }
@@ -155,10 +155,10 @@ mod tests {
     fn what_is_known_stays() {
         let mut robot = wam();
         robot.link_mut(0).unwrap().actuator.rotor_inertia = 0.5;
-        let known = [None, Some(Gain { kp: 7.0, kd: 1.0 })];
+        let known = [None, Some(PdGain { kp: 7.0, kd: 1.0 })];
         let drives = drives(&robot, &known, 500.0);
         assert!((drives[0].rotor - 0.5).abs() < 1e-15 && !drives[0].rotor_guessed);
-        assert_eq!(drives[1].gain, Gain { kp: 7.0, kd: 1.0 });
+        assert_eq!(drives[1].gain, PdGain { kp: 7.0, kd: 1.0 });
         assert!(drives[0].gain_guessed && !drives[1].gain_guessed);
     }
 }

@@ -8,7 +8,7 @@ use report::{
     ComparedJoint, FirstSeconds, Gains, ReportError, Sweep, SweptModel, TrackedModel,
     TrackingComparison, WallTiming,
 };
-use robot::Gain;
+use robot::PdGain;
 use tracking::{End, Signal};
 
 use crate::input::{hash, provenance};
@@ -61,7 +61,7 @@ fn viewer_warning(runs: &[TrackedRun]) -> Option<String> {
     })
 }
 
-fn gains(name: &str, gains: &[Gain]) -> Gains {
+fn gains(name: &str, gains: &[PdGain]) -> Gains {
     Gains {
         name: name.to_owned(),
         kp: gains.iter().map(|gain| gain.kp).collect(),
