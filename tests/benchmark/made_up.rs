@@ -4,7 +4,8 @@ use benchmark::{Answers, Costs, HeldOut};
 use catalogue::EffectKind;
 use diagnosis::{DataSummary, Diagnosis, EffectAt, Finding, Gain, InverseGain, SCHEMA, Verdict};
 use population::{
-    TrueCause, Corner, EffortClass, Knowledge, MotionClass, Origin, CauseRole, TruthSheet, Strength, TrueStranger,
+    CauseRole, Corner, EffortClass, Knowledge, MotionClass, Origin, Strength, TrueCause,
+    TrueStranger, TruthSheet,
 };
 use simulator::Truth;
 

@@ -80,7 +80,8 @@ fn times_are_compared_as_factors() {
 /// A trial with Coulomb friction at the elbow that is named, or not, in so many seconds.
 #[allow(clippy::fn_params_excessive_bools, reason = "a made-up trial is named or not")]
 fn trial(task: usize, named: bool, seconds: f64) -> Record {
-    let sheet = TruthSheet { seed: 100 + task as u64, ..sheet(&[(CoulombFriction, "elbow", SEEN)]) };
+    let sheet =
+        TruthSheet { seed: 100 + task as u64, ..sheet(&[(CoulombFriction, "elbow", SEEN)]) };
     let effect = if named { CoulombFriction } else { Backlash };
     let mut said = answers(Verdict::Explained, vec![finding(at(effect, "elbow"), 0.5, &[])]);
     said.costs.diagnosis_s = seconds;

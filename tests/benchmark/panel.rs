@@ -6,7 +6,7 @@ use benchmark::{
 };
 use catalogue::EffectKind::{Backlash, CoulombFriction, Payload, TorqueOffset, ViscousFriction};
 use diagnosis::{EffectAt, Estimate, Finding, Verdict};
-use population::{Knowledge, MotionClass, TruthSheet, Strength};
+use population::{Knowledge, MotionClass, Strength, TruthSheet};
 use report::Provenance;
 
 use crate::made_up::{FAINT, SEEN, answers, at, finding, sheet, stranger};
@@ -103,7 +103,8 @@ fn a_false_alarm_is_a_name_or_an_open_verdict_where_nothing_is() {
 #[test]
 fn of_recorded_logs_only_what_was_added_is_asked_for() {
     let other = || vec![finding(at(Backlash, "elbow"), 0.5, &[])];
-    let added = TruthSheet { knowledge: Knowledge::Added, ..sheet(&[(CoulombFriction, "elbow", SEEN)]) };
+    let added =
+        TruthSheet { knowledge: Knowledge::Added, ..sheet(&[(CoulombFriction, "elbow", SEEN)]) };
     let one = judge(&added, Verdict::PartlyExplained, other());
     assert_eq!((one.precision(), part(one.recall())), (None, (0.0, 1.0)));
     assert_eq!((one.right(), one.false_alarm(), one.names_falsely()), (Some(false), None, false));

@@ -1,7 +1,7 @@
 use std::fs;
 use std::path::Path;
 
-use learner::{Model, Samples, Score, TorqueModel};
+use learner::{Model, Samples, TorqueModel, TorqueScore};
 use logs::{PrepareSettings, ReadOptions};
 use robot::Robot;
 use serde_json::Value;
@@ -80,7 +80,7 @@ fn rms_on_another_run(folder: &Path, model: &dyn TorqueModel, robot: &Robot) -> 
     arm::write(folder, "run_5.csv", &arm::log(5, Gap::Ripple(1.5)));
     let run = logs::read_run(&folder.join("run_5.csv"), robot, &ReadOptions::default()).unwrap();
     let prepared = logs::prepare(&[run], &PrepareSettings::default()).unwrap();
-    Score::of(model, &Samples::new(&prepared)).rmse
+    TorqueScore::of(model, &Samples::new(&prepared)).rmse
 }
 
 /// The ripple has no name; the process learns it, and leaves the other joint alone.

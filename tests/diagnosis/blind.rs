@@ -5,7 +5,7 @@ use std::path::Path;
 
 use catalogue::EffectKind;
 use checks::arms::{wam, workspace_root};
-use diagnosis::{Diagnosis, Outcome, Settings, Silent, diagnose};
+use diagnosis::{Diagnosis, DiagnosisRun, Settings, Silent, diagnose};
 use document::Document;
 use logs::{ReadOptions, Run};
 use robot::Robot;
@@ -44,7 +44,7 @@ fn look(folder: &Path) -> Diagnosis {
 }
 
 /// What a robot gets wrong in such logs.
-pub fn diagnosed(robot: &Robot, runs: &[Run]) -> Outcome {
+pub fn diagnosed(robot: &Robot, runs: &[Run]) -> DiagnosisRun {
     let settings = Settings { control_rate_hz: Some(500.0), ..Settings::default() };
     diagnose(robot, runs, &settings, &Silent).unwrap()
 }

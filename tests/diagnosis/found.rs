@@ -7,7 +7,7 @@
 //! causes are told apart, not that the rigid-body model is right.
 
 use catalogue::EffectKind;
-use diagnosis::{Diagnosis, Estimate, Finding, Outcome, Verdict};
+use diagnosis::{Diagnosis, DiagnosisRun, Estimate, Finding, Verdict};
 use effects::MODELLED;
 use rayon::prelude::*;
 
@@ -39,7 +39,7 @@ struct Seen {
 }
 
 fn seen(trial: &Trial, world: &World, seed: u64) -> Seen {
-    let Outcome { diagnosis, extended, .. } = against_nominal(&world.log(seed));
+    let DiagnosisRun { diagnosis, extended, .. } = against_nominal(&world.log(seed));
     let words = trial.words();
     let found = finding(&diagnosis, &words);
     let names = |f: &&Finding| f.not_separable_from.iter().any(|r| r.words() == words);

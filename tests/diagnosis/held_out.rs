@@ -1,13 +1,13 @@
 //! The parts of the logs that a diagnosis holds out in turn, and the robots found without them.
 
 use checks::synthetic::Noise;
-use diagnosis::{Diagnosis, HeldOut, Outcome, Settings, Silent, Verdict, diagnose};
+use diagnosis::{Diagnosis, DiagnosisRun, HeldOutPart, Settings, Silent, Verdict, diagnose};
 use logs::Run;
 
 use crate::grafts;
 use crate::world::{World, named, sign};
 
-fn diagnosed(runs: &[Run]) -> Outcome {
+fn diagnosed(runs: &[Run]) -> DiagnosisRun {
     diagnose(&World::nominal().robot, runs, &Settings::default(), &Silent).unwrap()
 }
 
@@ -30,8 +30,8 @@ fn the_parts_are_held_out_in_turn_and_their_robots_know_nothing_of_them() {
     let mut changed = runs.clone();
     changed[0].joints[3].effort.iter_mut().for_each(|e| *e *= 1.05);
     let other = diagnosed(&changed);
-    let levels = |outcome: &Outcome| -> Vec<f64> {
-        let level = |p: &HeldOut| p.extended.links()[3].actuator.coulomb_forward;
+    let levels = |outcome: &DiagnosisRun| -> Vec<f64> {
+        let level = |p: &HeldOutPart| p.extended.links()[3].actuator.coulomb_forward;
         outcome.held_out.iter().map(level).collect()
     };
     let (before, after) = (levels(&outcome), levels(&other));

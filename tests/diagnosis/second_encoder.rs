@@ -3,7 +3,7 @@
 
 use catalogue::EffectKind;
 use checks::arms::wam;
-use diagnosis::{Diagnosis, Estimate, Finding, Outcome, Verdict};
+use diagnosis::{Diagnosis, DiagnosisRun, Estimate, Finding, Verdict};
 use logs::Run;
 use rayon::prelude::*;
 use robot::{Robot, SensingSide};
@@ -135,7 +135,8 @@ fn blind_a_gap_that_never_opens_may_as_well_be_an_offset() {
 fn blind_a_spring_and_a_gap_of_one_joint_are_told_apart_under_an_unknown_payload() {
     let gap = "{ backlash={ joint='j2_shoulder_pitch', gap_rad=0.002 } }";
     let payload = "{ payload={ link='palm', mass_kg=1.0, com_m=[0.0, 0.0, 0.1] } }";
-    let Outcome { diagnosis, extended, .. } = diagnosed(&wam(), &logs(&[SPRING, gap, payload], 5));
+    let DiagnosisRun { diagnosis, extended, .. } =
+        diagnosed(&wam(), &logs(&[SPRING, gap, payload], 5));
     let place = "j2_shoulder_pitch";
     check(&find(&diagnosis, EffectKind::JointElasticity, place).parameters[0], 4000.0);
     check(&find(&diagnosis, EffectKind::Backlash, place).parameters[0], 0.002);
@@ -240,7 +241,7 @@ fn blind_a_second_encoder_that_repeats_the_first_is_no_cause() {
 /// The robot that has the spring finds nothing in logs that it describes.
 #[test]
 fn blind_a_described_spring_is_not_found_again() {
-    let Outcome { extended, .. } = diagnosed(&wam(), &logs(&[SPRING], 8));
+    let DiagnosisRun { extended, .. } = diagnosed(&wam(), &logs(&[SPRING], 8));
     let again = diagnosed(&extended, &logs(&[SPRING], 9)).diagnosis;
     assert_eq!(again.findings, []);
     let softer = SPRING.replace("4000.0", "3000.0");

@@ -1,7 +1,7 @@
 //! Worlds that differ from the nominal WAM by formulas written down in the tests.
 
 use checks::synthetic::{Noise, State, Truth, run, run_paced, wam};
-use diagnosis::{Diagnosis, Finding, Outcome, Settings, Silent, diagnose};
+use diagnosis::{Diagnosis, DiagnosisRun, Finding, Settings, Silent, diagnose};
 use logs::Run;
 use robot::Robot;
 
@@ -102,7 +102,7 @@ fn predicted(robot: &Robot, noise: &Noise, seed: u64) -> Run {
 }
 
 /// What the nominal WAM gets wrong in `runs`.
-pub fn against_nominal(runs: &[Run]) -> Outcome {
+pub fn against_nominal(runs: &[Run]) -> DiagnosisRun {
     diagnose(&wam(), runs, &Settings::default(), &Silent).unwrap()
 }
 

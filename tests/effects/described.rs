@@ -1,7 +1,7 @@
 //! What a description says of a drive, where less is found.
 
 use checks::arms::workspace_root;
-use effects::weeded;
+use effects::without_unused_shapes;
 use robot::{Robot, Warming};
 
 /// A drive is described to lose by warming up what it is found not to have: the robot that is written can be read.
@@ -16,7 +16,7 @@ fn a_drive_that_has_less_friction_than_it_was_described_to_lose_loses_what_it_ha
     let mut found = described.clone();
     let drive = &mut found.link_mut(2).unwrap().actuator;
     (drive.viscous, drive.coulomb_forward) = (0.3, 0.5);
-    let written = weeded(found, &described);
+    let written = without_unused_shapes(found, &described);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("robot.toml");
     let text = loaded.to_toml(&written, &loaded.urdf_path.display().to_string()).unwrap();

@@ -9,10 +9,10 @@ mod undone;
 use catalogue::EffectKind;
 use checks::synthetic::wam;
 use effects::{
-    Column, Compensated, Compensation, Encoders, Frame, Hypothesis, Motion, Part, Place, Priors,
-    Scale, hypotheses, model,
+    ColumnPart, Compensation, EffectColumn, Encoders, FeedforwardEfforts, Frame, Hypothesis, Place,
+    Priors, RunMotion, Scale, hypotheses, model,
 };
-use robot::{Coupling, Robot, Stribeck, TorqueSource, Warming, FrictionWave};
+use robot::{Coupling, FrictionWave, Robot, Stribeck, TorqueSource, Warming};
 
 const SAMPLES: usize = 40;
 
@@ -54,7 +54,7 @@ fn worn() -> Robot {
     robot
 }
 
-/// The same with friction of every shape, of `size` or only as germs of it.
+/// The same with friction of every shape, of `size` or only as trial shapes of it.
 fn shaped(size: f64) -> Robot {
     let mut robot = worn();
     for j in 0..robot.joint_count() {
@@ -117,12 +117,12 @@ fn state(robot: &Robot) -> [Vec<Vec<f64>>; 3] {
     [signal(0.8, 0.0), signal(1.0, 1.3), signal(2.0, 0.7)]
 }
 
-fn motion(robot: &Robot) -> Motion {
-    Motion::new(robot, &frame(robot), state(robot), 0.05)
+fn motion(robot: &Robot) -> RunMotion {
+    RunMotion::new(robot, &frame(robot), state(robot), 0.05)
 }
 
 /// The same motion, with encoders at the links that do not quite say the same.
-fn seen(robot: &Robot) -> Motion {
+fn seen(robot: &Robot) -> RunMotion {
     let reported = state(robot);
     let link = |j: usize| {
         let [q, qd, qdd] = reported.each_ref().map(|x| &x[j]);
@@ -130,7 +130,7 @@ fn seen(robot: &Robot) -> Motion {
         Some([q.iter().map(|q| 0.97 * q + 0.01).collect(), scaled(qd), scaled(qdd)])
     };
     let links = (0..robot.joint_count()).map(link).collect();
-    Motion::seen(robot, &frame(robot), Encoders { reported, links, since_cold_s: 0.0 }, 0.05)
+    RunMotion::seen(robot, &frame(robot), Encoders { reported, links, since_cold_s: 0.0 }, 0.05)
 }
 
 /// The WAM of [`worn`] with transmissions that give.
@@ -242,12 +242,12 @@ fn exact_columns_stay_where_effects_grow_and_tangents_turn() {
     let all = hypotheses(&before);
     all.iter().filter(|h| !h.is_tangent()).for_each(|h| grown(&mut exact, *h));
     let nominal = motion(&before);
-    for h in all.into_iter().filter(|h| !h.is_doubtful()) {
+    for h in all.into_iter().filter(|h| !h.is_imitable()) {
         let mut after = exact.clone();
         if h.is_tangent() {
             grown(&mut after, h);
         }
-        let values = |columns: Vec<Column>| -> Vec<f64> {
+        let values = |columns: Vec<EffectColumn>| -> Vec<f64> {
             columns.into_iter().flatten().flat_map(|part| part.values).collect()
         };
         let [first, last] = [h.columns(&nominal), h.columns(&motion(&after))].map(values);
@@ -337,8 +337,9 @@ fn contract_play_and_twist_add_what_their_columns_say() {
         h.extend(&mut changed, &[small], &frame(&robot), &Priors::default());
         let with = motion(&changed).effort;
         let columns = h.columns(&nominal);
-        let added =
-            |part: &Part, t: usize| (with[part.joint][t] - nominal.effort[part.joint][t]) / small;
+        let added = |part: &ColumnPart, t: usize| {
+            (with[part.joint][t] - nominal.effort[part.joint][t]) / small
+        };
         let all = || columns[0].iter().flat_map(|p| (0..SAMPLES).map(move |t| (p, t)));
         let largest = all().fold(0.0_f64, |m, (p, t)| m.max(p.values[t].abs()));
         for (part, t) in all() {
@@ -389,7 +390,7 @@ fn the_compensation_allocates_nothing() {
     }
     let n = robot.joint_count();
     let compensation = Compensation::new(&robot, vec![0.01; n]);
-    let (mut ws, mut out) = (compensation.workspace(), Compensated::zero(n));
+    let (mut ws, mut out) = (compensation.workspace(), FeedforwardEfforts::zero(n));
     let (q, qd, qdd) = (vec![0.3; n], vec![0.7; n], vec![-0.2; n]);
     let state: [&[f64]; 3] = [&q, &qd, &qdd];
     let counted = allocation_counter::measure(|| compensation.fill(&mut ws, &[state; 5], &mut out));

@@ -1,8 +1,8 @@
 //! The compensation against the truth side: links that follow although everything gives way.
 
 use checks::arms::wam;
-use effects::{Compensated, Compensation};
-use robot::{Actuator, Machine, Reading, Ripple, Robot, SensingSide, Stribeck, FrictionWave};
+use effects::{Compensation, FeedforwardEfforts};
+use robot::{Actuator, FrictionWave, Machine, Reading, Ripple, Robot, SensingSide, Stribeck};
 use simulator::{
     EffortSource, JointSensor, PositionSide, Sensors, Simulator, Stepping, VelocitySource,
 };
@@ -54,13 +54,13 @@ fn motion(time_s: f64) -> [Vec<f64>; 3] {
     [0, 1, 2].map(|i| joints.iter().map(|state| state[i]).collect())
 }
 
-fn asked(compensation: &Compensation, time_s: f64) -> Compensated {
+fn asked(compensation: &Compensation, time_s: f64) -> FeedforwardEfforts {
     let h = Compensation::SPACING_S;
     let states = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| motion(time_s + k * h));
     let states: Vec<[&[f64]; 3]> =
         states.iter().map(|s| [0, 1, 2].map(|i| s[i].as_slice())).collect();
     let needed = compensation.states_needed();
-    let mut out = Compensated::zero(7);
+    let mut out = FeedforwardEfforts::zero(7);
     let first = (Compensation::MOST_STATES - needed) / 2;
     compensation.fill(&mut compensation.workspace(), &states[first..first + needed], &mut out);
     out

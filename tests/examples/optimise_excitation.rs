@@ -25,7 +25,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use checks::synthetic::wam;
-use dynamics::{Column, ColumnSet, Dynamics, Workspace, base_parameters};
+use dynamics::{ColumnSet, Dynamics, RegressorColumn, Workspace, base_parameters};
 use motion::{FourierJoint, FourierSeries};
 use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 use rand::{RngExt, SeedableRng};
@@ -56,7 +56,7 @@ const GENES: usize = 1 + 2 * HARMONICS;
 
 struct Problem {
     dynamics: Dynamics,
-    columns: Vec<Column>,
+    columns: Vec<RegressorColumn>,
     /// Orthonormal basis of the combinations of parameters that motion shows: columns x r.
     basis: DMatrix<f64>,
     /// Middle and half width of position, velocity and acceleration of each joint.
@@ -137,7 +137,7 @@ impl Problem {
         for (t, y) in times().zip(y) {
             let (waves, mut z) = (waves(t), 2.0 * y * &s);
             // A sign has no slope.
-            let is_sign = |c: &usize| matches!(self.columns[*c], Column::Coulomb { .. });
+            let is_sign = |c: &usize| matches!(self.columns[*c], RegressorColumn::Coulomb { .. });
             (0..z.ncols()).filter(is_sign).for_each(|c| z.column_mut(c).fill(0.0));
             let x = state(series, &waves);
             for (joint, gradient) in gradient.iter_mut().enumerate() {

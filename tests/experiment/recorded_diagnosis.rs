@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use checks::arms::workspace_root;
-use diagnosis::{Outcome, Settings, Silent};
+use diagnosis::{DiagnosisRun, Settings, Silent};
 use document::Document;
 use experiment::{DiagnosedLogs, ExperimentError, record_diagnosis};
 use logs::{PrepareSettings, Prepared, Run};
@@ -29,7 +29,7 @@ static CASE: LazyLock<Case> = LazyLock::new(Case::new);
 struct Case {
     loaded: Loaded,
     runs: Vec<Run>,
-    outcome: Outcome,
+    outcome: DiagnosisRun,
     prepared: Prepared,
 }
 
@@ -51,7 +51,7 @@ impl Case {
         Self { loaded, runs, outcome, prepared }
     }
 
-    fn record(&self, path: &Path) -> Result<recording::Written, Box<ExperimentError>> {
+    fn record(&self, path: &Path) -> Result<recording::FinishedRecording, Box<ExperimentError>> {
         let Self { loaded, runs, outcome, .. } = self;
         let diagnosed = DiagnosedLogs { loaded, runs, outcome, verdict: "# Explained" };
         record_diagnosis(path, &diagnosed, &Silent).map_err(Box::new)

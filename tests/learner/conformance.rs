@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use gaussian_process::KernelSearch;
 use learner::{
-    Fitted, LearnerError, Model, ModelKind, Regression, Samples, Score, Silent, Spread, State,
-    TorqueModel, TrainSettings, Training,
+    LearnerError, Model, ModelKind, Regression, SampleState, Samples, SilentTraining, Spread,
+    TorqueModel, TorqueScore, TrainSettings, TrainedModel, Training,
 };
 use logs::rest_speeds;
 use robot::Robot;
@@ -15,7 +15,7 @@ use crate::arm;
 const TRAINED: usize = 150;
 
 /// Every model, trained on one run of the planar arm; the "named" robot has viscous friction.
-fn fit_all() -> Vec<Fitted> {
+fn fit_all() -> Vec<TrainedModel> {
     let robot = arm::robot();
     let prepared = arm::run(1.0, 400, 1.0);
     let samples = Samples::new(&prepared);
@@ -27,7 +27,7 @@ fn fit_all() -> Vec<Fitted> {
     let fit = regression.fit(None).unwrap();
     let named = named();
     let rest = rest_speeds(&prepared);
-    let mut training = Training::new(&robot, &samples, rest, &settings, &Silent)
+    let mut training = Training::new(&robot, &samples, rest, &settings, &SilentTraining)
         .unwrap()
         .with_regression(&fit)
         .with_named(&named);
@@ -42,8 +42,8 @@ fn named() -> Robot {
     robot
 }
 
-fn all() -> &'static [Fitted] {
-    static ALL: OnceLock<Vec<Fitted>> = OnceLock::new();
+fn all() -> &'static [TrainedModel] {
+    static ALL: OnceLock<Vec<TrainedModel>> = OnceLock::new();
     ALL.get_or_init(fit_all)
 }
 
@@ -52,16 +52,17 @@ fn test_samples() -> Samples {
 }
 
 /// A state like those of training, and one that is far from all of them.
-const NEAR: State = State { q: &[0.3, -0.4], qd: &[0.5, -0.2], qdd: &[1.0, 0.4] };
-const FAR: State = State { q: &[400.0, -300.0], qd: &[900.0, -800.0], qdd: &[5e3, 4e3] };
+const NEAR: SampleState = SampleState { q: &[0.3, -0.4], qd: &[0.5, -0.2], qdd: &[1.0, 0.4] };
+const FAR: SampleState =
+    SampleState { q: &[400.0, -300.0], qd: &[900.0, -800.0], qdd: &[5e3, 4e3] };
 
-fn torque(model: &Model, state: State) -> Vec<f64> {
+fn torque(model: &Model, state: SampleState) -> Vec<f64> {
     let mut tau = vec![0.0; 2];
     model.torque_into(&mut model.workspace(), state, &mut tau);
     tau
 }
 
-fn variance(model: &Model, state: State) -> Vec<f64> {
+fn variance(model: &Model, state: SampleState) -> Vec<f64> {
     let mut variance = vec![0.0; 2];
     model.variance_into(&mut model.workspace(), state, &mut variance);
     variance
@@ -71,7 +72,7 @@ fn variance(model: &Model, state: State) -> Vec<f64> {
 fn every_model_predicts_better_than_the_mean_torque_and_knows_its_error() {
     let test = test_samples();
     for fitted in all() {
-        let score = Score::of(&fitted.model, &test);
+        let score = TorqueScore::of(&fitted.model, &test);
         for k in 0..2 {
             let what = format!("{} joint {k}: {score:?}", fitted.model.kind);
             assert!(score.nmse[k] < 0.5, "{what}");
@@ -83,7 +84,7 @@ fn every_model_predicts_better_than_the_mean_torque_and_knows_its_error() {
 #[test]
 fn a_batch_is_the_single_queries_torques_bit_by_bit() {
     let test = test_samples();
-    for Fitted { model, .. } in all() {
+    for TrainedModel { model, .. } in all() {
         let (together, spread) = (model.torque(&test), model.variance(&test));
         for i in 0..test.len() {
             assert_eq!(torque(model, test.state(i)), together[2 * i..2 * i + 2], "{}", model.kind);
@@ -104,7 +105,7 @@ fn a_batch_is_the_single_queries_torques_bit_by_bit() {
 /// ```
 ///
 /// of two sums, each term taking part in `2 n` roundings that know nothing of each other.
-fn rounding(model: &Model, joint: usize, state: State) -> f64 {
+fn rounding(model: &Model, joint: usize, state: SampleState) -> f64 {
     let Some(process) = &model.process else { return 0.0 };
     let signals = process.sum.kernels().iter().map(|kernel| kernel.signal_variance);
     let usual = 1e-10 * signals.fold(0.0, f64::max);
@@ -131,7 +132,7 @@ fn training_does_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn a_query_allocates_nothing() {
-    for Fitted { model, .. } in all() {
+    for TrainedModel { model, .. } in all() {
         let (mut ws, mut tau) = (model.workspace(), vec![0.0; 2]);
         let count = allocation_counter::measure(|| {
             model.torque_into(&mut ws, NEAR, &mut tau);
@@ -143,7 +144,7 @@ fn a_query_allocates_nothing() {
 
 #[test]
 fn far_from_the_data_the_mean_is_left_and_the_prior_variance() {
-    for Fitted { model, .. } in all() {
+    for TrainedModel { model, .. } in all() {
         let Some(process) = &model.process else { continue };
         let mut bare = model.clone();
         bare.process = None;
@@ -158,7 +159,7 @@ fn far_from_the_data_the_mean_is_left_and_the_prior_variance() {
 
 #[test]
 fn near_the_data_the_variance_falls_well_below_the_prior() {
-    for Fitted { model, .. } in all() {
+    for TrainedModel { model, .. } in all() {
         let Some(process) = &model.process else { continue };
         let found = variance(model, NEAR);
         for (k, kernel) in process.sum.kernels().iter().enumerate() {
@@ -177,7 +178,7 @@ fn near_the_data_the_variance_falls_well_below_the_prior() {
 fn a_model_that_is_saved_and_read_again_predicts_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let (robot, test) = (arm::robot(), test_samples());
-    for Fitted { model, .. } in all() {
+    for TrainedModel { model, .. } in all() {
         let path = folder.path().join(format!("{}.parquet", model.kind));
         model.save(&path).unwrap();
         let read = Model::load(&path, &robot).unwrap().with_variance().unwrap();
@@ -278,17 +279,18 @@ fn the_prior_on_the_parameters_is_the_kernel_of_the_columns() {
     let fit = regression.fit(None).unwrap();
     let search = KernelSearch { starts: 1, start_points: 60, iterations: 25 };
     let settings = TrainSettings { points: 100, search, ..TrainSettings::default() };
-    let mut training = Training::new(&robot, &samples, rest_speeds(&prepared), &settings, &Silent)
-        .unwrap()
-        .with_regression(&fit);
+    let mut training =
+        Training::new(&robot, &samples, rest_speeds(&prepared), &settings, &SilentTraining)
+            .unwrap()
+            .with_regression(&fit);
     let test = Samples::new(&arm::run(2.0, 120, 0.0));
     let kinds = [ModelKind::Rbd, ModelKind::GpRbd, ModelKind::GpRbdPrior, ModelKind::GpRbdShared];
     for kind in kinds.into_iter().chain([ModelKind::RbdKernel, ModelKind::RbdKernelJoint]) {
-        let score = Score::of(&training.fit(kind).unwrap().model, &test);
+        let score = TorqueScore::of(&training.fit(kind).unwrap().model, &test);
         assert!(score.nmse.iter().all(|nmse| *nmse < 1e-3), "{kind}: {score:?}");
     }
-    let gp = Score::of(&training.fit(ModelKind::Gp).unwrap().model, &test);
-    let rbd = Score::of(&training.fit(ModelKind::Rbd).unwrap().model, &test);
+    let gp = TorqueScore::of(&training.fit(ModelKind::Gp).unwrap().model, &test);
+    let rbd = TorqueScore::of(&training.fit(ModelKind::Rbd).unwrap().model, &test);
     assert!(rbd.nmse.iter().zip(&gp.nmse).all(|(r, g)| *r < 0.2 * g), "{rbd:?} {gp:?}");
 }
 
@@ -299,7 +301,8 @@ fn what_cannot_be_trained_is_refused_by_name() {
     let samples = Samples::new(&prepared);
     let rest = rest_speeds(&prepared);
     let settings = TrainSettings { points: 20, ..TrainSettings::default() };
-    let mut bare = Training::new(&robot, &samples, rest.clone(), &settings, &Silent).unwrap();
+    let mut bare =
+        Training::new(&robot, &samples, rest.clone(), &settings, &SilentTraining).unwrap();
     for kind in ModelKind::ALL {
         if kind.needs_regression() || kind.needs_named() {
             let refused = bare.fit(kind).unwrap_err();
@@ -307,15 +310,16 @@ fn what_cannot_be_trained_is_refused_by_name() {
         }
     }
     let none = TrainSettings { points: 0, ..TrainSettings::default() };
-    let zero = Training::new(&robot, &samples, rest.clone(), &none, &Silent).err().unwrap();
+    let zero = Training::new(&robot, &samples, rest.clone(), &none, &SilentTraining).err().unwrap();
     assert!(matches!(zero, LearnerError::Setting { name: "points", .. }), "{zero}");
     let wam = checks::arms::wam();
-    let other = Training::new(&wam, &samples, rest.clone(), &settings, &Silent).err().unwrap();
+    let other =
+        Training::new(&wam, &samples, rest.clone(), &settings, &SilentTraining).err().unwrap();
     assert!(matches!(other, LearnerError::WrongJoints { expected: 7, got: 2 }), "{other}");
     let mut broken = prepared.clone();
     broken.runs[0].joints[1].qdd[17] = f64::NAN;
     let nan = Samples::new(&broken);
-    let refused = Training::new(&robot, &nan, rest, &settings, &Silent).err().unwrap();
+    let refused = Training::new(&robot, &nan, rest, &settings, &SilentTraining).err().unwrap();
     let expected = "qdd of joint 1 in sample 17 is NaN, which no sensor reports";
     assert_eq!(refused.to_string(), expected);
 }
@@ -342,7 +346,8 @@ fn logs_that_tell_nothing_still_train() {
     for prepared in [still, silent, arm::run(1.0, 1, 1.0), arm::run(1.0, 2, 1.0)] {
         let samples = Samples::new(&prepared);
         let rest = rest_speeds(&prepared);
-        let mut training = Training::new(&robot, &samples, rest, &settings, &Silent).unwrap();
+        let mut training =
+            Training::new(&robot, &samples, rest, &settings, &SilentTraining).unwrap();
         for kind in bare_kinds() {
             let fitted = training.fit(kind).unwrap_or_else(|e| panic!("{kind}: {e}"));
             assert!(torque(&fitted.model, NEAR).iter().all(|t| t.is_finite()), "{kind}");

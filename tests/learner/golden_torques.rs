@@ -3,7 +3,7 @@
 use checks::arms::wam;
 use checks::golden::{Golden, State, golden};
 use dynamics::{BaseParameters, ColumnSet, Dynamics};
-use learner::{Regression, Stretch};
+use learner::{Regression, SampleSlices};
 use robot::{Inertia, Robot};
 
 const ROTOR: ColumnSet = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };
@@ -29,7 +29,7 @@ fn regression(robot: &Robot, states: &[State]) -> Regression {
     let (q, qd, qdd) = (flat(|s| &s.q), flat(|s| &s.qd), flat(|s| &s.qdd));
     let tau = flat(|s| &s.tau_with_rotor);
     let mut regression = Regression::new(robot, ROTOR);
-    regression.add(Stretch { q: &q, qd: &qd, qdd: &qdd, tau: &tau }).unwrap();
+    regression.add(SampleSlices { q: &q, qd: &qd, qdd: &qdd, tau: &tau }).unwrap();
     regression
 }
 

@@ -2,7 +2,7 @@
 
 use checks::arms::{generator, wam};
 use dynamics::{ColumnSet, Dynamics};
-use learner::{Regression, Stretch};
+use learner::{Regression, SampleSlices};
 use rand_distr::{Distribution, StandardNormal};
 
 const SECONDS: usize = 60;
@@ -51,7 +51,7 @@ fn intervals_of_every_base_parameter_of_the_wam_hold_what_was_put_in() {
         });
         let tau: Vec<f64> = noisy.collect();
         let mut regression = Regression::new(&robot, ColumnSet::ALL);
-        regression.add(Stretch { q: &q, qd: &qd, qdd: &qdd, tau: &tau }).unwrap();
+        regression.add(SampleSlices { q: &q, qd: &qd, qdd: &qdd, tau: &tau }).unwrap();
         let fit = regression.fit(None).unwrap();
         let bodies = robot.links().iter().flat_map(|link| link.inertia.parameters());
         let rotors = robot.links().iter().map(|link| link.actuator.rotor_inertia);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use checks::arms::wam;
 use checks::recorded::folder;
-use dynamics::{Column, ColumnSet, Dynamics};
+use dynamics::{ColumnSet, Dynamics, RegressorColumn};
 use learner::{Regression, RigidBodyFit, Samples, Weighting};
 use logs::{PrepareSettings, ReadOptions, prepare, read_run};
 use robot::Robot;
@@ -74,7 +74,8 @@ fn coulomb_friction_of_a_kinova_is_the_known_one() {
     let fit = fit(&robot, NO_ROTOR, &samples(&robot, &folder.join("kinova_gen3"), &runs));
     assert!(matches!(fit.weighting, Weighting::Converged { .. }), "{:?}", fit.weighting);
     for (joint, known) in [2.9, 5.0, 2.4, 3.2, 1.0, 1.1, 1.2].into_iter().enumerate() {
-        let place = fit.columns.iter().position(|c| *c == Column::Coulomb { joint }).unwrap();
+        let place =
+            fit.columns.iter().position(|c| *c == RegressorColumn::Coulomb { joint }).unwrap();
         let found = fit.parameters[place];
         assert!((found - known).abs() < 0.2, "joint {joint}: {found} and {known}");
     }

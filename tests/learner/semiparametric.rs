@@ -2,7 +2,7 @@
 
 use gaussian_process::{
     GaussianKernel, Inverse, KernelSearch, KernelSum, Likelihood, Linear, LinearPosterior,
-    Residual, SearchEnd,
+    ResidualProcess, SearchEnd,
 };
 
 use crate::golden::{Golden, golden};
@@ -50,7 +50,7 @@ fn check(found: &[f64], expected: &[f64], tolerance: f64) {
 fn oracle_mean_and_deviation_are_those_of_scikit_learn() {
     let g = golden();
     let inverse = inverse(&g, 1.0);
-    let residual = Residual::new(&inverse, &g.targets, Linear::NONE).unwrap();
+    let residual = ResidualProcess::new(&inverse, &g.targets, Linear::NONE).unwrap();
     check(&predicted(&g, 1.0, &[], &residual.alpha), &g.mean, PRINTED);
     let width = g.length_scales.len();
     let kernels = [kernel(&g, 1.0)];
@@ -72,12 +72,16 @@ fn oracle_equation_5_a_fixed_linear_part() {
     let g = golden();
     let features = g.semiparametric.features.concat();
     let linear = Linear { features: &features, mean: &g.semiparametric.beta0 };
-    let residual = Residual::new(&inverse(&g, 1.0), &g.targets, linear).unwrap();
+    let residual = ResidualProcess::new(&inverse(&g, 1.0), &g.targets, linear).unwrap();
     let found = predicted(&g, 1.0, linear.mean, &residual.alpha);
     check(&found, &g.semiparametric.mean_fixed_beta, CLOSED);
 }
 
-fn posterior(residual: &Residual, variances: &[f64], mean: &[f64]) -> (LinearPosterior, Vec<f64>) {
+fn posterior(
+    residual: &ResidualProcess,
+    variances: &[f64],
+    mean: &[f64],
+) -> (LinearPosterior, Vec<f64>) {
     let posterior = residual.evidence.posterior(variances).unwrap();
     let beta = mean.iter().zip(&posterior.change).map(|(b, c)| b + c).collect();
     (posterior, beta)
@@ -89,7 +93,7 @@ fn oracle_equation_7_a_prior_on_the_linear_part() {
     let s = &g.semiparametric;
     let features = s.features.concat();
     let linear = Linear { features: &features, mean: &s.beta0 };
-    let residual = Residual::new(&inverse(&g, 1.0), &g.targets, linear).unwrap();
+    let residual = ResidualProcess::new(&inverse(&g, 1.0), &g.targets, linear).unwrap();
     let (posterior, beta) = posterior(&residual, &s.prior_variances, &s.beta0);
     check(&beta, &s.beta_bar, CLOSED);
     let found = predicted(&g, 1.0, &beta, &residual.alpha(&posterior.change));
@@ -102,7 +106,7 @@ fn oracle_equation_10_a_linear_kernel_beside_the_gaussian_one() {
     let s = &g.semiparametric;
     let (features, origin) = (s.features.concat(), vec![0.0; s.beta0.len()]);
     let linear = Linear { features: &features, mean: &origin };
-    let residual = Residual::new(&inverse(&g, s.lambda), &g.targets, linear).unwrap();
+    let residual = ResidualProcess::new(&inverse(&g, s.lambda), &g.targets, linear).unwrap();
     let (posterior, beta) = posterior(&residual, &s.kernel_variances, &origin);
     let found = predicted(&g, s.lambda, &beta, &residual.alpha(&posterior.change));
     check(&found, &s.mean_rbd_kernel, CLOSED);
@@ -142,7 +146,7 @@ fn oracle_the_evidence_with_a_prior_is_the_product_of_predictive_densities() {
     let s = &g.semiparametric;
     let features = s.features.concat();
     let linear = Linear { features: &features, mean: &s.beta0 };
-    let residual = Residual::new(&inverse(&g, 1.0), &g.targets, linear).unwrap();
+    let residual = ResidualProcess::new(&inverse(&g, 1.0), &g.targets, linear).unwrap();
     let found = residual.evidence.posterior(&s.prior_variances).unwrap().log_likelihood;
     let expected = chain_rule(&g, g.targets.len());
     assert!((found - expected).abs() < 1e-8, "{found} instead of {expected}");
@@ -155,7 +159,7 @@ fn oracle_held_out_errors_are_those_of_refitting_without_the_stretch() {
     let (features, origin) = (s.features.concat(), vec![0.0; s.beta0.len()]);
     let linear = Linear { features: &features, mean: &origin };
     let whole = inverse(&g, 1.0);
-    let residual = Residual::new(&whole, &g.targets, linear).unwrap();
+    let residual = ResidualProcess::new(&whole, &g.targets, linear).unwrap();
     let weights = residual.evidence.posterior(&s.kernel_variances).unwrap();
     let found = residual.held_out_square(&whole, &weights, 4).unwrap();
     let kernel = kernel(&g, 1.0);
@@ -188,7 +192,7 @@ fn oracle_the_posterior_passes_through_targets_without_noise() {
     let g = golden();
     let likelihood = Likelihood::new(&g.points.concat(), g.length_scales.len()).unwrap();
     let inverse = likelihood.condition(&kernel(&g, 1.0), 1e-10).unwrap();
-    let residual = Residual::new(&inverse, &g.targets, Linear::NONE).unwrap();
+    let residual = ResidualProcess::new(&inverse, &g.targets, Linear::NONE).unwrap();
     let mut at_points = golden();
     at_points.queries = g.points;
     at_points.semiparametric.query_features = vec![Vec::new(); g.targets.len()];
@@ -238,7 +242,7 @@ fn inputs_that_tell_nothing_are_no_reason_to_stop() {
         let found = search.run(&inputs, 1, &targets, &on).unwrap();
         let likelihood = Likelihood::new(&inputs, 1).unwrap();
         let inverse = likelihood.condition(&found.kernel, found.noise_variance).unwrap();
-        let residual = Residual::new(&inverse, &targets, Linear::NONE).unwrap();
+        let residual = ResidualProcess::new(&inverse, &targets, Linear::NONE).unwrap();
         assert!(residual.alpha.iter().all(|a| a.is_finite()), "{found:?}");
     }
     assert!(search.run(&[], 1, &[], &on).is_err());

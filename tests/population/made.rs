@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use document::Document;
-use population::{ArmClass, MotionClass, PopulationSpec, CauseRole, TruthSheet, make};
+use population::{ArmClass, CauseRole, MotionClass, PopulationSpec, TruthSheet, make};
 use rayon::ThreadPoolBuilder;
 use simulator::scenario::Scenario;
 use simulator::simulate_noise_free;
@@ -95,7 +95,8 @@ fn a_step_of_the_simulation_is_a_tenth_of_the_encoders() {
             let scenario = Scenario::from_document(&document).unwrap();
             let first = scenario.runs()[0].name.clone();
             let (effects, step) = (scenario.effects().to_vec(), scenario.spec().engine.step_ms);
-            let runs = simulate_noise_free(&scenario, &|name| name == first, &effects, &[]).unwrap();
+            let runs =
+                simulate_noise_free(&scenario, &|name| name == first, &effects, &[]).unwrap();
             (runs[0].clone(), step)
         };
         let (coarse, step) = moved(None);

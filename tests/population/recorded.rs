@@ -9,7 +9,7 @@ use checks::recorded::folder;
 use checks::synthetic::whole_run;
 use logs::{Channels, Run};
 use population::{
-    Knowledge, AddedLaw, Origin, PointMass, PopulationError, RecordedTrial, Transplant, available,
+    AddedLaw, Knowledge, Origin, PointMass, PopulationError, RecordedTrial, Transplant, available,
     draw_recorded, point_mass_torque,
 };
 use rand::RngExt;
@@ -347,7 +347,8 @@ fn a_late_effort_is_that_of_before() {
 fn a_magnet_pulls_most_a_width_from_its_middle_and_drag_grows_with_the_square_of_speed() {
     let (robot, run) = carriage_run([0.0, 1.2]);
     let at = |law: AddedLaw| law.torque(&robot, &run, 1);
-    let [rise, well] = at(AddedLaw::Well { peak: 2.0, centre: 0.3, width: 0.1 }).try_into().unwrap();
+    let [rise, well] =
+        at(AddedLaw::Well { peak: 2.0, centre: 0.3, width: 0.1 }).try_into().unwrap();
     assert!(rise.iter().all(|torque| torque.abs() < 1e-12));
     let largest = well.iter().copied().fold(0.0, f64::max);
     assert!((largest - 2.0).abs() < 0.02, "{largest}");

@@ -9,7 +9,7 @@ use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray, UInt6
 use benchmark::Record;
 use checks::arms::workspace_root;
 use checks::mutated;
-use learner::{Model, ModelKind, Samples, Silent, TrainSettings, Training};
+use learner::{Model, ModelKind, Samples, SilentTraining, TrainSettings, Training};
 use logs::{PrepareSettings, ReadOptions, prepare, read_run, rest_speeds};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::KeyValue;
@@ -138,7 +138,7 @@ fn models(folder: &Path) -> Vec<Vec<u8>> {
     let settings =
         TrainSettings { points: 30, inducing_points: 10, search, ..TrainSettings::default() };
     let rest = rest_speeds(&prepared);
-    let training = Training::new(&ROBOT, &samples, rest, &settings, &Silent);
+    let training = Training::new(&ROBOT, &samples, rest, &settings, &SilentTraining);
     let mut training = training.unwrap().with_named(&ROBOT);
     [ModelKind::Named, ModelKind::NamedGp, ModelKind::GpInducing]
         .map(|kind| {

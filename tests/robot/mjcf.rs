@@ -1,7 +1,7 @@
 //! Robots from MJCF: the torque that MuJoCo gives them, and what is told of the rest.
 
 use dynamics::Dynamics;
-use robot::{PdGain, JointKind, Loaded, Robot, RobotWarning};
+use robot::{JointKind, Loaded, PdGain, Robot, RobotWarning};
 use serde::Deserialize;
 
 use crate::{in_workspace, load};
@@ -59,7 +59,8 @@ fn limits_gains_and_shapes_are_read() {
     assert_eq!(links[2].joint.kind, JointKind::Prismatic);
     let efforts: Vec<_> = links.iter().map(|link| link.joint.limits.effort).collect();
     assert_eq!(efforts, [Some(50.0), Some(60.0), None, Some(12.0)]);
-    let gains = [None, Some(PdGain { kp: 400.0, kd: 20.0 }), None, Some(PdGain { kp: 80.0, kd: 4.0 })];
+    let gains =
+        [None, Some(PdGain { kp: 400.0, kd: 20.0 }), None, Some(PdGain { kp: 80.0, kd: 4.0 })];
     assert_eq!(loaded.control.gains, gains);
     assert_eq!(links[3].merged, ["tool"]);
     assert_eq!(loaded.fixed_to_base, ["column"]);

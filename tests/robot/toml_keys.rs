@@ -1,4 +1,4 @@
-use robot::{PdGain, Loaded, Ripple, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave};
+use robot::{FrictionWave, Loaded, PdGain, Ripple, SensingSide, Stribeck, TorqueSource, Warming};
 
 use super::{arm_with, load};
 

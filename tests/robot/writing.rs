@@ -1,7 +1,8 @@
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use robot::{
-    Inertia, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave,
+    FrictionWave, Inertia, Loaded, Ripple, Robot, RobotError, SensingSide, Stribeck, TorqueSource,
+    Warming,
 };
 
 use super::{in_workspace, wam};

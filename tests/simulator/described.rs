@@ -1,6 +1,6 @@
 //! What the robot's description says acts as the effect of the same name that is put in.
 
-use robot::{Actuator, Reading, Ripple, Robot, Stribeck, Warming, FrictionWave};
+use robot::{Actuator, FrictionWave, Reading, Ripple, Robot, Stribeck, Warming};
 
 use crate::rig::{FINE, Row, STEPPING, flywheel, run, simulator};
 

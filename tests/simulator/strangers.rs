@@ -9,8 +9,8 @@ use robot::Robot;
 use simulator::scenario::Scenario;
 use simulator::strangers::{StrangerKind, StrangerSpec, StrangerTruth};
 use simulator::{
-    EffectSizer, LogFormat, Simulator, SimulatorError, Stepping, draw_hidden_effects, simulate, simulate_noise_free,
-    write,
+    EffectSizer, LogFormat, Simulator, SimulatorError, Stepping, draw_hidden_effects, simulate,
+    simulate_noise_free, write,
 };
 
 use crate::scenario::document;
@@ -188,7 +188,8 @@ fn strangers_stand_in_the_truth_and_in_nothing_else() {
         let simulation = simulate(&scenario, &|| {}).unwrap();
         assert_eq!(simulation.strangers, [scenario.strangers()[0].truth()]);
         assert_eq!(simulation.truth, []);
-        let silent = simulate_noise_free(&scenario, &|name| name == "one", &[], scenario.strangers());
+        let silent =
+            simulate_noise_free(&scenario, &|name| name == "one", &[], scenario.strangers());
         // The sensors of the scenario are perfect.
         assert_eq!(silent.unwrap(), simulation.runs);
         let folder = tempfile::tempdir().unwrap();

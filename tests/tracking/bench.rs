@@ -7,7 +7,7 @@ use document::Document;
 use experiment::{
     FeedforwardKind, Learned, TrackedRun, TrackingScenario, simulated_logs, track_all,
 };
-use learner::Silent;
+use learner::SilentTraining;
 use tempfile::TempDir;
 
 /// The arm with friction, stiction and backlash, stepped less often than usual to save time.
@@ -57,13 +57,13 @@ impl Bench {
 
     /// Learns from the arm's logs what the scenario asks for.
     pub fn learn(&self) -> Learned {
-        let logs = simulated_logs(&self.scenario, &Silent).unwrap();
-        Learned::learn(&self.scenario, &logs, None, &Silent).unwrap()
+        let logs = simulated_logs(&self.scenario, &SilentTraining).unwrap();
+        Learned::learn(&self.scenario, &logs, None, &SilentTraining).unwrap()
     }
 
     /// Tracks with everything that the scenario feeds forward.
     pub fn track(&self, learned: &Learned) -> Vec<TrackedRun> {
-        let runs = track_all(&self.scenario, learned, None, &Silent).unwrap();
+        let runs = track_all(&self.scenario, learned, None, &SilentTraining).unwrap();
         for run in &runs {
             assert_eq!(run.tracking.end, tracking::End::Complete, "{}", run.kind);
         }

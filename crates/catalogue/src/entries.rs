@@ -49,7 +49,10 @@ impl EffectKind {
 
     /// The motion that distinguishes it from `rivals`; `None` without rivals. With a payload among them it is the
     /// payload's, since only a second log can decide then.
-    pub fn distinguishing_motion(self, rivals: impl IntoIterator<Item = Self>) -> Option<&'static str> {
+    pub fn distinguishing_motion(
+        self,
+        rivals: impl IntoIterator<Item = Self>,
+    ) -> Option<&'static str> {
         let mut rivals = rivals.into_iter().peekable();
         rivals.peek()?;
         let payload = rivals.find(|kind| *kind == Self::Payload);

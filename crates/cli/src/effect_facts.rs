@@ -1,5 +1,5 @@
 use catalogue::{EffectEntry, Parameter};
-use diagnosis::Diagnosed;
+use diagnosis::HowFound;
 
 /// What is known of an effect: names of its facts and parameters, and what each is.
 pub fn facts(entry: &EffectEntry) -> Vec<(&'static str, String)> {
@@ -41,11 +41,11 @@ pub fn meaning(parameter: &Parameter) -> String {
 
 /// Whether the diagnosis can name the effect, with what, or why not.
 fn diagnosed(entry: &EffectEntry) -> String {
-    match diagnosis::diagnosed(entry.kind) {
-        Ok(Diagnosed { how, parameters }) if parameters.len() == entry.parameters.len() => {
+    match diagnosis::how_found(entry.kind) {
+        Ok(HowFound { how, parameters }) if parameters.len() == entry.parameters.len() => {
             format!("yes, {how}")
         }
-        Ok(Diagnosed { how, parameters }) => {
+        Ok(HowFound { how, parameters }) => {
             let found: Vec<&str> = parameters.iter().map(|p| p.name).collect();
             format!("yes, {how}: {} only", found.join(" and "))
         }

@@ -8,7 +8,7 @@ use robot::{LoadOptions, Loaded, MeshFolders, Packages, Robot, RobotError};
 
 use crate::effect_name::find_effect;
 use crate::invocation;
-use crate::output::shown;
+use crate::output::display_path;
 
 /// Which part of a robot is meant, and where its meshes are.
 #[derive(Debug, clap::Args)]
@@ -161,14 +161,14 @@ fn without_out(arguments: impl Iterator<Item = String>) -> impl Iterator<Item = 
 ///
 /// [`ReportError::Unreadable`].
 pub fn hash(role: &'static str, path: &Path) -> Result<FileHash, ReportError> {
-    Ok(FileHash { role, path: shown(path), sha256: report::sha256_of(path)? })
+    Ok(FileHash { role, path: display_path(path), sha256: report::sha256_of(path)? })
 }
 
 /// The files of runs, as they were when they were read.
 pub fn hashes_of(runs: &[Run]) -> impl Iterator<Item = FileHash> {
     runs.iter().map(|run| FileHash {
         role: "log",
-        path: shown(&run.source),
+        path: display_path(&run.source),
         sha256: run.sha256.clone(),
     })
 }

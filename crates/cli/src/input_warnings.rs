@@ -1,4 +1,4 @@
-use inspection::Mended;
+use inspection::CorrectedLogs;
 use logs::Run;
 use robot::{Loaded, LockedJoint, RobotWarning};
 
@@ -30,7 +30,7 @@ pub fn input_warnings<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Ru
 /// Prints the warnings about the input, and each correction.
 pub fn correct_runs(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
     input_warnings(loaded, runs).iter().for_each(|warning| warn(warning));
-    let Mended { runs: read, mended, .. } = inspection::mended(&loaded.robot, runs);
+    let CorrectedLogs { runs: read, mended, .. } = inspection::correct(&loaded.robot, runs);
     for seen in &mended {
         let sentence = seen.sentence(&loaded.robot, runs);
         warn(&format!("{sentence} Until then the logs are read so."));

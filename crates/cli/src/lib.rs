@@ -42,11 +42,11 @@ pub use crate::commands::design::motion_design::{MotionDesign, MotionRequest};
 pub use crate::commands::diagnose::{
     write as write_diagnosis, write_recording as record_diagnosis,
 };
+pub use crate::commands::learn::timing::{median_query_us, median_us};
 pub use crate::commands::run::Output as RunOutput;
 pub use crate::commands::run::run_folder::{
     DiagnosedRuns, EXTENDED, RunFolder, diagnosis_files, log_file,
 };
-pub use crate::commands::learn::timing::{median_query_us, median_us};
 pub use crate::commands::schema::print_schema;
 pub use crate::commands::track::tracking_result::{TrackingRequest, TrackingResult};
 pub use crate::effect_name::find_effect;
@@ -59,7 +59,7 @@ pub use crate::invocation::{
     keep as keep_command_line, name as program_name, program as program_file,
 };
 pub use crate::messages::print_error;
-pub use crate::output::{create_folder, print, print_json, shown};
+pub use crate::output::{create_folder, display_path, print, print_json};
 pub use crate::progress::Line;
 pub use crate::watch::Watch;
 

@@ -11,7 +11,7 @@ use crate::error::CliError;
 use crate::input::PartArguments;
 use crate::input_warnings::correct_runs;
 use crate::messages::warn;
-use crate::output::{shown, table};
+use crate::output::{display_path, table};
 
 /// Logs that exports are tested on.
 #[derive(Debug, clap::Args)]
@@ -70,13 +70,15 @@ impl LossArguments {
         let error = |model, described_by, robot: &Robot| {
             ModelError::measure(model, described_by, robot, loaded.control.rate_hz, &runs)
         };
-        let mut models =
-            vec![error("nominal", name, &nominal)?, error("extended", shown(path), &loaded.robot)?];
+        let mut models = vec![
+            error("nominal", name, &nominal)?,
+            error("extended", display_path(path), &loaded.robot)?,
+        ];
         for (format, file, export) in exports {
             models.push(error(format, file, &export.robot)?);
         }
         Ok(Some(Loss {
-            logs: self.logs.iter().map(|log| shown(log)).collect(),
+            logs: self.logs.iter().map(|log| display_path(log)).collect(),
             joints: loaded.robot.joint_names().map(str::to_owned).collect(),
             models,
         }))
@@ -94,7 +96,7 @@ impl LossArguments {
             .clone()
             .or_else(|| diagnosed_robot(&path.with_file_name("diagnosis.json")));
         let Some(file) = found else {
-            let name = shown(&loaded.urdf_path);
+            let name = display_path(&loaded.urdf_path);
             warn(&format!("nominal is what {name} says alone; --nominal names another robot"));
             return Ok((loaded.robot_in_urdf.clone(), name));
         };
@@ -102,7 +104,7 @@ impl LossArguments {
         if !nominal.joint_names().eq(loaded.robot.joint_names()) {
             return Err(CliError::OtherJoints { path: file, expected: path.to_owned() });
         }
-        Ok((nominal, shown(&file)))
+        Ok((nominal, display_path(&file)))
     }
 }
 

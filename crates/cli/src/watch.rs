@@ -94,7 +94,7 @@ impl Watch {
     }
 }
 
-impl learner::Progress for Watch {
+impl learner::TrainingProgress for Watch {
     fn stage(&self, words: &str) {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner)[1] = words.to_owned();
         self.say("");

@@ -5,7 +5,7 @@ use logs::{Run, repeated};
 use robot::Robot;
 
 use crate::columns::design::Design;
-use crate::diagnose::{Outcome, diagnose};
+use crate::diagnose::{DiagnosisRun, diagnose};
 use crate::error::DiagnosisError;
 use crate::outcome::effect_at::effect_at;
 use crate::progress::Progress;
@@ -23,9 +23,9 @@ use crate::signals::log::Log;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// The diagnosis of the first logs.
-    pub before: Outcome,
+    pub before: DiagnosisRun,
     /// The diagnosis of the other logs about the robot with the findings of the first ones: its findings are the changes.
-    pub after: Outcome,
+    pub after: DiagnosisRun,
     /// Sizes of these findings in the first logs, about that robot, where the columns of an effect are linear.
     pub first: Vec<FirstSize>,
     /// Findings about that robot that the first logs show to the same size: an error that remains in both, and no change.
@@ -83,7 +83,7 @@ pub fn compare(
 
 /// Sizes of some hypotheses in the logs of a diagnosis, about the robot that has its findings.
 fn sizes(
-    outcome: &Outcome,
+    outcome: &DiagnosisRun,
     hypotheses: &[Hypothesis],
     settings: &Settings,
 ) -> Result<Vec<FirstSize>, DiagnosisError> {

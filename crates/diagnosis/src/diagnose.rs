@@ -6,7 +6,7 @@ use robot::Robot;
 use crate::error::DiagnosisError;
 use crate::find_tones::ToneSearch;
 use crate::oscillations::limits::limits;
-use crate::outcome::held_out::HeldOut;
+use crate::outcome::held_out::HeldOutPart;
 use crate::outcome::hold::words_for_hold;
 use crate::outcome::second_encoder::compare_encoders;
 use crate::outcome::traces::{RunTraces, traces};
@@ -22,7 +22,7 @@ use crate::signals::log::Log;
 
 /// A diagnosis with the logs, robots and signals behind it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
+pub struct DiagnosisRun {
     /// Causes, sizes and verdicts.
     pub diagnosis: Diagnosis,
     /// Signals for figures.
@@ -34,7 +34,7 @@ pub struct Outcome {
     /// The logs as they were diagnosed.
     pub prepared: Prepared,
     /// The parts that were held out in turn, as stretches of `prepared`.
-    pub held_out: Vec<HeldOut>,
+    pub held_out: Vec<HeldOutPart>,
 }
 
 /// Finds the errors of the model of `robot` in `runs`, names their causes, and measures how much better the model predicts
@@ -61,7 +61,7 @@ pub fn diagnose(
     runs: &[Run],
     settings: &Settings,
     progress: &dyn Progress,
-) -> Result<Outcome, DiagnosisError> {
+) -> Result<DiagnosisRun, DiagnosisError> {
     settings.check()?;
     progress.stage("preparing the logs", 2);
     let t = &settings.thresholds;
@@ -111,7 +111,7 @@ pub fn diagnose(
         diagnosis.data.put_right = true;
         diagnosis.verdict = diagnosis.verdict.of_corrected_logs();
     }
-    Ok(Outcome { diagnosis, traces, extended, read, prepared, held_out })
+    Ok(DiagnosisRun { diagnosis, traces, extended, read, prepared, held_out })
 }
 
 /// The answer of a search; `data.runs` and `warnings` of the diagnosis are left for the caller.
@@ -119,7 +119,7 @@ struct Answer {
     diagnosis: Diagnosis,
     traces: Vec<RunTraces>,
     extended: Robot,
-    held_out: Vec<HeldOut>,
+    held_out: Vec<HeldOutPart>,
 }
 
 /// Searches, tests and assembles the diagnosis.

@@ -1,9 +1,9 @@
 use catalogue::{EffectKind, Parameter};
-use effects::Seat;
+use effects::Location;
 
 /// How a diagnosis finds an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Diagnosed {
+pub struct HowFound {
     /// The method, in a few words.
     pub how: &'static str,
     /// The parameters that it finds.
@@ -15,27 +15,27 @@ pub struct Diagnosed {
 /// # Errors
 ///
 /// The reason why it does not.
-pub fn diagnosed(kind: EffectKind) -> Result<Diagnosed, &'static str> {
+pub fn how_found(kind: EffectKind) -> Result<HowFound, &'static str> {
     let parameters = kind.entry().parameters;
     match kind {
         EffectKind::TorqueRipple => {
-            Ok(Diagnosed { how: "as a line of the spectrum over position", parameters })
+            Ok(HowFound { how: "as a line of the spectrum over position", parameters })
         }
-        EffectKind::ExternalDisturbance => Ok(Diagnosed {
+        EffectKind::ExternalDisturbance => Ok(HowFound {
             how: "as a line of the spectrum over time",
             parameters: &parameters[..3],
         }),
         EffectKind::TorqueSaturation => {
-            Ok(Diagnosed { how: "as effort beyond a limit that moves nothing", parameters })
+            Ok(HowFound { how: "as effort beyond a limit that moves nothing", parameters })
         }
         _ => {
             let model = effects::model(kind)?;
-            let how = if model.nature().seat == Seat::BeforeTheLink {
+            let how = if model.traits().location == Location::BeforeTheLink {
                 "by its columns in a regression: of the effort, or of what two encoders differ by"
             } else {
                 "by its columns in a regression"
             };
-            Ok(Diagnosed { how, parameters: model.parameters() })
+            Ok(HowFound { how, parameters: model.parameters() })
         }
     }
 }

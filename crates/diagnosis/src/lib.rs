@@ -32,10 +32,10 @@ mod signals;
 mod thresholds;
 
 pub use compare::{Comparison, FirstSize, compare};
-pub use diagnose::{Outcome, diagnose};
+pub use diagnose::{DiagnosisRun, diagnose};
 pub use error::DiagnosisError;
-pub use how_found::{Diagnosed, diagnosed};
-pub use outcome::held_out::{HeldOut, Span};
+pub use how_found::{HowFound, how_found};
+pub use outcome::held_out::{HeldOutPart, Span};
 pub use outcome::traces::{JointTraces, RunTraces};
 pub use progress::{Progress, Silent};
 pub use result::{

@@ -1,5 +1,5 @@
 use catalogue::EffectKind;
-use effects::Shows;
+use effects::RevealedBy;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
@@ -218,12 +218,12 @@ impl Finding {
     /// such as `FR04 Stribeck friction near rest`.
     pub fn rivals(&self) -> (Vec<String>, Vec<String>) {
         let shows = |r: &EffectAt| {
-            let (of, shows) = effects::model(r.effect).ok()?.nature().form_of()?;
+            let (of, shows) = effects::model(r.effect).ok()?.traits().form_of()?;
             (of == self.at.effect && r.joint == self.at.joint).then_some(shows)
         };
         let all = self.not_separable_from.iter();
         let (forms, others): (Vec<_>, Vec<_>) = all.partition(|r| shows(r).is_some());
-        let is_near_rest = |r: &&EffectAt| shows(r) == Some(Shows::NearRest);
+        let is_near_rest = |r: &&EffectAt| shows(r) == Some(RevealedBy::NearRest);
         let (at_rest, elsewhere): (Vec<_>, Vec<_>) = forms.into_iter().partition(is_near_rest);
         let words = |forms: Vec<&EffectAt>, place: &str| {
             let labels: Vec<String> = forms.iter().map(|r| r.effect.label()).collect();
@@ -243,7 +243,7 @@ impl Finding {
     /// Whether a rival explains as much only together with another one, as Coulomb friction with an offset explains as much as
     /// asymmetric friction.
     fn is_part_of(&self, rival: &EffectAt) -> bool {
-        let parts = effects::model(self.at.effect).map_or(&[] as &[_], |m| m.nature().together());
+        let parts = effects::model(self.at.effect).map_or(&[] as &[_], |m| m.traits().together());
         parts.contains(&rival.effect) && rival.joint == self.at.joint
     }
 }

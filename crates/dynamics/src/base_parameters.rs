@@ -2,7 +2,7 @@ use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
-use crate::columns::{Column, ColumnSet};
+use crate::columns::{ColumnSet, RegressorColumn};
 use crate::error::{DynamicsError, check};
 use crate::model::Dynamics;
 
@@ -34,7 +34,7 @@ const MAPPING_ROUNDING: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq)]
 pub struct BaseParameters {
     /// All columns, in the order of [`ColumnSet::columns`].
-    pub columns: Vec<Column>,
+    pub columns: Vec<RegressorColumn>,
     /// Indices of the columns kept, ascending.
     pub independent: Vec<usize>,
     /// Indices of the other columns, ascending.
@@ -111,11 +111,13 @@ fn singular_values(triangle: &DMatrix<f64>) -> Vec<f64> {
 }
 
 /// Order in which columns are offered (see [`base_parameters`]).
-fn preference(columns: &[Column]) -> Vec<usize> {
-    let rank = |column: &Column| match *column {
-        Column::Viscous { .. } | Column::Coulomb { .. } | Column::Offset { .. } => 0,
-        Column::Inertial { .. } => 1,
-        Column::Rotor { .. } => 2,
+fn preference(columns: &[RegressorColumn]) -> Vec<usize> {
+    let rank = |column: &RegressorColumn| match *column {
+        RegressorColumn::Viscous { .. }
+        | RegressorColumn::Coulomb { .. }
+        | RegressorColumn::Offset { .. } => 0,
+        RegressorColumn::Inertial { .. } => 1,
+        RegressorColumn::Rotor { .. } => 2,
     };
     let mut order: Vec<usize> = (0..columns.len()).rev().collect();
     order.sort_by_key(|&c| rank(&columns[c]));
@@ -157,7 +159,7 @@ fn uniform() -> impl FnMut() -> f64 {
 
 /// `R` of `W diag(1 / scales) = Q R`, and the scales: of every column, the norm of the
 /// longest one of its kind. The columns of `R` have the inner products of the scaled `W`.
-fn scaled_triangle(w: &DMatrix<f64>, columns: &[Column]) -> (DMatrix<f64>, Vec<f64>) {
+fn scaled_triangle(w: &DMatrix<f64>, columns: &[RegressorColumn]) -> (DMatrix<f64>, Vec<f64>) {
     let longest = |kind: usize| {
         let alike = (0..columns.len()).filter(|&c| self::kind(&columns[c]) == kind);
         let norm = alike.map(|c| w.column(c).norm()).fold(0.0, f64::max);
@@ -173,15 +175,15 @@ fn scaled_triangle(w: &DMatrix<f64>, columns: &[Column]) -> (DMatrix<f64>, Vec<f
 }
 
 /// Columns of one kind share their unit.
-fn kind(column: &Column) -> usize {
+fn kind(column: &RegressorColumn) -> usize {
     match *column {
-        Column::Inertial { parameter: 0, .. } => 0,
-        Column::Inertial { parameter: 1..=3, .. } => 1,
-        Column::Inertial { .. } => 2,
-        Column::Rotor { .. } => 3,
-        Column::Viscous { .. } => 4,
-        Column::Coulomb { .. } => 5,
-        Column::Offset { .. } => 6,
+        RegressorColumn::Inertial { parameter: 0, .. } => 0,
+        RegressorColumn::Inertial { parameter: 1..=3, .. } => 1,
+        RegressorColumn::Inertial { .. } => 2,
+        RegressorColumn::Rotor { .. } => 3,
+        RegressorColumn::Viscous { .. } => 4,
+        RegressorColumn::Coulomb { .. } => 5,
+        RegressorColumn::Offset { .. } => 6,
     }
 }
 
@@ -194,7 +196,7 @@ struct Kept {
 
 impl Kept {
     /// The independent columns of `triangle`, as they are preferred.
-    fn of(triangle: &DMatrix<f64>, columns: &[Column]) -> Vec<usize> {
+    fn of(triangle: &DMatrix<f64>, columns: &[RegressorColumn]) -> Vec<usize> {
         let (rows, most) = (triangle.nrows(), triangle.nrows().min(triangle.ncols()));
         let mut kept = Self { basis: DMatrix::zeros(rows, most), columns: Vec::new() };
         preference(columns).into_iter().for_each(|column| kept.offer(column, triangle));

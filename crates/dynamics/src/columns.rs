@@ -3,7 +3,7 @@ use crate::regressor::PARAMETERS_PER_LINK;
 
 /// One column of a regressor: the parameter it multiplies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Column {
+pub enum RegressorColumn {
     /// Inertial parameter of a link, in the order of [`robot::Inertia::parameters`].
     Inertial {
         /// Index of the link.
@@ -53,32 +53,36 @@ impl ColumnSet {
     pub const ALL: Self = Self { rotor: true, viscous: true, coulomb: true, offset: true };
 
     /// The families that appear among `columns`.
-    pub fn of(columns: &[Column]) -> Self {
-        let any = |is: fn(&Column) -> bool| columns.iter().any(is);
+    pub fn of(columns: &[RegressorColumn]) -> Self {
+        let any = |is: fn(&RegressorColumn) -> bool| columns.iter().any(is);
         Self {
-            rotor: any(|c| matches!(c, Column::Rotor { .. })),
-            viscous: any(|c| matches!(c, Column::Viscous { .. })),
-            coulomb: any(|c| matches!(c, Column::Coulomb { .. })),
-            offset: any(|c| matches!(c, Column::Offset { .. })),
+            rotor: any(|c| matches!(c, RegressorColumn::Rotor { .. })),
+            viscous: any(|c| matches!(c, RegressorColumn::Viscous { .. })),
+            coulomb: any(|c| matches!(c, RegressorColumn::Coulomb { .. })),
+            offset: any(|c| matches!(c, RegressorColumn::Offset { .. })),
         }
     }
 
     /// The columns for `joints` joints, in order: inertial link by link, then rotor,
     /// viscous, Coulomb and offset joint by joint.
-    pub fn columns(self, joints: usize) -> Vec<Column> {
+    pub fn columns(self, joints: usize) -> Vec<RegressorColumn> {
         let inertial = (0..joints).flat_map(|link| {
-            (0..PARAMETERS_PER_LINK).map(move |parameter| Column::Inertial { link, parameter })
+            (0..PARAMETERS_PER_LINK)
+                .map(move |parameter| RegressorColumn::Inertial { link, parameter })
         });
         let all = 0..joints;
-        let rotor = all.clone().map(|joint| Column::Rotor { joint }).filter(|_| self.rotor);
-        let viscous = all.clone().map(|joint| Column::Viscous { joint }).filter(|_| self.viscous);
-        let coulomb = all.clone().map(|joint| Column::Coulomb { joint }).filter(|_| self.coulomb);
-        let offset = all.map(|joint| Column::Offset { joint }).filter(|_| self.offset);
+        let rotor =
+            all.clone().map(|joint| RegressorColumn::Rotor { joint }).filter(|_| self.rotor);
+        let viscous =
+            all.clone().map(|joint| RegressorColumn::Viscous { joint }).filter(|_| self.viscous);
+        let coulomb =
+            all.clone().map(|joint| RegressorColumn::Coulomb { joint }).filter(|_| self.coulomb);
+        let offset = all.map(|joint| RegressorColumn::Offset { joint }).filter(|_| self.offset);
         inertial.chain(rotor).chain(viscous).chain(coulomb).chain(offset).collect()
     }
 }
 
-impl std::fmt::Display for Column {
+impl std::fmt::Display for RegressorColumn {
     /// Short name with 1-based numbers, as in the literature: `mx3`, `Izz7`, `Ia2`, `fv4`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         const NAMES: [&str; PARAMETERS_PER_LINK] =

@@ -44,7 +44,7 @@ mod rotor;
 mod spatial;
 
 pub use base_parameters::{BaseParameters, base_parameter_count, base_parameters};
-pub use columns::{Column, ColumnSet};
+pub use columns::{ColumnSet, RegressorColumn};
 pub use consistency::{ConsistentFit, ConsistentInertias, FitOutcome, ShiftedPrior};
 pub use derivatives::InverseDynamicsDerivatives;
 pub use error::DynamicsError;

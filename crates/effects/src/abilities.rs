@@ -3,9 +3,9 @@
 
 use robot::{Actuator, Robot};
 
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::AtJoint;
 use crate::priors::Priors;
@@ -16,7 +16,7 @@ pub trait HasShape {
     fn shapes(&self, at: AtJoint, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
     /// Gives the drive of `joint` the effect with one of its `shapes` and no size.
-    fn sow(&self, joint: usize, drive: &mut Actuator, shape: f64);
+    fn set_shape(&self, joint: usize, drive: &mut Actuator, shape: f64);
 
     /// Takes the shape back to that of the drive `before`, where the effect has stayed without size.
     fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator);
@@ -26,19 +26,19 @@ pub trait HasShape {
 pub trait BetweenEncoders {
     /// What one unit of each weight adds to the position that the first encoder reports beyond that of the link
     /// (rad or m).
-    fn twist(&self, at: AtJoint, motion: &Motion) -> Vec<Column>;
+    fn twist(&self, at: AtJoint, motion: &RunMotion) -> Vec<EffectColumn>;
 }
 
 /// Descriptions made by CAD are usually wrong by a known amount.
 pub trait HasCadError<P> {
     /// Standard deviation of each weight due to the errors that every description has.
-    fn everyday(&self, at: P, robot: &Robot, priors: &Priors) -> Vec<f64>;
+    fn cad_error_sd(&self, at: P, robot: &Robot, priors: &Priors) -> Vec<f64>;
 }
 
 /// Few arms have it.
 pub trait IsRare<P> {
     /// Log odds (nats) against an arm that has the effect there, beyond those against any effect.
-    fn rarity(&self, at: P, robot: &Robot, priors: &Priors) -> f64;
+    fn prior_log_odds_against(&self, at: P, robot: &Robot, priors: &Priors) -> f64;
 }
 
 /// Weights within their bounds may still be impossible together.

@@ -2,15 +2,15 @@ use catalogue::{EffectKind, Parameter};
 use robot::{Actuator, Robot};
 
 use crate::abilities::HasShape;
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, Place, TypedPlace};
 use crate::priors::Priors;
-use crate::quantity::Quantity;
-use crate::traits::Nature;
+use crate::quantity::EffectQuantity;
+use crate::traits::Traits;
 
 /// An [`Effect`] of any kind of place, as [`model`](crate::model) gives it.
 ///
@@ -20,8 +20,8 @@ pub trait AnyEffect: Sync {
     /// See [`Effect::kind`].
     fn kind(&self) -> EffectKind;
 
-    /// See [`Effect::nature`].
-    fn nature(&self) -> Nature;
+    /// See [`Effect::traits`].
+    fn traits(&self) -> Traits;
 
     /// See [`Effect::remedy`].
     ///
@@ -43,19 +43,19 @@ pub trait AnyEffect: Sync {
     fn places(&self, robot: &Robot) -> Vec<Place>;
 
     /// See [`Effect::columns`].
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column>;
+    fn columns(&self, place: Place, motion: &RunMotion) -> Vec<EffectColumn>;
 
     /// See [`BetweenEncoders`](crate::BetweenEncoders); no columns of an effect that is elsewhere.
-    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column>;
+    fn twist(&self, place: Place, motion: &RunMotion) -> Vec<EffectColumn>;
 
     /// See [`Effect::prior`].
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
     /// See [`HasCadError`](crate::HasCadError).
-    fn everyday(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>>;
+    fn cad_error_sd(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>>;
 
     /// See [`IsRare`](crate::IsRare); 0 of an effect that is not.
-    fn rarity(&self, place: Place, robot: &Robot, priors: &Priors) -> f64;
+    fn prior_log_odds_against(&self, place: Place, robot: &Robot, priors: &Priors) -> f64;
 
     /// See [`Effect::bounds`].
     fn bounds(&self, place: Place, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)>;
@@ -89,7 +89,7 @@ pub trait AnyEffect: Sync {
     );
 
     /// See [`Effect::quantities`].
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<EffectQuantity>;
 }
 
 impl<E: Effect> AnyEffect for E {
@@ -97,8 +97,8 @@ impl<E: Effect> AnyEffect for E {
         Effect::kind(self)
     }
 
-    fn nature(&self) -> Nature {
-        Effect::nature(self)
+    fn traits(&self) -> Traits {
+        Effect::traits(self)
     }
 
     fn remedy(&self) -> Result<&'static str, &'static str> {
@@ -121,11 +121,11 @@ impl<E: Effect> AnyEffect for E {
         Effect::places(self, robot).into_iter().map(TypedPlace::place).collect()
     }
 
-    fn columns(&self, place: Place, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, place: Place, motion: &RunMotion) -> Vec<EffectColumn> {
         E::At::of(place).map(|at| Effect::columns(self, at, motion)).unwrap_or_default()
     }
 
-    fn twist(&self, place: Place, motion: &Motion) -> Vec<Column> {
+    fn twist(&self, place: Place, motion: &RunMotion) -> Vec<EffectColumn> {
         let between = self.between_encoders().zip(AtJoint::of(place));
         between.map(|(effect, at)| effect.twist(at, motion)).unwrap_or_default()
     }
@@ -134,12 +134,14 @@ impl<E: Effect> AnyEffect for E {
         E::At::of(place).map(|at| Effect::prior(self, at, robot, scale, priors)).unwrap_or_default()
     }
 
-    fn everyday(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
-        Some(self.cad_error()?.everyday(E::At::of(place)?, robot, priors))
+    fn cad_error_sd(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
+        Some(self.cad_error()?.cad_error_sd(E::At::of(place)?, robot, priors))
     }
 
-    fn rarity(&self, place: Place, robot: &Robot, priors: &Priors) -> f64 {
-        self.rare().zip(E::At::of(place)).map_or(0.0, |(rare, at)| rare.rarity(at, robot, priors))
+    fn prior_log_odds_against(&self, place: Place, robot: &Robot, priors: &Priors) -> f64 {
+        self.rare()
+            .zip(E::At::of(place))
+            .map_or(0.0, |(rare, at)| rare.prior_log_odds_against(at, robot, priors))
     }
 
     fn bounds(&self, place: Place, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
@@ -189,7 +191,7 @@ impl<E: Effect> AnyEffect for E {
         }
     }
 
-    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(&self, place: Place, nominal: &Robot, extended: &Robot) -> Vec<EffectQuantity> {
         let at = E::At::of(place);
         at.map(|at| Effect::quantities(self, at, nominal, extended)).unwrap_or_default()
     }

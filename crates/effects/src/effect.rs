@@ -4,14 +4,14 @@ use robot::{Actuator, Robot};
 use crate::abilities::{
     BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare, IsRestricted,
 };
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::TypedPlace;
 use crate::priors::Priors;
-use crate::quantity::Quantity;
-use crate::traits::Nature;
+use crate::quantity::EffectQuantity;
+use crate::traits::Traits;
 
 /// What is asked of a motor against dry friction, whatever its law.
 pub(crate) const EASED_LEVEL: &str =
@@ -33,7 +33,7 @@ pub trait Effect: Sync {
     fn kind(&self) -> EffectKind;
 
     /// What is known of it before any log.
-    fn nature(&self) -> Nature;
+    fn traits(&self) -> Traits;
 
     /// How [`Compensation`](crate::Compensation) undoes it.
     ///
@@ -55,7 +55,7 @@ pub trait Effect: Sync {
     fn places(&self, robot: &Robot) -> Vec<Self::At>;
 
     /// One column a weight, for the motion of one run.
-    fn columns(&self, at: Self::At, motion: &Motion) -> Vec<Column>;
+    fn columns(&self, at: Self::At, motion: &RunMotion) -> Vec<EffectColumn>;
 
     /// Standard deviation of each weight before any data is seen.
     fn prior(&self, at: Self::At, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
@@ -74,7 +74,7 @@ pub trait Effect: Sync {
     );
 
     /// The parameters that a user reads, from the robot before and after.
-    fn quantities(&self, at: Self::At, nominal: &Robot, extended: &Robot) -> Vec<Quantity>;
+    fn quantities(&self, at: Self::At, nominal: &Robot, extended: &Robot) -> Vec<EffectQuantity>;
 
     /// See [`HasShape`].
     fn shape(&self) -> Option<&dyn HasShape> {

@@ -2,15 +2,15 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::any_effect::AnyEffect;
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::model::{MODELLED, model};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::Place;
 use crate::priors::Priors;
-use crate::quantity::Quantity;
-use crate::traits::{Linearity, Nature, Relation, Seat};
+use crate::quantity::EffectQuantity;
+use crate::traits::{Linearity, Location, Relation, Traits};
 
 /// An effect at a place: one thing that could be wrong.
 ///
@@ -38,7 +38,7 @@ impl Hypothesis {
     }
 
     /// See [`AnyEffect::columns`].
-    pub fn columns(self, motion: &Motion) -> Vec<Column> {
+    pub fn columns(self, motion: &RunMotion) -> Vec<EffectColumn> {
         let mut columns = self.model().map(|m| m.columns(self.place, motion)).unwrap_or_default();
         for part in columns.iter_mut().flatten() {
             part.values = motion.with_timing(part.joint, std::mem::take(&mut part.values));
@@ -47,29 +47,30 @@ impl Hypothesis {
     }
 
     /// See [`AnyEffect::twist`].
-    pub fn twist(self, motion: &Motion) -> Vec<Column> {
+    pub fn twist(self, motion: &RunMotion) -> Vec<EffectColumn> {
         self.model().map(|m| m.twist(self.place, motion)).unwrap_or_default()
     }
 
-    /// See [`AnyEffect::nature`]; none of an effect without a model.
-    pub fn nature(self) -> Option<Nature> {
-        self.model().map(|m| m.nature())
+    /// See [`AnyEffect::traits`]; none of an effect without a model.
+    pub fn traits(self) -> Option<Traits> {
+        self.model().map(|m| m.traits())
     }
 
     /// Whether its columns hold for a small change only ([`Linearity::Tangent`]).
     pub fn is_tangent(self) -> bool {
-        self.nature().is_some_and(|n| n.linearity != Linearity::Exact)
+        self.traits().is_some_and(|n| n.linearity != Linearity::Exact)
     }
 
-    /// Whether something else may pass for it ([`Nature::imitable`]).
-    pub fn is_doubtful(self) -> bool {
-        self.nature().is_some_and(|n| n.imitable)
+    /// Whether something else may pass for it ([`Traits::imitable`]).
+    pub fn is_imitable(self) -> bool {
+        self.traits().is_some_and(|n| n.imitable)
     }
 
     /// The joint of an effect that lies between its encoder and its link, where a second encoder at the link shows
     /// it.
     pub fn before_the_link(self) -> Option<usize> {
-        self.joint().filter(|_| self.nature().is_some_and(|n| n.seat == Seat::BeforeTheLink))
+        self.joint()
+            .filter(|_| self.traits().is_some_and(|n| n.location == Location::BeforeTheLink))
     }
 
     /// See [`AnyEffect::prior`].
@@ -77,14 +78,14 @@ impl Hypothesis {
         self.model().map(|m| m.prior(self.place, robot, scale, priors)).unwrap_or_default()
     }
 
-    /// See [`AnyEffect::everyday`].
-    pub fn everyday(self, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
-        self.model()?.everyday(self.place, robot, priors)
+    /// See [`AnyEffect::cad_error_sd`].
+    pub fn cad_error_sd(self, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
+        self.model()?.cad_error_sd(self.place, robot, priors)
     }
 
-    /// See [`AnyEffect::rarity`].
-    pub fn rarity(self, robot: &Robot, priors: &Priors) -> f64 {
-        self.model().map_or(0.0, |m| m.rarity(self.place, robot, priors))
+    /// See [`AnyEffect::prior_log_odds_against`].
+    pub fn prior_log_odds_against(self, robot: &Robot, priors: &Priors) -> f64 {
+        self.model().map_or(0.0, |m| m.prior_log_odds_against(self.place, robot, priors))
     }
 
     /// See [`AnyEffect::bounds`].
@@ -127,7 +128,7 @@ impl Hypothesis {
     }
 
     /// See [`AnyEffect::quantities`].
-    pub fn quantities(self, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    pub fn quantities(self, nominal: &Robot, extended: &Robot) -> Vec<EffectQuantity> {
         self.model().map(|m| m.quantities(self.place, nominal, extended)).unwrap_or_default()
     }
 
@@ -152,13 +153,13 @@ impl Hypothesis {
 
     /// The Coulomb friction whose level varies by this effect.
     pub fn varies(self) -> Option<Self> {
-        let (kind, _) = self.nature()?.form_of()?;
+        let (kind, _) = self.traits()?.form_of()?;
         Some(Self { kind, place: self.place })
     }
 
     /// Effects of the same place whose sum is this one: Coulomb friction and an offset for asymmetric friction.
     pub fn together(self) -> Vec<Self> {
-        let kinds = self.nature().map_or(&[] as &[EffectKind], Nature::together);
+        let kinds = self.traits().map_or(&[] as &[EffectKind], Traits::together);
         kinds.iter().map(|&kind| Self { kind, place: self.place }).collect()
     }
 
@@ -180,7 +181,7 @@ impl Hypothesis {
     }
 
     fn relations(self) -> &'static [Relation] {
-        self.nature().map_or(&[], |n| n.relations)
+        self.traits().map_or(&[], |n| n.relations)
     }
 
     /// Index of the joint, for an effect of a joint.

@@ -30,8 +30,8 @@ pub use abilities::{
     BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare, IsRestricted,
 };
 pub use any_effect::AnyEffect;
-pub use column::{Column, Part};
-pub use compensation::feedforward::{Compensated, Compensation, CompensationWorkspace};
+pub use column::{ColumnPart, EffectColumn};
+pub use compensation::feedforward::{Compensation, CompensationWorkspace, FeedforwardEfforts};
 pub use compensation::left_out::left_out;
 pub use effect::Effect;
 pub use hypothesis::{Hypothesis, hypotheses};
@@ -39,10 +39,10 @@ pub use model::{MODELLED, model, remedy};
 pub use motion::drive::drive_torque;
 pub use motion::encoders::Encoders;
 pub use motion::frame::Frame;
-pub use motion::run_motion::Motion;
+pub use motion::run_motion::RunMotion;
 pub use motion::scale::Scale;
 pub use place::{AtBase, AtJoint, InLink, Place, TypedPlace};
 pub use priors::Priors;
-pub use quantity::Quantity;
-pub use traits::{Law, Linearity, Nature, Relation, Seat, Shows, Weights};
-pub use trial_shape::{Germ, germs, weeded};
+pub use quantity::EffectQuantity;
+pub use traits::{Law, Linearity, Location, Relation, RevealedBy, Traits, Weights};
+pub use trial_shape::{TrialShape, trial_shapes, without_unused_shapes};

@@ -3,7 +3,7 @@ use robot::{Actuator, Robot};
 
 /// A parameter of an effect as the user knows it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Quantity {
+pub struct EffectQuantity {
     /// Name, as in the catalogue.
     pub name: &'static str,
     /// Value.
@@ -33,8 +33,8 @@ pub(crate) fn actuator_quantity(
     joint: usize,
     [nominal, extended]: [&Robot; 2],
     read: impl Fn(&Actuator) -> f64,
-) -> Quantity {
+) -> EffectQuantity {
     let (name, unit) = name_and_unit(kind, index, nominal, joint);
     let value = |r: &Robot| r.links().get(joint).map_or(f64::NAN, |l| read(&l.actuator));
-    Quantity { name, value: value(extended), nominal: value(nominal), unit }
+    EffectQuantity { name, value: value(extended), nominal: value(nominal), unit }
 }

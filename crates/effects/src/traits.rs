@@ -21,14 +21,14 @@ pub(crate) enum Imitable {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Law {
     /// One size holds everywhere.
-    Firm,
+    Exact,
     /// Sizes differ with speed, position or load.
-    Rough,
+    Approximate,
 }
 
 /// Where an effect lies relative to the first encoder of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Seat {
+pub enum Location {
     /// Between that encoder and the link: a second one at the link shows it.
     BeforeTheLink,
     /// Anywhere else.
@@ -50,7 +50,7 @@ pub enum Weights {
 
 /// Where a form of dry friction differs from Coulomb friction of one level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shows {
+pub enum RevealedBy {
     /// Near rest.
     NearRest,
     /// At other positions than those of a log that does not show it.
@@ -61,7 +61,7 @@ pub enum Shows {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Relation {
     /// It makes the size of that effect at the same joint vary, which shows there.
-    FormOf(EffectKind, Shows),
+    FormOf(EffectKind, RevealedBy),
     /// It is the sum of these effects at the same place.
     Together(&'static [EffectKind]),
     /// It is another name for changes of the same numbers.
@@ -80,7 +80,7 @@ pub enum Relation {
 ///
 /// Every effect states all of it in its own file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Nature {
+pub struct Traits {
     /// How its columns depend on the robot.
     pub linearity: Linearity,
     /// Whether an error elsewhere, or one of many trial shapes, may pass for it.
@@ -88,25 +88,25 @@ pub struct Nature {
     /// How far its law holds.
     pub law: Law,
     /// Where it lies.
-    pub seat: Seat,
+    pub location: Location,
     /// How its weights are related to its parameters.
     pub weights: Weights,
     /// How it is related to other effects.
     pub relations: &'static [Relation],
 }
 
-impl Nature {
+impl Traits {
     /// All that is known of an effect.
     pub(crate) const fn new(
         linearity: Linearity,
         imitable: Imitable,
         law: Law,
-        seat: Seat,
+        location: Location,
         weights: Weights,
         relations: &'static [Relation],
     ) -> Self {
         let imitable = matches!(imitable, Imitable::Yes);
-        Self { linearity, imitable, law, seat, weights, relations }
+        Self { linearity, imitable, law, location, weights, relations }
     }
 
     /// Whether it counts only for what it explains beyond simpler effects at every joint.
@@ -124,7 +124,7 @@ impl Nature {
     }
 
     /// The effect whose size it makes vary, and where that shows.
-    pub fn form_of(self) -> Option<(EffectKind, Shows)> {
+    pub fn form_of(self) -> Option<(EffectKind, RevealedBy)> {
         let form = |r: &Relation| match r {
             Relation::FormOf(kind, shows) => Some((*kind, *shows)),
             _ => None,

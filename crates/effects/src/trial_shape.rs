@@ -2,10 +2,10 @@ use catalogue::EffectKind;
 use robot::Robot;
 
 use crate::abilities::HasShape;
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::hypothesis::Hypothesis;
 use crate::model::{MODELLED, model};
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, Place, TypedPlace};
 use crate::priors::Priors;
@@ -13,7 +13,7 @@ use crate::priors::Priors;
 /// A trial value of the parameter in which the columns of an effect at a joint are not linear: a Stribeck velocity,
 /// periods in a turn, a gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Germ {
+pub struct TrialShape {
     /// The effect and its joint.
     pub hypothesis: Hypothesis,
     /// The trial value.
@@ -21,13 +21,13 @@ pub struct Germ {
 }
 
 /// Every trial shape of every effect that this robot could have.
-pub fn germs(robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<Germ> {
+pub fn trial_shapes(robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<TrialShape> {
     let mut all = Vec::new();
     for (kind, effect) in shaped() {
         for joint in 0..robot.joint_count() {
             let hypothesis = Hypothesis { kind, place: Place::Joint(joint) };
             let shapes = effect.shapes(AtJoint(joint), robot, scale, priors).into_iter();
-            all.extend(shapes.map(|shape| Germ { hypothesis, shape }));
+            all.extend(shapes.map(|shape| TrialShape { hypothesis, shape }));
         }
     }
     all
@@ -40,7 +40,7 @@ fn shaped() -> impl Iterator<Item = (EffectKind, &'static dyn HasShape)> {
 
 /// `robot` with the shapes of `nominal` wherever an effect stayed without size. A drive loses at most the friction that
 /// it has by warming up.
-pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
+pub fn without_unused_shapes(mut robot: Robot, nominal: &Robot) -> Robot {
     for (j, link) in nominal.links().iter().enumerate() {
         let Some(changed) = robot.link_mut(j) else { continue };
         for (_, effect) in shaped() {
@@ -50,20 +50,20 @@ pub fn weeded(mut robot: Robot, nominal: &Robot) -> Robot {
     robot
 }
 
-impl Germ {
+impl TrialShape {
     /// Gives the robot the effect with this shape and no size, which leaves its efforts as they are.
-    pub fn sow(self, robot: &mut Robot) {
+    pub fn set_shape(self, robot: &mut Robot) {
         let Some((AtJoint(j), effect)) = self.effect() else { return };
         if let Some(link) = robot.link_mut(j) {
-            effect.sow(j, &mut link.actuator, self.shape);
+            effect.set_shape(j, &mut link.actuator, self.shape);
         }
     }
 
     /// The columns of the effect with this shape, along a motion of the robot without it.
-    pub fn columns(self, motion: &mut Motion) -> Vec<Column> {
+    pub fn columns(self, motion: &mut RunMotion) -> Vec<EffectColumn> {
         let Some((AtJoint(j), effect)) = self.effect() else { return Vec::new() };
         let before = motion.drives[j].clone();
-        effect.sow(j, &mut motion.drives[j], self.shape);
+        effect.set_shape(j, &mut motion.drives[j], self.shape);
         let columns = self.hypothesis.columns(motion);
         motion.drives[j] = before;
         columns

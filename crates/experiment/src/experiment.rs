@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use document::{Document, KeyPath};
-use learner::{ModelKind, Silent};
+use learner::{ModelKind, SilentTraining};
 use logs::{PrepareSettings, Run, prepare};
 use robot::{Loaded, Robot};
 use serde::Deserialize;
@@ -167,12 +167,12 @@ impl Experiment {
         extended: &Robot,
         joint: Option<usize>,
     ) -> Result<Gains, ExperimentError> {
-        let models = Learned::learn(drawn, learned, Some(extended), &Silent)?;
+        let models = Learned::learn(drawn, learned, Some(extended), &SilentTraining)?;
         let torque = torque_errors(drawn, &models, test)?;
         let prepared = prepare(test, &PrepareSettings::default())?;
         let robots = [self.plant().robot(), extended];
         let forward = forward_gap(robots, &prepared.runs, &diagnosis::Silent);
-        let runs = track_all(&self.held(drawn, extended), &models, None, &Silent)?;
+        let runs = track_all(&self.held(drawn, extended), &models, None, &SilentTraining)?;
         let tracking: Vec<TrackedError> = runs.iter().map(TrackedError::of).collect();
         Ok(match joint {
             Some(j) => Gains::at(j, &torque, &forward, &tracking),

@@ -51,7 +51,7 @@ pub use scenario::tracking_spec::{
     SweepSpec, TrackingControlSpec, TrackingSpec,
 };
 pub use scoring::blinded::Blinded;
-pub use scoring::score::{Named, Injected, Score};
+pub use scoring::score::{Injected, Named, Score};
 pub use scoring::size::{Estimated, Size};
 pub use scoring::stored;
 pub use stage::{Inputs, Product, Stage, Staged, sha256};

@@ -1,5 +1,5 @@
 /// Hears what a run of a scenario is doing, and may stop it.
-pub trait Progress: learner::Progress {
+pub trait Progress: learner::TrainingProgress {
     /// Something new begins.
     fn begin(&self, what: &str);
 
@@ -10,7 +10,7 @@ pub trait Progress: learner::Progress {
     fn is_stopped(&self) -> bool;
 }
 
-impl Progress for learner::Silent {
+impl Progress for learner::SilentTraining {
     fn begin(&self, _: &str) {}
 
     fn second(&self) {}

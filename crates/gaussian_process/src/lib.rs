@@ -40,4 +40,4 @@ pub use likelihood::{Covariance, Likelihood, LikelihoodValue};
 pub use linear_evidence::{LinearEvidence, LinearPosterior, WhiteSums};
 pub use maximise::{Maximum, Objective, SearchEnd, SearchWatch, maximise};
 pub use pivoted_cholesky::{inducing_points, shared_kernel};
-pub use residual::{Linear, Residual};
+pub use residual::{Linear, ResidualProcess};

@@ -30,7 +30,7 @@ impl Linear<'_> {
 /// with `K` the covariance of the targets about the linear part, noise included. Equations 5
 /// and 7 of Nguyen-Tuong & Peters 2010; Rasmussen & Williams 2006, equation 2.41.
 #[derive(Debug, Clone)]
-pub struct Residual {
+pub struct ResidualProcess {
     /// `alpha_0 = K^-1 (y - Phi beta_0)`.
     pub alpha: Vec<f64>,
     /// The likelihood of the weights.
@@ -39,7 +39,7 @@ pub struct Residual {
     solved: Mat<f64>,
 }
 
-impl Residual {
+impl ResidualProcess {
     /// Solves for the targets and for the columns of the linear part.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 use crate::fit::Drive;
 use crate::judge::Judge;
-use crate::observation::{Evidence, Observation, ObservationKind, Spoils};
+use crate::observation::{Observation, ObservationKind, ReadingEvidence, Spoils};
 use crate::payload::shares_with_a_tool;
 
 /// Logs of another arm: their efforts contradict the nominal torque at three joints or more, also with an unknown tool, and
@@ -42,7 +42,7 @@ pub(crate) fn another_robot(judge: &Judge, runs: usize) -> Option<Observation> {
         runs: (0..runs).collect(),
         stretches: Vec::new(),
         spoils: Spoils::Everything,
-        evidence: Some(Evidence {
+        evidence: Some(ReadingEvidence {
             joint,
             before: with[joint],
             after: without[joint],

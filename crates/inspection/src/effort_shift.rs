@@ -1,7 +1,7 @@
 use robot::Robot;
 
 use crate::judge::Judge;
-use crate::observation::{Evidence, Observation, ObservationKind, Spoils};
+use crate::observation::{Observation, ObservationKind, ReadingEvidence, Spoils};
 use crate::samples::Thinned;
 use crate::thresholds::InspectionThresholds;
 
@@ -40,7 +40,7 @@ pub(crate) fn effort_shift(
         runs: (0..runs).collect(),
         stretches: Vec::new(),
         spoils: Spoils::Nothing,
-        evidence: Some(Evidence {
+        evidence: Some(ReadingEvidence {
             joint,
             before: as_is.shares[joint],
             after: shares[joint],

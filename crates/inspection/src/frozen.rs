@@ -3,7 +3,7 @@ use std::ops::Range;
 use logs::Run;
 use robot::Robot;
 
-use crate::observation::{Observation, ObservationKind, Stretch};
+use crate::observation::{Observation, ObservationKind, RunStretch};
 use crate::pieces::usual_step;
 use crate::thresholds::InspectionThresholds;
 
@@ -23,7 +23,7 @@ pub(crate) fn frozen(
     let mut observations = Vec::new();
     for rows in held(run, rows(t.moments.held_s)) {
         if (0..run.joints.len()).any(|j| breaks_off(run, j, &rows, t)) {
-            let stretches = vec![Stretch::of_rows(run, index, &rows)];
+            let stretches = vec![RunStretch::of_rows(run, index, &rows)];
             observations.push(Observation {
                 kind: ObservationKind::Held,
                 joints: (0..run.joints.len()).collect(),
@@ -45,7 +45,7 @@ pub(crate) fn frozen(
                 observations.push(Observation::of_seconds(
                     ObservationKind::StuckEncoder,
                     j,
-                    vec![Stretch::of_rows(run, index, &rows)],
+                    vec![RunStretch::of_rows(run, index, &rows)],
                 ));
                 spoilt.push(rows);
             }

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use logs::Run;
 
-use crate::observation::{Observation, ObservationKind, Stretch};
+use crate::observation::{Observation, ObservationKind, RunStretch};
 use crate::pieces::usual_step;
 use crate::thresholds::InspectionThresholds;
 
@@ -28,7 +28,7 @@ pub(crate) fn jumps(
         if full.abs() > 0.0 && (step - full * TAU).abs() < t.moments.full_turn && even {
             turns += full;
             largest = if full.abs() > largest.abs() { full } else { largest };
-            rows.push(Stretch::of_rows(run, index, &(k - 1..k + 1)));
+            rows.push(RunStretch::of_rows(run, index, &(k - 1..k + 1)));
         } else {
             fast = fast.max(step.abs());
         }

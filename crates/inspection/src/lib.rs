@@ -28,6 +28,6 @@ mod thresholds;
 mod torque;
 
 pub use inspect::{inspect, inspect_with};
-pub use mend::{Mended, mend_with, mended};
-pub use observation::{Evidence, Observation, ObservationKind, Rival, Spoils, Stretch};
+pub use mend::{CorrectedLogs, correct, correct_with};
+pub use observation::{Observation, ObservationKind, ReadingEvidence, Rival, RunStretch, Spoils};
 pub use thresholds::{InspectionThresholds, MomentThresholds};

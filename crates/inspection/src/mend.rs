@@ -9,7 +9,7 @@ use crate::thresholds::InspectionThresholds;
 
 /// Logs with the errors corrected that have one possible correction.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mended {
+pub struct CorrectedLogs {
     /// The corrected runs, where anything is corrected.
     pub runs: Option<Vec<Run>>,
     /// The errors that are corrected.
@@ -22,14 +22,14 @@ pub struct Mended {
 /// a power of ten off, degrees.
 ///
 /// Logs that are still spoilt after the corrections stay as they are: these errors were not the cause then.
-pub fn mended(robot: &Robot, runs: &[Run]) -> Mended {
-    mend_with(robot, runs, &InspectionThresholds::default())
+pub fn correct(robot: &Robot, runs: &[Run]) -> CorrectedLogs {
+    correct_with(robot, runs, &InspectionThresholds::default())
 }
 
-/// [`mended`] with other thresholds.
-pub fn mend_with(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -> Mended {
+/// [`correct`] with other thresholds.
+pub fn correct_with(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -> CorrectedLogs {
     let seen = inspect_with(robot, runs, t);
-    let as_they_stand = |seen| Mended { runs: None, mended: Vec::new(), left: seen };
+    let as_they_stand = |seen| CorrectedLogs { runs: None, mended: Vec::new(), left: seen };
     if !seen.iter().any(Observation::spoils_whole_logs) {
         return as_they_stand(seen);
     }
@@ -43,7 +43,7 @@ pub fn mend_with(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -> Mende
     if left.iter().any(Observation::spoils_whole_logs) {
         return as_they_stand(seen);
     }
-    Mended { runs: Some(read), mended, left }
+    CorrectedLogs { runs: Some(read), mended, left }
 }
 
 impl Observation {
@@ -145,11 +145,11 @@ mod tests {
     use super::*;
     use crate::testing::{pendulum, swing};
 
-    fn read(change: fn(&mut Run)) -> (Mended, Vec<Run>) {
+    fn read(change: fn(&mut Run)) -> (CorrectedLogs, Vec<Run>) {
         let true_runs = vec![swing(0.3), swing(1.1)];
         let mut runs = true_runs.clone();
         runs.iter_mut().for_each(change);
-        (mended(&pendulum(), &runs), true_runs)
+        (correct(&pendulum(), &runs), true_runs)
     }
 
     /// Beside a velocity column of a slow pendulum it may be that column that is in another unit.

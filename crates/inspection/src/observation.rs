@@ -15,16 +15,20 @@ pub struct Observation {
     /// Runs that it concerns, by index.
     pub runs: Vec<usize>,
     /// The seconds that it concerns, where it does not concern whole runs.
-    pub stretches: Vec<Stretch>,
+    pub stretches: Vec<RunStretch>,
     /// The part of the logs that cannot be used until the error is corrected.
     pub spoils: Spoils,
     /// How well the nominal torque fits before and after a correction, where this shows the error.
-    pub evidence: Option<Evidence>,
+    pub evidence: Option<ReadingEvidence>,
 }
 
 impl Observation {
     /// An observation of some seconds of a joint, which cannot be used.
-    pub(crate) fn of_seconds(kind: ObservationKind, joint: usize, stretches: Vec<Stretch>) -> Self {
+    pub(crate) fn of_seconds(
+        kind: ObservationKind,
+        joint: usize,
+        stretches: Vec<RunStretch>,
+    ) -> Self {
         let runs = stretches.first().map(|s| s.run).into_iter().collect();
         let spoils = Spoils::Stretches;
         let (or, joints) = (Vec::new(), vec![joint]);
@@ -56,7 +60,7 @@ pub enum Spoils {
 
 /// Some seconds of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct RunStretch {
     /// Index of the run.
     pub run: usize,
     /// Its first moment, on the clock of the file (s).
@@ -65,7 +69,7 @@ pub struct Stretch {
     pub to_s: f64,
 }
 
-impl Stretch {
+impl RunStretch {
     /// The stretch of some rows of a run.
     pub(crate) fn of_rows(run: &Run, index: usize, rows: &Range<usize>) -> Self {
         let last = run.time.len().saturating_sub(1);
@@ -80,7 +84,7 @@ impl Stretch {
 /// share_j = min |effort_j - c tau_j - friction - rotor - offset|^2 / |effort_j - mean|^2
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Evidence {
+pub struct ReadingEvidence {
     /// Joint at which the correction improves the fit most.
     pub joint: usize,
     /// Share left at that joint with the log as it stands; above 1 worse than no model.

@@ -3,7 +3,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use logs::{Run, repeated};
 
-use crate::observation::{Observation, ObservationKind, Spoils, Stretch};
+use crate::observation::{Observation, ObservationKind, RunStretch, Spoils};
 use crate::pieces::usual_step;
 use crate::thresholds::InspectionThresholds;
 
@@ -64,8 +64,8 @@ fn overlap(
         joints: (0..runs[a].joints.len()).collect(),
         runs: vec![a, b],
         stretches: vec![
-            Stretch::of_rows(&runs[a], a, &rows),
-            Stretch::of_rows(&runs[b], b, &longest),
+            RunStretch::of_rows(&runs[a], a, &rows),
+            RunStretch::of_rows(&runs[b], b, &longest),
         ],
         spoils: Spoils::Nothing,
         evidence: None,

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::fit::Drive;
 use crate::judge::{Judge, ReadingFit};
-use crate::observation::{Evidence, Observation, Rival, Spoils};
+use crate::observation::{Observation, ReadingEvidence, Rival, Spoils};
 use crate::payload::shares_with_a_tool;
 use crate::reading::Reading;
 
@@ -92,8 +92,12 @@ fn observation(
     let Rival { kind, joints } = rival(best)?;
     let joint = most_improved(judge, best);
     let at = |x: &[f64]| x.get(joint).copied().unwrap_or(0.0);
-    let evidence =
-        Evidence { joint, before: at(&best.before), after: at(&best.shares), gain: best.gain };
+    let evidence = ReadingEvidence {
+        joint,
+        before: at(&best.before),
+        after: at(&best.shares),
+        gain: best.gain,
+    };
     let whole = joints.len() == judge.samples.joints && joints.len() > 1;
     let or: Vec<Rival> = rivals.iter().filter_map(rival).collect();
     let of_efforts =

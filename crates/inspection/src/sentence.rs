@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use logs::{Run, of_run};
 use robot::Robot;
 
-use crate::observation::{Observation, ObservationKind, Rival, Stretch};
+use crate::observation::{Observation, ObservationKind, Rival, RunStretch};
 
 const FOREIGN: &str = "Nothing of the nominal torque is in the efforts, whatever sign, order, unit, gravity or clock \
                        they are read with";
@@ -187,8 +187,8 @@ impl Names<'_> {
         )
     }
 
-    fn stretches(&self, all: &[Stretch]) -> String {
-        let one = |s: &Stretch| {
+    fn stretches(&self, all: &[RunStretch]) -> String {
+        let one = |s: &RunStretch| {
             if s.to_s - s.from_s > 0.0 {
                 format!("{}, {:.3} to {:.3} s", of_run(self.run(s.run)), s.from_s, s.to_s)
             } else {

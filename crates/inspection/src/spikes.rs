@@ -1,6 +1,6 @@
 use logs::Run;
 
-use crate::observation::{Observation, ObservationKind, Stretch};
+use crate::observation::{Observation, ObservationKind, RunStretch};
 use crate::pieces::usual_step;
 use crate::thresholds::InspectionThresholds;
 
@@ -46,7 +46,7 @@ pub(crate) fn spikes(
     for &k in &found {
         position[k] = 0.5 * (position[k - 1] + position[k + 1]);
     }
-    let rows = found.iter().map(|&k| Stretch::of_rows(run, index, &(k..k + 1))).collect();
+    let rows = found.iter().map(|&k| RunStretch::of_rows(run, index, &(k..k + 1))).collect();
     Some(Observation::of_seconds(
         ObservationKind::Spikes { count: found.len(), height },
         joint,

@@ -1,6 +1,6 @@
 use gaussian_process::{
     GaussianKernel, Inverse, KernelSum, LearnedKernel, Likelihood, Linear, LinearEvidence,
-    LinearPosterior, Residual,
+    LinearPosterior, ResidualProcess,
 };
 
 use crate::error::LearnerError;
@@ -11,14 +11,14 @@ use crate::nominal_parameter::size;
 use crate::rigid_body_fit::RigidBodyFit;
 use crate::settings::PriorSpread;
 use crate::spread::Spread;
-use crate::training::{Fitted, JointFit, Training, features};
+use crate::training::{JointFit, TrainedModel, Training, features};
 
 /// One joint, conditioned on the points. The weights of its linear part are still open.
 pub(crate) struct Joint {
     kernel: GaussianKernel,
     noise_variance: f64,
     inverse: Inverse,
-    pub residual: Residual,
+    pub residual: ResidualProcess,
 }
 
 /// All joints, conditioned about the rigid bodies.
@@ -53,12 +53,15 @@ impl Training<'_> {
     ) -> Result<Joint, LearnerError> {
         let likelihood = Likelihood::new(&self.points, self.inputs.width())?;
         let inverse = likelihood.condition(&kernel, noise_variance)?;
-        let residual = Residual::new(&inverse, targets, linear)?;
+        let residual = ResidualProcess::new(&inverse, targets, linear)?;
         Ok(Joint { kernel, noise_variance, inverse, residual })
     }
 
     /// A process about a fixed mean.
-    pub(crate) fn about_fixed_mean(&mut self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+    pub(crate) fn about_fixed_mean(
+        &mut self,
+        kind: ModelKind,
+    ) -> Result<TrainedModel, LearnerError> {
         let kernels = self.kernels(kind)?;
         let mean = self.mean(kind)?;
         let targets = self.residuals(&mean);
@@ -123,7 +126,7 @@ impl Training<'_> {
     }
 
     /// Equation 7, parameters of every joint's own.
-    pub(crate) fn with_prior(&mut self) -> Result<Fitted, LearnerError> {
+    pub(crate) fn with_prior(&mut self) -> Result<TrainedModel, LearnerError> {
         let kind = ModelKind::GpRbdPrior;
         let part = self.about_rigid_bodies(kind)?;
         let (_, prior) = self.prior(self.regression(kind)?);
@@ -140,7 +143,7 @@ impl Training<'_> {
     /// ```text
     /// beta_bar = (n B^-1 + sum_k Phi_k' K_k^-1 Phi_k)^-1 (sum_k Phi_k' K_k^-1 y_k + n B^-1 beta)
     /// ```
-    pub(crate) fn with_shared_prior(&mut self) -> Result<Fitted, LearnerError> {
+    pub(crate) fn with_shared_prior(&mut self) -> Result<TrainedModel, LearnerError> {
         let kind = ModelKind::GpRbdShared;
         let part = self.about_rigid_bodies(kind)?;
         let mut all = part.joints.iter().map(|joint| &joint.residual.evidence);
@@ -168,7 +171,7 @@ impl Training<'_> {
         kind: ModelKind,
         part: RigidBodyPart,
         posteriors: &[LinearPosterior],
-    ) -> Result<Fitted, LearnerError> {
+    ) -> Result<TrainedModel, LearnerError> {
         let (origin, _) = self.prior(self.regression(kind)?);
         let joints = part.joints.into_iter().zip(posteriors).zip(part.kernels);
         let joints = joints.map(|((joint, posterior), found)| {
@@ -186,7 +189,7 @@ impl Training<'_> {
         origin: &[f64],
         joints: Vec<WeightedJoint>,
         features: Vec<Vec<f64>>,
-    ) -> Result<Fitted, LearnerError> {
+    ) -> Result<TrainedModel, LearnerError> {
         let beta = |change: &[f64]| origin.iter().zip(change).map(|(b, c)| b + c).collect();
         let beta = joints.iter().map(|joint| beta(&joint.posterior.change)).collect();
         let mean = Mean::Columns { set: self.columns(), beta };
@@ -202,7 +205,7 @@ impl Training<'_> {
 
     /// Equations 8 to 10: `phi' W phi + lambda k`, the two kernels searched for apart, lambda
     /// by cross-validation over stretches of time.
-    pub(crate) fn rigid_body_kernel(&mut self) -> Result<Fitted, LearnerError> {
+    pub(crate) fn rigid_body_kernel(&mut self) -> Result<TrainedModel, LearnerError> {
         let kind = ModelKind::RbdKernel;
         let kernels = self.kernels(kind)?;
         let set = self.columns();
@@ -251,7 +254,7 @@ impl Training<'_> {
         mean: Mean,
         finals: Vec<FinalJoint>,
         features: Vec<Vec<f64>>,
-    ) -> Result<Fitted, LearnerError> {
+    ) -> Result<TrainedModel, LearnerError> {
         let (mut kernels, mut alpha, mut noise) = (Vec::new(), Vec::new(), Vec::new());
         let (mut inverse, mut joints) = (Vec::new(), Vec::new());
         for FinalJoint { joint, alpha: weights, fit } in finals {
@@ -266,7 +269,7 @@ impl Training<'_> {
         let mut model = Model::new(kind, self.robot, mean, noise);
         model.process = Some(Process { inputs: self.inputs.clone(), sum, spread });
         let log_likelihood = joints.iter().map(|joint| joint.log_likelihood).sum();
-        Ok(Fitted { model, joints, log_likelihood })
+        Ok(TrainedModel { model, joints, log_likelihood })
     }
 }
 

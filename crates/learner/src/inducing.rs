@@ -4,7 +4,7 @@ use crate::error::LearnerError;
 use crate::model::{Model, Process};
 use crate::model_kind::ModelKind;
 use crate::spread::Spread;
-use crate::training::{Fitted, JointFit, Training, residuals};
+use crate::training::{JointFit, TrainedModel, Training, residuals};
 
 /// Candidates for every inducing point.
 const CANDIDATES: usize = 3;
@@ -18,7 +18,10 @@ impl Training<'_> {
     /// The hyperparameters are those of the exact process on the thinned points; the points
     /// are chosen for the geometric mean of the joints' kernels, since a query over shared
     /// points costs a fraction of one over points of every joint's own.
-    pub(crate) fn by_inducing_points(&mut self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+    pub(crate) fn by_inducing_points(
+        &mut self,
+        kind: ModelKind,
+    ) -> Result<TrainedModel, LearnerError> {
         let kernels = self.kernels(kind)?;
         let mean = self.mean(kind)?;
         self.progress.stage(&format!("inducing points of {kind}"));
@@ -49,12 +52,12 @@ impl Training<'_> {
         let mut model = Model::new(kind, self.robot, mean, noise);
         let spread = Some(Spread::Inducing(posteriors));
         model.process = Some(Process { inputs: self.inputs.clone(), sum, spread });
-        Ok(Fitted { model, joints, log_likelihood: None })
+        Ok(TrainedModel { model, joints, log_likelihood: None })
     }
 
     fn shared_points(&self, kernels: &[GaussianKernel]) -> Result<Vec<f64>, LearnerError> {
         let count = self.settings.inducing_points;
-        let candidates = self.inputs.points(&self.all.thinned(CANDIDATES * count));
+        let candidates = self.inputs.points(&self.all.thin(CANDIDATES * count));
         let kernel = shared_kernel(kernels)?;
         let chosen = inducing_points(&candidates, &kernel, count)?;
         let width = self.inputs.width();

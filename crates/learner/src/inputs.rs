@@ -1,4 +1,4 @@
-use crate::samples::{Samples, State};
+use crate::samples::{SampleState, Samples};
 
 /// The inputs that a Gaussian process computes from a state, and their scaling.
 ///
@@ -11,7 +11,7 @@ use crate::samples::{Samples, State};
 /// only where they are asked for. An input that is constant in training has deviation one, so that
 /// its length scale alone decides its effect elsewhere.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Inputs {
+pub struct ProcessInputs {
     /// Mean of every input: positions, velocities, accelerations, then directions.
     pub mean: Vec<f64>,
     /// Standard deviation of every input.
@@ -22,7 +22,7 @@ pub struct Inputs {
     joints: usize,
 }
 
-impl Inputs {
+impl ProcessInputs {
     /// The scaling to zero mean and unit variance over `samples`. `rest_speed` has one entry a
     /// joint if directions of motion are to be inputs, none if not.
     pub fn new(samples: &Samples, rest_speed: Vec<f64>) -> Self {
@@ -68,7 +68,7 @@ impl Inputs {
     /// # Panics
     ///
     /// When the state is of another number of joints or `x` has the wrong length.
-    pub fn fill(&self, state: State, x: &mut [f64]) {
+    pub fn fill(&self, state: SampleState, x: &mut [f64]) {
         let n = self.joints;
         assert!(state.q.len() == n && x.len() == self.width(), "inputs of {n} joints");
         let direction = state.qd.iter().zip(&self.rest_speed);

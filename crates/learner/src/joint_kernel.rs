@@ -7,7 +7,7 @@ use crate::exact::WeightedJoint;
 use crate::kernels::rigid_body_kernel;
 use crate::model::Mean;
 use crate::model_kind::ModelKind;
-use crate::training::{Fitted, JointFit, Training, features};
+use crate::training::{JointFit, TrainedModel, Training, features};
 
 /// How far each hyperparameter may move from where the parts alone have it, as a natural
 /// logarithm: a factor of some thousand each way.
@@ -17,7 +17,7 @@ impl Training<'_> {
     /// Equations 8 to 10 with all hyperparameters, of `phi' W phi + k + noise`, optimised
     /// jointly on the marginal likelihood of the whole. The search starts from the
     /// rigid-body kernel alone, and from the Gaussian kernel of what its mean leaves.
-    pub(crate) fn rigid_body_kernel_jointly(&mut self) -> Result<Fitted, LearnerError> {
+    pub(crate) fn rigid_body_kernel_jointly(&mut self) -> Result<TrainedModel, LearnerError> {
         let kind = ModelKind::RbdKernelJoint;
         let set = self.columns();
         let width = set.columns(self.robot.joint_count()).len();

@@ -3,7 +3,7 @@ use std::ops::ControlFlow;
 use gaussian_process::{KernelSearch, LearnedKernel, WhiteSums, maximise};
 
 use crate::error::LearnerError;
-use crate::progress::Progress;
+use crate::progress::TrainingProgress;
 
 /// How far a search may take a prior variance from where it starts, as a natural logarithm:
 /// a factor of a million each way, which is as good as a weight held and a weight free.
@@ -21,7 +21,7 @@ pub(crate) fn search(
     points: &[f64],
     width: usize,
     targets: &[Vec<f64>],
-    progress: &dyn Progress,
+    progress: &dyn TrainingProgress,
 ) -> Result<Vec<LearnedKernel>, LearnerError> {
     let joints = targets.iter().enumerate();
     joints
@@ -49,7 +49,7 @@ pub(crate) fn rigid_body_kernel(
     features: &[f64],
     width: usize,
     targets: &[f64],
-    progress: &dyn Progress,
+    progress: &dyn TrainingProgress,
 ) -> Result<RigidBodyKernel, LearnerError> {
     let sums = WhiteSums::new(features, width, targets)?;
     let n = targets.len().max(1) as f64;

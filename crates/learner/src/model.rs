@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::error::LearnerError;
-use crate::inputs::Inputs;
+use crate::inputs::ProcessInputs;
 use crate::model_kind::ModelKind;
 use crate::robot_torque::RobotTorque;
-use crate::samples::{Samples, State};
+use crate::samples::{SampleState, Samples};
 use crate::spread::Spread;
-use crate::torque_model::{TorqueModel, Workspace, each};
+use crate::torque_model::{TorqueModel, TorqueWorkspace, each};
 
 /// Queries whose variance is worked out together.
 const BLOCK: usize = 64;
@@ -65,7 +65,7 @@ pub enum Mean {
 #[derive(Debug, Clone)]
 pub struct Process {
     /// How a state becomes an input.
-    pub inputs: Inputs,
+    pub inputs: ProcessInputs,
     /// Points, kernels and `alpha` of every joint.
     pub sum: KernelSum,
     /// What the variance is computed from; absent where only the mean is needed.
@@ -104,7 +104,7 @@ impl Model {
     }
 
     /// Fills `ws.rows` with the rows of the regressor, where the mean has any.
-    fn rows(&self, ws: &mut Workspace, state: State) {
+    fn rows(&self, ws: &mut TorqueWorkspace, state: SampleState) {
         if let Mean::Columns { set, .. } = &self.mean {
             let state = [state.q, state.qd, state.qdd];
             self.dynamics.columns_into(&mut ws.dynamics, state, *set, &mut ws.rows);
@@ -169,10 +169,10 @@ impl TorqueModel for Model {
         }
     }
 
-    fn workspace(&self) -> Workspace {
+    fn workspace(&self) -> TorqueWorkspace {
         let points = self.process.as_ref().map_or(0, |p| p.sum.len());
         let inputs = self.process.as_ref().map_or(0, |p| p.inputs.width());
-        Workspace {
+        TorqueWorkspace {
             dynamics: self.dynamics.workspace(),
             x: vec![0.0; inputs],
             rows: vec![0.0; self.joints() * self.width()],
@@ -183,7 +183,7 @@ impl TorqueModel for Model {
         }
     }
 
-    fn torque_into(&self, ws: &mut Workspace, state: State, tau: &mut [f64]) {
+    fn torque_into(&self, ws: &mut TorqueWorkspace, state: SampleState, tau: &mut [f64]) {
         match &self.mean {
             Mean::Zero => tau.fill(0.0),
             Mean::Columns { beta, .. } => {
@@ -202,7 +202,7 @@ impl TorqueModel for Model {
         }
     }
 
-    fn variance_into(&self, ws: &mut Workspace, state: State, variance: &mut [f64]) {
+    fn variance_into(&self, ws: &mut TorqueWorkspace, state: SampleState, variance: &mut [f64]) {
         variance.copy_from_slice(&self.noise_variance);
         self.rows(ws, state);
         let spread = match &self.process {

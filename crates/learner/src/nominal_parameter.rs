@@ -1,17 +1,19 @@
-use dynamics::Column;
+use dynamics::RegressorColumn;
 use robot::Robot;
 
 /// The parameter of `column` as the robot is described.
-pub(crate) fn nominal_parameter(robot: &Robot, column: Column) -> f64 {
+pub(crate) fn nominal_parameter(robot: &Robot, column: RegressorColumn) -> f64 {
     let actuator = |joint: usize| &robot.links()[joint].actuator;
     match column {
-        Column::Inertial { link, parameter } => robot.links()[link].inertia.parameters()[parameter],
-        Column::Rotor { joint } => actuator(joint).rotor_inertia,
-        Column::Viscous { joint } => actuator(joint).viscous,
-        Column::Coulomb { joint } => {
+        RegressorColumn::Inertial { link, parameter } => {
+            robot.links()[link].inertia.parameters()[parameter]
+        }
+        RegressorColumn::Rotor { joint } => actuator(joint).rotor_inertia,
+        RegressorColumn::Viscous { joint } => actuator(joint).viscous,
+        RegressorColumn::Coulomb { joint } => {
             0.5 * (actuator(joint).coulomb_forward + actuator(joint).coulomb_backward)
         }
-        Column::Offset { joint } => {
+        RegressorColumn::Offset { joint } => {
             let a = actuator(joint);
             a.torque_offset + 0.5 * (a.coulomb_forward - a.coulomb_backward)
         }
@@ -27,9 +29,9 @@ pub(crate) fn nominal_parameter(robot: &Robot, column: Column) -> f64 {
 ///
 /// the rotor's inertia for the rotor, and the unit (SI) for friction, offsets and whatever is
 /// described as zero.
-pub(crate) fn size(robot: &Robot, column: Column) -> f64 {
+pub(crate) fn size(robot: &Robot, column: RegressorColumn) -> f64 {
     let size = match column {
-        Column::Inertial { link, parameter } => {
+        RegressorColumn::Inertial { link, parameter } => {
             let [mass, _, _, _, xx, _, yy, _, _, zz] = robot.links()[link].inertia.parameters();
             let spread = 0.5 * (xx + yy + zz);
             match parameter {
@@ -38,8 +40,10 @@ pub(crate) fn size(robot: &Robot, column: Column) -> f64 {
                 _ => spread,
             }
         }
-        Column::Rotor { .. } => nominal_parameter(robot, column),
-        Column::Viscous { .. } | Column::Coulomb { .. } | Column::Offset { .. } => 1.0,
+        RegressorColumn::Rotor { .. } => nominal_parameter(robot, column),
+        RegressorColumn::Viscous { .. }
+        | RegressorColumn::Coulomb { .. }
+        | RegressorColumn::Offset { .. } => 1.0,
     };
     if size > 0.0 { size } else { 1.0 }
 }

@@ -5,7 +5,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use crate::samples::Stretch;
+use crate::samples::SampleSlices;
 
 /// Length of the first link (m).
 const L1: f64 = 0.7;
@@ -85,8 +85,8 @@ impl Record {
         )
     }
 
-    pub fn stretch(&self) -> Stretch<'_> {
-        Stretch { q: &self.q, qd: &self.qd, qdd: &self.qdd, tau: &self.tau }
+    pub fn stretch(&self) -> SampleSlices<'_> {
+        SampleSlices { q: &self.q, qd: &self.qd, qdd: &self.qdd, tau: &self.tau }
     }
 
     /// The columns of the pendulum: `tau = I qdd + g (mx cos q - mz sin q)` for

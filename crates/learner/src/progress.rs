@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 
 /// Receives the progress of a training, and may end its searches.
-pub trait Progress: Sync {
+pub trait TrainingProgress: Sync {
     /// A new stage, in words.
     fn stage(&self, words: &str);
 
@@ -12,9 +12,9 @@ pub trait Progress: Sync {
 
 /// Ignores the progress, and never ends a search.
 #[derive(Debug, Clone, Copy)]
-pub struct Silent;
+pub struct SilentTraining;
 
-impl Progress for Silent {
+impl TrainingProgress for SilentTraining {
     fn stage(&self, _: &str) {}
 
     fn evaluation(&self, _: usize, _: f64) -> ControlFlow<()> {

@@ -1,12 +1,14 @@
 use std::ops::Range;
 
-use dynamics::{BaseParameters, Column, ColumnSet, Dynamics, DynamicsError, base_parameters};
+use dynamics::{
+    BaseParameters, ColumnSet, Dynamics, DynamicsError, RegressorColumn, base_parameters,
+};
 use rayon::prelude::*;
 use robot::Robot;
 
 use crate::block_sums::{BlockSums, JointSums, Sums};
 use crate::error::LearnerError;
-use crate::samples::{Samples, Stretch};
+use crate::samples::{SampleSlices, Samples};
 
 /// Samples that one thread sums at a time: their rows stay in its cache.
 const PIECE: usize = 256;
@@ -36,7 +38,7 @@ const LARGEST: f64 = 1e30;
 ///
 /// ```
 /// use dynamics::ColumnSet;
-/// use learner::{Regression, Stretch};
+/// use learner::{Regression, SampleSlices};
 ///
 /// let described = robot::Robot::from_urdf(r#"<robot name="pendulum">
 ///   <link name="base"/>
@@ -53,7 +55,7 @@ const LARGEST: f64 = 1e30;
 ///     q.iter().zip(&qdd).map(|(q, qdd)| 0.5 * qdd + 9.81 * q.cos()).collect();
 ///
 /// let mut regression = Regression::new(&described, ColumnSet::INERTIAL);
-/// regression.add(Stretch { q: &q, qd: &qd, qdd: &qdd, tau: &tau })?;
+/// regression.add(SampleSlices { q: &q, qd: &qd, qdd: &qdd, tau: &tau })?;
 /// let fit = regression.fit(None)?;
 /// let [mass, mx, iyy] = [0, 1, 6].map(|i| fit.parameters[i]);
 /// assert!((mass - 3.0).abs() < 1e-9 && (mx - 1.0).abs() < 1e-9 && (iyy - 0.5).abs() < 1e-9);
@@ -100,7 +102,7 @@ impl Regression {
     ///
     /// [`DynamicsError::WrongLength`] when the signals do not have the same whole number of
     /// samples of all joints, and [`LearnerError::BadSample`]. Nothing is added then.
-    pub fn add(&mut self, stretch: Stretch) -> Result<(), LearnerError> {
+    pub fn add(&mut self, stretch: SampleSlices) -> Result<(), LearnerError> {
         let rows = self.check(&stretch)?;
         let before = self.samples();
         let mut start = 0;
@@ -133,10 +135,10 @@ impl Regression {
     }
 
     /// Number of samples of a stretch that can be used.
-    fn check(&self, stretch: &Stretch) -> Result<usize, LearnerError> {
+    fn check(&self, stretch: &SampleSlices) -> Result<usize, LearnerError> {
         let joints = self.robot.joint_count();
         let rows = stretch.q.len() / joints;
-        let Stretch { q, qd, qdd, tau } = *stretch;
+        let SampleSlices { q, qd, qdd, tau } = *stretch;
         for (name, signal) in [("q", q), ("qd", qd), ("qdd", qdd), ("tau", tau)] {
             let (expected, got) = (rows * joints, signal.len());
             if got != expected {
@@ -152,7 +154,7 @@ impl Regression {
     }
 
     /// The sums over the samples `piece`.
-    fn sums_of(&self, stretch: &Stretch, piece: Range<usize>) -> Sums {
+    fn sums_of(&self, stretch: &SampleSlices, piece: Range<usize>) -> Sums {
         let joints = self.robot.joint_count();
         let width = self.base.columns.len();
         let mut ws = self.dynamics.workspace();
@@ -175,16 +177,16 @@ impl Regression {
 }
 
 /// Whether `column` can differ from zero in the row of `joint`: what it carries, and its drive.
-fn is_seen(robot: &Robot, joint: usize, column: Column) -> bool {
+fn is_seen(robot: &Robot, joint: usize, column: RegressorColumn) -> bool {
     match column {
-        Column::Inertial { link, .. } => {
+        RegressorColumn::Inertial { link, .. } => {
             let parents = std::iter::successors(Some(link), |&l| robot.links()[l].parent);
             parents.into_iter().any(|l| l == joint)
         }
-        Column::Rotor { joint: own }
-        | Column::Viscous { joint: own }
-        | Column::Coulomb { joint: own }
-        | Column::Offset { joint: own } => own == joint,
+        RegressorColumn::Rotor { joint: own }
+        | RegressorColumn::Viscous { joint: own }
+        | RegressorColumn::Coulomb { joint: own }
+        | RegressorColumn::Offset { joint: own } => own == joint,
     }
 }
 
@@ -203,9 +205,9 @@ mod tests {
         motion.with(&columns, &THETA, &noise)
     }
 
-    fn part(record: &Record, samples: Range<usize>) -> Stretch<'_> {
+    fn part(record: &Record, samples: Range<usize>) -> SampleSlices<'_> {
         let at = 2 * samples.start..2 * samples.end;
-        Stretch {
+        SampleSlices {
             q: &record.q[at.clone()],
             qd: &record.qd[at.clone()],
             qdd: &record.qdd[at.clone()],

@@ -1,6 +1,6 @@
 use dynamics::{
-    BaseParameters, Column, ConsistentFit, ConsistentInertias, FitOutcome, PARAMETERS_PER_LINK,
-    ShiftedPrior,
+    BaseParameters, ConsistentFit, ConsistentInertias, FitOutcome, PARAMETERS_PER_LINK,
+    RegressorColumn, ShiftedPrior,
 };
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use robot::Robot;
@@ -18,7 +18,7 @@ use crate::weighting::{
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidBodyFit {
     /// What each parameter is, in the order of [`dynamics::ColumnSet::columns`].
-    pub columns: Vec<Column>,
+    pub columns: Vec<RegressorColumn>,
     /// All parameters `pi` (units of the columns): those of least squares and, along undetermined
     /// directions, those nearest to the robot as described.
     pub parameters: Vec<f64>,

@@ -2,7 +2,7 @@ use dynamics::{Dynamics, Workspace};
 use effects::drive_torque;
 use robot::Robot;
 
-use crate::samples::State;
+use crate::samples::SampleState;
 
 /// The effort that a description of the robot predicts, from rigid bodies and drives. The robot is
 /// the nominal one or one that a diagnosis has extended.
@@ -42,8 +42,8 @@ impl RobotTorque {
     /// # Panics
     ///
     /// When the state or `tau` is of another number of joints.
-    pub fn fill(&self, ws: &mut Workspace, state: State, tau: &mut [f64]) {
-        let State { q, qd, qdd } = state;
+    pub fn fill(&self, ws: &mut Workspace, state: SampleState, tau: &mut [f64]) {
+        let SampleState { q, qd, qdd } = state;
         self.dynamics.inverse_dynamics_into(ws, q, qd, qdd, tau);
         for (j, (tau, link)) in tau.iter_mut().zip(self.robot.links()).enumerate() {
             let drive = &link.actuator;

@@ -30,7 +30,7 @@ pub struct RunSpan {
 
 /// The state of the arm in one sample, one entry a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<'a> {
+pub struct SampleState<'a> {
     /// Position (rad or m).
     pub q: &'a [f64],
     /// Velocity (rad/s or m/s).
@@ -42,7 +42,7 @@ pub struct State<'a> {
 /// Consecutive samples of the motion and the torque of all joints, row-major: sample by
 /// sample, one entry a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch<'a> {
+pub struct SampleSlices<'a> {
     /// Position (rad or m).
     pub q: &'a [f64],
     /// Velocity (rad/s or m/s).
@@ -106,14 +106,14 @@ impl Samples {
     /// # Panics
     ///
     /// When there is no such sample.
-    pub fn state(&self, index: usize) -> State<'_> {
+    pub fn state(&self, index: usize) -> SampleState<'_> {
         let at = index * self.joints..(index + 1) * self.joints;
-        State { q: &self.q[at.clone()], qd: &self.qd[at.clone()], qdd: &self.qdd[at] }
+        SampleState { q: &self.q[at.clone()], qd: &self.qd[at.clone()], qdd: &self.qdd[at] }
     }
 
     /// All samples, one run after the other.
-    pub fn stretch(&self) -> Stretch<'_> {
-        Stretch { q: &self.q, qd: &self.qd, qdd: &self.qdd, tau: &self.tau }
+    pub fn stretch(&self) -> SampleSlices<'_> {
+        SampleSlices { q: &self.q, qd: &self.qd, qdd: &self.qdd, tau: &self.tau }
     }
 
     /// The effort of every joint in sample `index` (N m or N).
@@ -127,7 +127,7 @@ impl Samples {
 
     /// At most `points` samples, evenly spread over all: sample `floor(i n / points)` of `n`
     /// for `i` from 0. The rate of every run falls accordingly.
-    pub fn thinned(&self, points: usize) -> Self {
+    pub fn thin(&self, points: usize) -> Self {
         let n = self.len();
         if points >= n {
             return self.clone();

@@ -5,7 +5,7 @@ use robot::{Actuator, Inertia, Robot};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::inputs::Inputs;
+use crate::inputs::ProcessInputs;
 use crate::model::{Mean, Model};
 use crate::robot_torque::RobotTorque;
 use crate::spread::Spread;
@@ -182,7 +182,7 @@ impl SavedLink {
 
 impl SavedProcess {
     /// How a state becomes an input; none when the lengths do not fit.
-    pub fn inputs(&self, joints: usize) -> Option<Inputs> {
+    pub fn inputs(&self, joints: usize) -> Option<ProcessInputs> {
         let directions = self.rest_speed.len();
         let width = 3 * joints + directions;
         let fits = (directions == 0 || directions == joints)
@@ -191,7 +191,7 @@ impl SavedProcess {
             && self.kernels.len() == joints
             && self.kernels.iter().all(|k| k.length_scales.len() == width);
         let [mean, deviation] = [&self.input_mean, &self.input_deviation].map(Clone::clone);
-        fits.then(|| Inputs::from_parts(mean, deviation, self.rest_speed.clone()))
+        fits.then(|| ProcessInputs::from_parts(mean, deviation, self.rest_speed.clone()))
     }
 }
 

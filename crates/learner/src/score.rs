@@ -6,7 +6,7 @@ const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// How well a model predicts torques that it has not seen, per joint.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Score {
+pub struct TorqueScore {
     /// Mean square error over the variance of the torque about its mean; NaN where the torque
     /// is constant.
     pub nmse: Vec<f64>,
@@ -18,7 +18,7 @@ pub struct Score {
     pub log_density: Vec<f64>,
 }
 
-impl Score {
+impl TorqueScore {
     /// Scores `model` on `test`.
     ///
     /// # Panics

@@ -1,13 +1,13 @@
 use rayon::prelude::*;
 
-use crate::samples::{Samples, State};
+use crate::samples::{SampleState, Samples};
 
 /// Samples that one thread predicts at a time.
 const CHUNK: usize = 64;
 
 /// Scratch memory of a model that predicts.
 #[derive(Debug, Clone)]
-pub struct Workspace {
+pub struct TorqueWorkspace {
     pub(crate) dynamics: dynamics::Workspace,
     /// Inputs of a process.
     pub(crate) x: Vec<f64>,
@@ -32,14 +32,14 @@ pub trait TorqueModel: Sync {
     fn words(&self) -> String;
 
     /// Room for one thread to predict in.
-    fn workspace(&self) -> Workspace;
+    fn workspace(&self) -> TorqueWorkspace;
 
     /// Fills `tau` with the torque of every joint (N m or N); allocates nothing.
     ///
     /// # Panics
     ///
     /// When the state or `tau` is of another number of joints, or `ws` of another model.
-    fn torque_into(&self, ws: &mut Workspace, state: State, tau: &mut [f64]);
+    fn torque_into(&self, ws: &mut TorqueWorkspace, state: SampleState, tau: &mut [f64]);
 
     /// Fills `variance` with that of a measured torque about the prediction, noise included (N² m²
     /// or N²), NaN where the model has no variance; allocates nothing.
@@ -47,7 +47,7 @@ pub trait TorqueModel: Sync {
     /// # Panics
     ///
     /// As [`torque_into`](Self::torque_into).
-    fn variance_into(&self, ws: &mut Workspace, state: State, variance: &mut [f64]);
+    fn variance_into(&self, ws: &mut TorqueWorkspace, state: SampleState, variance: &mut [f64]);
 
     /// The torque in every sample, row-major; in parallel, the same for any number of threads.
     fn torque(&self, samples: &Samples) -> Vec<f64> {
@@ -65,7 +65,7 @@ pub trait TorqueModel: Sync {
 pub(crate) fn each<M: TorqueModel + ?Sized>(
     model: &M,
     samples: &Samples,
-    fill: impl Fn(&mut Workspace, State, &mut [f64]) + Sync,
+    fill: impl Fn(&mut TorqueWorkspace, SampleState, &mut [f64]) + Sync,
 ) -> Vec<f64> {
     let joints = model.joints();
     let mut all = vec![0.0; samples.len() * joints];

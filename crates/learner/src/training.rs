@@ -6,10 +6,10 @@ use gaussian_process::LearnedKernel;
 use robot::Robot;
 
 use crate::error::LearnerError;
-use crate::inputs::Inputs;
+use crate::inputs::ProcessInputs;
 use crate::model::{Mean, Model};
 use crate::model_kind::ModelKind;
-use crate::progress::Progress;
+use crate::progress::TrainingProgress;
 use crate::rigid_body_fit::RigidBodyFit;
 use crate::robot_torque::RobotTorque;
 use crate::samples::Samples;
@@ -23,7 +23,7 @@ const PRIOR_WEIGHT: f64 = 1.0;
 
 /// A trained model and the results of its training.
 #[derive(Debug, Clone)]
-pub struct Fitted {
+pub struct TrainedModel {
     /// The model.
     pub model: Model,
     /// The result of every joint; empty for a model without hyperparameters.
@@ -50,12 +50,12 @@ pub struct JointFit {
 pub struct Training<'a> {
     pub(crate) robot: &'a Robot,
     pub(crate) settings: &'a TrainSettings,
-    pub(crate) progress: &'a dyn Progress,
+    pub(crate) progress: &'a dyn TrainingProgress,
     /// Every sample.
     pub(crate) all: &'a Samples,
     /// Those that exact processes are conditioned on.
     pub(crate) few: Samples,
-    pub(crate) inputs: Inputs,
+    pub(crate) inputs: ProcessInputs,
     /// Inputs of `few`, row-major.
     pub(crate) points: Vec<f64>,
     rest_speed: Vec<f64>,
@@ -77,7 +77,7 @@ impl<'a> Training<'a> {
         samples: &'a Samples,
         rest_speed: Vec<f64>,
         settings: &'a TrainSettings,
-        progress: &'a dyn Progress,
+        progress: &'a dyn TrainingProgress,
     ) -> Result<Self, LearnerError> {
         settings.check()?;
         if samples.is_empty() {
@@ -89,8 +89,8 @@ impl<'a> Training<'a> {
         }
         samples.check()?;
         memory::check(settings.points.min(samples.len()), expected)?;
-        let few = samples.thinned(settings.points);
-        let inputs = Inputs::new(&few, settings.direction_speeds.clone());
+        let few = samples.thin(settings.points);
+        let inputs = ProcessInputs::new(&few, settings.direction_speeds.clone());
         let points = inputs.points(&few);
         let (regression, named, kernels) = (None, None, BTreeMap::new());
         let all = samples;
@@ -134,7 +134,7 @@ impl<'a> Training<'a> {
     ///
     /// [`LearnerError::Missing`] when the model needs a regression or named effects that were
     /// not given, and what the Gaussian process refuses.
-    pub fn fit(&mut self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+    pub fn fit(&mut self, kind: ModelKind) -> Result<TrainedModel, LearnerError> {
         match kind {
             ModelKind::Cad | ModelKind::Named => self.described_robot(kind),
             ModelKind::Rbd => self.rigid_bodies(),
@@ -151,20 +151,20 @@ impl<'a> Training<'a> {
     }
 
     /// A description of the robot as a model.
-    fn described_robot(&self, kind: ModelKind) -> Result<Fitted, LearnerError> {
+    fn described_robot(&self, kind: ModelKind) -> Result<TrainedModel, LearnerError> {
         self.mean_alone(kind, self.mean(kind)?)
     }
 
     /// A mean as a model; its noise is the mean square of the residuals at the points.
-    fn mean_alone(&self, kind: ModelKind, mean: Mean) -> Result<Fitted, LearnerError> {
+    fn mean_alone(&self, kind: ModelKind, mean: Mean) -> Result<TrainedModel, LearnerError> {
         let n = self.few.len() as f64;
         let left = self.residuals(&mean);
         let noise = left.iter().map(|r| r.iter().map(|r| r * r).sum::<f64>() / n).collect();
         let model = Model::new(kind, self.robot, mean, noise);
-        Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
+        Ok(TrainedModel { model, joints: Vec::new(), log_likelihood: None })
     }
 
-    fn rigid_bodies(&self) -> Result<Fitted, LearnerError> {
+    fn rigid_bodies(&self) -> Result<TrainedModel, LearnerError> {
         let kind = ModelKind::Rbd;
         let fit = self.regression(kind)?;
         let noise = fit.noise.iter().map(|noise| noise.standard_deviation.powi(2)).collect();
@@ -172,12 +172,12 @@ impl<'a> Training<'a> {
         let width = fit.covariance.nrows();
         let covariance = Mat::from_fn(width, width, |i, j| fit.covariance[(i, j)]);
         model.weights = vec![covariance; self.robot.joint_count()];
-        Ok(Fitted { model, joints: Vec::new(), log_likelihood: None })
+        Ok(TrainedModel { model, joints: Vec::new(), log_likelihood: None })
     }
 
     /// The physical links nearest to the regression; undetermined directions stay as described. The
     /// noise is the mean square of the residuals at the points.
-    fn consistent_rigid_bodies(&self) -> Result<Fitted, LearnerError> {
+    fn consistent_rigid_bodies(&self) -> Result<TrainedModel, LearnerError> {
         let kind = ModelKind::RbdConsistent;
         let found = self.regression(kind)?.consistent(self.robot, PRIOR_WEIGHT)?;
         let beta = vec![found.parameters; self.robot.joint_count()];

@@ -1,6 +1,6 @@
 use std::fmt;
 
-use dynamics::{BaseParameters, Column};
+use dynamics::{BaseParameters, RegressorColumn};
 use nalgebra::DMatrix;
 
 /// Length, in sizes of the parameters, below which what is left of a direction is rounding.
@@ -14,7 +14,7 @@ const NAMED: f64 = 0.1;
 pub struct Direction {
     /// The columns kept for these base parameters, with the change of each that belongs to a
     /// unit of the first (in their units).
-    pub changes: Vec<(Column, f64)>,
+    pub changes: Vec<(RegressorColumn, f64)>,
 }
 
 impl fmt::Display for Direction {

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use effects::{Hypothesis, Motion};
+use effects::{Hypothesis, RunMotion};
 use logs::{LogError, LowPass};
 use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
@@ -55,7 +55,7 @@ impl Layout {
     /// leaves of it.
     pub fn information_along(
         &self,
-        motion: &Motion,
+        motion: &RunMotion,
         measured: Option<&[Vec<f64>]>,
         stretches: usize,
     ) -> Result<Vec<Information>, LogError> {

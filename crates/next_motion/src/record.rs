@@ -1,4 +1,4 @@
-use effects::{Frame, Motion};
+use effects::{Frame, RunMotion};
 use logs::PreparedRun;
 use robot::Robot;
 
@@ -46,7 +46,7 @@ impl Record {
     }
 
     /// The nominal robot along it.
-    pub fn evaluate(self, robot: &Robot, frame: &Frame) -> Motion {
-        Motion::new(robot, frame, self.state, self.period_s)
+    pub fn evaluate(self, robot: &Robot, frame: &Frame) -> RunMotion {
+        RunMotion::new(robot, frame, self.state, self.period_s)
     }
 }

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use effects::{Frame, Motion as Along};
+use effects::{Frame, RunMotion as Along};
 use logs::LogError;
 use motion::{Motion, MotionSpec};
 use rand::SeedableRng;

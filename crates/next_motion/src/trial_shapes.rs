@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use effects::{Germ, germs};
+use effects::{TrialShape, trial_shapes};
 use robot::Robot;
 
 use crate::known::scale_of_limits;
@@ -9,11 +9,11 @@ use crate::known::scale_of_limits;
 ///
 /// A question that concerns Stribeck friction, say, is asked of a robot that has a Stribeck velocity.
 pub fn with_trial_shapes(robot: &Robot) -> Robot {
-    let mut trials: BTreeMap<_, Vec<Germ>> = BTreeMap::new();
-    for germ in germs(robot, &scale_of_limits(robot), &effects::Priors::default()) {
-        trials.entry(germ.hypothesis).or_default().push(germ);
+    let mut trials: BTreeMap<_, Vec<TrialShape>> = BTreeMap::new();
+    for trial in trial_shapes(robot, &scale_of_limits(robot), &effects::Priors::default()) {
+        trials.entry(trial.hypothesis).or_default().push(trial);
     }
     let mut shaped = robot.clone();
-    trials.values().for_each(|trials| trials[trials.len() / 2].sow(&mut shaped));
+    trials.values().for_each(|trials| trials[trials.len() / 2].set_shape(&mut shaped));
     shaped
 }

@@ -35,7 +35,7 @@ pub use recorded::point_mass::{PointMass, point_mass_torque};
 pub use recorded::transplant::Transplant;
 pub use recorded::trial::{RecordedTrial, draw_recorded};
 pub use robot_files::RobotFiles;
-pub use sheet::{TrueCause, Knowledge, CauseRole, TruthSheet, Strength, TrueStranger};
+pub use sheet::{CauseRole, Knowledge, Strength, TrueCause, TrueStranger, TruthSheet};
 pub use spec::{FORMAT, PopulationSpec, RecordedSpec};
 pub use store::{Came, Kept, Remade, Store};
 pub use trial::any::make_any;

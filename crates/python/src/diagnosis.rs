@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ::diagnosis::{Outcome, Settings};
+use ::diagnosis::{DiagnosisRun, Settings};
 use cli::{SearchArguments, hashes_of, provenance_of};
 use experiment::{DiagnosedLogs, ForwardGap};
 use logs::Run;
@@ -22,7 +22,7 @@ pub struct PyDiagnosis {
     robot: Arc<::robot::Loaded>,
     extended: Py<PyRobot>,
     runs: Vec<Run>,
-    outcome: Outcome,
+    outcome: DiagnosisRun,
     forward: Option<ForwardGap>,
     provenance: Provenance,
     doubts: Vec<String>,
@@ -97,7 +97,7 @@ impl PyDiagnosis {
         py: Python<'_>,
         robot: &PyRobot,
         runs: Vec<Run>,
-        outcome: Outcome,
+        outcome: DiagnosisRun,
         forward: Option<ForwardGap>,
         provenance: Provenance,
     ) -> PyResult<Self> {

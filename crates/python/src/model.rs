@@ -2,8 +2,8 @@ use std::path::PathBuf;
 
 use dynamics::ColumnSet;
 use learner::{
-    LearnerError, ModelKind, Regression, RobotTorque, Samples, Score, TorqueModel, TrainSettings,
-    Training,
+    LearnerError, ModelKind, Regression, RobotTorque, Samples, TorqueModel, TorqueScore,
+    TrainSettings, Training,
 };
 use logs::{PrepareSettings, centre_commands, prepare, rest_speeds};
 use numpy::PyArrayDyn;
@@ -167,7 +167,7 @@ impl PyModel {
         let cutoff_hz = positive("cutoff_hz", cutoff_hz)?;
         let score = run(py, None, |_| {
             let prepared = prepare(&runs, &PrepareSettings { cutoff_hz })?;
-            Ok::<_, logs::LogError>(Score::of(&self.model, &Samples::new(&prepared)))
+            Ok::<_, logs::LogError>(TorqueScore::of(&self.model, &Samples::new(&prepared)))
         })?;
         let score = score.map_err(raised)?;
         table(py, score.rmse, self.joints.len(), true)

@@ -130,7 +130,7 @@ impl diagnosis::Progress for Work {
     }
 }
 
-impl learner::Progress for Work {
+impl learner::TrainingProgress for Work {
     fn stage(&self, words: &str) {
         self.stage(words, 0);
     }

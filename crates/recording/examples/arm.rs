@@ -7,7 +7,10 @@
 use std::error::Error;
 use std::path::PathBuf;
 
-use recording::{Arm, Bar, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
+use recording::{
+    Arm, BarSeries, EventLevel, Live, Recorder, RowBlock, Scene, SceneRole, SceneSignal,
+    SignalQuantity,
+};
 use robot::{Loaded, Robot};
 
 const RATE_HZ: f64 = 500.0;
@@ -37,19 +40,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (tau, feedforward) = (signal(torque), signal(|t, j| 0.9 * torque(t, j)));
         let error = signal(error);
         error.iter().enumerate().for_each(|(i, e)| squares[i % joints] += e * e);
-        recorder.rows(&Rows {
+        recorder.rows(&RowBlock {
             time_s: &time_s,
             arms: &[&q, &q_ref],
             signals: &[&q_ref, &q, &qd_ref, &qd, &tau, &feedforward, &error],
         })?;
     }
     let rmse: Vec<f64> = squares.iter().map(|s| 1e3 * (s / rows as f64).sqrt()).collect();
-    recorder.event(0.0, Level::Info, "start")?;
-    recorder.event(24.0, Level::Warning, "prediction stalled for 40 ms, feedback alone")?;
-    recorder.event(DURATION_S, Level::Info, "end")?;
+    recorder.event(0.0, EventLevel::Info, "start")?;
+    recorder.event(24.0, EventLevel::Warning, "prediction stalled for 40 ms, feedback alone")?;
+    recorder.event(DURATION_S, EventLevel::Info, "end")?;
     recorder.document(&verdict(&loaded.robot, &rmse))?;
     let stiff: Vec<f64> = rmse.iter().map(|r| 0.4 * r).collect();
-    let bar = |place, name, values| Bar { name, role: Role::Model(place), values };
+    let bar = |place, name, values| BarSeries { name, role: SceneRole::Model(place), values };
     recorder.bars("RMSE (mrad)", &[bar(0, "low gains", &rmse), bar(1, "stiff", &stiff)])?;
     let written = recorder.finish()?;
     println!(
@@ -64,23 +67,23 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn scene(loaded: &Loaded) -> Scene<'_> {
-    let signal = |quantity, name, role| Signal { quantity, name, role };
+    let signal = |quantity, name, role| SceneSignal { quantity, name, role };
     Scene {
         title: "wam7: an invented motion",
         robot: &loaded.robot,
         looks: &loaded.looks,
         arms: vec![
-            Arm { name: "measured", role: Role::Actual },
-            Arm { name: "desired", role: Role::Desired },
+            Arm { name: "measured", role: SceneRole::Actual },
+            Arm { name: "desired", role: SceneRole::Desired },
         ],
         signals: vec![
-            signal(Quantity::Position, "desired", Role::Desired),
-            signal(Quantity::Position, "measured", Role::Actual),
-            signal(Quantity::Velocity, "desired", Role::Desired),
-            signal(Quantity::Velocity, "measured", Role::Actual),
-            signal(Quantity::Torque, "applied", Role::Actual),
-            signal(Quantity::Torque, "feedforward", Role::Predicted),
-            signal(Quantity::Error, "tracking error", Role::Error),
+            signal(SignalQuantity::Position, "desired", SceneRole::Desired),
+            signal(SignalQuantity::Position, "measured", SceneRole::Actual),
+            signal(SignalQuantity::Velocity, "desired", SceneRole::Desired),
+            signal(SignalQuantity::Velocity, "measured", SceneRole::Actual),
+            signal(SignalQuantity::Torque, "applied", SceneRole::Actual),
+            signal(SignalQuantity::Torque, "feedforward", SceneRole::Predicted),
+            signal(SignalQuantity::Error, "tracking error", SceneRole::Error),
         ],
     }
 }

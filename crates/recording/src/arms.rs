@@ -5,7 +5,7 @@ use robot::{Looks, Visual};
 
 use crate::colour::Paint;
 use crate::entities::{part, time_column};
-use crate::scene::{Arm, Role};
+use crate::scene::{Arm, SceneRole};
 use crate::skeleton::Skeleton;
 use crate::{colour, shapes};
 
@@ -54,10 +54,10 @@ impl ArmTrack {
             let visuals = looks.links.get(i).map_or(&[][..], Vec::as_slice);
             brush.link(link, visuals, &skeleton.joints_on(Some(i)))?;
         }
-        if arm.role == Role::Actual {
+        if arm.role == SceneRole::Actual {
             brush.base(&root, &looks.base)?;
         }
-        let path = matches!(arm.role, Role::Actual | Role::Desired)
+        let path = matches!(arm.role, SceneRole::Actual | SceneRole::Desired)
             .then(|| EntityPath::new(vec![part("world"), part("paths"), part(arm.name)]));
         if let Some(path) = &path {
             let line = LineStrips3D::update_fields()
@@ -156,7 +156,7 @@ impl ArmTrack {
 struct Brush<'a> {
     stream: &'a RecordingStream,
     skeleton: &'a Skeleton,
-    role: Role,
+    role: SceneRole,
 }
 
 impl Brush<'_> {
@@ -204,7 +204,7 @@ impl Brush<'_> {
     ) -> RecordingStreamResult<bool> {
         let mut drawn = false;
         for (i, visual) in visuals.iter().enumerate() {
-            let given = visual.color_rgba.filter(|_| self.role == Role::Actual);
+            let given = visual.color_rgba.filter(|_| self.role == SceneRole::Actual);
             let rgb = given.map_or(own, |[r, g, b, _]| Rgb([r, g, b].map(|c| (255.0 * c) as u8)));
             let paint = Paint::on_arm(rgb, self.role);
             drawn |= shapes::draw(self.stream, &below(path, &format!("shape{i}")), visual, paint)?;

@@ -1,7 +1,7 @@
 use colours::Rgb;
 use rerun::{Color, FillMode};
 
-use crate::scene::Role;
+use crate::scene::SceneRole;
 
 /// Links that stand still.
 pub(crate) const BASE: Rgb = Rgb([0x6b, 0x72, 0x80]);
@@ -9,14 +9,14 @@ pub(crate) const BASE: Rgb = Rgb([0x6b, 0x72, 0x80]);
 const GHOST: u8 = 40;
 
 /// The colour of a role, on the dark ground of the viewer.
-pub(crate) fn rgb(role: Role) -> Rgb {
+pub(crate) fn rgb(role: SceneRole) -> Rgb {
     let role = match role {
-        Role::Desired => colours::Role::Desired,
-        Role::Actual => colours::Role::Measured,
-        Role::Nominal => colours::Role::Nominal,
-        Role::Predicted => colours::Role::Extended,
-        Role::Error => colours::Role::Error,
-        Role::Model(index) => return series(index),
+        SceneRole::Desired => colours::Role::Desired,
+        SceneRole::Actual => colours::Role::Measured,
+        SceneRole::Nominal => colours::Role::Nominal,
+        SceneRole::Predicted => colours::Role::Extended,
+        SceneRole::Error => colours::Role::Error,
+        SceneRole::Model(index) => return series(index),
     };
     role.colour().on_dark
 }
@@ -46,9 +46,9 @@ impl Paint {
 
     /// On an arm: solid on the actual one, edges alone on every other, so that neither tints
     /// the other where they meet.
-    pub fn on_arm(rgb: Rgb, role: Role) -> Self {
+    pub fn on_arm(rgb: Rgb, role: SceneRole) -> Self {
         match role {
-            Role::Actual => Self::solid(rgb),
+            SceneRole::Actual => Self::solid(rgb),
             _ => Self { color: solid(rgb), fill: FillMode::MajorWireframe },
         }
     }

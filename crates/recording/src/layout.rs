@@ -18,7 +18,7 @@ use crate::entities::{DOCUMENT, EVENTS, TIMELINE};
 use crate::error::RecordingError;
 use crate::plots::Plots;
 use crate::properties::Properties;
-use crate::scene::Quantity;
+use crate::scene::SignalQuantity;
 use crate::shapes::point;
 
 /// Room about the arms in the picture, as a part of the reach: links are thicker than their joints.
@@ -87,7 +87,7 @@ impl Layout {
 
     fn left(&self, properties: &mut Properties) -> ContainerLike {
         let scene = self.scene(properties);
-        let overview = [Quantity::Error, Quantity::Residual, Quantity::Position]
+        let overview = [SignalQuantity::Error, SignalQuantity::Residual, SignalQuantity::Position]
             .into_iter()
             .find(|quantity| self.plots.quantities().any(|q| q == *quantity));
         let Some(quantity) = overview else { return scene };

@@ -4,7 +4,7 @@
 //! Scene ---> Recorder::create      the arms, the names of the signals, the layout of the screen
 //! Rows ----> Recorder::rows        blocks of consecutive samples, while a run goes on
 //!            Recorder::event, ::further, ::document, ::bars
-//!            Recorder::finish ---> Written
+//!            Recorder::finish ---> FinishedRecording
 //! Contents <--- Contents::read     what a file holds, also one that was cut
 //! ```
 //!
@@ -63,8 +63,8 @@ pub use error::RecordingError;
 pub use no_recorder::Recorder;
 #[cfg(feature = "rerun")]
 pub use recorder::Recorder;
-pub use rows::{Bar, Rows, Written};
-pub use scene::{Arm, Level, Listener, Live, Quantity, Role, Scene, Signal};
+pub use rows::{BarSeries, FinishedRecording, RowBlock};
+pub use scene::{Arm, EventLevel, Listener, Live, Scene, SceneRole, SceneSignal, SignalQuantity};
 
 /// Whether recordings are written: what the feature `rerun` says.
 pub const IS_BUILT: bool = cfg!(feature = "rerun");

@@ -1,8 +1,8 @@
 use std::path::Path;
 
 use crate::error::RecordingError;
-use crate::rows::{Bar, Rows, Written};
-use crate::scene::{Level, Live, Scene, Signal};
+use crate::rows::{BarSeries, FinishedRecording, RowBlock};
+use crate::scene::{EventLevel, Live, Scene, SceneSignal};
 
 /// A recording that is being written: there is none, as the crate is built without its feature `rerun`.
 pub enum Recorder {}
@@ -18,17 +18,21 @@ impl Recorder {
     }
 
     /// Takes a block of rows.
-    pub fn rows(&mut self, _: &Rows<'_>) -> Result<(), RecordingError> {
+    pub fn rows(&mut self, _: &RowBlock<'_>) -> Result<(), RecordingError> {
         match *self {}
     }
 
     /// Adds lines of further signals.
-    pub fn further(&mut self, _: &[f64], _: &[(Signal<'_>, &[f64])]) -> Result<(), RecordingError> {
+    pub fn further(
+        &mut self,
+        _: &[f64],
+        _: &[(SceneSignal<'_>, &[f64])],
+    ) -> Result<(), RecordingError> {
         match *self {}
     }
 
     /// Notes what happens at a time (s).
-    pub fn event(&mut self, _: f64, _: Level, _: &str) -> Result<(), RecordingError> {
+    pub fn event(&mut self, _: f64, _: EventLevel, _: &str) -> Result<(), RecordingError> {
         match *self {}
     }
 
@@ -38,7 +42,7 @@ impl Recorder {
     }
 
     /// Shows bars.
-    pub fn bars(&mut self, _: &str, _: &[Bar<'_>]) -> Result<(), RecordingError> {
+    pub fn bars(&mut self, _: &str, _: &[BarSeries<'_>]) -> Result<(), RecordingError> {
         match *self {}
     }
 
@@ -48,7 +52,7 @@ impl Recorder {
     }
 
     /// Ends the file.
-    pub fn finish(self) -> Result<Written, RecordingError> {
+    pub fn finish(self) -> Result<FinishedRecording, RecordingError> {
         match self {}
     }
 }

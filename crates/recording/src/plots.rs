@@ -6,7 +6,7 @@ use robot::JointKind;
 
 use crate::colour;
 use crate::entities::part;
-use crate::scene::{Quantity, Role, Signal};
+use crate::scene::{SceneRole, SceneSignal, SignalQuantity};
 
 /// What the plots of all joints have in common: the signals of the scene, without its data.
 #[derive(Debug, Clone)]
@@ -24,13 +24,13 @@ const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 /// A signal as a line.
 #[derive(Debug, Clone)]
 struct Line {
-    quantity: Quantity,
+    quantity: SignalQuantity,
     name: String,
-    role: Role,
+    role: SceneRole,
 }
 
 impl Plots {
-    pub fn new(joints: Vec<(String, JointKind)>, signals: &[Signal<'_>]) -> Self {
+    pub fn new(joints: Vec<(String, JointKind)>, signals: &[SceneSignal<'_>]) -> Self {
         let ends = vec![vec![vec![NOTHING; joints.len()]; signals.len()]];
         Self { joints, sets: vec![lines(signals)], ends }
     }
@@ -50,7 +50,7 @@ impl Plots {
     }
 
     /// Least and largest number of a quantity of one joint, as it is shown; none before there is any.
-    pub fn ends_of(&self, joint: &str, quantity: Quantity) -> Option<[f64; 2]> {
+    pub fn ends_of(&self, joint: &str, quantity: SignalQuantity) -> Option<[f64; 2]> {
         let joint = self.joints.iter().position(|(name, _)| name == joint)?;
         let all = self.sets.iter().flatten().zip(self.ends.iter().flatten());
         let own = all.filter(|(line, _)| line.quantity == quantity).map(|(_, ends)| ends[joint]);
@@ -58,14 +58,14 @@ impl Plots {
     }
 
     /// The same of what [`Self::of_all`] shows.
-    pub fn ends_of_all(&self, quantity: Quantity) -> Option<[f64; 2]> {
+    pub fn ends_of_all(&self, quantity: SignalQuantity) -> Option<[f64; 2]> {
         let all = self.sets.first()?.iter().zip(self.ends.first()?);
         let own = all.filter(|(line, _)| line.quantity == quantity);
         axis_range(own.flat_map(|(_, ends)| ends.iter().copied()), quantity)
     }
 
     /// Adds signals with times of their own; returns their entities, one a joint.
-    pub fn add(&mut self, signals: &[Signal<'_>]) -> Vec<EntityPath> {
+    pub fn add(&mut self, signals: &[SceneSignal<'_>]) -> Vec<EntityPath> {
         self.sets.push(lines(signals));
         self.ends.push(vec![vec![NOTHING; self.joints.len()]; signals.len()]);
         let set = self.sets.len() - 1;
@@ -88,12 +88,12 @@ impl Plots {
     }
 
     /// The quantities that have a signal, in the order of the plots.
-    pub fn quantities(&self) -> impl Iterator<Item = Quantity> {
-        Quantity::ALL.into_iter().filter(|quantity| self.count(*quantity) > 0)
+    pub fn quantities(&self) -> impl Iterator<Item = SignalQuantity> {
+        SignalQuantity::ALL.into_iter().filter(|quantity| self.count(*quantity) > 0)
     }
 
     /// Lines in the plot of a quantity of one joint.
-    pub fn count(&self, quantity: Quantity) -> usize {
+    pub fn count(&self, quantity: SignalQuantity) -> usize {
         self.sets.iter().flatten().filter(|line| line.quantity == quantity).count()
     }
 
@@ -101,7 +101,7 @@ impl Plots {
     pub fn of_joint(
         &self,
         (joint, kind): &(String, JointKind),
-        quantity: Quantity,
+        quantity: SignalQuantity,
     ) -> TimeSeriesView {
         let title = format!("{} of {joint}", quantity.title(*kind));
         let mut view = TimeSeriesView::new(title).with_origin(path(joint, 0));
@@ -123,7 +123,7 @@ impl Plots {
 
     /// One quantity of all joints: a colour and a line of the legend a joint; of several signals the
     /// first is the broadest.
-    pub fn of_all(&self, quantity: Quantity) -> TimeSeriesView {
+    pub fn of_all(&self, quantity: SignalQuantity) -> TimeSeriesView {
         let lines = self.sets.first().into_iter().flatten();
         let own: Vec<&Line> = lines.filter(|line| line.quantity == quantity).collect();
         let mut view = TimeSeriesView::new(self.title_of_all(quantity, &own))
@@ -141,7 +141,7 @@ impl Plots {
         view
     }
 
-    fn title_of_all(&self, quantity: Quantity, own: &[&Line]) -> String {
+    fn title_of_all(&self, quantity: SignalQuantity, own: &[&Line]) -> String {
         let same = self.joints.windows(2).all(|w| w[0].1.is_rotation() == w[1].1.is_rotation());
         let kind = self.joints.first().filter(|_| same).map(|(_, kind)| *kind);
         let title = kind.map_or_else(|| mixed_title(quantity), |kind| quantity.title(kind));
@@ -154,14 +154,14 @@ impl Plots {
 }
 
 /// All ends together, as they are shown.
-fn axis_range(ends: impl Iterator<Item = [f64; 2]>, quantity: Quantity) -> Option<[f64; 2]> {
+fn axis_range(ends: impl Iterator<Item = [f64; 2]>, quantity: SignalQuantity) -> Option<[f64; 2]> {
     let [low, high] = ends.fold(NOTHING, |[low, high], [a, b]| [low.min(a), high.max(b)]);
     (low <= high).then_some([low, high].map(|end| quantity.scale() * end))
 }
 
-fn lines(signals: &[Signal<'_>]) -> Vec<Line> {
+fn lines(signals: &[SceneSignal<'_>]) -> Vec<Line> {
     let line =
-        |s: &Signal<'_>| Line { quantity: s.quantity, name: s.name.to_owned(), role: s.role };
+        |s: &SceneSignal<'_>| Line { quantity: s.quantity, name: s.name.to_owned(), role: s.role };
     signals.iter().map(line).collect()
 }
 
@@ -173,26 +173,26 @@ fn path(joint: &str, set: usize) -> EntityPath {
 }
 
 /// The title of a plot that holds sliding joints beside rotating ones.
-fn mixed_title(quantity: Quantity) -> &'static str {
+fn mixed_title(quantity: SignalQuantity) -> &'static str {
     match quantity {
-        Quantity::Position => "position (rad, m)",
-        Quantity::Velocity => "velocity (rad/s, m/s)",
-        Quantity::Torque => "torque (N·m), force (N)",
-        Quantity::Residual => "residual (N·m, N)",
-        Quantity::Error => "error (mrad, mm)",
+        SignalQuantity::Position => "position (rad, m)",
+        SignalQuantity::Velocity => "velocity (rad/s, m/s)",
+        SignalQuantity::Torque => "torque (N·m), force (N)",
+        SignalQuantity::Residual => "residual (N·m, N)",
+        SignalQuantity::Error => "error (mrad, mm)",
     }
 }
 
 /// Lines that take their numbers from the column of a quantity.
-fn with_column(lines: &SeriesLines, quantity: Quantity) -> Visualizer {
+fn with_column(lines: &SeriesLines, quantity: SignalQuantity) -> Visualizer {
     let column =
         VisualizerComponentMapping::new_source_component("Scalars:scalars", quantity.key());
     lines.visualizer().with_mappings([column.into()])
 }
 
 /// What is asked for is drawn wider, so that it shows beneath what follows it.
-fn width(role: Role) -> f32 {
-    if role == Role::Desired { 2.5 } else { 1.3 }
+fn width(role: SceneRole) -> f32 {
+    if role == SceneRole::Desired { 2.5 } else { 1.3 }
 }
 
 /// Width of line `k` of `count` that have the colour of their joint: from 2.4 to 0.8.
@@ -230,19 +230,20 @@ mod tests {
     #[test]
     fn the_legend_of_all_joints_names_them() {
         let joints = ["elbow", "wrist"].map(|joint| (joint.to_owned(), JointKind::Revolute));
-        let signal = |name, role| Signal { quantity: Quantity::Residual, name, role };
-        let signals = [signal("nominal", Role::Nominal), signal("extended", Role::Predicted)];
+        let signal = |name, role| SceneSignal { quantity: SignalQuantity::Residual, name, role };
+        let signals =
+            [signal("nominal", SceneRole::Nominal), signal("extended", SceneRole::Predicted)];
         for count in [1, 2] {
             let plots = Plots::new(joints.to_vec(), &signals[..count]);
             let expected = ["elbow", "wrist"].map(|joint| vec![joint.to_owned(); count]);
-            assert_eq!(names(plots.of_all(Quantity::Residual)), expected);
+            assert_eq!(names(plots.of_all(SignalQuantity::Residual)), expected);
         }
         let plots = Plots::new(joints.to_vec(), &signals);
         let own: Vec<&Line> = plots.sets[0].iter().collect();
-        let title = plots.title_of_all(Quantity::Residual, &own);
+        let title = plots.title_of_all(SignalQuantity::Residual, &own);
         assert_eq!(title, "residual torque (N·m) of all joints, broad to fine: nominal, extended");
         assert_eq!(
-            names(plots.of_joint(&joints[0], Quantity::Residual)),
+            names(plots.of_joint(&joints[0], SignalQuantity::Residual)),
             [["nominal", "extended"]]
         );
     }

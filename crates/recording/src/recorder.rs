@@ -16,8 +16,8 @@ use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
 use crate::pace::Pace;
 use crate::plots::Plots;
-use crate::rows::{Bar, Rows, Written};
-use crate::scene::{Level, Live, Scene, Signal};
+use crate::rows::{BarSeries, FinishedRecording, RowBlock};
+use crate::scene::{EventLevel, Live, Scene, SceneSignal};
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
@@ -100,7 +100,7 @@ impl Recorder {
     ///
     /// [`RecordingError::WrongLength`] and [`RecordingError::TimeNotIncreasing`], both before
     /// anything of the block is taken; [`RecordingError::Refused`].
-    pub fn rows(&mut self, rows: &Rows<'_>) -> Result<(), RecordingError> {
+    pub fn rows(&mut self, rows: &RowBlock<'_>) -> Result<(), RecordingError> {
         self.check(rows)?;
         let joints = self.skeleton.joints.len();
         for (row, &time_s) in rows.time_s.iter().enumerate() {
@@ -134,7 +134,7 @@ impl Recorder {
     pub fn further(
         &mut self,
         time_s: &[f64],
-        signals: &[(Signal<'_>, &[f64])],
+        signals: &[(SceneSignal<'_>, &[f64])],
     ) -> Result<(), RecordingError> {
         let expected = time_s.len() * self.skeleton.joints.len();
         if let Some((signal, values)) = signals.iter().find(|(_, v)| v.len() != expected) {
@@ -142,7 +142,8 @@ impl Recorder {
             return Err(length(thing, "numbers", values.len(), expected));
         }
         increasing(time_s, f64::NEG_INFINITY)?;
-        let (signals, values): (Vec<Signal<'_>>, Vec<&[f64]>) = signals.iter().copied().unzip();
+        let (signals, values): (Vec<SceneSignal<'_>>, Vec<&[f64]>) =
+            signals.iter().copied().unzip();
         let paths = self.layout.plots.add(&signals);
         self.layout.plots.see(self.layout.plots.last_set(), &values);
         let mut written = Signals::new(paths, &signals);
@@ -155,7 +156,12 @@ impl Recorder {
     /// # Errors
     ///
     /// [`RecordingError::EventTime`] and [`RecordingError::Refused`].
-    pub fn event(&mut self, time_s: f64, level: Level, text: &str) -> Result<(), RecordingError> {
+    pub fn event(
+        &mut self,
+        time_s: f64,
+        level: EventLevel,
+        text: &str,
+    ) -> Result<(), RecordingError> {
         if time_s.is_nan() || time_s.abs() > LAST_S {
             return Err(RecordingError::EventTime { text: text.to_owned(), time_s });
         }
@@ -183,15 +189,15 @@ impl Recorder {
     ///
     /// [`RecordingError::WrongLength`] where a series does not have a number a joint, and
     /// [`RecordingError::Refused`].
-    pub fn bars(&mut self, title: &str, series: &[Bar<'_>]) -> Result<(), RecordingError> {
+    pub fn bars(&mut self, title: &str, series: &[BarSeries<'_>]) -> Result<(), RecordingError> {
         let joints = self.skeleton.joints.len();
         let wrong = series.iter().find(|bar| bar.values.len() != joints);
-        if let Some(Bar { name, values, .. }) = wrong {
+        if let Some(BarSeries { name, values, .. }) = wrong {
             return Err(length(format!("bars {title}, {name}"), "numbers", values.len(), joints));
         }
         let path = EntityPath::new(vec![part("metrics"), part(&plain(title))]);
         let width = BARS / series.len().max(1) as f64;
-        for (i, Bar { name, role, values }) in series.iter().enumerate() {
+        for (i, BarSeries { name, role, values }) in series.iter().enumerate() {
             let shift = (i as f64 + 0.5) * width - 0.5 * BARS;
             let at: Vec<f64> = (1..=joints).map(|joint| joint as f64 + shift).collect();
             let values: Vec<f64> =
@@ -221,7 +227,7 @@ impl Recorder {
     ///
     /// [`RecordingError::Unwritable`], also for what the disk refused before, and
     /// [`RecordingError::Refused`].
-    pub fn finish(mut self) -> Result<Written, RecordingError> {
+    pub fn finish(mut self) -> Result<FinishedRecording, RecordingError> {
         self.write().map_err(refusal)?;
         let Layout { bars, plots, opened, .. } = &self.layout;
         if self.rows > 0 || !bars.is_empty() || plots.has_further() || opened.is_some() {
@@ -240,7 +246,7 @@ impl Recorder {
         self.disk.end()?;
         let bytes = std::fs::metadata(&self.path).map_err(|error| cannot(error.to_string()))?.len();
         let listener = self.viewer.close();
-        Ok(Written { path: self.path, rows: self.rows, bytes, listener })
+        Ok(FinishedRecording { path: self.path, rows: self.rows, bytes, listener })
     }
 
     fn write(&mut self) -> RecordingStreamResult<()> {
@@ -250,7 +256,7 @@ impl Recorder {
         self.signals.flush(&self.stream)
     }
 
-    fn check(&self, rows: &Rows<'_>) -> Result<(), RecordingError> {
+    fn check(&self, rows: &RowBlock<'_>) -> Result<(), RecordingError> {
         let lists = [("arms", rows.arms.len(), self.arms.len())];
         let signals = [("signals", rows.signals.len(), self.signal_names.len())];
         for (items, found, expected) in lists.into_iter().chain(signals) {

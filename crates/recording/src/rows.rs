@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 
-use crate::scene::{Listener, Role};
+use crate::scene::{Listener, SceneRole};
 
 /// Consecutive rows of a run.
 #[derive(Debug, Clone, Copy)]
-pub struct Rows<'a> {
+pub struct RowBlock<'a> {
     /// Times (s), increasing within a block and from block to block.
     pub time_s: &'a [f64],
     /// Per arm, row-major positions of all joints (rad or m); a row with a NaN hides the arm until
@@ -16,18 +16,18 @@ pub struct Rows<'a> {
 
 /// One bar for each joint.
 #[derive(Debug, Clone, Copy)]
-pub struct Bar<'a> {
+pub struct BarSeries<'a> {
     /// Name in the legend.
     pub name: &'a str,
     /// Decides the colour: that of its lines.
-    pub role: Role,
+    pub role: SceneRole,
     /// One number a joint.
     pub values: &'a [f64],
 }
 
 /// A finished recording.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Written {
+pub struct FinishedRecording {
     /// The file.
     pub path: PathBuf,
     /// Rows taken.

@@ -12,7 +12,7 @@ pub struct Scene<'a> {
     /// The arms that move in the picture.
     pub arms: Vec<Arm<'a>>,
     /// The signals, each with one number a joint and row.
-    pub signals: Vec<Signal<'a>>,
+    pub signals: Vec<SceneSignal<'a>>,
 }
 
 /// One arm in the picture.
@@ -22,23 +22,23 @@ pub struct Arm<'a> {
     pub name: &'a str,
     /// The role `Actual` is drawn solid, every other one as a ghost in its colour. `Actual` and
     /// `Desired` leave the path of their tip behind: models may start anew again and again.
-    pub role: Role,
+    pub role: SceneRole,
 }
 
 /// One signal of every joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Signal<'a> {
+pub struct SceneSignal<'a> {
     /// Decides the plot.
-    pub quantity: Quantity,
+    pub quantity: SignalQuantity,
     /// Name in the legend, such as `measured`.
     pub name: &'a str,
     /// Decides the colour.
-    pub role: Role,
+    pub role: SceneRole,
 }
 
 /// The role of an arm or a signal. It decides the colour ([`colours::Role`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
+pub enum SceneRole {
     /// Asked for.
     Desired,
     /// What happened, measured or applied.
@@ -55,7 +55,7 @@ pub enum Role {
 
 /// What a signal measures, for rotating joints and for sliding ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
+pub enum SignalQuantity {
     /// Position (rad or m).
     Position,
     /// Velocity (rad/s or m/s).
@@ -69,7 +69,7 @@ pub enum Quantity {
 }
 
 #[cfg(feature = "rerun")]
-impl Quantity {
+impl SignalQuantity {
     /// Every quantity, in the order of the plots.
     pub(crate) const ALL: [Self; 5] =
         [Self::Position, Self::Velocity, Self::Torque, Self::Residual, Self::Error];
@@ -132,7 +132,7 @@ pub enum Listener {
 
 /// How much an event matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Level {
+pub enum EventLevel {
     /// Worth knowing.
     Info,
     /// Worth a look.
@@ -142,7 +142,7 @@ pub enum Level {
 }
 
 #[cfg(feature = "rerun")]
-impl Level {
+impl EventLevel {
     pub(crate) fn label(self) -> &'static str {
         match self {
             Self::Info => rerun::TextLogLevel::INFO,

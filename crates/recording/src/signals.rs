@@ -7,7 +7,7 @@ use rerun::{
 };
 
 use crate::entities::time_column;
-use crate::scene::{Quantity, Signal};
+use crate::scene::{SceneSignal, SignalQuantity};
 
 /// The signals, and the rows of them that wait to be written.
 ///
@@ -16,7 +16,7 @@ use crate::scene::{Quantity, Signal};
 #[derive(Debug)]
 pub(crate) struct Signals {
     joints: Vec<EntityPath>,
-    quantities: Vec<Quantity>,
+    quantities: Vec<SignalQuantity>,
     time_s: Vec<f64>,
     /// Per signal, rows of one number a joint.
     values: Vec<Vec<f64>>,
@@ -24,7 +24,7 @@ pub(crate) struct Signals {
 
 impl Signals {
     /// Signals to be written to these entities, one a joint.
-    pub fn new(joints: Vec<EntityPath>, signals: &[Signal<'_>]) -> Self {
+    pub fn new(joints: Vec<EntityPath>, signals: &[SceneSignal<'_>]) -> Self {
         Self {
             joints,
             quantities: signals.iter().map(|s| s.quantity).collect(),
@@ -50,7 +50,7 @@ impl Signals {
     /// Writes what waits.
     pub fn flush(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         for (joint, path) in self.joints.iter().enumerate() {
-            let columns = Quantity::ALL.iter().filter_map(|&q| self.column(joint, q));
+            let columns = SignalQuantity::ALL.iter().filter_map(|&q| self.column(joint, q));
             let columns = columns.collect::<Result<Vec<_>, _>>()?;
             if !self.time_s.is_empty() && !columns.is_empty() {
                 stream.send_columns(path.clone(), [time_column(&self.time_s)], columns)?;
@@ -65,7 +65,7 @@ impl Signals {
     fn column(
         &self,
         joint: usize,
-        quantity: Quantity,
+        quantity: SignalQuantity,
     ) -> Option<rerun::SerializationResult<SerializedComponentColumn>> {
         let own = self.quantities.iter().zip(&self.values).filter(|(q, _)| **q == quantity);
         let own: Vec<&[f64]> = own.map(|(_, values)| values.as_slice()).collect();

@@ -10,8 +10,8 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use recording::{
-    Arm, Bar, Contents, Level, Listener, Live, Quantity, Recorder, RecordingError, Role, Rows,
-    Scene, Signal, Written,
+    Arm, BarSeries, Contents, EventLevel, FinishedRecording, Listener, Live, Recorder,
+    RecordingError, RowBlock, Scene, SceneRole, SceneSignal, SignalQuantity,
 };
 use rerun::external::re_log_encoding::DecoderApp;
 use rerun::external::re_log_types::LogMsg;
@@ -31,13 +31,25 @@ fn scene(loaded: &Loaded) -> Scene<'_> {
         robot: &loaded.robot,
         looks: &loaded.looks,
         arms: vec![
-            Arm { name: "measured", role: Role::Actual },
-            Arm { name: "desired", role: Role::Desired },
+            Arm { name: "measured", role: SceneRole::Actual },
+            Arm { name: "desired", role: SceneRole::Desired },
         ],
         signals: vec![
-            Signal { quantity: Quantity::Position, name: "desired", role: Role::Desired },
-            Signal { quantity: Quantity::Position, name: "measured", role: Role::Actual },
-            Signal { quantity: Quantity::Error, name: "tracking error", role: Role::Error },
+            SceneSignal {
+                quantity: SignalQuantity::Position,
+                name: "desired",
+                role: SceneRole::Desired,
+            },
+            SceneSignal {
+                quantity: SignalQuantity::Position,
+                name: "measured",
+                role: SceneRole::Actual,
+            },
+            SceneSignal {
+                quantity: SignalQuantity::Error,
+                name: "tracking error",
+                role: SceneRole::Error,
+            },
         ],
     }
 }
@@ -53,11 +65,11 @@ fn slow() -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Three seconds in blocks of 0.2 s; the position of joint 2 is not known in row 700.
-fn record(path: &Path) -> Written {
+fn record(path: &Path) -> FinishedRecording {
     record_to(path, Live::Off)
 }
 
-fn record_to(path: &Path, live: Live) -> Written {
+fn record_to(path: &Path, live: Live) -> FinishedRecording {
     let loaded = wam();
     let mut recorder = Recorder::create(path, &scene(&loaded), live).unwrap();
     for start in (0..1500).step_by(100) {
@@ -68,15 +80,16 @@ fn record_to(path: &Path, live: Live) -> Written {
         let measured: Vec<f64> = grid().map(gap).collect();
         let error: Vec<f64> = grid().map(|(i, j)| 1e-3 * value(i, j)).collect();
         recorder
-            .rows(&Rows { time_s: &time_s, arms: &[&q, &q], signals: &[&q, &measured, &error] })
+            .rows(&RowBlock { time_s: &time_s, arms: &[&q, &q], signals: &[&q, &measured, &error] })
             .unwrap();
     }
-    recorder.event(1.0, Level::Warning, "prediction stalled").unwrap();
+    recorder.event(1.0, EventLevel::Warning, "prediction stalled").unwrap();
     let (time_s, tau) = slow();
-    let predicted = Signal { quantity: Quantity::Torque, name: "gp", role: Role::Model(0) };
+    let predicted =
+        SceneSignal { quantity: SignalQuantity::Torque, name: "gp", role: SceneRole::Model(0) };
     recorder.further(&time_s, &[(predicted, &tau)]).unwrap();
     recorder.document("# Verdict").unwrap();
-    let bar = |place, name, values| Bar { name, role: Role::Model(place), values };
+    let bar = |place, name, values| BarSeries { name, role: SceneRole::Model(place), values };
     let bars = [bar(0, "gp", &[1.0; 7][..]), bar(1, "none", &[2.0; 7])];
     recorder.bars("RMSE (mrad)", &bars).unwrap();
     recorder.finish().unwrap()
@@ -190,7 +203,7 @@ fn rows_of_wrong_lengths_or_times_are_refused_and_leave_nothing() {
     let mut recorder = Recorder::create(&path, &scene(&loaded), Live::Off).unwrap();
     let (one, short) = ([0.0; 7], [0.0; 6]);
     let mut rows = |time_s: &[f64], arms: &[&[f64]], signals: &[&[f64]]| {
-        recorder.rows(&Rows { time_s, arms, signals })
+        recorder.rows(&RowBlock { time_s, arms, signals })
     };
     let all = [&one[..], &one, &one];
     let length = |thing: &str, items, found, expected| {
@@ -209,15 +222,16 @@ fn rows_of_wrong_lengths_or_times_are_refused_and_leave_nothing() {
     assert_eq!(rows(&[1.0], &all[..2], &all), Ok(()));
     let again = RecordingError::TimeNotIncreasing { row: 0, time_s: 1.0, previous_s: 1.0 };
     assert_eq!(rows(&[1.0], &all[..2], &all), Err(again));
-    let predicted = Signal { quantity: Quantity::Torque, name: "gp", role: Role::Model(0) };
+    let predicted =
+        SceneSignal { quantity: SignalQuantity::Torque, name: "gp", role: SceneRole::Model(0) };
     let further = recorder.further(&[0.0], &[(predicted, &short)]);
     assert_eq!(further, length("signal gp", "numbers", 6, 7));
     let again = RecordingError::TimeNotIncreasing { row: 1, time_s: 0.0, previous_s: 0.0 };
     assert_eq!(recorder.further(&[0.0, 0.0], &[(predicted, &[0.0; 14])]), Err(again));
-    let short = Bar { name: "gp", role: Role::Model(0), values: &[1.0] };
+    let short = BarSeries { name: "gp", role: SceneRole::Model(0), values: &[1.0] };
     let bars = recorder.bars("RMSE", &[short]);
     assert_eq!(bars, length("bars RMSE, gp", "numbers", 1, 7));
-    assert!(recorder.event(f64::NAN, Level::Info, "never").is_err());
+    assert!(recorder.event(f64::NAN, EventLevel::Info, "never").is_err());
     assert_eq!(recorder.finish().unwrap().rows, 1);
 }
 
@@ -286,14 +300,15 @@ fn links_without_shapes_are_sticks_and_slides_are_moved_along_their_axis() {
     </robot>"#;
     let robot = Robot::from_urdf(urdf).unwrap();
     let looks = robot::Looks { base: vec![], links: vec![vec![]; 2] };
-    let signal = Signal { quantity: Quantity::Error, name: "error", role: Role::Error };
-    let arms = vec![Arm { name: "measured", role: Role::Actual }];
+    let signal =
+        SceneSignal { quantity: SignalQuantity::Error, name: "error", role: SceneRole::Error };
+    let arms = vec![Arm { name: "measured", role: SceneRole::Actual }];
     let scene = Scene { title: "crane", robot: &robot, looks: &looks, arms, signals: vec![signal] };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("crane.rrd");
     let mut recorder = Recorder::create(&path, &scene, Live::Off).unwrap();
     let q = [0.25, 0.0];
-    recorder.rows(&Rows { time_s: &[0.0], arms: &[&q], signals: &[&[2e-3, 3e-3]] }).unwrap();
+    recorder.rows(&RowBlock { time_s: &[0.0], arms: &[&q], signals: &[&[2e-3, 3e-3]] }).unwrap();
     recorder.finish().unwrap();
     let file = Contents::read(&path).unwrap();
     assert_eq!(file.entities["/joints/rail"].columns["error"], [[2.0]], "in mm");
@@ -322,7 +337,9 @@ fn translations(path: &Path, entity: &str) -> Vec<[f32; 3]> {
 }
 
 /// Listens where viewers do, takes connections with `greet` and never reads.
-fn with_listener(greet: fn(TcpStream) -> Option<TcpStream>) -> Option<(Written, Duration)> {
+fn with_listener(
+    greet: fn(TcpStream) -> Option<TcpStream>,
+) -> Option<(FinishedRecording, Duration)> {
     let listener = TcpListener::bind(("127.0.0.1", rerun::DEFAULT_SERVER_PORT)).ok()?;
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.rrd");

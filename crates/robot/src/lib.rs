@@ -31,13 +31,14 @@ pub use machine::{Machine, MachineFault, Reading};
 pub use meshes::folders::MeshFolders;
 pub use meshes::packages::Packages;
 pub use structure::actuator::{
-    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave,
+    Actuator, Counterbalance, Coupling, FrictionWave, Ripple, SensingSide, Stribeck, TorqueSource,
+    Warming,
 };
 pub use structure::control::{ControlSettings, PdGain};
 pub use structure::inertia::{Inertia, InertiaDefect};
 pub use structure::joint::{Joint, JointKind, Limits};
 pub use structure::link::Link;
 pub use structure::looks::{Looks, Shape, Visual};
-pub use structure::part::{LockedJoint, JointSelection};
+pub use structure::part::{JointSelection, LockedJoint};
 pub use structure::robot::Robot;
 pub use warning::RobotWarning;

@@ -107,7 +107,11 @@ impl Robot {
 }
 
 impl Loaded {
-    fn from_urdf(model: &WholeRobot, part: JointSelection, path: &Path) -> Result<Self, RobotError> {
+    fn from_urdf(
+        model: &WholeRobot,
+        part: JointSelection,
+        path: &Path,
+    ) -> Result<Self, RobotError> {
         let whole = &model.robot;
         let locked = part.locks(whole, &model.mimics)?;
         let lumping = Lumping::new(whole, &positions(&locked));

@@ -5,7 +5,7 @@ use document::KeyPath;
 use crate::misfit::Misfit;
 use crate::structure::control::ControlSettings;
 use crate::structure::looks::Looks;
-use crate::structure::part::{LockedJoint, JointSelection};
+use crate::structure::part::{JointSelection, LockedJoint};
 use crate::structure::robot::Robot;
 use crate::warning::RobotWarning;
 

@@ -28,7 +28,8 @@ pub use replay::forward::{ForwardReplay, Windows, replay_torque};
 pub use replay::motion::{MotionReplay, replay_motion};
 pub use run::effect_sizer::EffectSizer;
 pub use run::simulate::{
-    Simulation, arm, draw_hidden_effects, simulate, simulate_only, simulate_noise_free, simulate_noise_free_start,
+    Simulation, arm, draw_hidden_effects, simulate, simulate_noise_free, simulate_noise_free_start,
+    simulate_only,
 };
 pub use run::write::{LogFormat, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};

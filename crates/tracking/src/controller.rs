@@ -5,7 +5,7 @@ use robot::{PdGain, Reading};
 
 use crate::error;
 use crate::error::TrackingError;
-use crate::feedforward::Prediction;
+use crate::feedforward::TorquePrediction;
 use crate::torque_limits::TorqueLimits;
 
 /// Gains, limits and the error rate of a controller.
@@ -87,7 +87,13 @@ impl<'a> Feedback<'a> {
     }
 
     /// Fills `tau` with `kp error + kd error_rate` (N m or N).
-    pub fn fill(&mut self, reference: &State, lead: &Prediction, now: &Reading, tau: &mut [f64]) {
+    pub fn fill(
+        &mut self,
+        reference: &State,
+        lead: &TorquePrediction,
+        now: &Reading,
+        tau: &mut [f64],
+    ) {
         let error = |j: usize| reference.q[j] + lead.q_lead[j] - now.q[j];
         let joints = self.error_rate.len();
         if self.last_error.is_empty() {
@@ -127,7 +133,7 @@ mod tests {
             let reference = State { q: vec![q_ref(t)], qd: vec![0.0], qdd: vec![0.0] };
             let reading = Reading { q: vec![q(t)], ..Reading::zero(1) };
             let mut tau = [0.0];
-            feedback.fill(&reference, &Prediction::zero(1), &reading, &mut tau);
+            feedback.fill(&reference, &TorquePrediction::zero(1), &reading, &mut tau);
             tau[0]
         };
         (0..500).map(each).collect()
@@ -153,7 +159,7 @@ mod tests {
     #[test]
     fn the_feedback_follows_the_reference_and_its_lead() {
         let controller = controller(10.0, 2.0, ErrorRate::Reading);
-        let lead = Prediction { tau: vec![7.0], q_lead: vec![0.1], qd_lead: vec![0.5] };
+        let lead = TorquePrediction { tau: vec![7.0], q_lead: vec![0.1], qd_lead: vec![0.5] };
         let reference = State { q: vec![1.0], qd: vec![2.0], qdd: vec![0.0] };
         let reading = Reading { q: vec![0.6], qd: vec![1.5], ..Reading::zero(1) };
         let mut tau = [0.0];

@@ -15,12 +15,12 @@ pub trait Feedforward: Send {
     ///
     /// The feedback does not wait for it, so it may be slow. It has to return, as a run ends only
     /// then. A panic ends the predictor.
-    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction);
+    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut TorquePrediction);
 }
 
 /// The output of a feedforward, one entry a joint.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Prediction {
+pub struct TorquePrediction {
     /// Torque (N m or N).
     pub tau: Vec<f64>,
     /// By how much the motor has to lead the reference of its link (rad or m), because of backlash
@@ -30,7 +30,7 @@ pub struct Prediction {
     pub qd_lead: Vec<f64>,
 }
 
-impl Prediction {
+impl TorquePrediction {
     /// A prediction of zeros.
     pub fn zero(joints: usize) -> Self {
         let zeros = vec![0.0; joints];
@@ -60,7 +60,7 @@ impl Feedforward for NoFeedforward {
         "no feedforward".to_owned()
     }
 
-    fn predict(&mut self, _: &Motion, _: f64, prediction: &mut Prediction) {
+    fn predict(&mut self, _: &Motion, _: f64, prediction: &mut TorquePrediction) {
         for signal in [&mut prediction.tau, &mut prediction.q_lead, &mut prediction.qd_lead] {
             signal.fill(0.0);
         }
@@ -72,7 +72,7 @@ pub(crate) fn ask(
     feedforward: &mut dyn Feedforward,
     motion: &Motion,
     time_s: f64,
-    prediction: &mut Prediction,
+    prediction: &mut TorquePrediction,
 ) -> Result<(), String> {
     // Nobody asks a feedforward again, or looks at its prediction, once it has panicked.
     let asked = AssertUnwindSafe(|| feedforward.predict(motion, time_s, prediction));

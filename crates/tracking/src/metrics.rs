@@ -7,7 +7,7 @@ use crate::tip::tip_in_base;
 
 /// Tracking errors of a run, and the torque that they took. A run without ticks has zeros.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Metrics {
+pub struct TrackingMetrics {
     /// Joint by joint, in the order of the robot.
     pub joints: Vec<JointMetrics>,
     /// How far a point of the last link was from where it should be, by the joints' readings.
@@ -71,7 +71,7 @@ pub struct Distance {
 /// The first stretch of a run that is looked at alone (s).
 const FIRST_S: f64 = 10.0;
 
-impl Metrics {
+impl TrackingMetrics {
     /// The metrics of a run of `robot`, and of a point of its last link (m).
     ///
     /// # Errors
@@ -166,7 +166,8 @@ mod tests {
         let mut ticks = vec![[1.0, -2.0, 2.0, 0.0]; 10];
         ticks.extend([[1.0, 5.0, 2.0, 0.0]; 2]);
         (ticks[3], ticks[11][3]) = ([1.0, -2.0, -4.0, 1.0], 6.0);
-        let metrics = Metrics::of(&rows_of(&ticks, Some(0.5)), &slider(), &Point3::origin());
+        let metrics =
+            TrackingMetrics::of(&rows_of(&ticks, Some(0.5)), &slider(), &Point3::origin());
         let metrics = metrics.unwrap();
         let joint = &metrics.joints[0];
         assert_near(joint.rmse, f64::sqrt((90.0 + 32.0) / 12.0));
@@ -193,7 +194,7 @@ mod tests {
     fn the_point_of_a_hinge_is_off_by_the_chord() {
         let rows = rows_of(&[[0.9, 0.5, 0.0, 0.0], [0.4, 0.4, 0.0, 0.0]], None);
         let point = Point3::new(0.0, 0.0, -0.5);
-        let metrics = Metrics::of(&rows, &pendulum(), &point).unwrap();
+        let metrics = TrackingMetrics::of(&rows, &pendulum(), &point).unwrap();
         let chord = 2.0 * 0.5 * f64::sin(0.5 * 0.4);
         assert_near(metrics.end_effector.max_m, chord);
         assert_near(metrics.end_effector.rms_m, chord / f64::sqrt(2.0));
@@ -204,11 +205,12 @@ mod tests {
 
     #[test]
     fn a_run_without_ticks_has_zeros_and_one_of_other_joints_is_refused() {
-        let metrics = Metrics::of(&rows_of(&[], None), &slider(), &Point3::origin()).unwrap();
+        let metrics =
+            TrackingMetrics::of(&rows_of(&[], None), &slider(), &Point3::origin()).unwrap();
         assert_eq!(metrics.end_effector, Distance::default());
         assert_eq!((metrics.joints[0].rmse, metrics.joints[0].jump_max), (0.0, 0.0));
-        let error =
-            Metrics::of(&TrackingRows::new(2, 0), &slider(), &Point3::origin()).unwrap_err();
+        let error = TrackingMetrics::of(&TrackingRows::new(2, 0), &slider(), &Point3::origin())
+            .unwrap_err();
         assert_eq!(error.to_string(), "the run is for 2 joints, 1 were expected");
     }
 }

@@ -1,7 +1,7 @@
-use learner::{State, TorqueModel, Workspace};
+use learner::{SampleState, TorqueModel, TorqueWorkspace};
 use motion::Motion;
 
-use crate::feedforward::{Feedforward, Prediction};
+use crate::feedforward::{Feedforward, TorquePrediction};
 
 /// The torque that a model expects along the reference.
 ///
@@ -20,7 +20,7 @@ pub struct GravityFeedforward<'a>(Asked<'a>);
 /// A model and what is needed to ask it.
 struct Asked<'a> {
     model: &'a dyn TorqueModel,
-    workspace: Workspace,
+    workspace: TorqueWorkspace,
     state: motion::State,
     lead_s: f64,
 }
@@ -45,8 +45,8 @@ impl<'a> Asked<'a> {
         Self { model, workspace: model.workspace(), state: motion::State::default(), lead_s }
     }
 
-    fn fill(&mut self, prediction: &mut Prediction) {
-        let state = State { q: &self.state.q, qd: &self.state.qd, qdd: &self.state.qdd };
+    fn fill(&mut self, prediction: &mut TorquePrediction) {
+        let state = SampleState { q: &self.state.q, qd: &self.state.qd, qdd: &self.state.qdd };
         self.model.torque_into(&mut self.workspace, state, &mut prediction.tau);
         prediction.q_lead.fill(0.0);
         prediction.qd_lead.fill(0.0);
@@ -62,7 +62,7 @@ impl Feedforward for ModelFeedforward<'_> {
         self.0.model.words()
     }
 
-    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction) {
+    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut TorquePrediction) {
         motion.sample(time_s + self.0.lead_s, &mut self.0.state);
         self.0.fill(prediction);
     }
@@ -77,7 +77,7 @@ impl Feedforward for GravityFeedforward<'_> {
         format!("{}, at rest", self.0.model.words())
     }
 
-    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction) {
+    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut TorquePrediction) {
         motion.sample(time_s + self.0.lead_s, &mut self.0.state);
         self.0.state.qd.fill(0.0);
         self.0.state.qdd.fill(0.0);

@@ -1,9 +1,9 @@
-use effects::{Compensated, Compensation, CompensationWorkspace};
+use effects::{Compensation, CompensationWorkspace, FeedforwardEfforts};
 use motion::{Motion, State};
 use robot::Robot;
 
 use crate::error::{TrackingError, same_joints};
-use crate::feedforward::{Feedforward, Prediction};
+use crate::feedforward::{Feedforward, TorquePrediction};
 
 /// The commands with which the links of a robot follow the motion: rigid bodies, and the inverse of
 /// every effect that the description of the robot names.
@@ -20,7 +20,7 @@ pub struct NamedFeedforward {
     compensation: Compensation,
     workspace: CompensationWorkspace,
     states: Vec<State>,
-    found: Compensated,
+    found: FeedforwardEfforts,
     /// Every delay that a joint has (s), once.
     delays_s: Vec<f64>,
     lead_s: f64,
@@ -43,7 +43,7 @@ impl NamedFeedforward {
         Ok(Self {
             workspace: compensation.workspace(),
             states: vec![State::default(); compensation.states_needed()],
-            found: Compensated::zero(joints),
+            found: FeedforwardEfforts::zero(joints),
             compensation,
             delays_s,
             lead_s,
@@ -77,7 +77,7 @@ impl Feedforward for NamedFeedforward {
         "the robot extended by named effects".to_owned()
     }
 
-    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut Prediction) {
+    fn predict(&mut self, motion: &Motion, time_s: f64, prediction: &mut TorquePrediction) {
         for i in 0..self.delays_s.len() {
             let delay_s = self.delays_s[i];
             self.find(motion, time_s + delay_s + self.lead_s);
@@ -135,9 +135,9 @@ mod tests {
         toml::from_str::<MotionSpec>(text).unwrap().build(robot, ".".as_ref()).unwrap()
     }
 
-    fn predicted(robot: &Robot, motion: &Motion, time_s: f64) -> Prediction {
+    fn predicted(robot: &Robot, motion: &Motion, time_s: f64) -> TorquePrediction {
         let mut feedforward = NamedFeedforward::new(robot, &[0.01, 0.01], LEAD_S).unwrap();
-        let mut prediction = Prediction::zero(2);
+        let mut prediction = TorquePrediction::zero(2);
         feedforward.predict(motion, time_s, &mut prediction);
         prediction
     }

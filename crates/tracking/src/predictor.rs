@@ -1,6 +1,6 @@
 use motion::Motion;
 
-use crate::feedforward::{Feedforward, Prediction, ask};
+use crate::feedforward::{Feedforward, TorquePrediction, ask};
 use crate::settings::{Ahead, VirtualClock};
 
 /// A prediction on its way to the loop.
@@ -8,14 +8,14 @@ use crate::settings::{Ahead, VirtualClock};
 pub(crate) struct Delivery {
     /// When the reference was taken (s).
     pub asked_s: f64,
-    pub prediction: Prediction,
+    pub prediction: TorquePrediction,
     /// The reason why no prediction follows, if none does.
     pub died: Option<String>,
 }
 
 impl Delivery {
     pub fn new(joints: usize) -> Self {
-        Self { asked_s: 0.0, prediction: Prediction::zero(joints), died: None }
+        Self { asked_s: 0.0, prediction: TorquePrediction::zero(joints), died: None }
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::watch::Tick;
+use crate::watch::ControlTick;
 
 /// Every tick of a run, kept flat.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -50,8 +50,8 @@ impl TrackingRows {
         Self { joints, width, data: Vec::with_capacity(width * ticks.min(ROOM)) }
     }
 
-    pub(crate) fn push(&mut self, tick: &Tick) {
-        let Tick { reference, reading, feedforward, .. } = tick;
+    pub(crate) fn push(&mut self, tick: &ControlTick) {
+        let ControlTick { reference, reading, feedforward, .. } = tick;
         let age_s = tick.age_s.unwrap_or(f64::NAN);
         self.data.extend([tick.time_s, reading.time_s, age_s]);
         let signals = [&reference.q, &reference.qd, &reference.qdd];
@@ -136,7 +136,7 @@ pub(crate) mod tests {
     use robot::Reading;
 
     use super::*;
-    use crate::feedforward::Prediction;
+    use crate::feedforward::TorquePrediction;
 
     /// Rows of one joint at 1 Hz, from `[q_ref, q, feedforward, feedback]` and the link.
     pub fn rows_of(ticks: &[[f64; 4]], link: Option<f64>) -> TrackingRows {
@@ -145,8 +145,9 @@ pub(crate) mod tests {
             let reference = State { q: vec![q_ref], qd: vec![2.0], qdd: vec![3.0] };
             let time_s = k as f64 + 0.5;
             let reading = Reading { time_s, q: vec![q], qd: vec![5.0], effort: vec![6.0] };
-            let prediction = Prediction { tau: vec![feedforward], ..Prediction::zero(1) };
-            rows.push(&Tick {
+            let prediction =
+                TorquePrediction { tau: vec![feedforward], ..TorquePrediction::zero(1) };
+            rows.push(&ControlTick {
                 time_s: k as f64,
                 reference: &reference,
                 reading: &reading,

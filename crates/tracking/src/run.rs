@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use crate::error::TrackingError;
     use crate::rows::Signal;
-    use crate::settings::Settings;
+    use crate::settings::TrackingSettings;
     use crate::testing::{Of, TestPlant, controller, pendulum, slider, swing};
     use crate::track;
 
@@ -74,7 +74,7 @@ mod tests {
         let motion = swing(&slider(), 3.0);
         let mut machine = TestPlant::slider(&motion);
         machine.link = Some([0.0]);
-        let (pd, usual) = (controller(90.0, 9.0), Settings::default());
+        let (pd, usual) = (controller(90.0, 9.0), TrackingSettings::default());
         track(&mut machine, &motion, &pd, &mut Of(f64::cos), &usual, &mut ()).unwrap()
     }
 

@@ -3,7 +3,7 @@ use crate::error::TrackingError;
 
 /// Timing of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct TrackingSettings {
     /// The clock of the run.
     pub clock: Clock,
     /// Time without a new prediction after which the last one is no longer trusted (s). It must be
@@ -60,14 +60,14 @@ pub enum Ahead {
     Arrival,
 }
 
-impl Default for Settings {
+impl Default for TrackingSettings {
     /// The machine's time, predictions at once; 0.1 s to a stall, 0.5 s to fade.
     fn default() -> Self {
         Self { clock: Clock::Virtual(VirtualClock::default()), stall_s: 0.1, fade_s: 0.5 }
     }
 }
 
-impl Settings {
+impl TrackingSettings {
     pub(crate) fn check(&self) -> Result<(), TrackingError> {
         error::not_negative(|| "the time to a stall (s)".to_owned(), self.stall_s)?;
         error::not_negative(|| "the time of a fade (s)".to_owned(), self.fade_s)?;

@@ -2,10 +2,10 @@
 
 use learner::{Mean, Model, ModelKind, RobotTorque};
 use motion::{Motion, MotionSpec};
-use robot::{PdGain, Machine, MachineFault, Reading, Robot};
+use robot::{Machine, MachineFault, PdGain, Reading, Robot};
 
 use crate::controller::{Controller, ErrorRate};
-use crate::feedforward::{Feedforward, Prediction};
+use crate::feedforward::{Feedforward, TorquePrediction};
 use crate::torque_limits::TorqueLimits;
 
 pub const PERIOD_S: f64 = 0.002;
@@ -159,7 +159,7 @@ impl<F: FnMut(f64) -> f64 + Send> Feedforward for Of<F> {
         "a function of time".to_owned()
     }
 
-    fn predict(&mut self, _: &Motion, time_s: f64, prediction: &mut Prediction) {
+    fn predict(&mut self, _: &Motion, time_s: f64, prediction: &mut TorquePrediction) {
         prediction.tau[0] = (self.0)(time_s);
     }
 }

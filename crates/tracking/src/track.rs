@@ -7,12 +7,12 @@ use crate::feedforward::Feedforward;
 use crate::pace::Pace;
 use crate::predictor::{Delivery, Predictor, VirtualPredictor, tick_from};
 use crate::rows::TrackingRows;
-use crate::settings::{Clock, Settings};
+use crate::settings::{Clock, TrackingSettings};
 use crate::timing::Timing;
 use crate::tracking::{End, Tracking};
 use crate::trust::Trust;
 use crate::wall::on_the_wall;
-use crate::watch::{Event, Level, Tick, Watch};
+use crate::watch::{ControlTick, Event, Level, TrackingWatch};
 
 /// Tracks `motion` with `machine` from its beginning to its end.
 ///
@@ -35,8 +35,8 @@ pub fn track(
     motion: &Motion,
     controller: &Controller,
     feedforward: &mut dyn Feedforward,
-    settings: &Settings,
-    watch: &mut dyn Watch,
+    settings: &TrackingSettings,
+    watch: &mut dyn TrackingWatch,
 ) -> Result<Tracking, TrackingError> {
     let (joints, period_s) = (machine.joint_count(), machine.period_s());
     period(period_s)?;
@@ -85,7 +85,7 @@ pub fn track(
 struct Run<'a> {
     machine: &'a mut dyn Machine,
     motion: &'a Motion,
-    watch: &'a mut dyn Watch,
+    watch: &'a mut dyn TrackingWatch,
     controller: &'a Controller,
     period_s: f64,
     reference: State,
@@ -159,7 +159,7 @@ impl Run<'_> {
         }
 
         let acted = self.machine.actuate(command);
-        let tick = Tick {
+        let tick = ControlTick {
             time_s,
             reference: &self.reference,
             reading: &self.reading,
@@ -232,8 +232,8 @@ mod tests {
 
     const LEAD_S: f64 = 0.5 * PERIOD_S;
 
-    fn settings(clock: VirtualClock) -> Settings {
-        Settings { clock: Clock::Virtual(clock), ..Settings::default() }
+    fn settings(clock: VirtualClock) -> TrackingSettings {
+        TrackingSettings { clock: Clock::Virtual(clock), ..TrackingSettings::default() }
     }
 
     fn run(
@@ -328,7 +328,7 @@ mod tests {
         let model = model_of(&robot);
         let motion = swing(&robot, 3.0);
         let mut gravity = GravityFeedforward::new(&model, 0.1);
-        let mut prediction = crate::feedforward::Prediction::zero(1);
+        let mut prediction = crate::feedforward::TorquePrediction::zero(1);
         gravity.predict(&motion, 1.3, &mut prediction);
         let expected = MASS * GRAVITY * ROD_M * motion.at(1.4).q[0].sin();
         assert!((prediction.tau[0] - expected).abs() < 1e-12, "{prediction:?}");
@@ -501,7 +501,7 @@ mod tests {
         let motion = swing(&slider(), 3.0);
         let of = |lapse| {
             let mut machine = Faulty(TestPlant::slider(&motion), 0, lapse);
-            let (pd, usual) = (controller(9.0, 1.0), Settings::default());
+            let (pd, usual) = (controller(9.0, 1.0), TrackingSettings::default());
             track(&mut machine, &motion, &pd, &mut Of(f64::sin), &usual, &mut ()).unwrap()
         };
         let (stopped, forgot) = (of(Lapse::Stops), of(Lapse::Forgets));
@@ -516,8 +516,8 @@ mod tests {
     #[derive(Default)]
     struct Impatient(usize, Vec<Event>);
 
-    impl Watch for Impatient {
-        fn tick(&mut self, tick: &Tick) -> ControlFlow<()> {
+    impl TrackingWatch for Impatient {
+        fn tick(&mut self, tick: &ControlTick) -> ControlFlow<()> {
             self.0 += 1;
             let parts = tick.feedforward.tau[0] + tick.feedback[0];
             assert!((tick.command[0] - parts).abs() < 1e-15);
@@ -571,7 +571,7 @@ mod tests {
             let mut machine = TestPlant::pendulum(&motion);
             machine.link = Some([0.0]);
             let mut feedforward = ModelFeedforward::new(&model, LEAD_S);
-            let (pd, usual) = (controller(5.0, 0.5), Settings::default());
+            let (pd, usual) = (controller(5.0, 0.5), TrackingSettings::default());
             let go = || {
                 track(&mut machine, &motion, &pd, &mut feedforward, &usual, &mut ()).unwrap();
             };
@@ -584,19 +584,19 @@ mod tests {
     #[test]
     fn parts_that_do_not_fit_are_refused() {
         let motion = swing(&slider(), 3.0);
-        let of = |controller: &Controller, joints, settings: &Settings| {
+        let of = |controller: &Controller, joints, settings: &TrackingSettings| {
             let machine = &mut TestPlant::slider(&motion);
             track(machine, &motion, controller, &mut NoFeedforward { joints }, settings, &mut ())
                 .unwrap_err()
                 .to_string()
         };
-        let (pd, usual) = (controller(1.0, 1.0), Settings::default());
+        let (pd, usual) = (controller(1.0, 1.0), TrackingSettings::default());
         assert_eq!(of(&pd, 2, &usual), "the feedforward is for 2 joints, 1 were expected");
         let limits = Controller { limits: TorqueLimits::none(3), ..pd.clone() };
         assert!(of(&limits, 1, &usual).contains("torque limits is for 3 joints"));
-        let never = Settings { fade_s: f64::NAN, ..usual };
+        let never = TrackingSettings { fade_s: f64::NAN, ..usual };
         assert!(of(&pd, 1, &never).contains("the time of a fade (s) is NaN"));
-        let still = Settings { stall_s: f64::INFINITY, ..usual };
+        let still = TrackingSettings { stall_s: f64::INFINITY, ..usual };
         assert!(of(&pd, 1, &still).contains("the time to a stall (s) is inf"));
         let slow = settings(VirtualClock { prediction_time_s: -1.0, ..VirtualClock::default() });
         assert!(of(&pd, 1, &slow).contains("the time of a prediction (s) is -1"));

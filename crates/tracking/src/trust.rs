@@ -1,6 +1,6 @@
-use crate::feedforward::Prediction;
+use crate::feedforward::TorquePrediction;
 use crate::predictor::Delivery;
-use crate::settings::Settings;
+use crate::settings::TrackingSettings;
 use crate::watch::{Event, Level};
 
 /// The newest prediction and how far it is trusted.
@@ -12,15 +12,15 @@ use crate::watch::{Event, Level};
 /// with the weight between 0 and 1.
 #[derive(Debug)]
 pub(crate) struct Trust {
-    settings: Settings,
+    settings: TrackingSettings,
     period_s: f64,
-    newest: Prediction,
+    newest: TorquePrediction,
     /// When its reference was taken (s); none without a prediction.
     asked_s: Option<f64>,
     arrived_s: f64,
     condition: Condition,
     weight: f64,
-    used: Prediction,
+    used: TorquePrediction,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,16 +35,16 @@ enum Condition {
 
 impl Trust {
     /// Before the first prediction.
-    pub fn new(settings: &Settings, period_s: f64, joints: usize) -> Self {
+    pub fn new(settings: &TrackingSettings, period_s: f64, joints: usize) -> Self {
         Self {
             settings: *settings,
             period_s,
-            newest: Prediction::zero(joints),
+            newest: TorquePrediction::zero(joints),
             asked_s: None,
             arrived_s: 0.0,
             condition: Condition::Trusted,
             weight: 0.0,
-            used: Prediction::zero(joints),
+            used: TorquePrediction::zero(joints),
         }
     }
 
@@ -82,7 +82,7 @@ impl Trust {
     }
 
     /// The feedforward of this tick.
-    pub fn feedforward(&self) -> &Prediction {
+    pub fn feedforward(&self) -> &TorquePrediction {
         &self.used
     }
 
@@ -110,7 +110,7 @@ impl Trust {
 
     /// What time alone changes.
     fn wait(&mut self, time_s: f64) -> Option<Event> {
-        let Settings { stall_s, .. } = self.settings;
+        let TrackingSettings { stall_s, .. } = self.settings;
         // Times of ticks are rounded.
         let patience_s = stall_s + 1e-6 * self.period_s;
         match self.condition {
@@ -128,7 +128,7 @@ impl Trust {
     }
 
     fn distrust_event(&self, time_s: f64, found: &str) -> Event {
-        let Settings { fade_s, .. } = self.settings;
+        let TrackingSettings { fade_s, .. } = self.settings;
         let words = match self.asked_s {
             Some(_) => format!("{found}: the last fades to zero over {fade_s} s"),
             None => format!("{found}: there is none to use"),
@@ -150,13 +150,13 @@ mod tests {
     const PERIOD_S: f64 = 0.01;
 
     fn delivery(tau: f64) -> Delivery {
-        let prediction = Prediction { tau: vec![tau], ..Prediction::zero(1) };
+        let prediction = TorquePrediction { tau: vec![tau], ..TorquePrediction::zero(1) };
         Delivery { asked_s: 0.0, prediction, died: None }
     }
 
     /// The torque used in every tick, and the events, when `arrives` says what comes in each.
     fn used(arrives: impl Fn(usize) -> Option<Delivery>) -> (Vec<f64>, Vec<Event>) {
-        let mut trust = Trust::new(&Settings::default(), PERIOD_S, 1);
+        let mut trust = Trust::new(&TrackingSettings::default(), PERIOD_S, 1);
         let mut events = Vec::from_iter(trust.begin(Some(&mut delivery(2.0))));
         let mut tick = |k: usize| {
             events.extend(trust.tick(k as f64 * PERIOD_S, arrives(k).as_mut()));
@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn without_a_first_prediction_a_run_begins_on_feedback_and_the_first_fades_in() {
-        let mut trust = Trust::new(&Settings::default(), PERIOD_S, 1);
+        let mut trust = Trust::new(&TrackingSettings::default(), PERIOD_S, 1);
         assert!(trust.begin(None).unwrap().words.contains("no prediction to begin with"));
         assert!(trust.tick(0.0, None).is_none());
         assert_eq!((trust.feedforward().tau[0], trust.age_s(0.0)), (0.0, None));

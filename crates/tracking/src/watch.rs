@@ -5,7 +5,7 @@ use robot::Reading;
 
 /// One turn of the loop; signals have one entry a joint.
 #[derive(Debug, Clone, Copy)]
-pub struct Tick<'a> {
+pub struct ControlTick<'a> {
     /// Time since the motion began (s): the number of the tick times the period.
     pub time_s: f64,
     /// What the motion asks for.
@@ -15,7 +15,7 @@ pub struct Tick<'a> {
     /// Where the links are (rad or m), when the machine knows.
     pub link_positions: Option<&'a [f64]>,
     /// What the feedforward asked for, faded where it is not trusted.
-    pub feedforward: &'a crate::feedforward::Prediction,
+    pub feedforward: &'a crate::feedforward::TorquePrediction,
     /// Torque of the feedback (N m or N).
     pub feedback: &'a [f64],
     /// What the machine was told (N m or N).
@@ -50,17 +50,17 @@ pub enum Level {
 }
 
 /// Observes a run between its ticks. In wall-clock time it has to be quick.
-pub trait Watch {
+pub trait TrackingWatch {
     /// A tick is over; [`ControlFlow::Break`] ends the run.
-    fn tick(&mut self, tick: &Tick) -> ControlFlow<()>;
+    fn tick(&mut self, tick: &ControlTick) -> ControlFlow<()>;
 
     /// Something happened.
     fn event(&mut self, event: &Event);
 }
 
 /// No observer.
-impl Watch for () {
-    fn tick(&mut self, _: &Tick) -> ControlFlow<()> {
+impl TrackingWatch for () {
+    fn tick(&mut self, _: &ControlTick) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use benchmark::{Campaign, CampaignFolder, KindCount, Merged, MergedPanel, Record};
-use cli::{print, shown};
+use cli::{print, display_path};
 use report::{FileHash, Provenance, sha256_of};
 
 use crate::commands::missing::{Folder, missing, sentences};
@@ -33,7 +33,7 @@ pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
     let files = [("tally.json", json.as_bytes()), ("report.html", page.as_bytes())];
     report::write_folder(root, &files)?;
     print(&format!("{text}{}", sentences(&doubts)))?;
-    print(&format!("\nreport  {}\n", shown(&root.join("report.html"))))?;
+    print(&format!("\nreport  {}\n", display_path(&root.join("report.html"))))?;
     Ok(if doubts.is_empty() { ExitStatus::Good } else { ExitStatus::Gap })
 }
 

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use benchmark::{KindCount, Manifest};
-use cli::shown;
+use cli::display_path;
 
 /// Arguments of `status` and `merge`.
 #[derive(Debug, clap::Args)]
@@ -16,7 +16,7 @@ pub fn missing(made: &Manifest, counts: &[KindCount]) -> Vec<String> {
     let broken = made
         .broken
         .iter()
-        .map(|broken| format!("{}: it does not count, {}", shown(&broken.path), broken.reason));
+        .map(|broken| format!("{}: it does not count, {}", display_path(&broken.path), broken.reason));
     let left = counts.last().filter(|all| all.open() > 0).map(|all| {
         format!("{} of {} trials are left to make: plumbline-bench work", all.open(), all.trials())
     });

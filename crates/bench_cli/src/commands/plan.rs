@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use benchmark::{Campaign, CampaignFolder, Record, read_finished};
-use cli::{create_folder, print, shown};
+use cli::{create_folder, print, display_path};
 use document::Document;
 
 use crate::error::BenchError;
@@ -38,7 +38,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
     let folder = CampaignFolder::plan(&arguments.out, campaign)?;
     let taken = folder.take(&made)?;
     if !arguments.quiet {
-        let out = shown(&arguments.out);
+        let out = display_path(&arguments.out);
         let made = match taken {
             0 => "To make them".to_owned(),
             taken => format!("{taken} are made already. To make the others"),

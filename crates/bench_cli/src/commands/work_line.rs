@@ -3,7 +3,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use benchmark::{Record, WorkProgress};
-use cli::{Line, Watch, shown};
+use cli::{Line, Watch, display_path};
 
 use crate::commands::pace::{Pace, words};
 use crate::error::BenchError;
@@ -86,7 +86,7 @@ impl WorkProgress for WorkLine {
     }
 
     fn report_remade(&self, entry: &Path, reason: &str) {
-        self.count().remade.push(format!("{}: it was made again, {reason}", shown(entry)));
+        self.count().remade.push(format!("{}: it was made again, {reason}", display_path(entry)));
     }
 
     fn is_stopped(&self) -> bool {

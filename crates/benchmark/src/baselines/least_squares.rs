@@ -1,6 +1,6 @@
 use catalogue::EffectKind;
 use diagnosis::EffectAt;
-use dynamics::{Column, ColumnSet, base_parameters};
+use dynamics::{ColumnSet, RegressorColumn, base_parameters};
 use faer::Mat;
 use logs::{PrepareSettings, Run};
 use robot::Robot;
@@ -50,8 +50,8 @@ pub fn least_squares(
     let logs = prepare_runs(robot, control_rate_hz, runs, &PrepareSettings::default())?;
     let scales = Scales::of(robot, &logs);
     let base = base_parameters(robot, ColumnSet::ALL);
-    let columns: Vec<Column> = base.independent.iter().map(|&c| base.columns[c]).collect();
-    let columns: Vec<Column> = columns.into_iter().filter(|c| shows(c, &scales)).collect();
+    let columns: Vec<RegressorColumn> = base.independent.iter().map(|&c| base.columns[c]).collect();
+    let columns: Vec<RegressorColumn> = columns.into_iter().filter(|c| shows(c, &scales)).collect();
     let at_joint = |j: usize| columns.iter().filter_map(|c| shape(robot, j, c)).collect();
     let shapes = (0..robot.joint_count()).map(at_joint).collect();
     let dataset = Dataset::of((robot, &scales), &logs, shapes, Target::Effort)?;
@@ -65,26 +65,26 @@ pub fn least_squares(
 }
 
 /// Whether a drive's column says anything: a joint that does not move has no friction to see.
-fn shows(column: &Column, scales: &Scales) -> bool {
+fn shows(column: &RegressorColumn, scales: &Scales) -> bool {
     match *column {
-        Column::Inertial { .. } | Column::Offset { .. } => true,
-        Column::Rotor { joint } | Column::Viscous { joint } | Column::Coulomb { joint } => {
-            scales.moves[joint]
-        }
+        RegressorColumn::Inertial { .. } | RegressorColumn::Offset { .. } => true,
+        RegressorColumn::Rotor { joint }
+        | RegressorColumn::Viscous { joint }
+        | RegressorColumn::Coulomb { joint } => scales.moves[joint],
     }
 }
 
 /// What a parameter does at joint `j`, if anything.
-fn shape(robot: &Robot, j: usize, column: &Column) -> Option<Shape> {
+fn shape(robot: &Robot, j: usize, column: &RegressorColumn) -> Option<Shape> {
     let (joint, shape) = match *column {
-        Column::Inertial { link, parameter } => {
+        RegressorColumn::Inertial { link, parameter } => {
             let mut carriers = std::iter::successors(Some(link), |at| robot.links()[*at].parent);
             return carriers.any(|at| at == j).then_some(Shape::Body { link, parameter });
         }
-        Column::Rotor { joint } => (joint, Shape::Acceleration),
-        Column::Viscous { joint } => (joint, Shape::Velocity),
-        Column::Coulomb { joint } => (joint, Shape::Sign),
-        Column::Offset { joint } => (joint, Shape::One),
+        RegressorColumn::Rotor { joint } => (joint, Shape::Acceleration),
+        RegressorColumn::Viscous { joint } => (joint, Shape::Velocity),
+        RegressorColumn::Coulomb { joint } => (joint, Shape::Sign),
+        RegressorColumn::Offset { joint } => (joint, Shape::One),
     };
     (joint == j).then_some(shape)
 }
@@ -92,7 +92,7 @@ fn shape(robot: &Robot, j: usize, column: &Column) -> Option<Shape> {
 struct Fitted<'a> {
     robot: &'a Robot,
     dataset: Dataset,
-    columns: Vec<Column>,
+    columns: Vec<RegressorColumn>,
     /// What a joint's rows are divided by.
     deviations: Vec<f64>,
     /// One per column.
@@ -183,13 +183,13 @@ impl Fitted<'_> {
 }
 
 /// The cause that a parameter of a drive stands for, its joint and its value in the description.
-fn drive(robot: &Robot, column: &Column) -> Option<(EffectKind, usize, f64)> {
+fn drive(robot: &Robot, column: &RegressorColumn) -> Option<(EffectKind, usize, f64)> {
     let (effect, j) = match *column {
-        Column::Inertial { .. } => return None,
-        Column::Rotor { joint } => (EffectKind::RotorInertia, joint),
-        Column::Viscous { joint } => (EffectKind::ViscousFriction, joint),
-        Column::Coulomb { joint } => (EffectKind::CoulombFriction, joint),
-        Column::Offset { joint } => (EffectKind::TorqueOffset, joint),
+        RegressorColumn::Inertial { .. } => return None,
+        RegressorColumn::Rotor { joint } => (EffectKind::RotorInertia, joint),
+        RegressorColumn::Viscous { joint } => (EffectKind::ViscousFriction, joint),
+        RegressorColumn::Coulomb { joint } => (EffectKind::CoulombFriction, joint),
+        RegressorColumn::Offset { joint } => (EffectKind::TorqueOffset, joint),
     };
     let a = &robot.links()[j].actuator;
     let gain = a.transmission_ratio * a.torque_gain;

@@ -1,6 +1,6 @@
 use diagnosis::{EffectAt, Finding};
 use experiment::{Size, stored};
-use population::{TrueCause, CauseRole, Strength};
+use population::{CauseRole, Strength, TrueCause};
 use serde::{Deserialize, Serialize};
 
 use crate::panel::dry_friction::DryFriction;

@@ -1,6 +1,6 @@
 use diagnosis::{EffectAt, Finding, Verdict};
 use experiment::stored;
-use population::{Corner, Knowledge, TruthSheet, TrueStranger};
+use population::{Corner, Knowledge, TrueStranger, TruthSheet};
 use serde::{Deserialize, Serialize};
 
 use crate::panel::answers::{Answers, Costs};
@@ -53,8 +53,10 @@ impl Judgement {
         let least_squares = BaselineClaim::all(&answers.least_squares, &causes);
         let claims = [&two_questions[..], &least_squares[..]];
         let judged = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
-        let stranger =
-            |other: &TrueStranger| TrueStranger { strength: finite(other.strength), ..other.clone() };
+        let stranger = |other: &TrueStranger| TrueStranger {
+            strength: finite(other.strength),
+            ..other.clone()
+        };
         Self {
             seed: sheet.seed,
             corner: sheet.corner.clone(),

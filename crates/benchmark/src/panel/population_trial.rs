@@ -2,9 +2,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use diagnosis::{DiagnosisError, Outcome, Settings, Silent};
+use diagnosis::{DiagnosisError, DiagnosisRun, Settings, Silent};
 use experiment::{ExperimentError, robot_error};
-use population::{Came, Origin, PopulationSpec, Remade, TruthSheet, Store};
+use population::{Came, Origin, PopulationSpec, Remade, Store, TruthSheet};
 use robot::{Loaded, Robot};
 
 use crate::baselines::baseline::Baseline;
@@ -115,8 +115,8 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
 
 /// The answer of a diagnosis, or in words why it has none. A panic counts as no answer.
 fn catch_panic(
-    diagnose: impl FnOnce() -> Result<Outcome, DiagnosisError>,
-) -> Result<Outcome, String> {
+    diagnose: impl FnOnce() -> Result<DiagnosisRun, DiagnosisError>,
+) -> Result<DiagnosisRun, String> {
     match catch_unwind(AssertUnwindSafe(diagnose)) {
         Ok(answer) => answer.map_err(|error| error.to_string()),
         Err(_) => Err("the program gave up".to_owned()),

@@ -1,5 +1,5 @@
 use experiment::{Learned, PAPER_MODELS, PROCESSES};
-use learner::{ModelKind, Samples, Score};
+use learner::{ModelKind, Samples, TorqueScore};
 use logs::Prepared;
 use serde::{Deserialize, Serialize};
 
@@ -36,10 +36,10 @@ pub struct ModelErrors {
 impl ModelErrors {
     /// The errors of [`PAPER_MODELS`] on at most so many samples, spread evenly.
     pub(super) fn of(models: &Learned, test: &Prepared, points: usize) -> Vec<Self> {
-        let samples = Samples::new(test).thinned(points);
+        let samples = Samples::new(test).thin(points);
         let known = PAPER_MODELS.into_iter().filter_map(|kind| models.model(kind));
         let errors = known.map(|model| {
-            let Score { nmse, rmse, .. } = Score::of(model, &samples);
+            let TorqueScore { nmse, rmse, .. } = TorqueScore::of(model, &samples);
             let nmse = nmse.into_iter().map(|nmse| nmse.is_finite().then_some(nmse));
             Self { model: model.kind.name().to_owned(), nmse: nmse.collect(), rmse_nm: rmse }
         });

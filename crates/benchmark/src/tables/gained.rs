@@ -115,8 +115,8 @@ mod tests {
     use diagnosis::{EffectAt, Verdict};
 
     use super::*;
-    use experiment::Named;
     use experiment::Injected;
+    use experiment::Named;
 
     fn score(share_explained: f64, before: f64) -> Score {
         let at = EffectAt { effect: CoulombFriction, joint: Some("a".to_owned()), link: None };

@@ -1,9 +1,9 @@
 use std::path::{Path, PathBuf};
 
 use catalogue::EffectKind;
-use diagnosis::{Outcome, Settings, Silent};
+use diagnosis::{DiagnosisRun, Settings, Silent};
 use document::Document;
-use experiment::{Experiment, Score, Blinded};
+use experiment::{Blinded, Experiment, Score};
 use logs::Run;
 use robot::{Loaded, Robot};
 use simulator::LogFormat;
@@ -116,7 +116,11 @@ pub fn judge(
 }
 
 /// What a diagnosis that has nothing but the logs comes to.
-fn answer(robot: &Loaded, runs: &[Run], without: &[EffectKind]) -> Result<Outcome, BenchmarkError> {
+fn answer(
+    robot: &Loaded,
+    runs: &[Run],
+    without: &[EffectKind],
+) -> Result<DiagnosisRun, BenchmarkError> {
     let settings = Settings {
         control_rate_hz: robot.control.rate_hz,
         without: without.to_vec(),
@@ -128,7 +132,7 @@ fn answer(robot: &Loaded, runs: &[Run], without: &[EffectKind]) -> Result<Outcom
 /// Opens the truth about a folder and scores the answer.
 fn score_answer(
     folder: &Path,
-    answer: &Outcome,
+    answer: &DiagnosisRun,
     without: &[EffectKind],
 ) -> Result<Score, BenchmarkError> {
     let blinded = Blinded::open(folder)?;

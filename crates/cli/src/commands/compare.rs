@@ -12,7 +12,7 @@ use crate::exit_status::ExitStatus;
 use crate::input::{RobotArguments, SearchArguments, hashes_of};
 use crate::input_warnings::input_warnings;
 use crate::messages::warn;
-use crate::output::{keep_inputs, print, refuse_file, shown};
+use crate::output::{display_path, keep_inputs, print, refuse_file};
 use crate::progress::with_bar;
 
 /// Columns of the text.
@@ -154,7 +154,7 @@ fn first(comparison: &Comparison, finding: &Finding) -> String {
 }
 
 fn closing(out: &Path) -> String {
-    let at = |name: &str| shown(&out.join(name));
+    let at = |name: &str| display_path(&out.join(name));
     format!(
         "report         {} (open it in a browser)\n\
          before         {} (what the first logs say of the robot)\n\

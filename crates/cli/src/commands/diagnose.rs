@@ -18,7 +18,7 @@ use crate::exit_status::ExitStatus;
 use crate::input::{RobotArguments, SearchArguments, hashes_of};
 use crate::input_warnings::input_warnings;
 use crate::messages::warn;
-use crate::output::{keep_inputs, print_answer, refuse_file, shown};
+use crate::output::{display_path, keep_inputs, print_answer, refuse_file};
 use crate::progress::{Line, with_bar};
 
 /// Columns of a comment in `extended.toml`.
@@ -138,7 +138,7 @@ fn forward(
     arguments: &Arguments,
     loaded: &Loaded,
     runs: &[Run],
-    outcome: &diagnosis::Outcome,
+    outcome: &diagnosis::DiagnosisRun,
 ) -> Option<ForwardGap> {
     let (robots, data) = ([&loaded.robot, &outcome.extended], &outcome.diagnosis.data);
     let gap = with_bar(arguments.quiet, |progress| {
@@ -158,7 +158,7 @@ fn source(loaded: &Loaded) -> Result<Vec<u8>, ReportError> {
 /// The extended robot in the file of another program.
 fn export_extended(
     loaded: &Loaded,
-    outcome: &diagnosis::Outcome,
+    outcome: &diagnosis::DiagnosisRun,
     format: Format,
 ) -> Result<Export, CliError> {
     let robot = Loaded { robot: outcome.extended.clone(), ..loaded.clone() };
@@ -172,7 +172,7 @@ fn export_extended(
 /// [`CliError::Report`] and [`CliError::Exchange`].
 pub fn descriptions(
     loaded: &Loaded,
-    outcome: &diagnosis::Outcome,
+    outcome: &diagnosis::DiagnosisRun,
 ) -> Result<Vec<(Format, Export)>, CliError> {
     let all = [Format::Urdf, Format::Mjcf].into_iter();
     all.map(|format| Ok((format, export_extended(loaded, outcome, format)?))).collect()
@@ -186,7 +186,7 @@ pub fn descriptions(
 pub fn write(
     out: &Path,
     loaded: &Loaded,
-    outcome: &diagnosis::Outcome,
+    outcome: &diagnosis::DiagnosisRun,
     report: &Report,
     json: &str,
     residual: Option<&ResidualFile>,
@@ -222,7 +222,10 @@ pub fn write(
 /// # Errors
 ///
 /// [`ExperimentError::Recording`] where the disk refuses it.
-fn record(arguments: &Arguments, diagnosed: &DiagnosedLogs<'_>) -> Result<Option<PathBuf>, CliError> {
+fn record(
+    arguments: &Arguments,
+    diagnosed: &DiagnosedLogs<'_>,
+) -> Result<Option<PathBuf>, CliError> {
     if arguments.no_recording || !recording::IS_BUILT {
         // One of an earlier diagnosis would show something else than the report beside it.
         let _ = std::fs::remove_file(arguments.out.join(RECORDING));
@@ -315,16 +318,16 @@ fn say(
 ) -> Result<(), CliError> {
     let out = &arguments.out;
     let recording = recording.map_or_else(String::new, |path| {
-        format!("recording      {} (plumbline view {})\n", shown(path), shown(out))
+        format!("recording      {} (plumbline view {})\n", display_path(path), display_path(out))
     });
     let residual = report.residual.map_or_else(String::new, |model| {
-        format!("residual model {} (for track --learned)\n", shown(&out.join(&model.file)))
+        format!("residual model {} (for track --learned)\n", display_path(&out.join(&model.file)))
     });
     let closing = format!(
         "report         {} (open it in a browser)\n{recording}figure         {}\nextended model {} (for --robot)\n{residual}",
-        shown(&out.join("report.html")),
-        shown(&out.join("figure.svg")),
-        shown(&out.join("extended.toml"))
+        display_path(&out.join("report.html")),
+        display_path(&out.join("figure.svg")),
+        display_path(&out.join("extended.toml"))
     );
     let json = arguments.json.then_some(json);
     print_answer(arguments.quiet, json, || report::text(report), &closing)

@@ -54,7 +54,7 @@ mod tests {
             for parameter in kind.entry().parameters {
                 assert!(text.contains(&meaning(parameter)), "{} in\n{text}", parameter.name);
             }
-            let answer = diagnosis::diagnosed(kind).map_or_else(|reason| reason, |_| "yes");
+            let answer = diagnosis::how_found(kind).map_or_else(|reason| reason, |_| "yes");
             assert!(text.contains(answer), "{answer} in\n{text}");
             let undone = effects::remedy(kind).map_or_else(
                 |reason| format!("not compensated    {reason}\n"),

@@ -1,13 +1,13 @@
 use std::path::{Path, PathBuf};
 
-use exchange::{Export, QuantityFate, Format};
+use exchange::{Export, Format, QuantityFate};
 use serde::Serialize;
 
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::loss::{Loss, LossArguments};
-use crate::output::{create_folder, keep_inputs, print, print_json, shown, table};
+use crate::output::{create_folder, display_path, keep_inputs, print, print_json, table};
 
 /// Names under which an output folder has the robot with its findings, of a diagnosis and of a run.
 const EXTENDED: [&str; 2] = ["extended.toml", "diagnosis/extended.toml"];
@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         let name = format!("extended.{}", format.extension());
         keep_inputs(&folder, &[&name], [loaded.urdf_path.as_path()])?;
         report::write_folder(&folder, &[(&name, export.text.as_bytes())])?;
-        exports.push((format.name(), shown(&folder.join(&name)), export));
+        exports.push((format.name(), display_path(&folder.join(&name)), export));
     }
     let held = exports.iter().map(|(format, path, export)| (*format, path.clone(), export));
     let loss = arguments.loss.measure(&path, &loaded, &arguments.part, held)?;

@@ -8,7 +8,7 @@ use crate::columns::ColumnArguments;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
-use crate::output::{print, print_json, shown, table};
+use crate::output::{display_path, print, print_json, table};
 
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
@@ -52,9 +52,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         let run = reader.read(path, episode, &robot)?;
         let info = logs::log_info(&run, &robot);
         runs.push(run);
-        let repeats = logs::duplicate_of(&runs, runs.len() - 1).map(|i| shown(&runs[i].source));
-        let of = |episode| format!("{} (episode {episode})", shown(path));
-        let path = episode.number.map_or_else(|| shown(path), of);
+        let repeats =
+            logs::duplicate_of(&runs, runs.len() - 1).map(|i| display_path(&runs[i].source));
+        let of = |episode| format!("{} (episode {episode})", display_path(path));
+        let path = episode.number.map_or_else(|| display_path(path), of);
         infos.push(Info { path, info, repeats });
     }
     if arguments.json {

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
 use report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
-use robot::{PdGain, Loaded, Robot};
+use robot::{Loaded, PdGain, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::columns::LogArguments;
@@ -10,7 +10,7 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, hashes_of, positive, provenance};
 use crate::input_warnings::correct_runs;
-use crate::output::{create_folder, print, shown, table};
+use crate::output::{create_folder, display_path, print, table};
 
 /// Arguments of `replay`.
 #[derive(Debug, clap::Args)]
@@ -166,8 +166,8 @@ fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
     }
     text + &format!(
         "\nreport                      {} (open it in a browser)\nsimulated motion and torque {}\n",
-        shown(&arguments.out.join("report.html")),
-        shown(&arguments.out)
+        display_path(&arguments.out.join("report.html")),
+        display_path(&arguments.out)
     )
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
-use crate::output::{print, print_json, shown, table};
+use crate::output::{display_path, print, print_json, table};
 
 /// Columns of the text.
 const WIDTH: usize = 100;
@@ -27,7 +27,7 @@ pub struct Arguments {
 /// Prints what a robot description says and whether its inertias are possible.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let loaded = arguments.part.load(&arguments.file)?;
-    let check = Check::new(&loaded, shown(&arguments.file));
+    let check = Check::new(&loaded, display_path(&arguments.file));
     if arguments.json {
         print_json(&check)?;
     } else {
@@ -98,7 +98,7 @@ impl Check {
             schema: "plumbline.robot_check/1",
             robot: robot.name().to_owned(),
             file,
-            urdf: shown(&loaded.urdf_path),
+            urdf: display_path(&loaded.urdf_path),
             base_link: loaded.base_link.clone(),
             gravity_m_per_s2: robot.gravity_in_base().into(),
             joints: robot.links().iter().map(JointCheck::new).collect(),

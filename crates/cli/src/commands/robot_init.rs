@@ -16,7 +16,7 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::messages::warn;
-use crate::output::{create_folder, print, shown, table};
+use crate::output::{create_folder, display_path, print, table};
 
 /// Rate of a control loop that the robot does not say (Hz), as the simulator has it.
 const RATE_HZ: f64 = 500.0;
@@ -81,7 +81,7 @@ fn summary(arguments: &Arguments, loaded: &Loaded, drives: &[Drive]) -> String {
         vec![name.to_owned(), short(drive.rotor), short(drive.gain.kp), short(drive.gain.kd)]
     });
     let header = ["joint", ">rotor (kg·m²)", ">kp (N·m/rad)", ">kd (N·m·s/rad)"];
-    let at = |name: &str| shown(&arguments.out.join(name));
+    let at = |name: &str| display_path(&arguments.out.join(name));
     format!(
         "{}\n{}: replace what is called a guess in it\nplumbline simulate {} --out out\n",
         table(&header, rows),

@@ -14,7 +14,7 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::{hash, provenance};
 use crate::messages::tell;
-use crate::output::{create_folder, print_answer, shown};
+use crate::output::{create_folder, display_path, print_answer};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -126,7 +126,7 @@ fn origin(experiment: &Experiment, scenario: &Path) -> Result<Provenance, CliErr
 
 /// Commands that a reader may want next, each with what it does.
 fn next(out: &Path) -> [[String; 2]; 3] {
-    let of = |name: &str| shown(&out.join(name));
+    let of = |name: &str| display_path(&out.join(name));
     [
         [
             "The motion that separates what is still open, where something is:".to_owned(),
@@ -143,7 +143,7 @@ fn next(out: &Path) -> [[String; 2]; 3] {
             } else {
                 "The report, in the browser:".to_owned()
             },
-            format!("plumbline view {}", shown(out)),
+            format!("plumbline view {}", display_path(out)),
         ],
         ["The same for a log of your own:".to_owned(), OWN_LOG.to_owned()],
     ]
@@ -166,9 +166,9 @@ fn write(experiment: &Experiment, report: &RunReport, out: &Path) -> Result<(), 
 }
 
 fn say(report: &RunReport, out: &Path, output: &Output) -> Result<(), CliError> {
-    let of = |name: &str| shown(&out.join(name));
+    let of = |name: &str| display_path(&out.join(name));
     let recording = if recording::IS_BUILT {
-        format!("recording      {} (plumbline view {})\n", of("recording.rrd"), shown(out))
+        format!("recording      {} (plumbline view {})\n", of("recording.rrd"), display_path(out))
     } else {
         String::new()
     };

@@ -8,7 +8,7 @@ use simulator::scenario::Scenario;
 
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
-use crate::output::{create_folder, print, shown, table};
+use crate::output::{create_folder, display_path, print, table};
 use crate::progress::Bar;
 
 /// Arguments of `simulate`.
@@ -79,18 +79,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 fn summary(arguments: &Arguments, scenario: &Scenario, runs: &[Run]) -> String {
     let rows = runs.iter().map(|run| {
         let duration = run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
-        let file = shown(&arguments.log(&run.name));
+        let file = display_path(&arguments.log(&run.name));
         vec![run.name.clone(), run.time.len().to_string(), format!("{duration:.1}"), file]
     });
     let runs = table(&["run", ">rows", ">seconds", "log"], rows);
-    let truth = shown(&arguments.out.join("truth.json"));
+    let truth = display_path(&arguments.out.join("truth.json"));
     let logs: Vec<String> =
-        scenario.runs().iter().map(|run| shown(&arguments.log(&run.name))).collect();
+        scenario.runs().iter().map(|run| display_path(&arguments.log(&run.name))).collect();
     format!(
         "{runs}\nWhat was put in stands in {truth}, for scoring only. To diagnose the logs:\n  plumbline diagnose --robot {} --log {} --out {}\n",
-        shown(&near(scenario.robot_file())),
+        display_path(&near(scenario.robot_file())),
         logs.join(" "),
-        shown(&arguments.out.join("diagnosis"))
+        display_path(&arguments.out.join("diagnosis"))
     )
 }
 

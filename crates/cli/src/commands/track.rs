@@ -8,7 +8,7 @@ use report::TrackingComparison;
 
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
-use crate::output::{print_answer, shown};
+use crate::output::{display_path, print_answer};
 use crate::progress::Line;
 use crate::watch::Watch;
 
@@ -73,9 +73,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 
 /// Table or JSON on the standard output; with JSON, where the files lie on the standard error.
 fn say(arguments: &Arguments, comparison: &TrackingComparison) -> Result<(), CliError> {
-    let of = |name: &str| shown(&arguments.out.join(Path::new(name)));
+    let of = |name: &str| display_path(&arguments.out.join(Path::new(name)));
     let recordings = if recording::IS_BUILT {
-        let folder = shown(&arguments.out);
+        let folder = display_path(&arguments.out);
         format!("recordings     {}\nboth           plumbline view {folder}\n", of("recordings"))
     } else {
         String::new()

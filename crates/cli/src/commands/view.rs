@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use crate::error::{CliError, VIEWER_INSTALLATION};
 use crate::exit_status::ExitStatus;
 use crate::messages::warn;
-use crate::output::{print, shown};
+use crate::output::{display_path, print};
 
 /// The viewer of recordings, and the version that they are written for.
 const VIEWER: &str = "rerun";
@@ -81,8 +81,9 @@ impl Found {
 
     /// One line a file.
     fn text(&self) -> String {
-        let report = self.report.iter().map(|path| format!("report     {}\n", shown(path)));
-        let recordings = self.recordings.iter().map(|path| format!("recording  {}\n", shown(path)));
+        let report = self.report.iter().map(|path| format!("report     {}\n", display_path(path)));
+        let recordings =
+            self.recordings.iter().map(|path| format!("recording  {}\n", display_path(path)));
         report.chain(recordings).collect()
     }
 }

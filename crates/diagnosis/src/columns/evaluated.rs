@@ -1,4 +1,4 @@
-use effects::{Column, Hypothesis};
+use effects::{EffectColumn, Hypothesis};
 use logs::LogError;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use crate::signals::response::Response;
 /// All columns of one run and the effort, low-passed alike and at the rate of the regression.
 pub(crate) struct Evaluated {
     /// `[hypothesis][weight]`.
-    pub columns: Vec<Vec<Column>>,
+    pub columns: Vec<Vec<EffectColumn>>,
     /// Rate of the samples (Hz).
     pub rate_hz: f64,
     name: String,

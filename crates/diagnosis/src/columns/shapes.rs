@@ -1,7 +1,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use catalogue::EffectKind;
-use effects::{Column, Frame, Germ, Hypothesis, Scale, germs};
+use effects::{EffectColumn, Frame, Hypothesis, Scale, TrialShape, trial_shapes};
 use logs::LogError;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
@@ -26,14 +26,15 @@ const AT_ONCE: usize = 8;
 /// over the joints that the shape reaches, each weighted by one over the power of its `r`.
 pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
     let (prepared, moved) = (log.prepared, log.moved);
-    let relevant = |g: &Germ| {
+    let relevant = |g: &TrialShape| {
         let looked_for = !log.without.contains(&g.hypothesis.kind);
         looked_for && g.hypothesis.joint().is_some_and(|j| moved[j])
     };
-    let shapes: Vec<Germ> = germs(robot, &Scale::of_logs(robot, prepared), &log.thresholds.priors)
-        .into_iter()
-        .filter(relevant)
-        .collect();
+    let shapes: Vec<TrialShape> =
+        trial_shapes(robot, &Scale::of_logs(robot, prepared), &log.thresholds.priors)
+            .into_iter()
+            .filter(relevant)
+            .collect();
     let kinds = shapes.iter().map(|shape| shape.hypothesis.kind).chain(log.without.iter().copied());
     let without: Vec<EffectKind> = kinds.collect::<BTreeSet<_>>().into_iter().collect();
     let design = Design::new(robot, &Log { without: &without, ..*log })?;
@@ -50,7 +51,7 @@ pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogErr
             columns.into_par_iter().map(|runs| explained_power(&left, &runs).unwrap_or(0.0));
         explained.extend(of_each.collect::<Vec<f64>>());
     }
-    let mut best: BTreeMap<Hypothesis, (f64, Germ)> = BTreeMap::new();
+    let mut best: BTreeMap<Hypothesis, (f64, TrialShape)> = BTreeMap::new();
     for (shape, explained) in shapes.into_iter().zip(explained) {
         let known = best.entry(shape.hypothesis).or_insert((explained, shape));
         if explained > known.0 {
@@ -58,15 +59,16 @@ pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogErr
         }
     }
     let mut shaped = robot.clone();
-    best.into_values().for_each(|(_, shape)| shape.sow(&mut shaped));
+    best.into_values().for_each(|(_, shape)| shape.set_shape(&mut shaped));
     Ok(shaped)
 }
 
 /// The columns of some trial shapes, `[shape][run][weight]`.
-fn columns(shapes: &[Germ], runs: &mut [Along]) -> Vec<Vec<Vec<Column>>> {
+fn columns(shapes: &[TrialShape], runs: &mut [Along]) -> Vec<Vec<Vec<EffectColumn>>> {
     let mut all = vec![Vec::new(); shapes.len()];
     for along in runs {
-        let raw: Vec<Vec<Column>> = shapes.iter().map(|g| g.columns(&mut along.motion)).collect();
+        let raw: Vec<Vec<EffectColumn>> =
+            shapes.iter().map(|g| g.columns(&mut along.motion)).collect();
         let finished = raw.into_par_iter().map(|c| along.finish_columns(c)).collect::<Vec<_>>();
         all.iter_mut().zip(finished).for_each(|(of, columns)| of.push(columns));
     }
@@ -126,14 +128,15 @@ impl LinearRest {
 
 /// Power of the remaining efforts that the columns of one trial shape, `[run][weight]`, explain, in units of their mean
 /// squares.
-fn explained_power(left: &[Option<LinearRest>], runs: &[Vec<Column>]) -> Option<f64> {
+fn explained_power(left: &[Option<LinearRest>], runs: &[Vec<EffectColumn>]) -> Option<f64> {
     let width = runs.first()?.len();
     let (mut normal, mut score) = (DMatrix::zeros(width, width), DVector::zeros(width));
     for (j, left) in left.iter().enumerate() {
         let Some(left) = left else { continue };
         let column = |k: usize| -> Option<DVector<f64>> {
-            let part =
-                |run: &Vec<Column>| run[k].iter().find(|p| p.joint == j).map(|p| p.values.clone());
+            let part = |run: &Vec<EffectColumn>| {
+                run[k].iter().find(|p| p.joint == j).map(|p| p.values.clone())
+            };
             let parts: Option<Vec<Vec<f64>>> = runs.iter().map(part).collect();
             Some(DVector::from_vec(parts?.concat()).component_mul(&left.is_informative))
         };

@@ -5,7 +5,7 @@ use crate::regression::blocks::Block;
 
 /// A part of the logs that was held out, and the robot with what is found without it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HeldOut {
+pub struct HeldOutPart {
     /// What was held out.
     pub test: Vec<Span>,
     /// What causes and sizes were found on: the rest, without what lies next to the test.

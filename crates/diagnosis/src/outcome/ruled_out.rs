@@ -57,8 +57,8 @@ impl FindingBuilder<'_> {
         let columns = problem.new_columns(self.model, g);
         let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
         let errors = standard_errors(problem, fit, &complement);
-        let nature = problem.design.groups[g].hypothesis.nature();
-        let has_phases = nature.is_some_and(|n| n.weights == Weights::Phases);
+        let traits = problem.design.groups[g].hypothesis.traits();
+        let has_phases = traits.is_some_and(|n| n.weights == Weights::Phases);
         let errors = errors.get(..if has_phases { 2 } else { 1 })?;
         let error = errors.iter().copied().fold(0.0, f64::max);
         Some(problem.thresholds.sizes.detected * error * self.largest_unseen(g))
@@ -146,7 +146,7 @@ impl FindingBuilder<'_> {
 /// The parameter that the weight with index `weight` stands for, and its value for a size of the weight. The weight of a
 /// spring is its compliance; friction beyond the Coulomb level is that of breaking away, or the elastic part.
 fn parameter_of(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
-    match effects::model(kind).map(|model| model.nature().weights) {
+    match effects::model(kind).map(|model| model.traits().weights) {
         Ok(Weights::Reciprocal) => (weight, size.map(f64::recip)),
         Ok(Weights::SeenBy(parameter)) => (parameter, size),
         _ => (weight, size),

@@ -4,7 +4,7 @@ use crate::error::DiagnosisError;
 use crate::outcome::finding_builder::FindingWithFall;
 use crate::outcome::findings::Findings;
 use crate::outcome::gain::HeldOutGain;
-use crate::outcome::held_out::{HeldOut, spans};
+use crate::outcome::held_out::{HeldOutPart, spans};
 use crate::outcome::second_encoder::{SecondEncoder, compare_encoders};
 use crate::progress::Progress;
 use crate::regression::blocks::{Fold, Folding};
@@ -70,9 +70,9 @@ impl Inputs<'_> {
     }
 
     /// The folds, each with the robot that was found without it.
-    pub fn held_out(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOut> {
+    pub fn held_out(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOutPart> {
         let spans = |of: &[usize]| spans(self.design, dataset.blocks, of);
-        let part = |(fold, fitted): (&Fold, &FittedModel)| HeldOut {
+        let part = |(fold, fitted): (&Fold, &FittedModel)| HeldOutPart {
             test: spans(&fold.test),
             train: spans(&fold.train),
             extended: self.without_trial_shapes(fitted.robot.clone()),

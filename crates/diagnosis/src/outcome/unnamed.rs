@@ -22,7 +22,7 @@ use crate::search::select::Selection;
 /// beside its own. `gain` is the log evidence of the effect at its most likely size, since the size of a small error is
 /// unknown, and `least` the evidence that a finding needs (Hoeting et al. 1999).
 ///
-/// The priors in `B` are those of the search. Links have those of CAD errors instead ([`effects::HasCadError::everyday`]): logs
+/// The priors in `B` are those of the search. Links have those of CAD errors instead ([`effects::HasCadError::cad_error_sd`]): logs
 /// often show only the sum of the masses of two neighbours, and by the priors of the search either could have all of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Unnamed<'a> {
@@ -81,7 +81,7 @@ impl<'a> Unnamed<'a> {
 fn prior_of_small_errors(design: &Design, robot: &Robot, priors: &Priors) -> Vec<f64> {
     let mut prior = design.prior.clone();
     for group in &design.groups {
-        let Some(small) = group.hypothesis.everyday(robot, priors) else {
+        let Some(small) = group.hypothesis.cad_error_sd(robot, priors) else {
             continue;
         };
         group.columns.iter().zip(small).for_each(|(&column, sd)| prior[column] = sd);

@@ -1,4 +1,4 @@
-use inspection::{Mended, Observation, ObservationKind, Spoils, mend_with};
+use inspection::{CorrectedLogs, Observation, ObservationKind, Spoils, correct_with};
 use logs::Run;
 use robot::Robot;
 
@@ -20,7 +20,8 @@ pub(crate) struct InspectedLogs {
 /// Inspects whole logs for a turned sign, another unit, a frozen encoder. Errors with one possible correction are corrected.
 /// No causes are sought in seconds or joints that the other errors spoil.
 pub(crate) fn inspect_logs(robot: &Robot, runs: &[Run], t: &Thresholds) -> InspectedLogs {
-    let Mended { runs: read, mended, left: mut seen } = mend_with(robot, runs, &t.inspection);
+    let CorrectedLogs { runs: read, mended, left: mut seen } =
+        correct_with(robot, runs, &t.inspection);
     let runs = read.as_deref().unwrap_or(runs);
     // A drive at its limit gives the torque of the limit; the effort beyond it is a cause.
     seen.retain(|o| !matches!(o.kind, ObservationKind::AtLimit { .. }));

@@ -227,7 +227,7 @@ impl<'a> Problem<'a> {
     pub fn everything(&self) -> Model {
         let groups = &self.design.groups;
         let is_distinct = |g: &usize| {
-            self.design.response == Response::Twist || !groups[*g].hypothesis.is_doubtful()
+            self.design.response == Response::Twist || !groups[*g].hypothesis.is_imitable()
         };
         (0..groups.len()).filter(is_distinct).collect()
     }

@@ -1,4 +1,4 @@
-use effects::{Hypothesis, Quantity, Weights};
+use effects::{EffectQuantity, Hypothesis, Weights};
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
@@ -92,8 +92,8 @@ impl Uncertainty {
             own.iter().map(|&k| slope(&at, &here, weights, k, design.prior[k])).collect();
         let place: Vec<usize> =
             own.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
-        let is_reciprocal = hypothesis.nature().is_some_and(|n| n.weights == Weights::Reciprocal);
-        let estimate = |(i, quantity): (usize, &Quantity)| {
+        let is_reciprocal = hypothesis.traits().is_some_and(|n| n.weights == Weights::Reciprocal);
+        let estimate = |(i, quantity): (usize, &EffectQuantity)| {
             let gradient = DVector::from_iterator(own.len(), slopes.iter().map(|s| s[i]));
             let interval = |with: f64| match is_reciprocal {
                 true => {
@@ -250,8 +250,8 @@ fn is_no_more_than_plain(
 
 /// Change of every quantity per unit of weight `k`, by a central difference.
 fn slope(
-    at: &impl Fn(&[f64]) -> Vec<Quantity>,
-    here: &[Quantity],
+    at: &impl Fn(&[f64]) -> Vec<EffectQuantity>,
+    here: &[EffectQuantity],
     weights: &[f64],
     k: usize,
     prior: f64,

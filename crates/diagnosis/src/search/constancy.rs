@@ -63,8 +63,8 @@ pub(crate) fn size_variation(fitted: &LinearFit, group: usize, size: &[f64]) -> 
     let columns = problem.columns(model);
     let alone = power_alone(problem, &columns, group, size)?;
     let base = held_out(problem, &columns, None)?;
-    let nature = problem.design.groups[group].hypothesis.nature();
-    let is_rough = nature.is_some_and(|n| n.law == Law::Rough);
+    let traits = problem.design.groups[group].hypothesis.traits();
+    let is_rough = traits.is_some_and(|n| n.law == Law::Approximate);
     let most = if is_rough { t.variation_of_rough } else { t.variation };
     let mut largest: Option<(f64, Contrast)> = None;
     for contrast in contrasts(problem.design, group, size) {

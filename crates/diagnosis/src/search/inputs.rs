@@ -1,6 +1,6 @@
 use std::borrow::Cow;
 
-use effects::weeded;
+use effects::without_unused_shapes;
 use robot::Robot;
 
 use crate::columns::design::Design;
@@ -79,7 +79,7 @@ impl Inputs<'_> {
 
     /// A robot without the trial shapes of effects that it does not have, and with the tones and limits of the logs.
     pub fn without_trial_shapes(&self, robot: Robot) -> Robot {
-        let mut finished = weeded(robot, self.nominal);
+        let mut finished = without_unused_shapes(robot, self.nominal);
         let common_phase = self.thresholds().tones.common_phase;
         self.log.tones.iter().for_each(|tone| tone.extend(&mut finished, common_phase));
         self.log.limits.iter().for_each(|limit| limit.extend(&mut finished));

@@ -1,6 +1,6 @@
 use std::cmp::Ordering;
 
-use effects::{Hypothesis, Nature};
+use effects::{Hypothesis, Traits};
 use robot::Robot;
 
 use crate::regression::fit::Fit;
@@ -243,26 +243,27 @@ impl Selection<'_> {
 
     /// Whether `g` must have evidence beyond its simpler rivals.
     fn adds_to_simpler(&self, g: usize) -> bool {
-        let nature = self.problem.design.groups[g].hypothesis.nature();
-        nature.is_some_and(Nature::adds_to_the_plain)
+        let traits = self.problem.design.groups[g].hypothesis.traits();
+        traits.is_some_and(Traits::adds_to_the_plain)
     }
 
     /// Least gain in log evidence for hypothesis `g`.
     pub fn least_evidence(&self, g: usize) -> f64 {
         let hypothesis = self.problem.design.groups[g].hypothesis;
         let t = self.thresholds();
-        if hypothesis.is_doubtful() { t.evidence_of_imitable } else { t.evidence }
+        if hypothesis.is_imitable() { t.evidence_of_imitable } else { t.evidence }
     }
 
     /// The model with a rare effect replaced by its simpler rivals, where its evidence beyond these is less than an effect
     /// that few arms have needs.
     pub fn without_rare(&self, model: &Model) -> Option<Model> {
         let is_rare = |g: &usize| {
-            let rarity = self.problem.design.groups[*g]
+            let prior_log_odds_against = self.problem.design.groups[*g]
                 .hypothesis
-                .rarity(self.robot, &self.problem.thresholds.priors);
-            let least = self.least_evidence(*g) + rarity;
-            rarity > 0.0 && self.evidence_beyond_simpler(&model_without(model, *g), *g) < least
+                .prior_log_odds_against(self.robot, &self.problem.thresholds.priors);
+            let least = self.least_evidence(*g) + prior_log_odds_against;
+            prior_log_odds_against > 0.0
+                && self.evidence_beyond_simpler(&model_without(model, *g), *g) < least
         };
         let g = model.iter().copied().find(is_rare)?;
         let mut plain = model_without(model, g);

@@ -1,4 +1,4 @@
-use effects::{Column, Encoders, Frame, Motion};
+use effects::{EffectColumn, Encoders, Frame, RunMotion};
 use logs::{LogError, LowPass, PreparedJoint, PreparedRun, decimate};
 use nalgebra::Complex;
 use rayon::prelude::*;
@@ -37,7 +37,7 @@ pub(crate) struct Wave {
 /// of the regression.
 pub(crate) struct Along<'a> {
     /// The motion about a robot.
-    pub motion: Motion,
+    pub motion: RunMotion,
     run: &'a PreparedRun,
     /// `[joint][sample]`: one where the signals of a joint count, else zero; empty where they count everywhere.
     counts: Vec<Vec<f64>>,
@@ -80,7 +80,7 @@ impl<'a> Along<'a> {
             links: run.joints.iter().map(link).collect(),
             since_cold_s: run.time.first().map_or(0.0, |first| first - run.session_start_s),
         };
-        let motion = Motion::seen(robot, frame, encoders, rate.recip());
+        let motion = RunMotion::seen(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
         let (counts, tone_basis) = (Vec::new(), vec![Vec::new(); run.joints.len()]);
@@ -241,7 +241,7 @@ impl<'a> Along<'a> {
 
     /// The columns of one effect, low-passed, at the rate of the regression, orthogonal to the tones: the sizes of tones
     /// are fitted with those of all effects.
-    pub fn finish_columns(&self, mut columns: Vec<Column>) -> Vec<Column> {
+    pub fn finish_columns(&self, mut columns: Vec<EffectColumn>) -> Vec<EffectColumn> {
         let parts = columns.iter_mut().flatten();
         self.finish_all(parts.map(|part| (part.joint, &mut part.values)));
         for part in columns.iter_mut().flatten() {

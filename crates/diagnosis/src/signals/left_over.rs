@@ -23,7 +23,7 @@ pub struct LeftOver {
 /// ```
 ///
 /// with the drives as they are described, including delays, encoder errors and elastic transmissions, which no function
-/// of the state `q, qd, qdd` has ([`effects::Motion`]). The limit is that of the joint; measured efforts have none,
+/// of the state `q, qd, qdd` has ([`effects::RunMotion`]). The limit is that of the joint; measured efforts have none,
 /// since they were torque. Joints count as at rest below `rest_speed` (rad/s or m/s).
 ///
 /// # Errors

@@ -3,15 +3,15 @@ use robot::{Actuator, Robot};
 
 use crate::abilities::{HasPlainer, IsRestricted};
 use crate::bounds::{down_to_zero, unbounded};
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
 /// `forward` for positive and `-backward` for negative velocity: two weights a joint,
 /// the change of the mean level and half the change of the difference.
@@ -24,16 +24,16 @@ impl Effect for AsymmetricFriction {
         EffectKind::AsymmetricFriction
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] = &[
             Relation::Together(&[EffectKind::CoulombFriction, EffectKind::TorqueOffset]),
             Relation::PlainerHere(EffectKind::CoulombFriction),
         ];
-        Nature::new(
+        Traits::new(
             Linearity::Exact,
             Imitable::No,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::Direct,
             RELATIONS,
         )
@@ -51,7 +51,7 @@ impl Effect for AsymmetricFriction {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let against = motion.coulomb(j).zip(&motion.direction[j]).map(|(c, s)| c * s.signum());
         vec![at_joint(j, motion.coulomb(j)), at_joint(j, against)]
     }
@@ -81,7 +81,12 @@ impl Effect for AsymmetricFriction {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         vec![
             actuator_quantity(self.kind(), 0, j, robots, |a| a.coulomb_forward),

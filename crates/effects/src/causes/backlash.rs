@@ -3,16 +3,16 @@ use robot::{Actuator, Robot};
 
 use crate::abilities::{BetweenEncoders, HasShape};
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::motion::transmission::{Gap, LoadAlong, play};
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
 /// of the gap (rad or m).
@@ -39,12 +39,12 @@ impl Effect for Backlash {
         EffectKind::Backlash
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Firm,
-            Seat::BeforeTheLink,
+            Law::Exact,
+            Location::BeforeTheLink,
             Weights::Direct,
             &[],
         )
@@ -62,7 +62,7 @@ impl Effect for Backlash {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let carried = LoadAlong::at_motor(motion.rigid_load(j), &motion.slopes(j)[j]);
         vec![motion.twist_column(j, &play_per_gap(motion, j, carried))]
     }
@@ -89,7 +89,12 @@ impl Effect for Backlash {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.backlash)]
     }
 
@@ -108,7 +113,7 @@ impl HasShape for Backlash {
         if known { Vec::new() } else { TRIALS.to_vec() }
     }
 
-    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
         drive.backlash_trial = shape;
     }
 
@@ -118,7 +123,7 @@ impl HasShape for Backlash {
 }
 
 impl BetweenEncoders for Backlash {
-    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let ratio = motion.drives[j].transmission_ratio;
         let play =
             play_per_gap(motion, j, LoadAlong::at_link(&motion.load[j], &motion.slopes(j)[j]));
@@ -127,7 +132,7 @@ impl BetweenEncoders for Backlash {
 }
 
 /// Change of `theta - q` at joint `j` per unit of gap.
-fn play_per_gap(motion: &Motion, j: usize, carried: LoadAlong<'_>) -> Vec<f64> {
+fn play_per_gap(motion: &RunMotion, j: usize, carried: LoadAlong<'_>) -> Vec<f64> {
     let drive = &motion.drives[j];
     let at = |gap: f64| play(carried, Gap::of(drive, gap), motion.period_s);
     let Actuator { backlash: gap, backlash_trial: trial, .. } = *drive;

@@ -3,16 +3,16 @@ use robot::{Actuator, Robot};
 
 use crate::abilities::CanBeUnsound;
 use crate::bounds::{down_to_zero, unbounded};
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::cable_loop::Loop;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `stiffness x + cubic x³ + h`, `x = q - rest`, with the loop `h`.
 ///
@@ -40,12 +40,12 @@ impl Effect for CableSpring {
         EffectKind::CableSpring
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::No,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -63,7 +63,7 @@ impl Effect for CableSpring {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let (q, drive) = (&motion.link[0][j], &motion.drives[j]);
         if !has_spring(drive) {
             return vec![vec![motion.load_part(j, q.iter().map(|q| q - motion.centre[j]))]];
@@ -161,7 +161,12 @@ impl Effect for CableSpring {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         let read: [fn(&Actuator) -> f64; 4] = [
             |a| a.spring_stiffness,

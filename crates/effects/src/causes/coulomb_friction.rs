@@ -2,15 +2,15 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `level sign(qd)`: one weight a joint, the change of both Coulomb levels.
 pub(crate) struct CoulombFriction;
@@ -22,12 +22,12 @@ impl Effect for CoulombFriction {
         EffectKind::CoulombFriction
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Exact,
             Imitable::No,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -45,7 +45,7 @@ impl Effect for CoulombFriction {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         vec![at_joint(j, motion.coulomb(j))]
     }
 
@@ -74,7 +74,12 @@ impl Effect for CoulombFriction {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let level = |a: &robot::Actuator| 0.5 * (a.coulomb_forward + a.coulomb_backward);
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], level)]
     }

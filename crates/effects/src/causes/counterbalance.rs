@@ -3,15 +3,15 @@ use nalgebra::Complex;
 use robot::{Actuator, Counterbalance as Described, Robot};
 
 use crate::bounds::unbounded;
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `amplitude sin(q + phase)`: two weights a joint that turns, the changes of the sine and of the cosine
 /// of the link's position (N·m).
@@ -33,12 +33,12 @@ impl Effect for Counterbalance {
         EffectKind::Counterbalance
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Exact,
             Imitable::No,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -58,7 +58,7 @@ impl Effect for Counterbalance {
         joints_where(robot, |drive| drive.counterbalance.is_some())
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let wave = |of: fn(f64) -> f64| {
             let q = motion.link[0][j].iter();
             vec![motion.load_part(j, q.map(|q| of(*q)))]
@@ -90,7 +90,12 @@ impl Effect for Counterbalance {
         link.actuator.counterbalance = Some(Described { amplitude, phase });
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         vec![
             actuator_quantity(self.kind(), 0, j, robots, |a| balance(a).norm()),

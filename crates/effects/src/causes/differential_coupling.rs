@@ -3,15 +3,15 @@ use robot::{Actuator, Coupling, Robot};
 
 use crate::abilities::{HasShape, IsRare};
 use crate::bounds::down_to_zero;
-use crate::column::{Column, Part};
+use crate::column::{ColumnPart, EffectColumn};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
 /// Friction of two motors that a joint and the next one share. Four weights: a dry level and a viscous factor of the
 /// motor that turns with the sum, and the same of the motor that turns with the difference. Where the friction is
@@ -29,7 +29,12 @@ const STEP: f64 = 0.02;
 
 impl DifferentialCoupling {
     /// Friction at both joints per unit of `level` and `viscous` of one motor.
-    fn unit(motion: &Motion, j: usize, c: &Coupling, [level, viscous, way]: [f64; 3]) -> Column {
+    fn unit(
+        motion: &RunMotion,
+        j: usize,
+        c: &Coupling,
+        [level, viscous, way]: [f64; 3],
+    ) -> EffectColumn {
         let other = c.other;
         let signal = motion.motor(j, other, way * c.ratio);
         let friction = |scale: f64| -> Vec<f64> {
@@ -37,15 +42,15 @@ impl DifferentialCoupling {
             signal.iter().map(one).collect()
         };
         vec![
-            Part { joint: j, values: friction(motion.gain[j]) },
-            Part { joint: other, values: friction(motion.gain[other] * way * c.ratio) },
+            ColumnPart { joint: j, values: friction(motion.gain[j]) },
+            ColumnPart { joint: other, values: friction(motion.gain[other] * way * c.ratio) },
         ]
     }
 
-    fn all(motion: &Motion, j: usize, c: &Coupling) -> Column {
+    fn all(motion: &RunMotion, j: usize, c: &Coupling) -> EffectColumn {
         let [sum, difference] =
             [0, 1].map(|k| Self::unit(motion, j, c, [c.level[k], c.viscous[k], WAYS[k]]));
-        let both = |(mut a, b): (Part, Part)| {
+        let both = |(mut a, b): (ColumnPart, ColumnPart)| {
             a.values.iter_mut().zip(b.values).for_each(|(a, b)| *a += b);
             a
         };
@@ -65,16 +70,16 @@ impl Effect for DifferentialCoupling {
         EffectKind::DifferentialCoupling
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] = &[Relation::PlainerAtEveryJoint(&[
             EffectKind::CoulombFriction,
             EffectKind::ViscousFriction,
         ])];
-        Nature::new(
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::Direct,
             RELATIONS,
         )
@@ -93,10 +98,10 @@ impl Effect for DifferentialCoupling {
         joints_where(robot, |drive| drive.coupling.is_some())
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let Some(known) = motion.drives[j].coupling else { return Vec::new() };
         let unit = |of: [f64; 3]| Self::unit(motion, j, &known, of);
-        let mut columns: Vec<Column> =
+        let mut columns: Vec<EffectColumn> =
             WAYS.iter().flat_map(|&way| [unit([1.0, 0.0, way]), unit([0.0, 1.0, way])]).collect();
         if is_known(&known) {
             let at = |ratio: f64| Self::all(motion, j, &Coupling { ratio, ..known });
@@ -151,7 +156,12 @@ impl Effect for DifferentialCoupling {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         let read = |index: usize, none: f64, pick: fn(Coupling) -> f64| {
             actuator_quantity(self.kind(), index, j, robots, |a| a.coupling.map_or(none, pick))
@@ -184,7 +194,7 @@ impl HasShape for DifferentialCoupling {
         if alike && !known { RATIOS.to_vec() } else { Vec::new() }
     }
 
-    fn sow(&self, joint: usize, drive: &mut Actuator, shape: f64) {
+    fn set_shape(&self, joint: usize, drive: &mut Actuator, shape: f64) {
         let nothing = [0.0; 2];
         drive.coupling =
             Some(Coupling { other: joint + 1, ratio: shape, level: nothing, viscous: nothing });
@@ -200,7 +210,7 @@ impl HasShape for DifferentialCoupling {
 impl IsRare<AtJoint> for DifferentialCoupling {
     /// Few arms share motors, and most of these are described so. Friction of the sum and difference of two speeds
     /// imitates other effects at both joints.
-    fn rarity(&self, AtJoint(j): AtJoint, robot: &Robot, priors: &Priors) -> f64 {
+    fn prior_log_odds_against(&self, AtJoint(j): AtJoint, robot: &Robot, priors: &Priors) -> f64 {
         let drive = robot.links().get(j).map(|link| &link.actuator);
         let coupling = drive.and_then(|drive| drive.coupling);
         if coupling.is_some_and(|c| is_known(&c)) {

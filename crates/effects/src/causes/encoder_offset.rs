@@ -3,15 +3,15 @@ use robot::{Actuator, Robot};
 
 use crate::abilities::BetweenEncoders;
 use crate::bounds::unbounded;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `tau(q - offset) - tau(q)`: one weight a joint, the change of the offset (rad or m).
 ///
@@ -25,12 +25,12 @@ impl Effect for EncoderOffset {
         EffectKind::EncoderOffset
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Firm,
-            Seat::BeforeTheLink,
+            Law::Exact,
+            Location::BeforeTheLink,
             Weights::Direct,
             &[],
         )
@@ -48,7 +48,7 @@ impl Effect for EncoderOffset {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let moved = vec![-motion.drives[j].transmission_ratio; motion.samples()];
         let still = vec![0.0; motion.samples()];
         vec![motion.displacement_column(j, [&moved, &still, &still])]
@@ -76,7 +76,12 @@ impl Effect for EncoderOffset {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.encoder_offset)]
     }
 
@@ -86,7 +91,7 @@ impl Effect for EncoderOffset {
 }
 
 impl BetweenEncoders for EncoderOffset {
-    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         vec![at_joint(j, motion.q[j].iter().map(|_| 1.0))]
     }
 }

@@ -3,16 +3,16 @@ use robot::{Actuator, Robot, Warming};
 
 use crate::abilities::{CanBeUnsound, HasShape};
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::drive::warmth;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// Friction that falls while the drive warms up. Two weights a joint: the changes of the viscous and of the Coulomb
 /// friction that a warm drive has lost. Where these are above zero, a third weight is the change of the time constant.
@@ -58,12 +58,12 @@ impl Effect for FrictionTemperatureDrift {
         EffectKind::FrictionTemperatureDrift
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -82,7 +82,7 @@ impl Effect for FrictionTemperatureDrift {
         joints_where(robot, |drive| of(drive).is_some())
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let Some(known) = of(&motion.drives[j]) else { return Vec::new() };
         let Warming { viscous_lost, coulomb_lost, time_constant_s } = known;
         let (gain, qd, direction) = (motion.gain[j], &motion.qd[j], &motion.direction[j]);
@@ -144,7 +144,12 @@ impl Effect for FrictionTemperatureDrift {
         }));
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         let quantity = |index, pick: fn(Warming) -> f64, none: f64| {
             actuator_quantity(self.kind(), index, j, robots, |a| of(a).map_or(none, pick))
@@ -183,7 +188,7 @@ impl HasShape for FrictionTemperatureDrift {
             .collect()
     }
 
-    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
         let (viscous_lost, coulomb_lost) = (0.0, 0.0);
         drive.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: shape });
     }

@@ -3,16 +3,16 @@ use nalgebra::{Rotation3, Vector3};
 use robot::{Actuator, Robot};
 
 use crate::abilities::IsRestricted;
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::{Effect, INVERSE_DYNAMICS};
 use crate::motion::frame::Frame;
 use crate::motion::rigid_bodies::tilt_axes;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::AtBase;
 use crate::priors::Priors;
-use crate::quantity::Quantity;
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::EffectQuantity;
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `G(q) (g - g_nominal)`: two weights, the tilt of gravity about two horizontal axes (rad).
 ///
@@ -26,12 +26,12 @@ impl Effect for GravityDirection {
         EffectKind::GravityDirection
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::No,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -49,7 +49,7 @@ impl Effect for GravityDirection {
         vec![AtBase]
     }
 
-    fn columns(&self, _: AtBase, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, _: AtBase, motion: &RunMotion) -> Vec<EffectColumn> {
         let column = |axis: usize| {
             let part = |(joint, tilt): (usize, &[Vec<f64>; 2])| {
                 motion.load_part(joint, tilt[axis].iter().copied())
@@ -75,11 +75,11 @@ impl Effect for GravityDirection {
         *robot = robot.clone().with_gravity(Rotation3::new(tilt) * gravity);
     }
 
-    fn quantities(&self, _: AtBase, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(&self, _: AtBase, nominal: &Robot, extended: &Robot) -> Vec<EffectQuantity> {
         let axes = tilt_axes(nominal.gravity_in_base());
         let tilt = tilt_between(nominal.gravity_in_base(), extended.gravity_in_base());
         let parameters = self.kind().entry().parameters;
-        let quantity = |(axis, p): (&Vector3<f64>, &catalogue::Parameter)| Quantity {
+        let quantity = |(axis, p): (&Vector3<f64>, &catalogue::Parameter)| EffectQuantity {
             name: p.name,
             value: axis.dot(&tilt),
             nominal: 0.0,

@@ -4,15 +4,15 @@ use robot::{Actuator, Inertia, Robot};
 
 use crate::abilities::HasCadError;
 use crate::bounds::{down_to_zero, unbounded};
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::{Effect, INVERSE_DYNAMICS};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::InLink;
 use crate::priors::Priors;
-use crate::quantity::Quantity;
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::quantity::EffectQuantity;
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
 /// `Y_link (pi - pi_nominal)`: ten weights a link, the changes of its inertial parameters
 /// `[m, m c (3), Ixx, Ixy, Iyy, Ixz, Iyz, Izz]` about the link origin.
@@ -25,16 +25,16 @@ impl Effect for InertialParameters {
         EffectKind::InertialParameters
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] = &[
             Relation::OtherNameOf(EffectKind::Payload),
             Relation::PlainerAtTheJoint(EffectKind::RotorInertia),
         ];
-        Nature::new(
+        Traits::new(
             Linearity::Exact,
             Imitable::No,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             RELATIONS,
         )
@@ -52,7 +52,7 @@ impl Effect for InertialParameters {
         (0..robot.joint_count()).map(InLink).collect()
     }
 
-    fn columns(&self, InLink(link): InLink, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, InLink(link): InLink, motion: &RunMotion) -> Vec<EffectColumn> {
         let regressor = motion.link_regressor(link);
         let column = |parameter: usize| {
             let carriers = regressor.iter().enumerate().filter(|(_, signals)| !signals.is_empty());
@@ -104,7 +104,12 @@ impl Effect for InertialParameters {
         }
     }
 
-    fn quantities(&self, InLink(link): InLink, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        InLink(link): InLink,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let read = |r: &Robot| mass_and_com(&r.links()[link].inertia);
         quantities(self.kind(), read(nominal), read(extended))
     }
@@ -122,7 +127,7 @@ impl HasCadError<InLink> for InertialParameters {
     /// sd(m c) = cad_share m |c| + cad_centre_m m
     /// sd(I)   = cad_share (Ixx + Iyy + Izz) + 2 cad_centre_m m (|c| + cad_centre_m)
     /// ```
-    fn everyday(&self, InLink(link): InLink, robot: &Robot, priors: &Priors) -> Vec<f64> {
+    fn cad_error_sd(&self, InLink(link): InLink, robot: &Robot, priors: &Priors) -> Vec<f64> {
         let inertia = &robot.links()[link].inertia;
         let mass = inertia.mass.max(priors.cad_least_mass_kg);
         let reach = inertia.com_in_link.norm();
@@ -143,8 +148,12 @@ pub(crate) fn mass_and_com(inertia: &Inertia) -> [f64; 4] {
 }
 
 /// The parameters of `kind` with values before and after.
-pub(crate) fn quantities(kind: EffectKind, nominal: [f64; 4], extended: [f64; 4]) -> Vec<Quantity> {
-    let quantity = |(i, p): (usize, &catalogue::Parameter)| Quantity {
+pub(crate) fn quantities(
+    kind: EffectKind,
+    nominal: [f64; 4],
+    extended: [f64; 4],
+) -> Vec<EffectQuantity> {
+    let quantity = |(i, p): (usize, &catalogue::Parameter)| EffectQuantity {
         name: p.name,
         value: extended[i],
         nominal: nominal[i],

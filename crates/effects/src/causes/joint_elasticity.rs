@@ -3,16 +3,16 @@ use robot::{Actuator, Robot};
 
 use crate::abilities::BetweenEncoders;
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::motion::transmission::{Gap, LoadAlong, play};
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
 /// `1 / stiffness`.
@@ -29,7 +29,7 @@ const STEP: f64 = 1e-7;
 /// Change of `theta - q` at joint `j` per unit of compliance (N·m or N): the load, and the change of the play, since a
 /// softer spring releases the link faster. `carried` makes the load of the play from `play_load`.
 fn per_compliance(
-    motion: &Motion,
+    motion: &RunMotion,
     j: usize,
     play_load: &[f64],
     carried: for<'a> fn(&'a [f64], &'a [Vec<f64>; 3]) -> LoadAlong<'a>,
@@ -54,12 +54,12 @@ impl Effect for JointElasticity {
         EffectKind::JointElasticity
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Firm,
-            Seat::BeforeTheLink,
+            Law::Exact,
+            Location::BeforeTheLink,
             Weights::Reciprocal,
             &[],
         )
@@ -83,7 +83,7 @@ impl Effect for JointElasticity {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let twist = per_compliance(motion, j, motion.rigid_load(j), LoadAlong::at_motor);
         vec![motion.twist_column(j, &twist)]
     }
@@ -112,7 +112,12 @@ impl Effect for JointElasticity {
     }
 
     /// A rigid transmission has an infinite stiffness.
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let stiffness = |a: &Actuator| a.elasticity.unwrap_or(f64::INFINITY);
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], stiffness)]
     }
@@ -123,7 +128,7 @@ impl Effect for JointElasticity {
 }
 
 impl BetweenEncoders for JointElasticity {
-    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let ratio = motion.drives[j].transmission_ratio;
         let twist = per_compliance(motion, j, &motion.load[j], LoadAlong::at_link);
         vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]

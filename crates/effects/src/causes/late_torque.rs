@@ -2,16 +2,16 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::bounds::down_to_zero;
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::motion::timing::is_measured;
 use crate::place::{AtJoint, joints_where};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
 /// Torque that follows its command late: one weight a joint, the change of a time (s).
 ///
@@ -46,16 +46,16 @@ impl Effect for LateTorque {
         }
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         let twin: &[Relation] = match self {
             Self::Delay => &[Relation::TwinOf(EffectKind::ActuatorLag)],
             Self::Lag => &[Relation::TwinOf(EffectKind::ActuatorDelay)],
         };
-        Nature::new(
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             twin,
         )
@@ -81,7 +81,7 @@ impl Effect for LateTorque {
         joints_where(robot, |drive| !is_measured(drive))
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         vec![motion.torque_rate(j)]
     }
 
@@ -109,7 +109,12 @@ impl Effect for LateTorque {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| self.time(a))]
     }
 }

@@ -2,15 +2,15 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
 /// `coefficient |load| sign(qd)`: one weight a joint, the change of the coefficient.
 pub(crate) struct LoadDependentFriction;
@@ -22,13 +22,13 @@ impl Effect for LoadDependentFriction {
         EffectKind::LoadDependentFriction
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] = &[Relation::PlainerHere(EffectKind::CoulombFriction)];
-        Nature::new(
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::Direct,
             RELATIONS,
         )
@@ -46,7 +46,7 @@ impl Effect for LoadDependentFriction {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let pairs = motion.load[j].iter().zip(&motion.direction[j]);
         vec![at_joint(j, pairs.map(|(load, s)| motion.gain[j] * load.abs() * s))]
     }
@@ -73,7 +73,12 @@ impl Effect for LoadDependentFriction {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.load_friction)]
     }
 }

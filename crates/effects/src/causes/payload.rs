@@ -4,15 +4,15 @@ use robot::{Actuator, Inertia, Robot};
 
 use crate::abilities::IsRestricted;
 use crate::causes::inertial_parameters::{InertialParameters, mass_and_com, quantities};
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::{Effect, INVERSE_DYNAMICS};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::InLink;
 use crate::priors::Priors;
-use crate::quantity::Quantity;
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::EffectQuantity;
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `Y_last pi_payload`: ten weights, the inertial parameters of a body held by a last
 /// link, about that link's origin.
@@ -28,12 +28,12 @@ impl Effect for Payload {
         EffectKind::Payload
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Exact,
             Imitable::No,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -53,7 +53,7 @@ impl Effect for Payload {
         (0..robot.joint_count()).filter(|&i| !carries(i)).map(InLink).collect()
     }
 
-    fn columns(&self, place: InLink, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, place: InLink, motion: &RunMotion) -> Vec<EffectColumn> {
         InertialParameters.columns(place, motion)
     }
 
@@ -77,7 +77,12 @@ impl Effect for Payload {
         InertialParameters.extend(place, robot, weights, frame, priors);
     }
 
-    fn quantities(&self, InLink(link): InLink, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        InLink(link): InLink,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let before = nominal.links()[link].inertia.parameters();
         let mut body = extended.links()[link].inertia.parameters();
         body.iter_mut().zip(before).for_each(|(b, a)| *b -= a);

@@ -2,19 +2,19 @@ use std::f64::consts::FRAC_PI_2;
 
 use catalogue::EffectKind;
 use nalgebra::Complex;
-use robot::{Actuator, Robot, FrictionWave};
+use robot::{Actuator, FrictionWave, Robot};
 
 use crate::abilities::{CanBeUnsound, CanHide, HasShape};
 use crate::bounds::unbounded;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, RevealedBy, Traits, Weights};
 
 /// Coulomb friction that varies with the position of the motor. Two weights a joint: the change of the wave in phase
 /// and in quadrature (N·m or N). Where the wave is above zero, a third weight is the change of its periods.
@@ -44,14 +44,14 @@ impl Effect for PositionDependentFriction {
         EffectKind::PositionDependentFriction
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] =
-            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::AtOtherPositions)];
-        Nature::new(
+            &[Relation::FormOf(EffectKind::CoulombFriction, RevealedBy::AtOtherPositions)];
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::Phases,
             RELATIONS,
         )
@@ -70,7 +70,7 @@ impl Effect for PositionDependentFriction {
         joints_where(robot, |drive| drive.friction_wave.is_some())
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let Some((wave, FrictionWave { periods, phase, .. })) = amplitude(&motion.drives[j]) else {
             return Vec::new();
         };
@@ -134,7 +134,12 @@ impl Effect for PositionDependentFriction {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         let wave = |pick: fn(FrictionWave) -> f64, none: f64| {
             move |a: &Actuator| a.friction_wave.map_or(none, pick)
@@ -177,7 +182,7 @@ impl HasShape for PositionDependentFriction {
         (0..count).map(|k| priors.wave_fewest_periods + k as f64 * step).collect()
     }
 
-    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
         drive.friction_wave = Some(FrictionWave { share: 0.0, periods: shape, phase: 0.0 });
     }
 

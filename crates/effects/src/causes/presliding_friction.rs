@@ -3,16 +3,16 @@ use robot::{Actuator, Robot};
 
 use crate::abilities::CanBeUnsound;
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::drive::{bending, bristles};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, RevealedBy, Traits, Weights};
 
 /// Dry friction that builds up over a way. A robot without it has one weight a joint: the friction (N·m or N) that
 /// builds up over a small way instead of at once. A robot with it has two: the changes of the way and of the damping.
@@ -43,14 +43,14 @@ impl Effect for PreslidingFriction {
         EffectKind::PreslidingFriction
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] =
-            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::NearRest)];
-        Nature::new(
+            &[Relation::FormOf(EffectKind::CoulombFriction, RevealedBy::NearRest)];
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::SeenBy(1),
             RELATIONS,
         )
@@ -68,7 +68,7 @@ impl Effect for PreslidingFriction {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let (gain, drive) = (motion.gain[j], &motion.drives[j]);
         let held = |way: f64| bristles(&motion.q[j], way);
         let Some(way) = drive.presliding else {
@@ -137,7 +137,12 @@ impl Effect for PreslidingFriction {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         let stiffness = |a: &Actuator| a.presliding.map_or(f64::INFINITY, |way| level(a) / way);
         vec![

@@ -3,15 +3,15 @@ use robot::{Actuator, Robot};
 
 use crate::abilities::CanBeUnsound;
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `rotor_inertia qdd`: one weight a joint, the change of the rotor inertia.
 pub(crate) struct RotorInertia;
@@ -23,12 +23,12 @@ impl Effect for RotorInertia {
         EffectKind::RotorInertia
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Exact,
             Imitable::No,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -46,7 +46,7 @@ impl Effect for RotorInertia {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         vec![at_joint(j, motion.qdd[j].iter().map(|a| motion.gain[j] * a))]
     }
 
@@ -73,7 +73,12 @@ impl Effect for RotorInertia {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.rotor_inertia)]
     }
 

@@ -3,15 +3,15 @@ use robot::{Actuator, Robot, Stribeck};
 
 use crate::abilities::{CanBeUnsound, CanHide, HasPlainer, HasShape};
 use crate::bounds::down_to_zero;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, joints_where};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Shows, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, RevealedBy, Traits, Weights};
 
 /// Dry friction near rest beyond the Coulomb level. One weight a joint: the change of the excess. Where the excess is
 /// above zero, a second weight is the change of the velocity.
@@ -40,14 +40,14 @@ impl Effect for StribeckFriction {
         EffectKind::StribeckFriction
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] =
-            &[Relation::FormOf(EffectKind::CoulombFriction, Shows::NearRest)];
-        Nature::new(
+            &[Relation::FormOf(EffectKind::CoulombFriction, RevealedBy::NearRest)];
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Rough,
-            Seat::Elsewhere,
+            Law::Approximate,
+            Location::Elsewhere,
             Weights::SeenBy(1),
             RELATIONS,
         )
@@ -66,7 +66,7 @@ impl Effect for StribeckFriction {
         joints_where(robot, |drive| of(drive).is_some())
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let Some(Stribeck { excess, velocity }) = of(&motion.drives[j]) else { return Vec::new() };
         let near_rest = |t: usize| {
             let speed = motion.qd[j][t] / velocity;
@@ -122,7 +122,12 @@ impl Effect for StribeckFriction {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         let robots = [nominal, extended];
         let level = |a: &Actuator| 0.5 * (a.coulomb_forward + a.coulomb_backward);
         let excess = |a: &Actuator| of(a).map_or(0.0, |s| s.excess);
@@ -164,7 +169,7 @@ impl HasShape for StribeckFriction {
         if known || speed <= 0.0 { Vec::new() } else { SHARES.map(|s| s * speed).to_vec() }
     }
 
-    fn sow(&self, _: usize, drive: &mut Actuator, shape: f64) {
+    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
         drive.stribeck = Some(Stribeck { excess: 0.0, velocity: shape });
     }
 

@@ -2,15 +2,15 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::bounds::unbounded;
-use crate::column::Column;
+use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::AtBase;
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `tau(t - skew) - tau(t)` at every joint: one weight, the change of the skew (s).
 pub(crate) struct TimeSkew;
@@ -22,12 +22,12 @@ impl Effect for TimeSkew {
         EffectKind::TimeSkew
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -45,9 +45,9 @@ impl Effect for TimeSkew {
         vec![AtBase]
     }
 
-    fn columns(&self, _: AtBase, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, _: AtBase, motion: &RunMotion) -> Vec<EffectColumn> {
         let joints = 0..motion.torque.len();
-        let mut column: Column = joints.flat_map(|j| motion.torque_rate(j)).collect();
+        let mut column: EffectColumn = joints.flat_map(|j| motion.torque_rate(j)).collect();
         column.iter_mut().flat_map(|part| &mut part.values).for_each(|v| *v = -*v);
         vec![column]
     }
@@ -69,7 +69,7 @@ impl Effect for TimeSkew {
         }
     }
 
-    fn quantities(&self, _: AtBase, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(&self, _: AtBase, nominal: &Robot, extended: &Robot) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, 0, [nominal, extended], |a| a.effort_skew_s)]
     }
 }

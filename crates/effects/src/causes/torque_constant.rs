@@ -2,15 +2,15 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::abilities::IsRestricted;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `torque_gain tau`: one weight a joint, the change of the gain.
 ///
@@ -25,12 +25,12 @@ impl Effect for TorqueConstant {
         EffectKind::TorqueConstant
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Tangent,
             Imitable::No,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -48,7 +48,7 @@ impl Effect for TorqueConstant {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         vec![at_joint(j, motion.torque[j].iter().map(|t| motion.drives[j].transmission_ratio * t))]
     }
 
@@ -75,7 +75,12 @@ impl Effect for TorqueConstant {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.torque_gain)]
     }
 

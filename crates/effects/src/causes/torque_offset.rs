@@ -2,15 +2,15 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::bounds::unbounded;
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `offset`: one weight a joint, the change of the effort reported at zero torque.
 pub(crate) struct TorqueOffset;
@@ -22,12 +22,12 @@ impl Effect for TorqueOffset {
         EffectKind::TorqueOffset
     }
 
-    fn nature(&self) -> Nature {
-        Nature::new(
+    fn traits(&self) -> Traits {
+        Traits::new(
             Linearity::Exact,
             Imitable::No,
-            Law::Firm,
-            Seat::Elsewhere,
+            Law::Exact,
+            Location::Elsewhere,
             Weights::Direct,
             &[],
         )
@@ -45,7 +45,7 @@ impl Effect for TorqueOffset {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         vec![at_joint(j, (0..motion.samples()).map(|_| 1.0))]
     }
 
@@ -72,7 +72,12 @@ impl Effect for TorqueOffset {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.torque_offset)]
     }
 }

@@ -2,15 +2,15 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::abilities::{BetweenEncoders, IsRestricted};
-use crate::column::{Column, at_joint};
+use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
-use crate::motion::run_motion::Motion;
+use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
-use crate::quantity::{Quantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Nature, Relation, Seat, Weights};
+use crate::quantity::{EffectQuantity, actuator_quantity};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
 /// `ratio tau(ratio q, ratio qd, ratio qdd) - tau(q, qd, qdd)`: one weight a joint, the change of
 /// the ratio.
@@ -23,13 +23,13 @@ impl Effect for TransmissionRatio {
         EffectKind::TransmissionRatio
     }
 
-    fn nature(&self) -> Nature {
+    fn traits(&self) -> Traits {
         const RELATIONS: &[Relation] = &[Relation::PlainerHere(EffectKind::TorqueConstant)];
-        Nature::new(
+        Traits::new(
             Linearity::Tangent,
             Imitable::Yes,
-            Law::Firm,
-            Seat::BeforeTheLink,
+            Law::Exact,
+            Location::BeforeTheLink,
             Weights::Direct,
             RELATIONS,
         )
@@ -47,7 +47,7 @@ impl Effect for TransmissionRatio {
         every_joint(robot)
     }
 
-    fn columns(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let drive = &motion.drives[j];
         let over =
             |x: &Vec<f64>| -> Vec<f64> { x.iter().map(|x| x / drive.transmission_ratio).collect() };
@@ -88,7 +88,12 @@ impl Effect for TransmissionRatio {
         }
     }
 
-    fn quantities(&self, AtJoint(j): AtJoint, nominal: &Robot, extended: &Robot) -> Vec<Quantity> {
+    fn quantities(
+        &self,
+        AtJoint(j): AtJoint,
+        nominal: &Robot,
+        extended: &Robot,
+    ) -> Vec<EffectQuantity> {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.transmission_ratio)]
     }
 
@@ -102,7 +107,7 @@ impl Effect for TransmissionRatio {
 }
 
 impl BetweenEncoders for TransmissionRatio {
-    fn twist(&self, AtJoint(j): AtJoint, motion: &Motion) -> Vec<Column> {
+    fn twist(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let drive = &motion.drives[j];
         let reported = motion.twist(j).into_iter().zip(&motion.link[0][j]);
         let turned = reported.map(|(twist, q)| twist + q - drive.encoder_offset);

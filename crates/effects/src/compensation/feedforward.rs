@@ -51,7 +51,7 @@ pub struct Compensation {
 
 /// Result of [`Compensation::fill`], one entry a joint.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Compensated {
+pub struct FeedforwardEfforts {
     /// Commanded effort (N·m or N).
     pub tau: Vec<f64>,
     /// Lead of the reported position over the reference, `q_seen - q` (rad or m). Where the encoder is at the link,
@@ -73,7 +73,7 @@ pub struct CompensationWorkspace {
     shared: Vec<f64>,
 }
 
-impl Compensated {
+impl FeedforwardEfforts {
     /// Zeros, for `joint_count` joints.
     pub fn zero(joint_count: usize) -> Self {
         let zero = vec![0.0; joint_count];
@@ -146,7 +146,7 @@ impl Compensation {
         &self,
         ws: &mut CompensationWorkspace,
         states: &[[&[f64]; 3]],
-        out: &mut Compensated,
+        out: &mut FeedforwardEfforts,
     ) {
         assert_eq!(states.len(), self.states_needed(), "states of the motion");
         let now = states.len() / 2;
@@ -224,7 +224,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use proptest::prelude::*;
-    use robot::{Ripple, Robot, Stribeck, FrictionWave};
+    use robot::{FrictionWave, Ripple, Robot, Stribeck};
 
     use super::*;
     use crate::motion::drive::drive_torque;
@@ -262,7 +262,7 @@ mod tests {
     /// Along a motion of one joint, which gives `[q, qd, qdd]` at a time.
     fn along(robot: &Robot, motion: impl Fn(f64) -> [f64; 3], time_s: f64) -> [f64; 3] {
         let compensation = Compensation::new(robot, vec![REST]);
-        let mut out = Compensated::zero(1);
+        let mut out = FeedforwardEfforts::zero(1);
         let side = i32::try_from(compensation.states_needed() / 2).unwrap();
         let at = |k: i32| motion(time_s + f64::from(k) * H);
         let states: Vec<[f64; 3]> = (-side..=side).map(at).collect();

@@ -3,9 +3,9 @@
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
-    use robot::{Actuator, Counterbalance, Coupling, Ripple, Robot, Stribeck, FrictionWave};
+    use robot::{Actuator, Counterbalance, Coupling, FrictionWave, Ripple, Robot, Stribeck};
 
-    use crate::compensation::feedforward::{Compensated, Compensation};
+    use crate::compensation::feedforward::{Compensation, FeedforwardEfforts};
     use crate::model::remedy;
     use catalogue::EffectKind;
 
@@ -70,7 +70,7 @@ mod tests {
         Some(robot)
     }
 
-    fn asked(robot: &Robot) -> (Compensated, Vec<f64>) {
+    fn asked(robot: &Robot) -> (FeedforwardEfforts, Vec<f64>) {
         let compensation = Compensation::new(robot, vec![0.02]);
         let count = compensation.states_needed();
         let (qd, qdd): (f64, f64) = (0.7, -3.0);
@@ -81,7 +81,7 @@ mod tests {
         let states: Vec<[[f64; 1]; 3]> = (0..count).map(at).collect();
         let states: Vec<[&[f64]; 3]> =
             states.iter().map(|s| [0, 1, 2].map(|i| &s[i][..])).collect();
-        let mut out = Compensated::zero(1);
+        let mut out = FeedforwardEfforts::zero(1);
         compensation.fill(&mut compensation.workspace(), &states, &mut out);
         (out, compensation.delay_s().to_vec())
     }

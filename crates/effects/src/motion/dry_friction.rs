@@ -20,7 +20,7 @@ pub(crate) fn dry_friction(drive: &Actuator, [q, qd]: [f64; 2], direction: f64, 
 
 #[cfg(test)]
 mod tests {
-    use robot::{Stribeck, FrictionWave};
+    use robot::{FrictionWave, Stribeck};
 
     use super::*;
 

@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 use logs::differentiate;
 use robot::{Actuator, Robot, SensingSide};
 
-use crate::column::{Column, Part, at_joint};
+use crate::column::{ColumnPart, EffectColumn, at_joint};
 use crate::motion::cable_loop::Loop;
 use crate::motion::compliance::{Compliance, curvature, rate};
 use crate::motion::direction::{direction, stands};
@@ -19,7 +19,7 @@ use crate::motion::transmission::{Deflection, Gap, LoadAlong, correct_reading, p
 ///
 /// All signals are indexed `[joint][sample]`.
 #[derive(Debug, Clone)]
-pub struct Motion {
+pub struct RunMotion {
     /// Position of the motor, seen at the joint (rad or m).
     pub q: Vec<Vec<f64>>,
     /// Velocity of the motor, seen at the joint (rad/s or m/s).
@@ -64,7 +64,7 @@ pub struct Motion {
     compliances: Vec<Option<Compliance>>,
 }
 
-impl Motion {
+impl RunMotion {
     /// Evaluates the nominal robot along `reading`: `q`, `qd`, `qdd` as reported (each
     /// `[joint][sample]`, every `period_s`).
     ///
@@ -92,7 +92,7 @@ impl Motion {
     ///
     /// # Panics
     ///
-    /// As [`Motion::new`].
+    /// As [`RunMotion::new`].
     pub fn seen(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
@@ -227,7 +227,7 @@ impl Motion {
     }
 
     /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.
-    pub(crate) fn torque_rate(&self, j: usize) -> Column {
+    pub(crate) fn torque_rate(&self, j: usize) -> EffectColumn {
         let gain = self.gain[j];
         let rate = differentiate(&self.torque[j], self.period_s.recip());
         at_joint(j, rate.into_iter().map(|r| gain * r))
@@ -250,9 +250,9 @@ impl Motion {
     }
 
     /// Change of the effort of joint `j` by a change of its load.
-    pub(crate) fn load_part(&self, j: usize, load: impl Iterator<Item = f64>) -> Part {
+    pub(crate) fn load_part(&self, j: usize, load: impl Iterator<Item = f64>) -> ColumnPart {
         let values = load.enumerate().map(|(t, load)| self.load_gain(j, t) * load);
-        Part { joint: j, values: values.collect() }
+        ColumnPart { joint: j, values: values.collect() }
     }
 
     /// Load of joint `j` if motor and link moved as one.
@@ -281,7 +281,7 @@ impl Motion {
 
     /// Change of the efforts by an additional `twist`, `theta - q`, of joint `j`, with the response of its spring.
     /// The measured side keeps its motion, and the other side moves by the twist.
-    pub(crate) fn twist_column(&self, j: usize, twist: &[f64]) -> Column {
+    pub(crate) fn twist_column(&self, j: usize, twist: &[f64]) -> EffectColumn {
         let given = self.compliances[j].as_ref().map(|compliance| compliance.twist_under(twist));
         let twist = given.as_deref().unwrap_or(twist);
         let first = rate(twist, self.period_s);
@@ -290,7 +290,7 @@ impl Motion {
         if drive.sensing == SensingSide::Link {
             let motor = |(v, a): (&f64, &f64)| drive.viscous * v + drive.rotor_inertia * a;
             let values = first.iter().zip(&second).map(|state| self.gain[j] * motor(state));
-            return vec![Part { joint: j, values: values.collect() }];
+            return vec![ColumnPart { joint: j, values: values.collect() }];
         }
         let mut column = self.displacement_column(j, [twist, &first, &second]);
         column.iter_mut().flat_map(|part| &mut part.values).for_each(|v| *v = -*v);
@@ -302,7 +302,7 @@ impl Motion {
     /// ```text
     /// d load / dq s + d load / dqd sd + d load / dqdd sdd
     /// ```
-    pub(crate) fn displacement_column(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> Column {
+    pub(crate) fn displacement_column(&self, j: usize, [s, sd, sdd]: [&[f64]; 3]) -> EffectColumn {
         let dragged = Loop::of(&self.drives[j], &self.link[0][j]).map(|h| h.change_under(s));
         let part = |i: usize| {
             let [dq, dqd, dqdd] = &self.slopes(j)[i];

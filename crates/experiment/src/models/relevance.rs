@@ -1,4 +1,4 @@
-use learner::{Fitted, Samples};
+use learner::{Samples, TrainedModel};
 use robot::Robot;
 
 /// Signals named for one joint.
@@ -17,7 +17,7 @@ pub struct Relevance {
 /// The signals whose length scales in the process of joint `joint` are shortest beside their
 /// ranges in `samples`, and shorter than those.
 pub(crate) fn relevance(
-    fitted: &Fitted,
+    fitted: &TrainedModel,
     joint: usize,
     robot: &Robot,
     samples: &Samples,

@@ -1,6 +1,7 @@
-use diagnosis::{HeldOut, Outcome, Span, Verdict};
+use diagnosis::{DiagnosisRun, HeldOutPart, Span, Verdict};
 use learner::{
-    Fitted, Mean, Model, ModelKind, RobotTorque, Samples, TorqueModel, TrainSettings, Training,
+    Mean, Model, ModelKind, RobotTorque, Samples, TorqueModel, TrainSettings, TrainedModel,
+    Training,
 };
 use logs::{LogError, LowPass, Prepared, PreparedRun, rest_speeds};
 use rayon::prelude::*;
@@ -65,14 +66,14 @@ impl ResidualJoint {
 /// extended robot found and the process learned on the rest, it predicts at least 5 % of what is
 /// left, and something in more than half of the parts. Elsewhere the model is the extended robot.
 ///
-/// A diagnosis without [`Outcome::held_out`] shows no joint where it pays.
+/// A diagnosis without [`DiagnosisRun::held_out`] shows no joint where it pays.
 ///
 /// # Errors
 ///
 /// [`ExperimentError::Learner`] and [`ExperimentError::Log`].
 pub fn learn_residual(
     robot: &Robot,
-    outcome: &Outcome,
+    outcome: &DiagnosisRun,
     progress: &dyn Progress,
 ) -> Result<Residual, ExperimentError> {
     let logs = Logs { robot, prepared: &outcome.prepared, rest: rest_speeds(&outcome.prepared) };
@@ -120,7 +121,7 @@ impl Logs<'_> {
         extended: &Robot,
         samples: &Samples,
         progress: &dyn Progress,
-    ) -> Result<Fitted, ExperimentError> {
+    ) -> Result<TrainedModel, ExperimentError> {
         let settings = TrainSettings { points: POINTS, ..TrainSettings::default() };
         let training = Training::new(self.robot, samples, self.rest.clone(), &settings, progress)?;
         Ok(training.with_named(extended).fit(ModelKind::NamedGp)?)
@@ -130,7 +131,7 @@ impl Logs<'_> {
     /// was learned on the other parts.
     fn tested(
         &self,
-        part: &HeldOut,
+        part: &HeldOutPart,
         progress: &dyn Progress,
     ) -> Result<[Vec<Vec<f64>>; 2], ExperimentError> {
         let fitted = self.fit(&part.extended, &self.samples(&part.train), progress)?;

@@ -1,8 +1,11 @@
 use std::path::Path;
 
-use diagnosis::{Outcome, Progress, RunTraces};
+use diagnosis::{DiagnosisRun, Progress, RunTraces};
 use logs::{PrepareSettings, PreparedRun, Run, distinct, of_run, prepare};
-use recording::{Arm, Bar, Level, Live, Quantity, Recorder, Role, Rows, Scene, Signal};
+use recording::{
+    Arm, BarSeries, EventLevel, Live, Recorder, RowBlock, Scene, SceneRole, SceneSignal,
+    SignalQuantity,
+};
 use robot::Loaded;
 
 use crate::error::ExperimentError;
@@ -25,7 +28,7 @@ pub struct DiagnosedLogs<'a> {
     /// The logs that were diagnosed.
     pub runs: &'a [Run],
     /// What was found in them.
-    pub outcome: &'a Outcome,
+    pub outcome: &'a DiagnosisRun,
     /// What was found, in Markdown.
     pub verdict: &'a str,
 }
@@ -56,7 +59,7 @@ pub fn record_diagnosis(
     path: &Path,
     diagnosed: &DiagnosedLogs<'_>,
     progress: &dyn Progress,
-) -> Result<recording::Written, ExperimentError> {
+) -> Result<recording::FinishedRecording, ExperimentError> {
     let DiagnosedLogs { loaded, outcome, runs, .. } = *diagnosed;
     let cutoff_hz = Some(outcome.diagnosis.data.cutoff_hz);
     let records = prepare(&distinct(runs), &PrepareSettings { cutoff_hz })?.runs;
@@ -83,33 +86,33 @@ pub fn record_diagnosis(
 }
 
 fn scene<'a>(title: &'a str, loaded: &'a Loaded) -> Scene<'a> {
-    use Quantity::{Position, Residual, Torque, Velocity};
-    let signal = |quantity, name, role| Signal { quantity, name, role };
+    use SignalQuantity::{Position, Residual, Torque, Velocity};
+    let signal = |quantity, name, role| SceneSignal { quantity, name, role };
     Scene {
         title,
         robot: &loaded.robot,
         looks: &loaded.looks,
         arms: vec![
-            Arm { name: "measured", role: Role::Actual },
-            Arm { name: "nominal", role: Role::Nominal },
-            Arm { name: "extended", role: Role::Predicted },
+            Arm { name: "measured", role: SceneRole::Actual },
+            Arm { name: "nominal", role: SceneRole::Nominal },
+            Arm { name: "extended", role: SceneRole::Predicted },
         ],
         signals: vec![
-            signal(Position, "measured", Role::Actual),
-            signal(Position, "nominal", Role::Nominal),
-            signal(Position, "extended", Role::Predicted),
-            signal(Velocity, "measured", Role::Actual),
-            signal(Torque, "measured", Role::Actual),
-            signal(Torque, "nominal", Role::Nominal),
-            signal(Torque, "extended", Role::Predicted),
-            signal(Residual, "nominal", Role::Nominal),
-            signal(Residual, "extended", Role::Predicted),
+            signal(Position, "measured", SceneRole::Actual),
+            signal(Position, "nominal", SceneRole::Nominal),
+            signal(Position, "extended", SceneRole::Predicted),
+            signal(Velocity, "measured", SceneRole::Actual),
+            signal(Torque, "measured", SceneRole::Actual),
+            signal(Torque, "nominal", SceneRole::Nominal),
+            signal(Torque, "extended", SceneRole::Predicted),
+            signal(Residual, "nominal", SceneRole::Nominal),
+            signal(Residual, "extended", SceneRole::Predicted),
         ],
     }
 }
 
 /// What is shown, and how it was made.
-fn legend(outcome: &Outcome, replayed: &Replayed) -> String {
+fn legend(outcome: &DiagnosisRun, replayed: &Replayed) -> String {
     let data = &outcome.diagnosis.data;
     format!(
         "---\n**White** was measured. **Orange** is the nominal model, **blue** the extended one, \
@@ -128,21 +131,25 @@ fn legend(outcome: &Outcome, replayed: &Replayed) -> String {
 }
 
 /// Findings and warnings, and the errors as bars.
-fn record_findings(recorder: &mut Recorder, outcome: &Outcome) -> Result<(), ExperimentError> {
+fn record_findings(recorder: &mut Recorder, outcome: &DiagnosisRun) -> Result<(), ExperimentError> {
     let diagnosis = &outcome.diagnosis;
     for finding in &diagnosis.findings {
         let words = finding.at.words();
         let share = 100.0 * finding.share_explained;
-        recorder.event(0.0, Level::Info, &format!("found {words}, {share:.1} % of the gap"))?;
+        recorder.event(
+            0.0,
+            EventLevel::Info,
+            &format!("found {words}, {share:.1} % of the gap"),
+        )?;
     }
     for warning in &diagnosis.warnings {
-        recorder.event(0.0, Level::Warning, warning)?;
+        recorder.event(0.0, EventLevel::Warning, warning)?;
     }
     let gain = &diagnosis.gain.inverse;
-    let bar = |name, role, values| Bar { name, role, values };
+    let bar = |name, role, values| BarSeries { name, role, values };
     let bars = [
-        bar("nominal", Role::Nominal, &gain.rms_before_nm[..]),
-        bar("extended", Role::Predicted, &gain.rms_after_nm),
+        bar("nominal", SceneRole::Nominal, &gain.rms_before_nm[..]),
+        bar("extended", SceneRole::Predicted, &gain.rms_after_nm),
     ];
     Ok(recorder.bars("RMS error (N·m or N)", &bars)?)
 }
@@ -155,10 +162,10 @@ fn events(
     (replayed, r): (&Replayed, usize),
 ) -> Result<(), ExperimentError> {
     let begins = format!("{}, from {first_s:.3} s of its log", of_run(name));
-    recorder.event(start_s, Level::Info, &begins)?;
+    recorder.event(start_s, EventLevel::Info, &begins)?;
     for (model, runs) in [("nominal", &replayed.nominal), ("extended", &replayed.extended)] {
         if let Some(trouble) = &runs[r].trouble {
-            recorder.event(start_s, Level::Warning, &format!("{model} model: {trouble}"))?;
+            recorder.event(start_s, EventLevel::Warning, &format!("{model} model: {trouble}"))?;
         }
     }
     Ok(())
@@ -218,7 +225,7 @@ fn write(recorder: &mut Recorder, start_s: f64, shown: &Shown<'_>) -> Result<f64
         let last = time_s.len().min(first + BLOCK);
         let signals = columns.each_ref().map(|column| &column[first * joints..last * joints]);
         let arms = &signals[..3];
-        recorder.rows(&Rows { time_s: &time_s[first..last], arms, signals: &signals })?;
+        recorder.rows(&RowBlock { time_s: &time_s[first..last], arms, signals: &signals })?;
     }
     Ok(end_s)
 }

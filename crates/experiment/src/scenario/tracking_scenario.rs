@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
 use motion::{Motion, MotionSpec};
-use robot::{PdGain, Loaded, Robot};
+use robot::{Loaded, PdGain, Robot};
 use simulator::scenario::Scenario;
 
 use crate::error::ExperimentError;
@@ -67,8 +67,9 @@ impl TrackingScenario {
         let mut sets: Vec<(&String, &Vec<PdGain>)> = self.loaded.control.gain_sets.iter().collect();
         let stiffness = |gains: &[PdGain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
         sets.sort_by(|a, b| stiffness(a.1).total_cmp(&stiffness(b.1)));
-        let holds =
-            |gains: &[PdGain]| robots.iter().all(|robot| tracking::holds(robot, gains, &self.motion));
+        let holds = |gains: &[PdGain]| {
+            robots.iter().all(|robot| tracking::holds(robot, gains, &self.motion))
+        };
         let softest = sets.iter().find(|(_, gains)| holds(gains)).or(sets.last());
         softest.map_or_else(|| self.clone(), |(name, gains)| self.with_gains(name, gains))
     }

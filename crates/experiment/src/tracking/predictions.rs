@@ -1,4 +1,4 @@
-use learner::{Model, State, TorqueModel};
+use learner::{Model, SampleState, TorqueModel};
 use rayon::prelude::*;
 use tracking::Signal;
 
@@ -54,7 +54,7 @@ fn torque(model: &Model, kind: FeedforwardKind, (run, step): (&TrackedRun, usize
             _ => rows.row(tick, signal),
         };
         let q = rows.row(tick, Signal::QRef);
-        let state = State { q, qd: of(Signal::QdRef), qdd: of(Signal::QddRef) };
+        let state = SampleState { q, qd: of(Signal::QdRef), qdd: of(Signal::QddRef) };
         model.torque_into(&mut workspace, state, tau);
     }
     tau

@@ -5,9 +5,10 @@ use std::thread::JoinHandle;
 
 use logs::{Channel, LogWriter, write_parquet};
 use recording::{
-    Arm, Bar, Listener, Quantity, Recorder, RecordingError, Role, Rows, Scene, Signal,
+    Arm, BarSeries, Listener, Recorder, RecordingError, RowBlock, Scene, SceneRole, SceneSignal,
+    SignalQuantity,
 };
-use tracking::{Event, Level, Tick, Watch};
+use tracking::{ControlTick, Event, Level, TrackingWatch};
 
 use crate::error::ExperimentError;
 use crate::models::learned::Learned;
@@ -70,7 +71,7 @@ struct Block {
 }
 
 impl Block {
-    fn push(&mut self, tick: &Tick) {
+    fn push(&mut self, tick: &ControlTick) {
         self.time_s.push(tick.time_s);
         self.q_ref.extend(&tick.reference.q);
         self.qd_ref.extend(&tick.reference.qd);
@@ -84,16 +85,16 @@ impl Block {
 }
 
 /// The signals of the recording, in the order in which [`Files::rows`] gives them.
-fn signals() -> Vec<Signal<'static>> {
-    let signal = |quantity, name, role| Signal { quantity, name, role };
+fn signals() -> Vec<SceneSignal<'static>> {
+    let signal = |quantity, name, role| SceneSignal { quantity, name, role };
     vec![
-        signal(Quantity::Position, "desired", Role::Desired),
-        signal(Quantity::Position, "measured", Role::Actual),
-        signal(Quantity::Velocity, "desired", Role::Desired),
-        signal(Quantity::Velocity, "measured", Role::Actual),
-        signal(Quantity::Torque, "applied", Role::Actual),
-        signal(Quantity::Torque, "fed forward", Role::Predicted),
-        signal(Quantity::Error, "desired - measured", Role::Error),
+        signal(SignalQuantity::Position, "desired", SceneRole::Desired),
+        signal(SignalQuantity::Position, "measured", SceneRole::Actual),
+        signal(SignalQuantity::Velocity, "desired", SceneRole::Desired),
+        signal(SignalQuantity::Velocity, "measured", SceneRole::Actual),
+        signal(SignalQuantity::Torque, "applied", SceneRole::Actual),
+        signal(SignalQuantity::Torque, "fed forward", SceneRole::Predicted),
+        signal(SignalQuantity::Error, "desired - measured", SceneRole::Error),
     ]
 }
 
@@ -135,8 +136,8 @@ impl<'a> Stream<'a> {
     }
 }
 
-impl Watch for Stream<'_> {
-    fn tick(&mut self, tick: &Tick) -> ControlFlow<()> {
+impl TrackingWatch for Stream<'_> {
+    fn tick(&mut self, tick: &ControlTick) -> ControlFlow<()> {
         if tick.time_s >= self.second + 1.0 {
             self.second += 1.0;
             self.progress.second();
@@ -172,8 +173,8 @@ impl Writing {
             robot,
             looks: &scenario.loaded().looks,
             arms: vec![
-                Arm { name: "measured", role: Role::Actual },
-                Arm { name: "desired", role: Role::Desired },
+                Arm { name: "measured", role: SceneRole::Actual },
+                Arm { name: "desired", role: SceneRole::Desired },
             ],
             signals: signals(),
         };
@@ -249,11 +250,14 @@ fn end(
     (scenario, learned, run): (&TrackingScenario, &Learned, &TrackedRun),
 ) -> Result<Listener, RecordingError> {
     let predictions = Predictions::of(scenario, learned, run);
-    let signal =
-        |name, place| Signal { quantity: Quantity::Torque, name, role: Role::Model(place) };
+    let signal = |name, place| SceneSignal {
+        quantity: SignalQuantity::Torque,
+        name,
+        role: SceneRole::Model(place),
+    };
     let models = predictions.models.iter();
     let models = models.map(|m| (signal(m.kind.name(), m.place), m.tau.as_slice()));
-    let models: Vec<(Signal<'_>, &[f64])> = models.collect();
+    let models: Vec<(SceneSignal<'_>, &[f64])> = models.collect();
     if !models.is_empty() {
         recorder.further(&predictions.time_s, &models)?;
     }
@@ -262,9 +266,9 @@ fn end(
     let (errors, feedback): (Vec<f64>, Vec<f64>) =
         joints.map(|j| (1e3 * j.rmse, 100.0 * j.feedback_share)).unzip();
     let name = run.kind.name();
-    let bar = |role, values| [Bar { name, role, values }];
-    recorder.bars("RMSE (mrad)", &bar(Role::Error, &errors))?;
-    recorder.bars("feedback (% of the torque)", &bar(Role::Actual, &feedback))?;
+    let bar = |role, values| [BarSeries { name, role, values }];
+    recorder.bars("RMSE (mrad)", &bar(SceneRole::Error, &errors))?;
+    recorder.bars("feedback (% of the torque)", &bar(SceneRole::Actual, &feedback))?;
     Ok(recorder.finish()?.listener)
 }
 
@@ -276,9 +280,9 @@ impl Files {
                 Message::Rows(block) => self.rows(&block),
                 Message::Event(Event { time_s, level, words }) => {
                     let level = match level {
-                        Level::Info => recording::Level::Info,
-                        Level::Warning => recording::Level::Warning,
-                        Level::Error => recording::Level::Error,
+                        Level::Info => recording::EventLevel::Info,
+                        Level::Warning => recording::EventLevel::Warning,
+                        Level::Error => recording::EventLevel::Error,
                     };
                     self.recorder.as_mut().map_or(Ok(()), |r| r.event(time_s, level, &words))
                 }
@@ -302,7 +306,7 @@ impl Files {
         }
         let signals: [&[f64]; 7] =
             [&b.q_ref, &b.q, &b.qd_ref, &b.qd, &b.command, &b.feedforward, &b.error];
-        let rows = Rows { time_s: &b.time_s, arms: &[&b.q, &b.q_ref], signals: &signals };
+        let rows = RowBlock { time_s: &b.time_s, arms: &[&b.q, &b.q_ref], signals: &signals };
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.rows(&rows))
     }
 }

@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 use robot::PdGain;
-use tracking::{Event, Tick, Watch};
+use tracking::{ControlTick, Event, TrackingWatch};
 
 use crate::error::ExperimentError;
 use crate::models::learned::Learned;
@@ -92,8 +92,8 @@ struct Until<'a> {
     progress: &'a dyn Progress,
 }
 
-impl Watch for Until<'_> {
-    fn tick(&mut self, tick: &Tick) -> ControlFlow<()> {
+impl TrackingWatch for Until<'_> {
+    fn tick(&mut self, tick: &ControlTick) -> ControlFlow<()> {
         if tick.time_s >= self.second + 1.0 {
             self.second += 1.0;
             self.progress.second();

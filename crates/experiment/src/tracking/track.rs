@@ -3,11 +3,11 @@ use std::path::PathBuf;
 use logs::Run;
 use nalgebra::Point3;
 use rayon::prelude::*;
-use robot::{PdGain, Machine};
+use robot::{Machine, PdGain};
 use tracking::{
-    Ahead, Clock, Controller, ErrorRate, Feedforward, GravityFeedforward, Metrics,
-    ModelFeedforward, NamedFeedforward, NoFeedforward, Prediction, Settings, TorqueLimits,
-    VirtualClock, WallClock, Watch,
+    Ahead, Clock, Controller, ErrorRate, Feedforward, GravityFeedforward, ModelFeedforward,
+    NamedFeedforward, NoFeedforward, TorqueLimits, TorquePrediction, TrackingMetrics,
+    TrackingSettings, TrackingWatch, VirtualClock, WallClock,
 };
 
 use crate::error::ExperimentError;
@@ -95,7 +95,7 @@ pub(crate) struct Parts<'a> {
 
 impl Parts<'_> {
     /// Tracks the motion with an arm of its own, the same whatever is fed forward.
-    pub fn run(&self, watch: &mut dyn Watch) -> Result<TrackedRun, ExperimentError> {
+    pub fn run(&self, watch: &mut dyn TrackingWatch) -> Result<TrackedRun, ExperimentError> {
         let Self { scenario, kind, .. } = *self;
         let mut arm = simulator::arm(scenario.plant(), 0)?;
         let motion = scenario.motion();
@@ -113,7 +113,7 @@ impl Parts<'_> {
             watch,
         )?;
         // The point that is looked at is where the last link begins.
-        let metrics = Metrics::of(&tracking.rows, scenario.robot(), &Point3::origin())?;
+        let metrics = TrackingMetrics::of(&tracking.rows, scenario.robot(), &Point3::origin())?;
         Ok(TrackedRun { kind, prediction_time_s, tracking, metrics, written: None })
     }
 
@@ -142,7 +142,7 @@ impl Parts<'_> {
     /// Median time of a prediction, over states of the motion in turn (s).
     fn prediction_time_s(&self, feedforward: &mut dyn Feedforward) -> f64 {
         let motion = self.scenario.motion();
-        let mut prediction = Prediction::zero(feedforward.joints());
+        let mut prediction = TorquePrediction::zero(feedforward.joints());
         median_time_s(|call| {
             // A step that meets the motion in ever new places: the golden section.
             let part = (0.618_034 * call as f64).fract();
@@ -151,7 +151,7 @@ impl Parts<'_> {
         })
     }
 
-    fn settings(&self, measured_s: f64) -> Settings {
+    fn settings(&self, measured_s: f64) -> TrackingSettings {
         let spec = self.scenario.prediction();
         let ahead = match spec.ahead {
             AheadSpec::Now => Ahead::Now,
@@ -168,6 +168,6 @@ impl Parts<'_> {
             }),
             ClockSpec::Wall => Clock::Wall(WallClock { ahead }),
         };
-        Settings { clock, ..Settings::default() }
+        TrackingSettings { clock, ..TrackingSettings::default() }
     }
 }

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use recording::Listener;
-use tracking::{Metrics, Tracking};
+use tracking::{Tracking, TrackingMetrics};
 
 use crate::scenario::feedforward_kind::FeedforwardKind;
 
@@ -15,7 +15,7 @@ pub struct TrackedRun {
     /// Every tick, and how it ended.
     pub tracking: Tracking,
     /// How well the arm followed.
-    pub metrics: Metrics,
+    pub metrics: TrackingMetrics,
     /// The files that were written.
     pub written: Option<Written>,
 }

@@ -89,7 +89,9 @@ fn somewhere(random: &mut ChaCha8Rng) -> [f64; 3] {
 /// Limits a law to sizes that arms have.
 fn within_bounds(law: AddedLaw) -> AddedLaw {
     match law {
-        AddedLaw::PointMass(body) => AddedLaw::PointMass(PointMass { mass: body.mass.min(HEAVIEST), ..body }),
+        AddedLaw::PointMass(body) => {
+            AddedLaw::PointMass(PointMass { mass: body.mass.min(HEAVIEST), ..body })
+        }
         AddedLaw::Late { skew } => AddedLaw::Late { skew: skew.clamp(-LATEST_S, LATEST_S) },
         _ => law,
     }

@@ -6,7 +6,7 @@ use simulator::Truth;
 use crate::recorded::law::AddedLaw;
 use crate::recorded::signals::average;
 use crate::recorded::size::{Added, Measured, Own};
-use crate::sheet::{TrueCause, CauseRole, Strength, TrueStranger};
+use crate::sheet::{CauseRole, Strength, TrueCause, TrueStranger};
 
 /// A cause added to the efforts of recorded logs as a closed form.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +72,9 @@ impl Transplant {
         };
         let truth = match self.law {
             AddedLaw::Coulomb { level } => at(EffectKind::CoulombFriction, &[("level", level)]),
-            AddedLaw::Viscous { viscous } => at(EffectKind::ViscousFriction, &[("viscous", viscous)]),
+            AddedLaw::Viscous { viscous } => {
+                at(EffectKind::ViscousFriction, &[("viscous", viscous)])
+            }
             AddedLaw::Asymmetric { forward, backward } => {
                 at(EffectKind::AsymmetricFriction, &[("forward", forward), ("backward", backward)])
             }

@@ -8,7 +8,7 @@ use rand_chacha::rand_core::SeedableRng;
 use robot::{Loaded, Robot};
 use simulator::effects::EffectSpec;
 use simulator::scenario::{EngineSpec, RunSpec, Scenario, ScenarioSpec};
-use simulator::{EffortSource, SimulatorError, simulate_only, simulate_noise_free};
+use simulator::{EffortSource, SimulatorError, simulate_noise_free, simulate_only};
 
 use crate::bench::{BenchWishes, LabBench, draw_bench};
 use crate::corner::{Corner, Origin};
@@ -51,7 +51,11 @@ const ROUGHLY_KNOWN: f64 = 0.25;
 /// # Errors
 ///
 /// [`PopulationError`] when no drawn arm can be simulated, or a file cannot be written.
-pub fn make(spec: &PopulationSpec, seed: u64, folder: &Path) -> Result<TruthSheet, PopulationError> {
+pub fn make(
+    spec: &PopulationSpec,
+    seed: u64,
+    folder: &Path,
+) -> Result<TruthSheet, PopulationError> {
     let mut failed = None;
     for attempt in 0..TRIES {
         let mut random = ChaCha8Rng::seed_from_u64(seed);

@@ -13,7 +13,7 @@ use crate::oracle::regression::strengths;
 use crate::oracle::scales::torque_scales;
 use crate::oracle::stand_ins::stand_ins;
 use crate::rigid::mass_matrix;
-use crate::sheet::{TrueCause, CauseRole, TrueStranger};
+use crate::sheet::{CauseRole, TrueCause, TrueStranger};
 use crate::trial::differences::Difference;
 use crate::trial::hidden::HiddenThings;
 

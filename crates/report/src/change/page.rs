@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn the_page_tells_the_changes_and_leads_to_both_diagnoses() {
         let sample = sample::arm();
-        let outcome = diagnosis::Outcome {
+        let outcome = diagnosis::DiagnosisRun {
             diagnosis: sample.diagnosis.clone(),
             traces: Vec::new(),
             extended: sample.robot.clone(),

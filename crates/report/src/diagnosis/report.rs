@@ -24,11 +24,11 @@ pub struct Report<'a> {
 impl<'a> Report<'a> {
     /// What a diagnosis of logs of `robot` came to, and no more.
     pub fn new(
-        outcome: &'a diagnosis::Outcome,
+        outcome: &'a diagnosis::DiagnosisRun,
         robot: &'a robot::Robot,
         provenance: &'a Provenance,
     ) -> Self {
-        let diagnosis::Outcome { diagnosis, traces, .. } = outcome;
+        let diagnosis::DiagnosisRun { diagnosis, traces, .. } = outcome;
         Self {
             diagnosis,
             traces,

@@ -1,4 +1,4 @@
-use experiment::{Named, Injected, Score, Size};
+use experiment::{Injected, Named, Score, Size};
 use robot::Robot;
 
 use crate::diagnosis::places::JointUnits;

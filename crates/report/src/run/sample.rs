@@ -2,8 +2,8 @@
 
 use diagnosis::{EffectAt, Verdict};
 use experiment::{
-    Drift, Estimated, ForwardGap, ForwardWindow, Metrics, Named, Injected, Score, Size, TorqueError,
-    TrackedError,
+    Drift, Estimated, ForwardGap, ForwardWindow, Injected, Metrics, Named, Score, Size,
+    TorqueError, TrackedError,
 };
 
 use crate::run::diagnosis_summary::{DiagnosisSummary, summarise};

@@ -5,7 +5,8 @@ use crate::loaded::Loaded;
 use crate::misfit::Misfit;
 use crate::range::{Range, in_range};
 use crate::structure::actuator::{
-    Actuator, Counterbalance, Coupling, Ripple, SensingSide, Stribeck, TorqueSource, Warming, FrictionWave,
+    Actuator, Counterbalance, Coupling, FrictionWave, Ripple, SensingSide, Stribeck, TorqueSource,
+    Warming,
 };
 use crate::structure::control::PdGain;
 

@@ -11,7 +11,7 @@ use crate::robot_toml::file::DescriptionFile;
 use crate::robot_toml::joint_entry::{
     CounterbalanceEntry, CouplingEntry, JointEntry, RippleEntry, WarmingEntry, WaveEntry,
 };
-use crate::structure::actuator::{SensingSide, TorqueSource, Warming, FrictionWave};
+use crate::structure::actuator::{FrictionWave, SensingSide, TorqueSource, Warming};
 use crate::structure::control::PdGain;
 use crate::structure::inertia::Inertia;
 use crate::structure::link::Link;

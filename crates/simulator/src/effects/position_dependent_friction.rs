@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::{Robot, FrictionWave};
+use robot::{FrictionWave, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -55,8 +55,11 @@ impl Effect for PositionDependentFriction {
         within("share", self.share, 0.0, 1.0)?;
         within("periods_per_turn", self.periods_per_turn, 0.0, 10_000.0)?;
         within("phase_rad", self.phase_rad, -TAU, TAU)?;
-        let wave =
-            FrictionWave { share: self.share, periods: self.periods_per_turn, phase: self.phase_rad };
+        let wave = FrictionWave {
+            share: self.share,
+            periods: self.periods_per_turn,
+            phase: self.phase_rad,
+        };
         Ok(Box::new(Injected { joint, level: self.level_nm, wave }))
     }
 

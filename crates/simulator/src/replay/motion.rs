@@ -1,5 +1,5 @@
 use logs::{Channels, PreparedRun, Run};
-use robot::{PdGain, Machine, Reading, Robot};
+use robot::{Machine, PdGain, Reading, Robot};
 
 use crate::error::SimulatorError;
 use crate::replay::record::{

@@ -228,7 +228,7 @@ pub(crate) fn simulator_of_record(
 
 #[cfg(test)]
 mod tests {
-    use robot::{Ripple, Stribeck, FrictionWave};
+    use robot::{FrictionWave, Ripple, Stribeck};
 
     use super::*;
 

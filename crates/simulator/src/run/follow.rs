@@ -1,5 +1,5 @@
 use motion::State;
-use robot::{PdGain, Machine, MachineFault, Reading, Robot};
+use robot::{Machine, MachineFault, PdGain, Reading, Robot};
 
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use document::{Document, DocumentError, KeyPath};
 use motion::{Motion, MotionError};
-use robot::{PdGain, Loaded, Robot};
+use robot::{Loaded, PdGain, Robot};
 
 use crate::effects::mistake::Mistake;
 use crate::effects::spec::EffectSpec;

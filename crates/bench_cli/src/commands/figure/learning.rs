@@ -6,7 +6,7 @@ use benchmark::{
 };
 use cli::{
     EXTENDED, Line, RunFolder, Watch, create_folder, diagnosis_files, hash, log_file, provenance,
-    shown,
+    display_path,
 };
 use document::Document;
 use experiment::{PAPER_MODELS, Product};
@@ -55,10 +55,10 @@ pub fn run(
     files.extend(figures.iter().map(|(name, svg)| (*name, svg.as_bytes())));
     report::write_folder(out, &files)?;
     let figure_files: Vec<String> =
-        figures.iter().map(|(name, _)| shown(&out.join(name))).collect();
+        figures.iter().map(|(name, _)| display_path(&out.join(name))).collect();
     let closing = format!(
         "report         {}\nfigures        {}\n",
-        shown(&out.join("report.html")),
+        display_path(&out.join("report.html")),
         figure_files.join("\n               ")
     );
     arguments.output.say(&json, &report.text(), &closing)?;

@@ -2,7 +2,7 @@ use std::path::Path;
 
 use benchmark::{Curve, PredictionTimeFigureReport, PredictionTimes};
 use benchmark::{PredictionTimeFigure, time_claims};
-use cli::{Line, RunFolder, Watch, create_folder, hash, provenance, shown};
+use cli::{Line, RunFolder, Watch, create_folder, hash, provenance, display_path};
 use document::Document;
 use experiment::Product;
 
@@ -51,8 +51,8 @@ pub fn run(
     report::write_folder(out, &files)?;
     let closing = format!(
         "report         {}\nfigure         {}\n",
-        shown(&out.join("report.html")),
-        shown(&out.join("figure1.svg"))
+        display_path(&out.join("report.html")),
+        display_path(&out.join("figure1.svg"))
     );
     arguments.output.say(&json, &report.text(), &closing)?;
     Ok(ExitStatus::Good)

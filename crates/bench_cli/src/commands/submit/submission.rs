@@ -3,7 +3,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use benchmark::{CampaignFolder, Part};
-use cli::{print, shown};
+use cli::{print, display_path};
 use report::quoted;
 
 use crate::commands::submit::array_job::ArrayJob;
@@ -82,7 +82,7 @@ fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), BenchError> {
 
     let path = arguments.folder.join(SCRIPT);
     let said = format!("{} trials left, in {tasks} tasks", left.len());
-    let [folder, job] = [&arguments.folder, &path].map(|path| quoted(&shown(path)));
+    let [folder, job] = [&arguments.folder, &path].map(|path| quoted(&display_path(path)));
     if arguments.dry_run {
         return Ok(print(&format!("{said}. To submit them:\n  sbatch {job}\n"))?);
     }

@@ -4,7 +4,7 @@ use benchmark::{Curve, Maker, TimePoint};
 use cli::{Watch, median_query_us, median_us};
 use dynamics::ColumnSet;
 use gaussian_process::{GaussianKernel, KernelSum};
-use learner::{Inputs, LearnerError, Mean, Model, ModelKind, Process, Samples, TorqueModel};
+use learner::{LearnerError, Mean, Model, ModelKind, Process, ProcessInputs, Samples, TorqueModel};
 use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::Robot;
 
@@ -74,7 +74,7 @@ fn model(robot: &Robot, kind: ModelKind, points: (usize, u64)) -> Result<Model, 
 fn process(robot: &Robot, (n, seed): (usize, u64)) -> Result<Process, LearnerError> {
     let joints = robot.joint_count();
     let samples = samples(robot, n, seed);
-    let inputs = Inputs::new(&samples, Vec::new());
+    let inputs = ProcessInputs::new(&samples, Vec::new());
     let width = inputs.width();
     let kernel = |joint: usize| GaussianKernel {
         signal_variance: 1.0,

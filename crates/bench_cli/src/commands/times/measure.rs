@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use benchmark::PredictionTimes;
-use cli::{Line, PartArguments, Watch, print, provenance, shown};
+use cli::{Line, PartArguments, Watch, print, provenance, display_path};
 use report::ReportError;
 
 use crate::commands::times::curves::{MadeUp, curves, machine};
@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
 fn text(arguments: &Arguments, times: &PredictionTimes) -> String {
     let mut text = times.text();
     if let Some(out) = &arguments.out {
-        text.push_str(&format!("\nfigure         {}\n", shown(&out.join("figure1.svg"))));
+        text.push_str(&format!("\nfigure         {}\n", display_path(&out.join("figure1.svg"))));
     }
     text
 }

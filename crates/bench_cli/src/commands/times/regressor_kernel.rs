@@ -1,5 +1,5 @@
 use dynamics::{ColumnSet, Dynamics, Workspace};
-use learner::{Samples, State};
+use learner::{SampleState, Samples};
 use robot::Robot;
 
 /// The rigid-body part of equation 10 of Nguyen-Tuong & Peters 2010 as it stands there, with
@@ -35,13 +35,13 @@ impl RegressorKernel {
         kernel
     }
 
-    fn fill_rows(&mut self, State { q, qd, qdd }: State) {
+    fn fill_rows(&mut self, SampleState { q, qd, qdd }: SampleState) {
         let set = ColumnSet::INERTIAL;
         self.dynamics.columns_into(&mut self.ws, [q, qd, qdd], set, &mut self.rows);
     }
 
     /// Adds the torque of every joint to `tau`, with weights `alpha`, one row a joint.
-    pub fn add_torque(&mut self, state: State, alpha: &[Vec<f64>], tau: &mut [f64]) {
+    pub fn add_torque(&mut self, state: SampleState, alpha: &[Vec<f64>], tau: &mut [f64]) {
         self.fill_rows(state);
         let width = self.rows.len() / tau.len().max(1);
         let joints = self.rows.chunks_exact(width).zip(&self.features).zip(alpha);

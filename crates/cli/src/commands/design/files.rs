@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use effects::{Frame, Motion as Along};
+use effects::{Frame, RunMotion as Along};
 use logs::{Channels, Prepared, Run};
 use motion::{MotionSpec, State};
 use next_motion::{Design, DesignedMotion, Goal, Prospect, SEPARATING_NATS};
@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::cause;
 use crate::error::CliError;
-use crate::output::{create_folder, shown, table};
+use crate::output::{create_folder, display_path, table};
 
 /// Names of the files: twice the signals, and the scenario.
 const FILES: [&str; 3] = ["motion.csv", "motion.parquet", "motion.toml"];
@@ -141,7 +141,7 @@ impl MotionFiles<'_> {
         let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
         let comment: String = self.text.lines().map(|line| format!("# {line}\n")).collect();
         logs::replace_file(&out.join(FILES[2]), |file| Ok(write!(file, "{comment}\n{toml}")?))?;
-        let [csv, parquet, toml] = FILES.map(|name| shown(&out.join(name)));
+        let [csv, parquet, toml] = FILES.map(|name| display_path(&out.join(name)));
         Ok(format!(
             "\n{}\nObstacles are not known here: look at the motion before it is run.\n\n\
              motion    {csv} and {parquet}:\n          \

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use diagnosis::{Outcome, Verdict};
+use diagnosis::{DiagnosisRun, Verdict};
 use experiment::{Residual, learn_residual};
 use learner::Model;
 use report::{LengthScale, ResidualJoint, ResidualModel};
@@ -22,7 +22,7 @@ pub const FILE: &str = "models/named-gp.parquet";
 /// Learns the process of what the findings of a diagnosis leave.
 pub fn learn(
     robot: &Robot,
-    outcome: &Outcome,
+    outcome: &DiagnosisRun,
     line: Option<Line>,
 ) -> Result<ResidualFile, CliError> {
     let watch = Watch::new(line)?;
@@ -32,7 +32,7 @@ pub fn learn(
     Ok(ResidualFile { model: model(outcome, &residual), bytes: bytes(&residual.model)? })
 }
 
-fn model(outcome: &Outcome, residual: &Residual) -> ResidualModel {
+fn model(outcome: &DiagnosisRun, residual: &Residual) -> ResidualModel {
     let joints = outcome.diagnosis.joints.iter().zip(&residual.joints);
     let mut remarks = effects::left_out(&outcome.extended);
     if residual.is_cut_short {

@@ -26,7 +26,7 @@ pub fn rows() -> Vec<EffectRow> {
         name: kind.name(),
         family: kind.family(),
         summary: kind.entry().summary,
-        diagnosed: diagnosis::diagnosed(kind).is_ok(),
+        diagnosed: diagnosis::how_found(kind).is_ok(),
         simulated: true,
         compensated: effects::remedy(kind).is_ok(),
     };

@@ -3,7 +3,8 @@ use std::time::Instant;
 
 use effects::left_out;
 use learner::{
-    LearnerError, ModelKind, Regression, RigidBodyFit, Samples, Score, TrainSettings, Training,
+    LearnerError, ModelKind, Regression, RigidBodyFit, Samples, TorqueScore, TrainSettings,
+    Training,
 };
 use report::{ComparedJoint, Comparison, ModelRow};
 use robot::{Loaded, Robot};
@@ -14,7 +15,7 @@ use super::row::row;
 use super::timing::median_query_us;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
-use crate::output::{create_folder, print_answer, shown};
+use crate::output::{create_folder, display_path, print_answer};
 use crate::watch::Watch;
 
 /// A file of the output folder, and what it holds.
@@ -134,7 +135,7 @@ impl Learning<'_> {
         let fitted = training.fit(kind)?;
         let training_s = begin.elapsed().as_secs_f64();
         self.watch.begin(&format!("{kind}: test on {} samples", tested.len()));
-        let score = Score::of(&fitted.model, tested);
+        let score = TorqueScore::of(&fitted.model, tested);
         let prediction_us = median_query_us(&fitted.model, tested);
         let name = format!("models/{kind}.parquet");
         let bytes = fitted.model.bytes(&out.join(&name))?;
@@ -184,9 +185,9 @@ fn shared_kernels(earlier: &[ModelRow], row: &ModelRow) -> Option<String> {
 fn say(arguments: &Arguments, out: &Path, comparison: &Comparison) -> Result<(), CliError> {
     let closing = format!(
         "comparison     {}\nfigure         {}\nmodels         {}\n",
-        shown(&out.join("learning.json")),
-        shown(&out.join("figure.svg")),
-        shown(&out.join("models"))
+        display_path(&out.join("learning.json")),
+        display_path(&out.join("figure.svg")),
+        display_path(&out.join("models"))
     );
     let json = arguments.json.then(|| comparison.json()).transpose()?;
     print_answer(arguments.quiet, json.as_deref(), || comparison.text(), &closing)

@@ -9,7 +9,7 @@ use super::arguments::Arguments;
 use crate::error::CliError;
 use crate::input::hashes_of;
 use crate::input_warnings::input_warnings;
-use crate::output::shown;
+use crate::output::display_path;
 
 /// What a log is for, behind its name in warnings.
 const TEST: &str = "test";
@@ -89,7 +89,7 @@ impl Data {
 
     /// The samples that the models are tested on.
     pub fn test_samples(&self) -> Samples {
-        self.test.samples.thinned(MOST_TESTED)
+        self.test.samples.thin(MOST_TESTED)
     }
 }
 
@@ -120,8 +120,8 @@ fn refuse_leak(runs: &[Run], tested: usize) -> Result<(), CliError> {
     for index in tested..runs.len() {
         if let Some(test) = duplicate_of(runs, index).filter(|&earlier| earlier < tested) {
             return Err(CliError::TestedOnTraining {
-                test: shown(&runs[test].source),
-                training: shown(&runs[index].source),
+                test: display_path(&runs[test].source),
+                training: display_path(&runs[index].source),
             });
         }
     }

@@ -1,10 +1,10 @@
 use gaussian_process::SearchEnd;
-use learner::{Fitted, JointFit, ModelKind, Score};
+use learner::{JointFit, ModelKind, TorqueScore, TrainedModel};
 use report::{KernelRow, ModelRow};
 use robot::Robot;
 
 /// The row of the report of a model: what was learned, and its errors on the test.
-pub fn row(fitted: &Fitted, score: Score, robot: &Robot) -> ModelRow {
+pub fn row(fitted: &TrainedModel, score: TorqueScore, robot: &Robot) -> ModelRow {
     let model = &fitted.model;
     let kernels: Option<Vec<KernelRow>> =
         (0..fitted.joints.len()).map(|joint| kernel(fitted, joint, robot)).collect();
@@ -24,7 +24,7 @@ pub fn row(fitted: &Fitted, score: Score, robot: &Robot) -> ModelRow {
     }
 }
 
-fn kernel(fitted: &Fitted, joint: usize, robot: &Robot) -> Option<KernelRow> {
+fn kernel(fitted: &TrainedModel, joint: usize, robot: &Robot) -> Option<KernelRow> {
     let JointFit { kernel, log_likelihood, lambda, .. } = fitted.joints.get(joint)?;
     let (found, inputs) = (kernel.as_ref()?, &fitted.model.process.as_ref()?.inputs);
     let scales = found.kernel.length_scales.iter().zip(&inputs.deviation);
@@ -59,7 +59,7 @@ fn input_names(robot: &Robot) -> impl Iterator<Item = String> {
 
 /// Remarks on a model: searches that did not converge, jitter, inducing points without a
 /// likelihood, and the lambdas of cross-validation.
-fn remarks(fitted: &Fitted, robot: &Robot) -> Vec<String> {
+fn remarks(fitted: &TrainedModel, robot: &Robot) -> Vec<String> {
     let joints = || robot.joint_names().zip(&fitted.joints);
     let mut remarks = Vec::new();
     let mut ends: Vec<&SearchEnd> = Vec::new();

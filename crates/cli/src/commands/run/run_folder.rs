@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use diagnosis::Settings;
-use experiment::{ExperimentError, Inputs, Product, Blinded, Stage, Staged};
+use experiment::{Blinded, ExperimentError, Inputs, Product, Stage, Staged};
 use logs::{ReadOptions, Run};
 use report::{Report, Told};
 use robot::{Loaded, Robot};
@@ -28,7 +28,7 @@ pub struct RunFolder<'a> {
 /// What a diagnosis came to, and how it is told.
 pub struct DiagnosedRuns {
     /// What was found.
-    pub outcome: diagnosis::Outcome,
+    pub outcome: diagnosis::DiagnosisRun,
     /// The verdict, for a recording.
     pub verdict: String,
     /// The whole of it, for a page.

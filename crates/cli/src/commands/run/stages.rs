@@ -2,9 +2,9 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use experiment::{
-    DiagnosedLogs, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product, Score, Blinded,
-    Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap, torque_errors,
-    track_all, tracking_claims,
+    Blinded, DiagnosedLogs, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product,
+    Score, Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap,
+    torque_errors, track_all, tracking_claims,
 };
 use logs::{PrepareSettings, Run};
 use recording::Live;
@@ -111,7 +111,8 @@ impl Stages<'_> {
             let robot = (self.experiment.plant().robot_file(), loaded);
             let DiagnosedRuns { outcome, verdict, told } =
                 self.folder().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
-            let diagnosed = DiagnosedLogs { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
+            let diagnosed =
+                DiagnosedLogs { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             if recording::IS_BUILT {
                 diagnose::write_recording(self.out, &diagnosed, self.watch)
                     .map_err(|error| *error)?;

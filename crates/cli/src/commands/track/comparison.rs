@@ -12,7 +12,7 @@ use robot::PdGain;
 use tracking::{End, Signal};
 
 use crate::input::{hash, provenance};
-use crate::output::shown;
+use crate::output::display_path;
 
 /// What the runs of a scenario are reported as.
 pub fn comparison(
@@ -29,7 +29,7 @@ pub fn comparison(
     Ok(TrackingComparison {
         robot: robot.name().to_owned(),
         joints: ComparedJoint::all(robot),
-        motion: format!("the motion of {}", shown(scenario_file)),
+        motion: format!("the motion of {}", display_path(scenario_file)),
         gains: gains(scenario.gains_name(), scenario.gains()),
         clock: clock(scenario),
         duration_s: scenario.motion().duration_s(),
