@@ -13,7 +13,7 @@ use checks::arms::workspace_root;
 use checks::lerobot::{self, Layout};
 use diagnosis::{Diagnosis, Settings, Silent, diagnose};
 use document::Document;
-use logs::{Channels, ReadOptions, Run, read_run, recognised};
+use logs::{Channels, ReadOptions, Run, read_run, recognise};
 use mcap::records::MessageHeader;
 use robot::{Loaded, Robot};
 use simulator::scenario::Scenario;
@@ -248,7 +248,7 @@ fn sqlite_bag(path: &Path, run: &Run) -> bool {
 /// A run as it is read from a file, or from an episode of a dataset, by a preset that is recognised.
 fn read(path: &Path, robot: &Robot, episode: Option<u64>) -> Run {
     let asked = ReadOptions { episode, ..ReadOptions::default() };
-    let found = recognised(path, robot, None, &asked).unwrap().map(|found| found.map);
+    let found = recognise(path, robot, None, &asked).unwrap().map(|found| found.map);
     read_run(path, robot, &ReadOptions { map: found.as_ref(), ..asked }).unwrap()
 }
 

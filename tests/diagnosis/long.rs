@@ -1,7 +1,7 @@
 //! Of logs that are longer than they need to be an even choice takes part: it names what the whole does.
 
 use checks::synthetic::Noise;
-use logs::stretches;
+use logs::thin_out;
 
 use crate::world::{World, against_nominal, finding, named, sign};
 
@@ -12,7 +12,7 @@ fn an_even_choice_of_a_long_log_names_what_the_whole_does_and_says_so() {
         .reading(2, |effort| effort + 0.3);
     let runs = world.runs(1, 360.0, &Noise::of_a_wam(), 6100);
     let whole = against_nominal(&runs).diagnosis;
-    let part = against_nominal(&stretches(runs, 210_000)).diagnosis;
+    let part = against_nominal(&thin_out(runs, 210_000)).diagnosis;
 
     assert!(whole.findings.len() >= 3, "{:?}", named(&whole));
     assert_eq!(part.findings.len(), whole.findings.len(), "{:?}", named(&part));

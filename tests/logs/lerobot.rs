@@ -9,7 +9,7 @@ use arrow_array::{ArrayRef, Float64Array, ListArray, RecordBatch};
 use checks::lerobot::{Layout, write};
 use logs::{
     Channel, Channels, ColumnMap, Dataset, FormatError, LogError, ReadOptions, Run, read_run,
-    recognised,
+    recognise,
 };
 use parquet::arrow::ArrowWriter;
 use tempfile::TempDir;
@@ -42,7 +42,7 @@ fn dataset(layout: Layout, without: &[Channel]) -> TempDir {
 
 fn read(path: &Path, name: Option<&str>, episode: Option<u64>) -> Result<Run, LogError> {
     let asked = ReadOptions { episode, ..ReadOptions::default() };
-    let found = recognised(path, &two_joints(), name, &asked)?.map(|found| found.map);
+    let found = recognise(path, &two_joints(), name, &asked)?.map(|found| found.map);
     read_run(path, &two_joints(), &ReadOptions { map: found.as_ref(), ..asked })
 }
 
@@ -90,7 +90,7 @@ fn episodes_of_a_dataset_that_is_open_are_read_without_their_column() {
     let opened = Dataset::open(folder.path()).unwrap().unwrap();
     write(folder.path(), &[joined(&runs())], Layout::OneFile, &[]);
     assert_eq!(episodes(folder.path()).unwrap(), [0]);
-    let map = recognised(folder.path(), &two_joints(), None, &ReadOptions::default()).unwrap();
+    let map = recognise(folder.path(), &two_joints(), None, &ReadOptions::default()).unwrap();
     let map = map.map(|found| found.map);
     let options = ReadOptions { map: map.as_ref(), episode: Some(1), ..ReadOptions::default() };
     let known = ReadOptions { dataset: Some(&opened), ..options };

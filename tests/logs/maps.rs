@@ -1,6 +1,6 @@
 //! Column maps by pattern, and those of programs that are known.
 
-use logs::{ColumnMap, LogError, ReadOptions, Run, read_run, recognised};
+use logs::{ColumnMap, LogError, ReadOptions, Run, read_run, recognise};
 use robot::JointKind;
 
 use crate::support::{Scratch, robot, two_joints};
@@ -68,7 +68,7 @@ fn mistakes_are_shown_where_they_stand() {
 fn found(header: &str, name: Option<&str>) -> Option<(&'static str, Run)> {
     let file = Scratch::new("run.csv", format!("{header}\n{ROWS}"));
     let arm = two_joints();
-    let found = recognised(&file.path, &arm, name, &ReadOptions::default()).unwrap()?;
+    let found = recognise(&file.path, &arm, name, &ReadOptions::default()).unwrap()?;
     let options = ReadOptions { map: Some(&found.map), ..ReadOptions::default() };
     Some((found.name, read_run(&file.path, &arm, &options).unwrap()))
 }

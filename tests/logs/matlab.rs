@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use logs::{ColumnMap, LogError, ReadOptions, Run, read_run, recognised};
+use logs::{ColumnMap, LogError, ReadOptions, Run, read_run, recognise};
 use robot::JointKind;
 
 use crate::kinds::given;
@@ -90,7 +90,7 @@ fn the_given_file_is_recognised_and_read() {
     let arm = robot(&joints);
     for copied in ["run.mat", "run.csv"] {
         let file = Scratch::new(copied, fs::read(&path).unwrap());
-        let found = recognised(&file.path, &arm, None, &ReadOptions::default()).unwrap().unwrap();
+        let found = recognise(&file.path, &arm, None, &ReadOptions::default()).unwrap().unwrap();
         assert_eq!(found.name, "numpy");
         let options = ReadOptions { map: Some(&found.map), ..ReadOptions::default() };
         let run = read_run(&file.path, &arm, &options).unwrap();

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use logs::{
-    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, FormatError, LogError, Mend, ReadOptions,
-    Recognised, Run, stretches,
+    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, FormatError, LogError, ReadOptions, Recognised,
+    Repair, Run, thin_out,
 };
 use robot::Robot;
 
@@ -94,8 +94,10 @@ impl LogArguments {
             }
         }
         let most = if self.length.all_samples { usize::MAX } else { ENOUGH_SAMPLES };
-        let runs = stretches(runs, most);
-        if let Some(taken) = runs.iter().flat_map(|run| &run.mended).find_map(Mend::taken) {
+        let runs = thin_out(runs, most);
+        if let Some(taken) =
+            runs.iter().flat_map(|run| &run.mended).find_map(Repair::share_in_words)
+        {
             tell(&format_args!(
                 "note: {taken}; that needs about {} GB of memory",
                 needed_gb(&runs)
@@ -199,7 +201,7 @@ impl Reader<'_> {
     pub fn read(&self, path: &Path, episode: Episode<'_>, robot: &Robot) -> Result<Run, CliError> {
         let options = self.options(episode);
         if let Some(name) = self.arguments.preset() {
-            let Some(found) = logs::recognised(path, robot, Some(name), &options)? else {
+            let Some(found) = logs::recognise(path, robot, Some(name), &options)? else {
                 return Ok(self.read_with(path, robot, &options)?);
             };
             return self.read_as(path, robot, &options, &found);
@@ -215,7 +217,7 @@ impl Reader<'_> {
         if self.map.is_some() || !is_named {
             return Err(error.into());
         }
-        match logs::recognised(path, robot, None, &options)? {
+        match logs::recognise(path, robot, None, &options)? {
             Some(found) => {
                 self.tell(&found);
                 self.read_as(path, robot, &options, &found)

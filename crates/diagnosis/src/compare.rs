@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 
 use effects::{Hypothesis, hypotheses};
-use logs::{Run, repeated};
+use logs::{Run, is_repeat};
 use robot::Robot;
 
 use crate::columns::design::Design;
@@ -61,7 +61,7 @@ pub fn compare(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Comparison, DiagnosisError> {
-    if let Some(run) = after.iter().find(|a| before.iter().any(|b| repeated(a, b))) {
+    if let Some(run) = after.iter().find(|a| before.iter().any(|b| is_repeat(a, b))) {
         return Err(DiagnosisError::InBoth { run: run.name.clone() });
     }
     let before = diagnose(robot, before, settings, progress)?;

@@ -173,7 +173,7 @@ fn without_repeats<'a>(
             run.name, runs[original].name
         ))
     });
-    Ok((logs::distinct(runs), repeats.collect()))
+    Ok((logs::without_repeats(runs), repeats.collect()))
 }
 
 fn summary(run: &Run) -> RunSummary {

@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use logs::{Run, repeated};
+use logs::{Run, is_repeat};
 
 use crate::observation::{Observation, ObservationKind, RunStretch, Spoils};
 use crate::pieces::usual_step;
@@ -13,7 +13,7 @@ pub(crate) fn overlaps(runs: &[Run], t: &InspectionThresholds) -> Vec<Observatio
     let mut observations = Vec::new();
     for b in 1..runs.len() {
         for a in 0..b {
-            if !repeated(&runs[a], &runs[b]) {
+            if !is_repeat(&runs[a], &runs[b]) {
                 observations.extend(overlap(runs, &marks, [a, b], t));
             }
         }

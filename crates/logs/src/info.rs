@@ -3,7 +3,7 @@ use robot::{Joint, Robot};
 use crate::{
     checks::{degrees, saturation::saturation},
     runs::{
-        mend::Mend,
+        repair::Repair,
         run::{Channel, Channels, Run, median, range},
     },
     signals::{
@@ -25,7 +25,7 @@ pub struct LogInfo {
     /// Whether the file ended in the middle of a further row, which is left out.
     pub is_torn: bool,
     /// Changes made while it was read.
-    pub mended: Vec<Mend>,
+    pub mended: Vec<Repair>,
     /// Time from the first row to the last (s).
     pub duration_s: f64,
     /// One over the median step of time (Hz).

@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! Report { diagnosis, traces, robot, forward, .. }      -> json(), html(), notebook(), figure(), text(), markdown()
-//! Comparison { joints, models, data, .. } of learning  -> json(), page(), figure(), text()
+//! LearningComparison { joints, models, data, .. } of learning  -> json(), page(), figure(), text()
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
-//! RunReport { metrics, told, .. } of a run             -> json(), page(), text()
+//! RunReport { metrics, diagnosis, .. } of a run             -> json(), page(), text()
 //! ReplayReport { runs, .. } of logs in simulation      -> json(), page()
 //! diagnosis::Comparison of two sets of logs            -> change_page()
 //! ```
@@ -34,18 +34,16 @@ pub use crate::diagnosis::residual::{LengthScale, ResidualJoint, ResidualModel};
 pub use crate::diagnosis::tables::sizes;
 pub use crate::diagnosis::text::text;
 pub use change::page::{change_page, change_sentence, sizes_before};
-pub use learning::comparison::{
-    ComparedJoint, DataSet, KernelRow, LearningComparison as Comparison, ModelRow,
-};
+pub use learning::comparison::{ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow};
 pub use pages::{
-    FileHash, Provenance, ReportError, pack as packed, percent, push_warnings as warnings,
-    quote_argument as quoted, sha256_of, significant, unit, write_folder,
+    FileHash, Provenance, ReportError, pack, percent, push_warnings, quote_argument, sha256_of,
+    significant, unit, write_folder,
 };
 pub use replay::replay_report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 pub use run::claims::{ClaimRow, ClaimUnit, claim_rows, claim_text, claims_sentence};
-pub use run::diagnosis_summary::{DiagnosisSummary as Told, summarise as told};
+pub use run::diagnosis_summary::{DiagnosisSummary, summarise};
 pub use run::run_report::RunReport;
 pub use tracking::comparison::{
-    ControllerGains as Gains, ErrorSweep as Sweep, FirstSeconds, SweptModel, TrackedModel,
-    TrackingComparison, WallTiming,
+    ControllerGains, ErrorSweep, FirstSeconds, SweptModel, TrackedModel, TrackingComparison,
+    WallTiming,
 };

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use benchmark::{Campaign, CampaignFolder, KindCount, Merged, MergedPanel, Record};
-use cli::{print, display_path};
+use cli::{display_path, print};
 use report::{FileHash, Provenance, sha256_of};
 
 use crate::commands::missing::{Folder, missing, sentences};

@@ -13,10 +13,9 @@ pub struct Folder {
 
 /// What is missing, in sentences.
 pub fn missing(made: &Manifest, counts: &[KindCount]) -> Vec<String> {
-    let broken = made
-        .broken
-        .iter()
-        .map(|broken| format!("{}: it does not count, {}", display_path(&broken.path), broken.reason));
+    let broken = made.broken.iter().map(|broken| {
+        format!("{}: it does not count, {}", display_path(&broken.path), broken.reason)
+    });
     let left = counts.last().filter(|all| all.open() > 0).map(|all| {
         format!("{} of {} trials are left to make: plumbline-bench work", all.open(), all.trials())
     });

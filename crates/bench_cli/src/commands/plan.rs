@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use benchmark::{Campaign, CampaignFolder, Record, read_finished};
-use cli::{create_folder, print, display_path};
+use cli::{create_folder, display_path, print};
 use document::Document;
 
 use crate::error::BenchError;
@@ -58,6 +58,6 @@ fn contents(campaign: &Campaign) -> String {
         return format!("{trials} trials of a population");
     };
     let names: Vec<String> = kinds.iter().map(ToString::to_string).collect();
-    let names = report::packed(names.iter().map(String::as_str), ", ", WIDTH).join(",\n");
+    let names = report::pack(names.iter().map(String::as_str), ", ", WIDTH).join(",\n");
     format!("{trials} trials, {each} of each kind:\n{names}")
 }

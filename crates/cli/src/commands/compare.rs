@@ -123,7 +123,7 @@ fn words(comparison: &Comparison) -> String {
         held.iter().for_each(|finding| text.push_str(&lines(finding)));
     }
     for outcome in [&comparison.before, &comparison.after] {
-        report::warnings(&mut text, &outcome.diagnosis.warnings);
+        report::push_warnings(&mut text, &outcome.diagnosis.warnings);
     }
     text
 }
@@ -132,13 +132,13 @@ fn words(comparison: &Comparison) -> String {
 fn lines(finding: &Finding) -> String {
     let mut text = format!("  {}\n", finding.at.words());
     let sizes = report::sizes(finding);
-    for line in report::packed(sizes.iter().map(String::as_str), "; ", WIDTH - 4) {
+    for line in report::pack(sizes.iter().map(String::as_str), "; ", WIDTH - 4) {
         text.push_str(&format!("    {line}\n"));
     }
     let (rivals, _) = finding.rivals();
     if !rivals.is_empty() {
         let words = format!("may as well be {}", rivals.join(" or "));
-        for line in report::packed(words.split_whitespace(), " ", WIDTH - 4) {
+        for line in report::pack(words.split_whitespace(), " ", WIDTH - 4) {
             text.push_str(&format!("    {line}\n"));
         }
     }
@@ -149,7 +149,7 @@ fn lines(finding: &Finding) -> String {
 fn first(comparison: &Comparison, finding: &Finding) -> String {
     let Some(sizes) = report::sizes_before(comparison, finding) else { return String::new() };
     let words = format!("in the first logs {}", sizes.join("; "));
-    let lines = report::packed(words.split_whitespace(), " ", WIDTH - 4);
+    let lines = report::pack(words.split_whitespace(), " ", WIDTH - 4);
     lines.iter().map(|line| format!("    {line}\n")).collect()
 }
 

@@ -297,7 +297,7 @@ fn extended_toml(
         if let Some(first) = sizes.first_mut() {
             *first = format!("{}: {first}", finding.at.words());
         }
-        let lines = report::packed(sizes.iter().map(String::as_str), "; ", COMMENT_WIDTH);
+        let lines = report::pack(sizes.iter().map(String::as_str), "; ", COMMENT_WIDTH);
         text.push_str(&format!("# {}\n", lines.join("\n#   ")));
     }
     let toml = loaded.to_toml(extended, "robot.urdf").map_err(CliError::Extended)?;

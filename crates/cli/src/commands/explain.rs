@@ -32,7 +32,7 @@ fn explanation(entry: &EffectEntry) -> String {
     let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.label(), entry.kind);
     for (name, value) in facts(entry) {
         let lines = match name {
-            "confused with" => report::packed(value.split(", "), ", ", WIDTH).join(",\n"),
+            "confused with" => report::pack(value.split(", "), ", ", WIDTH).join(",\n"),
             _ => value,
         };
         text.push_str(&format!("  {name:<19}{}\n", lines.replace('\n', &format!("\n{:21}", ""))));

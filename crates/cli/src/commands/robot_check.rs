@@ -197,7 +197,7 @@ fn text(check: &Check) -> String {
     text.push_str(&table(&["link", ">mass", "fixed to it", "inertia"], links));
     if !check.locked.is_empty() {
         let locked: Vec<String> = check.locked.iter().map(LockCheck::words).collect();
-        let lines = report::packed(locked.iter().map(String::as_str), ", ", WIDTH);
+        let lines = report::pack(locked.iter().map(String::as_str), ", ", WIDTH);
         text.push_str(&format!("\nlocked: {}\n", lines.join("\n  ")));
     }
     let base = &check.base_parameters;

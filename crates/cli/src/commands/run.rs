@@ -105,7 +105,7 @@ pub fn perform(
     let report = RunReport {
         metrics: &metrics,
         robot: experiment.plant().robot(),
-        told: &told.diagnosis,
+        diagnosis: &told.diagnosis,
         motion: &told.motion,
         next: &next,
         provenance: &origin(experiment, scenario)?,

@@ -1,5 +1,5 @@
 use diagnosis::Progress;
-use logs::{LogError, PrepareSettings, PreparedRun, Run, distinct, prepare};
+use logs::{LogError, PrepareSettings, PreparedRun, Run, prepare, without_repeats};
 use nalgebra::Point3;
 use robot::Robot;
 use serde::{Deserialize, Serialize};
@@ -81,7 +81,8 @@ pub fn forward_gap_of_logs(
     cutoff_hz: f64,
     progress: &dyn Progress,
 ) -> Result<ForwardGap, LogError> {
-    let records = prepare(&distinct(runs), &PrepareSettings { cutoff_hz: Some(cutoff_hz) })?.runs;
+    let records =
+        prepare(&without_repeats(runs), &PrepareSettings { cutoff_hz: Some(cutoff_hz) })?.runs;
     let each_s = TOTAL_S / records.len().max(1) as f64;
     let records: Vec<PreparedRun> = records.iter().map(|record| first(record, each_s)).collect();
     Ok(forward_gap(robots, &records, progress))

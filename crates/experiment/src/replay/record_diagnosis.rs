@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use diagnosis::{DiagnosisRun, Progress, RunTraces};
-use logs::{PrepareSettings, PreparedRun, Run, distinct, of_run, prepare};
+use logs::{PrepareSettings, PreparedRun, Run, of_run, prepare, without_repeats};
 use recording::{
     Arm, BarSeries, EventLevel, Live, Recorder, RowBlock, Scene, SceneRole, SceneSignal,
     SignalQuantity,
@@ -62,7 +62,7 @@ pub fn record_diagnosis(
 ) -> Result<recording::FinishedRecording, ExperimentError> {
     let DiagnosedLogs { loaded, outcome, runs, .. } = *diagnosed;
     let cutoff_hz = Some(outcome.diagnosis.data.cutoff_hz);
-    let records = prepare(&distinct(runs), &PrepareSettings { cutoff_hz })?.runs;
+    let records = prepare(&without_repeats(runs), &PrepareSettings { cutoff_hz })?.runs;
     let title = format!("{}: measured and simulated", loaded.robot.name());
     let mut recorder = Recorder::create(path, &scene(&title, loaded), Live::Off)?;
     let replayed = Replayed::of([&loaded.robot, &outcome.extended], &records, progress);

@@ -15,7 +15,7 @@ use crate::{
     naming::{column_map::ColumnMap, map_entry::MappedColumn},
     reading::{finder::Finder, options::ReadOptions, position_loop, source::Source},
     runs::{
-        mend::Mend,
+        repair::Repair,
         run::{Channel, Channels},
     },
 };
@@ -173,7 +173,7 @@ impl<'a> Plan<'a> {
         &self,
         robot: &Robot,
         table: &mut Table,
-    ) -> Result<Vec<Mend>, LogError> {
+    ) -> Result<Vec<Repair>, LogError> {
         let time = self.time.take(&table.columns);
         let mut all = Vec::new();
         let mut mended = Vec::new();
@@ -204,7 +204,7 @@ impl<'a> Plan<'a> {
                         few,
                     });
                 }
-                mended.push(Mend::LeftOut { column, row, found: value, expectation, count });
+                mended.push(Repair::LeftOut { column, row, found: value, expectation, count });
                 all.extend(found.into_iter().map(|i| i.sample));
             }
         }
@@ -222,13 +222,13 @@ impl<'a> Plan<'a> {
         sources: &[(Channel, Source)],
         (time, table): (&[f64], &Table),
         channels: &mut Channels,
-    ) -> Vec<Mend> {
+    ) -> Vec<Repair> {
         let mut mended = Vec::new();
         for (channel, source) in sources.iter().filter(|(c, _)| *c == Channel::Position) {
             let Some(found) = unwrap_turns(time, &channels.position) else { continue };
             let (row, count) = (table.row(found.jumps[0]), found.jumps.len());
             channels.set(*channel, found.position);
-            mended.push(Mend::Turns { column: source.column.clone(), row, count });
+            mended.push(Repair::Turns { column: source.column.clone(), row, count });
         }
         mended
     }

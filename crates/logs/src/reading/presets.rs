@@ -129,7 +129,7 @@ pub fn preset_names() -> Vec<&'static str> {
 /// # Errors
 ///
 /// Those of opening the file.
-pub fn recognised(
+pub fn recognise(
     path: &Path,
     robot: &Robot,
     name: Option<&str>,

@@ -11,7 +11,7 @@ use crate::{
     },
     error::LogError,
     reading::{options::ReadOptions, plan::Plan, position_loop},
-    runs::{mend::Mend, run::Run},
+    runs::{repair::Repair, run::Run},
 };
 
 /// Reads one run from a file and checks it.
@@ -143,7 +143,7 @@ fn read_opened(
     let mut time = plan.time.take(&table.columns);
     if let Some(EvenClock { time: even, step_s, largest_s }) = even_clock(&time) {
         time = even;
-        mended.push(Mend::EvenClock { step_s, largest_s });
+        mended.push(Repair::EvenClock { step_s, largest_s });
     }
     let mut joints = plan.take_channels(robot, &mut table);
     let described = robot.links().iter().map(|l| &l.joint);
@@ -162,7 +162,7 @@ fn read_opened(
             let Some(gain) = link.actuator.position_loop else { continue };
             channels.effort = position_loop::effort(gain, &time, channels);
         }
-        mended.push(Mend::FromPositionLoop);
+        mended.push(Repair::FromPositionLoop);
     }
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = match options.episode {

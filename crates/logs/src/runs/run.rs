@@ -1,6 +1,6 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
-use crate::runs::mend::Mend;
+use crate::runs::repair::Repair;
 
 /// One recorded run, its joints in the order of the robot.
 ///
@@ -16,7 +16,7 @@ pub struct Run {
     /// Whether the file ended in the middle of a row, which is left out.
     pub is_torn: bool,
     /// Changes made while it was read.
-    pub mended: Vec<Mend>,
+    pub mended: Vec<Repair>,
     /// Time of each sample as in the file (s), strictly increasing.
     pub time: Vec<f64>,
     /// Signals of each joint of the robot.

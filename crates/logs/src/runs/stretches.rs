@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::runs::{mend::Mend, run::Run};
+use crate::runs::{repair::Repair, run::Run};
 
 /// Samples, counted per joint, beyond which a diagnosis gains little: 20 minutes of seven joints at 500 Hz.
 pub const ENOUGH_SAMPLES: usize = 4_200_000;
@@ -19,8 +19,8 @@ const PHASE: f64 = 0.618_033_988_749_894_9;
 /// Logs with no more samples are returned unchanged.
 ///
 /// The logs are cut into `N` stretches in order. Of these `n = N most / samples` are kept, one from each n-th part.
-/// A run without a kept stretch is left out; every other run gets a [`Mend::Stretches`].
-pub fn stretches(runs: Vec<Run>, most: usize) -> Vec<Run> {
+/// A run without a kept stretch is left out; every other run gets a [`Repair::Stretches`].
+pub fn thin_out(runs: Vec<Run>, most: usize) -> Vec<Run> {
     let samples: usize = runs.iter().map(|run| run.time.len() * run.joints.len()).sum();
     if samples <= most {
         return runs;
@@ -43,7 +43,7 @@ pub fn stretches(runs: Vec<Run>, most: usize) -> Vec<Run> {
     let taken_s = kept.iter().map(Run::recorded_s).sum();
     for run in &mut kept {
         for mend in &mut run.mended {
-            if let Mend::Stretches { all, .. } = mend {
+            if let Repair::Stretches { all, .. } = mend {
                 *all = [taken_s, whole_s];
             }
         }
@@ -76,7 +76,7 @@ fn keep_rows(run: &Run, kept: &[Range<usize>]) -> Run {
     let apart = kept.windows(2).filter(|pair| pair[0].end < pair[1].start);
     let gaps_s = apart.map(|pair| run.time[pair[1].start] - run.time[pair[0].end]).collect();
     let mut thinned = run.with_rows(&left);
-    thinned.mended.push(Mend::Stretches { gaps_s, all: [0.0; 2] });
+    thinned.mended.push(Repair::Stretches { gaps_s, all: [0.0; 2] });
     thinned
 }
 
@@ -86,10 +86,10 @@ fn length_s(run: &Run) -> f64 {
 }
 
 impl Run {
-    /// Time from the first to the last sample, without the gaps that [`stretches`] left (s).
+    /// Time from the first to the last sample, without the gaps that [`thin_out`] left (s).
     pub fn recorded_s(&self) -> f64 {
         let left_out = self.mended.iter().flat_map(|mend| match mend {
-            Mend::Stretches { gaps_s, .. } => gaps_s.as_slice(),
+            Repair::Stretches { gaps_s, .. } => gaps_s.as_slice(),
             _ => &[],
         });
         length_s(self) - left_out.sum::<f64>()
@@ -121,13 +121,13 @@ mod tests {
     #[test]
     fn logs_that_are_no_longer_than_is_enough_stay_as_they_are() {
         let runs = vec![run("a", 600), run("b", 400)];
-        assert_eq!(stretches(runs.clone(), 1000), runs);
+        assert_eq!(thin_out(runs.clone(), 1000), runs);
     }
 
     #[test]
     fn of_a_longer_log_stretches_are_kept_that_are_spread_over_all_of_it() {
         // 200 minutes, of which 40 take part.
-        let [kept] = <[Run; 1]>::try_from(stretches(vec![run("a", 120_000)], 24_000)).unwrap();
+        let [kept] = <[Run; 1]>::try_from(thin_out(vec![run("a", 120_000)], 24_000)).unwrap();
         assert_eq!(kept.time.len(), 24_000);
         assert_eq!(kept.joints[0].position, kept.extra["more"]);
         let starts: Vec<f64> = std::iter::once(kept.time[0])
@@ -143,7 +143,8 @@ mod tests {
         let places: std::collections::BTreeSet<i64> =
             starts.iter().map(|t| ((t - 100.0) % 300.0 / 60.0).round() as i64 % 5).collect();
         assert_eq!(places.len(), 5);
-        let Some(Mend::Stretches { gaps_s, all: [taken_s, whole_s] }) = kept.mended.first() else {
+        let Some(Repair::Stretches { gaps_s, all: [taken_s, whole_s] }) = kept.mended.first()
+        else {
             panic!("nothing is said")
         };
         assert_eq!(gaps_s.len() + 1, starts.len());
@@ -154,7 +155,7 @@ mod tests {
     #[test]
     fn of_many_logs_some_take_part_whole() {
         let runs: Vec<Run> = (0..100).map(|k| run(&k.to_string(), 600)).collect();
-        let kept = stretches(runs.clone(), 12_000);
+        let kept = thin_out(runs.clone(), 12_000);
         assert_eq!(kept.len(), 20);
         for kept in kept {
             let whole = &runs[kept.name.parse::<usize>().unwrap()];
@@ -164,7 +165,7 @@ mod tests {
 
     #[test]
     fn a_log_of_few_rows_that_are_too_many_is_cut() {
-        let kept = stretches(vec![run("a", 1000)], 100);
+        let kept = thin_out(vec![run("a", 1000)], 100);
         assert_eq!(kept[0].time.len(), 100);
     }
 }

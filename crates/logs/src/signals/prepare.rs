@@ -5,7 +5,7 @@ use crate::signals::{
 use crate::{
     checks::saturation::saturation,
     error::LogError,
-    runs::{duplicate::duplicate_of, mend::Mend, run::Run, session::session_starts},
+    runs::{duplicate::duplicate_of, repair::Repair, run::Run, session::session_starts},
     signals::{
         choice::choose,
         clock::Fill,
@@ -158,12 +158,12 @@ fn run_warnings(
         let name = || run.name.clone();
         warnings.extend(run.is_torn.then(|| LogWarning::TornLastRow { run: name() }));
         // Of all logs alike: once is enough.
-        let is_said = |mend: &&Mend| {
+        let is_said = |mend: &&Repair| {
             runs[..index].iter().flat_map(|r| &r.mended).any(|m| m.says_of_all(mend))
         };
         let mended = run.mended.iter().filter(|mend| !is_said(mend)).cloned();
         warnings.extend(mended.map(|mend| match mend {
-            Mend::Stretches { .. } => LogWarning::Thinned { mend },
+            Repair::Stretches { .. } => LogWarning::Thinned { mend },
             _ => LogWarning::Mended { run: name(), mend },
         }));
         let unknown = run.unknown_joints().into_iter();
@@ -176,7 +176,7 @@ fn run_warnings(
             let rate_hz = own[0].rate_hz;
             warnings.push(LogWarning::Resampled { run: name(), deviation_s, rate_hz });
         }
-        let between = run.mended.iter().map(Mend::gaps).sum::<usize>();
+        let between = run.mended.iter().map(Repair::gaps).sum::<usize>();
         if own.len() > between + 1 {
             let (gaps, shortest_s) = (own.len() - 1 - between, shortest_s(cutoff_hz));
             let longest_s = fill.longest_s(&run.time);

@@ -1,4 +1,4 @@
-use crate::runs::{mend::Mend, run::of_run};
+use crate::runs::{repair::Repair, run::of_run};
 
 /// A problem of a log that can be used nevertheless.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -24,13 +24,13 @@ pub enum LogWarning {
         /// The run.
         run: String,
         /// What.
-        mend: Mend,
+        mend: Repair,
     },
     /// Only part of the logs is used.
     #[error("{mend}")]
     Thinned {
         /// How much.
-        mend: Mend,
+        mend: Repair,
     },
     /// Two runs have the same samples.
     #[error(

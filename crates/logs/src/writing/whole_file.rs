@@ -49,7 +49,7 @@ impl WholeFile {
     /// # Errors
     ///
     /// What the operating system says.
-    pub fn settle(&mut self) -> io::Result<()> {
+    pub fn sync(&mut self) -> io::Result<()> {
         self.file.flush()?;
         self.file.get_ref().sync_all()
     }
@@ -60,7 +60,7 @@ impl WholeFile {
     ///
     /// What the operating system says.
     pub fn finish(mut self) -> io::Result<()> {
-        self.settle()?;
+        self.sync()?;
         self.name.persist(&self.path).map_err(|error| plain(error.error))?;
         sync_folder(folder_of(&self.path));
         Ok(())
@@ -109,7 +109,7 @@ mod tests {
         fs::write(&path, "old").unwrap();
         let mut file = WholeFile::create(&path).unwrap();
         file.write_all(b"half").unwrap();
-        file.settle().unwrap();
+        file.sync().unwrap();
         drop(file);
         assert_eq!(fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);

@@ -75,7 +75,7 @@ fn temporary(folder: &Path, name: &str, bytes: &[u8]) -> Result<WholeFile, Repor
     let path = folder.join(name);
     let refused = |e: std::io::Error| unwritable(&path, &e);
     let mut file = WholeFile::create_in(folder, &path).map_err(refused)?;
-    file.write_all(bytes).and_then(|()| file.settle()).map_err(refused)?;
+    file.write_all(bytes).and_then(|()| file.sync()).map_err(refused)?;
     Ok(file)
 }
 

@@ -16,7 +16,7 @@ impl RunReport<'_> {
     /// The numbers before and after, joint by joint, as dots.
     pub(crate) fn charts(&self) -> Result<Vec<GainChart>, ReportError> {
         let numbers = joint_numbers(self.metrics);
-        let floors = &self.told.noise_floor_nm;
+        let floors = &self.diagnosis.noise_floor_nm;
         let floor = |joint: usize| floors.get(joint).copied().flatten();
         let chart = |title: &'static str, axis: &'static str, of: fn(&JointNumbers) -> [f64; 2]| {
             let joints = self.metrics.joints.iter().zip(&numbers).enumerate();

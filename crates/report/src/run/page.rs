@@ -48,7 +48,7 @@ impl RunReport<'_> {
     ///
     /// [`ReportError::Format`].
     pub fn page(&self) -> Result<String, ReportError> {
-        let (metrics, summary) = (self.metrics, self.told);
+        let (metrics, summary) = (self.metrics, self.diagnosis);
         let provenance = self.provenance.without_folders();
         let page = Page {
             robot: &metrics.robot,

@@ -16,7 +16,7 @@ pub struct RunReport<'a> {
     /// The robot as described, for units.
     pub robot: &'a Robot,
     /// The diagnosis.
-    pub told: &'a DiagnosisSummary,
+    pub diagnosis: &'a DiagnosisSummary,
     /// The beginning of the motion that was tracked, drawn for a page.
     pub motion: &'a str,
     /// Commands for what to do next, each with what it does.

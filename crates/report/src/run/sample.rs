@@ -14,7 +14,7 @@ use crate::sample::Sample as Diagnosed;
 pub struct Sample {
     pub diagnosed: Diagnosed,
     pub metrics: Metrics,
-    pub told: DiagnosisSummary,
+    pub summary: DiagnosisSummary,
     pub next: [[String; 2]; 1],
 }
 
@@ -23,7 +23,7 @@ impl Sample {
         RunReport {
             metrics: &self.metrics,
             robot: &self.diagnosed.robot,
-            told: &self.told,
+            diagnosis: &self.summary,
             motion: "<svg></svg>",
             next: &self.next,
             provenance: &self.diagnosed.provenance,
@@ -35,9 +35,9 @@ impl Sample {
 /// is not.
 pub fn run() -> Sample {
     let diagnosed = crate::sample::arm();
-    let told = summarise(&diagnosed.report()).unwrap();
+    let summary = summarise(&diagnosed.report()).unwrap();
     let next = [["Look at it:".to_owned(), "plumbline view out".to_owned()]];
-    Sample { diagnosed, metrics: metrics(), told, next }
+    Sample { diagnosed, metrics: metrics(), summary, next }
 }
 
 fn metrics() -> Metrics {

@@ -12,7 +12,7 @@ impl RunReport<'_> {
     /// gain over all joints and joint by joint.
     pub fn text(&self) -> String {
         let mut out = String::new();
-        for line in wrap(&format!("{}.", self.told.sentence), TERMINAL_WIDTH) {
+        for line in wrap(&format!("{}.", self.diagnosis.sentence), TERMINAL_WIDTH) {
             out.push_str(&format!("{BOLD}{line}{BOLD:#}\n"));
         }
         out.push_str(&format!("\n{}\n", self.hidden()));

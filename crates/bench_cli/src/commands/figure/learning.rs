@@ -5,8 +5,8 @@ use benchmark::{
     LearningErrors, LearningFigure, ModelErrors, PaperData, PaperPlant, learning_claims,
 };
 use cli::{
-    EXTENDED, Line, RunFolder, Watch, create_folder, diagnosis_files, hash, log_file, provenance,
-    display_path,
+    EXTENDED, Line, RunFolder, Watch, create_folder, diagnosis_files, display_path, hash, log_file,
+    provenance,
 };
 use document::Document;
 use experiment::{PAPER_MODELS, Product};

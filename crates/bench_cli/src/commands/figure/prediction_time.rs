@@ -2,7 +2,7 @@ use std::path::Path;
 
 use benchmark::{Curve, PredictionTimeFigureReport, PredictionTimes};
 use benchmark::{PredictionTimeFigure, time_claims};
-use cli::{Line, RunFolder, Watch, create_folder, hash, provenance, display_path};
+use cli::{Line, RunFolder, Watch, create_folder, display_path, hash, provenance};
 use document::Document;
 use experiment::Product;
 

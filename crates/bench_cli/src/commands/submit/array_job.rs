@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use report::quoted;
+use report::quote_argument;
 
 use crate::commands::submit::sbatch_option::SbatchOption;
 use crate::submit_error::SubmitError;
@@ -50,8 +50,8 @@ impl ArrayJob<'_> {
              # fails is not made again.\n\
              {options}\n\
              exec {} work {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --quiet\n",
-            quoted(program),
-            quoted(folder),
+            quote_argument(program),
+            quote_argument(folder),
             self.parts,
             self.jobs
         ))

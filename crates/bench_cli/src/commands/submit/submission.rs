@@ -3,8 +3,8 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use benchmark::{CampaignFolder, Part};
-use cli::{print, display_path};
-use report::quoted;
+use cli::{display_path, print};
+use report::quote_argument;
 
 use crate::commands::submit::array_job::ArrayJob;
 use crate::commands::submit::job_number::JobNumber;
@@ -82,7 +82,7 @@ fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), BenchError> {
 
     let path = arguments.folder.join(SCRIPT);
     let said = format!("{} trials left, in {tasks} tasks", left.len());
-    let [folder, job] = [&arguments.folder, &path].map(|path| quoted(&display_path(path)));
+    let [folder, job] = [&arguments.folder, &path].map(|path| quote_argument(&display_path(path)));
     if arguments.dry_run {
         return Ok(print(&format!("{said}. To submit them:\n  sbatch {job}\n"))?);
     }

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use benchmark::PredictionTimes;
-use cli::{Line, PartArguments, Watch, print, provenance, display_path};
+use cli::{Line, PartArguments, Watch, display_path, print, provenance};
 use report::ReportError;
 
 use crate::commands::times::curves::{MadeUp, curves, machine};

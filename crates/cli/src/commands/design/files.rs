@@ -27,7 +27,7 @@ pub fn words(design: &Design, robot: &Robot, logs: Option<&Prepared>) -> String 
     let of = |prospect: &Prospect| {
         let (title, help) = titles(prospect.goal, robot);
         let sentence = sentence(prospect, [logged, length], help);
-        let lines = report::packed(sentence.split_whitespace(), " ", WIDTH - 2);
+        let lines = report::pack(sentence.split_whitespace(), " ", WIDTH - 2);
         format!("{title}\n  {}\n", lines.join("\n  "))
     };
     design.prospects.iter().map(of).collect()

@@ -6,7 +6,7 @@ use learner::{
     LearnerError, ModelKind, Regression, RigidBodyFit, Samples, TorqueScore, TrainSettings,
     Training,
 };
-use report::{ComparedJoint, Comparison, ModelRow};
+use report::{ComparedJoint, LearningComparison, ModelRow};
 use robot::{Loaded, Robot};
 
 use super::arguments::Arguments;
@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Exit
     let (models, mut files) = learned?;
     let mut warnings = data.warnings.clone();
     warnings.extend(left_out(named.as_ref().unwrap_or(robot)));
-    let comparison = Comparison {
+    let comparison = LearningComparison {
         robot: robot.name().to_owned(),
         joints: ComparedJoint::all(robot),
         train: data.train.summary(arguments.points),
@@ -182,7 +182,7 @@ fn shared_kernels(earlier: &[ModelRow], row: &ModelRow) -> Option<String> {
 }
 
 /// Table or JSON on the standard output; with JSON, where the files lie on the standard error.
-fn say(arguments: &Arguments, out: &Path, comparison: &Comparison) -> Result<(), CliError> {
+fn say(arguments: &Arguments, out: &Path, comparison: &LearningComparison) -> Result<(), CliError> {
     let closing = format!(
         "comparison     {}\nfigure         {}\nmodels         {}\n",
         display_path(&out.join("learning.json")),

@@ -4,7 +4,7 @@ use std::time::Instant;
 use diagnosis::Settings;
 use experiment::{Blinded, ExperimentError, Inputs, Product, Stage, Staged};
 use logs::{ReadOptions, Run};
-use report::{Report, Told};
+use report::{DiagnosisSummary, Report};
 use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 use simulator::LogFormat;
@@ -32,7 +32,7 @@ pub struct DiagnosedRuns {
     /// The verdict, for a recording.
     pub verdict: String,
     /// The whole of it, for a page.
-    pub told: Told,
+    pub told: DiagnosisSummary,
 }
 
 impl RunFolder<'_> {
@@ -141,7 +141,7 @@ impl RunFolder<'_> {
         };
         let json = report::json(&report)?;
         diagnose::write(&self.out.join(folder), loaded, &outcome, &report, &json, None)?;
-        let (verdict, told) = (report::markdown(&report), report::told(&report)?);
+        let (verdict, told) = (report::markdown(&report), report::summarise(&report)?);
         Ok(DiagnosedRuns { outcome, verdict, told })
     }
 }

@@ -8,7 +8,7 @@ use experiment::{
 };
 use logs::{PrepareSettings, Run};
 use recording::Live;
-use report::{Told, TrackedModel, TrackingComparison};
+use report::{DiagnosisSummary, TrackedModel, TrackingComparison};
 use robot::{Loaded, Robot};
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ pub struct Stages<'a> {
 /// What the report shows beside the numbers.
 pub struct Shown {
     /// The diagnosis.
-    pub diagnosis: Told,
+    pub diagnosis: DiagnosisSummary,
     /// The beginning of the motion that was tracked.
     pub motion: String,
 }
@@ -50,7 +50,7 @@ pub struct Shown {
 /// What the diagnosis leaves for later stages.
 #[derive(Serialize, Deserialize)]
 struct Found {
-    told: Told,
+    told: DiagnosisSummary,
     score: Score,
 }
 

@@ -5,8 +5,8 @@ use experiment::{
 };
 use recording::Listener;
 use report::{
-    ComparedJoint, FirstSeconds, Gains, ReportError, Sweep, SweptModel, TrackedModel,
-    TrackingComparison, WallTiming,
+    ComparedJoint, ControllerGains, ErrorSweep, FirstSeconds, ReportError, SweptModel,
+    TrackedModel, TrackingComparison, WallTiming,
 };
 use robot::PdGain;
 use tracking::{End, Signal};
@@ -61,8 +61,8 @@ fn viewer_warning(runs: &[TrackedRun]) -> Option<String> {
     })
 }
 
-fn gains(name: &str, gains: &[PdGain]) -> Gains {
-    Gains {
+fn gains(name: &str, gains: &[PdGain]) -> ControllerGains {
+    ControllerGains {
         name: name.to_owned(),
         kp: gains.iter().map(|gain| gain.kp).collect(),
         kd: gains.iter().map(|gain| gain.kd).collect(),
@@ -135,9 +135,9 @@ fn first_seconds(run: &TrackedRun) -> FirstSeconds {
     FirstSeconds::of(&time, &desired, &measured)
 }
 
-fn sweep(swept: &GainSweep) -> Sweep {
+fn sweep(swept: &GainSweep) -> ErrorSweep {
     let models = swept.models.iter();
-    Sweep {
+    ErrorSweep {
         gains: swept.gains.clone(),
         duration_s: swept.duration_s,
         scales: swept.scales.clone(),

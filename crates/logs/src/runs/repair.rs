@@ -4,7 +4,7 @@ use std::fmt;
 ///
 /// Rows are those of the file, counted from 1.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Mend {
+pub enum Repair {
     /// Rows with an impossible sample were left out.
     LeftOut {
         /// The column.
@@ -45,9 +45,9 @@ pub enum Mend {
     },
 }
 
-impl Mend {
+impl Repair {
     /// How much of all logs is used, in words; `None` for other changes.
-    pub fn taken(&self) -> Option<String> {
+    pub fn share_in_words(&self) -> Option<String> {
         let Self::Stretches { all, .. } = self else { return None };
         let [taken_min, whole_min] = all.map(|seconds| seconds / 60.0);
         Some(format!("of {whole_min:.1} min of logs {taken_min:.1} min take part"))
@@ -73,7 +73,7 @@ impl Mend {
     }
 }
 
-impl fmt::Display for Mend {
+impl fmt::Display for Repair {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::LeftOut { column, row, found, expectation, count } => {
@@ -98,7 +98,7 @@ impl fmt::Display for Mend {
                 f,
                 "{}, in stretches of a minute or less that are spread evenly over them, so that memory and time do \
                  not grow with their length. Intervals are those of what takes part; --all-samples takes the rest too",
-                self.taken().unwrap_or_default()
+                self.share_in_words().unwrap_or_default()
             ),
             Self::Turns { column, row, count } => {
                 let more =
