@@ -398,7 +398,7 @@ fn a_mistake_in_a_campaign_is_underlined() {
 fn a_table_that_is_none_leaves_no_campaign_behind() {
     let folder = arm::folder(Gap::None);
     let path = folder.path();
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/clean.toml");
+    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/demos/no_effects.toml");
     let campaign = format!("scenario = {scenario:?}\nhidden = [\"clean\"]\nseeds = 2\n");
     arm::write(path, "campaign.toml", &campaign);
     arm::write(path, "bad.parquet", "no table");

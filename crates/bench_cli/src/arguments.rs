@@ -15,7 +15,7 @@ Exit codes:
 
 const EXAMPLES: &str = "\
 Examples:
-  plumbline-bench plan scenarios/trials.toml --out blind
+  plumbline-bench plan scenarios/campaigns/trials.toml --out blind
   plumbline-bench work blind --jobs 8
   plumbline-bench work blind --part 1/4
   plumbline-bench submit blind --sbatch --partition=short

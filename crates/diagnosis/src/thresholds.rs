@@ -23,7 +23,7 @@ use crate::thresholds::verdict::VerdictThresholds;
 
 /// The numbers that decide an answer, grouped by the step that they belong to.
 ///
-/// "Trials" in the documentation of a field are stored trials of the panel (`scenarios/panel.toml`), the same logs
+/// "Trials" in the documentation of a field are stored trials of the panel (`scenarios/campaigns/panel.toml`), the same logs
 /// with and without the change. Fields that have the same value have it for reasons of their own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Thresholds {
