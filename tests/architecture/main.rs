@@ -10,6 +10,7 @@ mod documents;
 mod floors;
 mod manifests;
 mod modules;
+mod names;
 mod places;
 mod references;
 mod rings;

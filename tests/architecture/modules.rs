@@ -32,7 +32,7 @@ struct Leaf {
 }
 
 /// The tokens of a file that matter: words, `::` and single signs, without comments and literals.
-fn tokens(text: &str) -> Vec<String> {
+pub fn tokens(text: &str) -> Vec<String> {
     let chars: Vec<char> = text.chars().collect();
     let at = |i: usize| chars.get(i).copied().unwrap_or('\0');
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
@@ -100,7 +100,7 @@ fn past_raw_string(chars: &[char], from: usize) -> usize {
 }
 
 /// The tokens without items that only tests see, and the modules among those items.
-fn without_tests(tokens: Vec<String>) -> (Vec<String>, BTreeSet<String>) {
+pub fn without_tests(tokens: Vec<String>) -> (Vec<String>, BTreeSet<String>) {
     const TEST_ONLY: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
     let (mut kept, mut modules, mut i) = (Vec::new(), BTreeSet::new(), 0);
     while i < tokens.len() {

@@ -6,46 +6,10 @@ use crate::modules::{ROOT, Texts, folders_of, graph, rings, units_of};
 use crate::tree::{folders, rust_files, text};
 
 /// Crates with rings left: to be taken off, and never to be added to.
-const RINGED: [&str; 15] = [
-    "catalogue",
-    "cli",
-    "document",
-    "dynamics",
-    "evaluation",
-    "exchange",
-    "inspection",
-    "learner",
-    "logs",
-    "motion",
-    "next_motion",
-    "population",
-    "recording",
-    "robot",
-    "simulator",
-];
+const RINGED: [&str; 0] = [];
 
 /// Crates that import through what `lib.rs` or a `mod.rs` re-exports: to be taken off, and never to be added to.
-const ROUNDABOUT: [&str; 19] = [
-    "catalogue",
-    "cli",
-    "colours",
-    "diagnosis",
-    "document",
-    "dynamics",
-    "evaluation",
-    "gaussian_process",
-    "inspection",
-    "learner",
-    "logs",
-    "motion",
-    "next_motion",
-    "population",
-    "recording",
-    "report",
-    "robot",
-    "simulator",
-    "tracking",
-];
+const ROUNDABOUT: [&str; 0] = [];
 
 /// The texts of a crate's files by the name of the module, such as `search::select`.
 fn texts(name: &str) -> Texts {

@@ -40,8 +40,8 @@ fn a_campaign_is_planned_made_and_merged() {
     }
     let records = Record::read(&path.join("a/trials.parquet")).unwrap();
     assert_eq!(records.iter().map(|record| record.task).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
-    let put_in = records.iter().map(|record| record.scored().unwrap().put_in.len());
-    assert_eq!(put_in.collect::<Vec<_>>(), [0, 1, 2, 0, 1, 2]);
+    let injected = records.iter().map(|record| record.scored().unwrap().injected.len());
+    assert_eq!(injected.collect::<Vec<_>>(), [0, 1, 2, 0, 1, 2]);
     let json: serde_json::Value = serde_json::from_slice(&files[1]).unwrap();
     assert_eq!(json["schema"], "plumbline.trials/1");
     assert_eq!(json["rows"].as_array().unwrap().len(), 4);

@@ -16,7 +16,7 @@ use crate::trials::cheap;
 fn a_record_is_read_back_as_it_was_written() {
     let folder = tempfile::tempdir().unwrap();
     let score = cheap(Hidden::One(CoulombFriction), 3).run(&folder.path().join("logs")).unwrap();
-    assert!(score.put_in[0].sizes[0].estimate.is_some() && !score.findings.is_empty());
+    assert!(score.injected[0].sizes[0].estimate.is_some() && !score.findings.is_empty());
     let record = |task, score| Record {
         task,
         hidden: Some(Hidden::One(CoulombFriction)),
@@ -32,12 +32,12 @@ fn a_record_is_read_back_as_it_was_written() {
 
     // A number that JSON has not is no number.
     let mut endless = score;
-    let estimate = endless.put_in[0].sizes[0].estimate.as_mut().unwrap();
+    let estimate = endless.injected[0].sizes[0].estimate.as_mut().unwrap();
     estimate.ci95 = [f64::NEG_INFINITY, 1.0];
     Record::write(&path, &[record(0, Ok(endless.into()))]).unwrap();
     let read = Record::read(&path).unwrap().remove(0);
     let read = read.scored().unwrap();
-    let [low, high] = read.put_in[0].sizes[0].estimate.as_ref().unwrap().ci95;
+    let [low, high] = read.injected[0].sizes[0].estimate.as_ref().unwrap().ci95;
     assert!(low.is_nan() && (high - 1.0).abs() < 1e-12);
 }
 

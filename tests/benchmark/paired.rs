@@ -122,7 +122,7 @@ fn two_tables_are_compared_trial_by_trial() {
     assert_eq!((right.trials, right.wins, right.losses), (4, 2, 2));
     let assured = of(Measure::FalseAssurance);
     assert_eq!((assured.trials, assured.wins, assured.losses), (3, 2, 1));
-    let worse = of(Measure::Worse);
+    let worse = of(Measure::WorsePrediction);
     assert_eq!((worse.first, worse.second, worse.wins, worse.losses), (2, 1, 2, 1));
     assert!(!compared.shares.iter().any(|share| share.measure == Measure::FalseAlarm));
     let time = compared.means.iter().find(|mean| mean.quantity == Quantity::Time).unwrap();

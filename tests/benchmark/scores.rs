@@ -39,7 +39,7 @@ fn the_effect_at_its_place_named_first_is_exact() {
     let first = score(Verdict::Explained, vec![true_one.clone(), small.clone()], &[coulomb()]);
     assert_eq!(answer(&first), (true, true, true, 1));
     assert_eq!(first.stray, [at_joint(TorqueOffset, "wrist")]);
-    assert_eq!((first.put_in[0].finding, first.put_in[0].one_of), (Some(0), Some(0)));
+    assert_eq!((first.injected[0].finding, first.injected[0].one_of), (Some(0), Some(0)));
 
     // The largest share is the first, in whatever order they are listed.
     let listed_last = score(Verdict::Explained, vec![small, true_one], &[coulomb()]);
@@ -56,7 +56,7 @@ fn the_effect_named_second_is_found_and_no_more() {
     let true_one = finding(at_joint(CoulombFriction, ELBOW), 0.1, &[]);
     let second = score(Verdict::Explained, vec![larger, true_one], &[coulomb()]);
     assert_eq!(answer(&second), (false, false, true, 1));
-    assert_eq!(second.put_in[0].finding, Some(1));
+    assert_eq!(second.injected[0].finding, Some(1));
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn a_rival_of_the_first_is_one_of_it_and_neither_is_stray() {
     let truth = [Truth::at_link(Payload, "palm", &[("mass", 1.0)])];
     let named = score(Verdict::Explained, vec![palm], &truth);
     assert_eq!(answer(&named), (false, true, true, 0));
-    assert_eq!((named.put_in[0].finding, named.put_in[0].one_of), (None, Some(0)));
+    assert_eq!((named.injected[0].finding, named.injected[0].one_of), (None, Some(0)));
     assert_eq!(named.findings[0].not_separable_from, rivals);
 
     // What a true finding may as well be is no stray beside it, though it does not say so itself.
@@ -83,7 +83,7 @@ fn the_right_effect_at_another_place_and_another_effect_at_the_place_are_wrong()
         let score = score(Verdict::Explained, vec![finding(wrong.clone(), 0.9, &[])], &[coulomb()]);
         assert_eq!(answer(&score), (false, false, false, 1));
         assert_eq!(score.stray, [wrong]);
-        assert_eq!(score.put_in[0].sizes[0].estimate, None);
+        assert_eq!(score.injected[0].sizes[0].estimate, None);
     }
 }
 
@@ -156,11 +156,11 @@ fn what_is_small_excuses_no_wrong_name() {
         vec![finding(at_joint(TorqueOffset, ELBOW), 0.8, &[])],
         &[coulomb()],
     );
-    named.put_in[0].of_smallest = Some(0.0);
+    named.injected[0].of_smallest = Some(0.0);
     assert!(named.visible() && !named.exactly);
     named.stray.clear();
     assert!(!named.visible());
-    named.put_in[0].one_of = Some(0);
+    named.injected[0].one_of = Some(0);
     assert!(named.visible());
 }
 
@@ -172,7 +172,7 @@ fn effects_that_are_not_looked_for_are_a_group_of_their_own() {
     assert_eq!(tally.rows.len(), 1);
     let row = row(&tally, Group::Unknown);
     assert_eq!((row.unknown.count, row.exactly.count, row.trials), (2, 0, 2));
-    assert_eq!(row.put_in.to_string(), "not looked for");
+    assert_eq!(row.injected.to_string(), "not looked for");
 }
 
 #[test]
@@ -196,7 +196,7 @@ fn the_sizes_of_the_finding_that_names_it_are_compared() {
             score(Verdict::Explained, vec![level(value, determined)], &[coulomb()])
         })
         .to_vec();
-    let of = |score: &Score| score.put_in[0].sizes[0].estimate.clone().unwrap();
+    let of = |score: &Score| score.injected[0].sizes[0].estimate.clone().unwrap();
     // 0.5 was added to the 0.25 of the description.
     assert!((of(&scores[1]).value - 0.6).abs() < 1e-12 && !of(&scores[1]).covers);
     assert!(of(&scores[2]).covers);
@@ -211,7 +211,7 @@ fn the_sizes_of_the_finding_that_names_it_are_compared() {
 }
 
 fn row(tally: &Tally, group: Group) -> &Row {
-    tally.rows.iter().find(|row| row.put_in == group).unwrap()
+    tally.rows.iter().find(|row| row.injected == group).unwrap()
 }
 
 /// Four trials with Coulomb friction, one with backlash, one with both, two clean ones.
@@ -234,7 +234,7 @@ fn campaign() -> Vec<Score> {
 #[test]
 fn a_tally_counts_every_answer_in_its_row() {
     let tally = Tally::of(&campaign());
-    let groups: Vec<Group> = tally.rows.iter().map(|row| row.put_in).collect();
+    let groups: Vec<Group> = tally.rows.iter().map(|row| row.injected).collect();
     let kinds = [Group::Kind(CoulombFriction), Group::Kind(Backlash)];
     assert_eq!(groups, [&kinds[..], &[Group::One, Group::Two, Group::Clean]].concat());
     let counts = |row: &Row| {
@@ -301,12 +301,12 @@ fn the_largest_tables_are_within_120_columns() {
         Finding { parameters, ..finding(at_joint(effect, ELBOW), 1.0, &[]) }
     };
     let mut scores = Vec::new();
-    for put_in in EffectKind::ALL {
+    for injected in EffectKind::ALL {
         for other in EffectKind::ALL {
-            let score = score(Verdict::Explained, vec![named(other)], &[of(put_in)]);
+            let score = score(Verdict::Explained, vec![named(other)], &[of(injected)]);
             scores.extend(vec![score; 100]);
         }
-        scores.push(score(Verdict::Unexplained, Vec::new(), &[of(put_in)]));
+        scores.push(score(Verdict::Unexplained, Vec::new(), &[of(injected)]));
     }
     scores.push(score(Verdict::Consistent, Vec::new(), &[]));
     let text = Tally::of(&scores).text();
@@ -342,7 +342,7 @@ fn the_power_is_told_in_three_classes_of_equal_number_by_size() {
         classes.map(|c| (c.sizes, c.exactly.count, c.exactly.of)).collect::<Vec<_>>()
     };
     let kinds = [TorqueConstant, GravityDirection, CoulombFriction].map(Group::Kind);
-    assert_eq!(power.iter().map(|power| power.put_in).collect::<Vec<_>>(), kinds);
+    assert_eq!(power.iter().map(|power| power.injected).collect::<Vec<_>>(), kinds);
     let expected = [([0.1, 0.2], 0, 2), ([0.3, 0.4], 1, 2), ([0.5, 0.6], 2, 2)];
     assert_eq!((power[2].parameter, told(&power[2])), ("level", expected.to_vec()));
     assert_eq!((power[1].unit, told(&power[1])), ("rad", vec![([0.05, 0.05], 0, 1)]));

@@ -39,13 +39,13 @@ fn a_trial_goes_through_files_and_a_clean_one_names_nothing() {
         fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     files.sort();
     assert_eq!(files, ["a.parquet", "b.parquet", "scenario.toml", "truth.json"]);
-    assert_eq!((score.seed, score.put_in.len()), (3, 1));
-    assert_eq!(score.put_in[0].at.effect, EffectKind::CoulombFriction);
+    assert_eq!((score.seed, score.injected.len()), (3, 1));
+    assert_eq!(score.injected[0].at.effect, EffectKind::CoulombFriction);
     assert!(score.exactly, "{}", score.words());
 
     let clean = cheap(Hidden::Nothing, 1);
     let score = clean.run(&clean.folder(root.path())).unwrap();
-    assert!(score.exactly && score.put_in.is_empty(), "{}", score.words());
+    assert!(score.exactly && score.injected.is_empty(), "{}", score.words());
 }
 
 /// The same logs, once more without a name for what is in them.
@@ -54,7 +54,7 @@ fn an_effect_that_is_not_looked_for_is_not_named() {
     let root = tempfile::tempdir().unwrap();
     let unknown = cheap(Hidden::Unknown(EffectKind::CoulombFriction), 3);
     let score = unknown.run(&unknown.folder(root.path())).unwrap();
-    assert!(!score.looked_for && score.put_in[0].at.effect == EffectKind::CoulombFriction);
+    assert!(!score.looked_for && score.injected[0].at.effect == EffectKind::CoulombFriction);
     let names =
         score.findings.iter().flat_map(|f| std::iter::once(&f.at).chain(&f.not_separable_from));
     assert!(names.clone().all(|at| at.effect != EffectKind::CoulombFriction), "{}", score.words());
@@ -88,7 +88,7 @@ fn what_naming_an_effect_gains_is_measured_where_it_was_not_looked_for() {
         }
         let of_all = Trial { gains: false, ..trial }.run(&folder).unwrap();
         assert_eq!(of_all.gains, None);
-        assert_ne!(of_all.put_in[0].sizes, score.put_in[0].sizes, "both runs were diagnosed");
+        assert_ne!(of_all.injected[0].sizes, score.injected[0].sizes, "both runs were diagnosed");
     }
 }
 
@@ -98,7 +98,7 @@ fn logs_that_are_there_are_used_again_and_those_of_another_trial_are_not() {
     let root = tempfile::tempdir().unwrap();
     let folder = root.path().join("logs");
     let clean = cheap(Hidden::Nothing, 1);
-    assert!(clean.run(&folder).unwrap().put_in.is_empty());
+    assert!(clean.run(&folder).unwrap().injected.is_empty());
     let made_up = r#"{"seed": 1, "effects": [{"effect": "payload", "link": "palm", "parameters": {"mass": 1.0}}]}"#;
     fs::write(folder.join("truth.json"), made_up).unwrap();
     // A robot that lies elsewhere does not make it another scenario.
@@ -107,15 +107,15 @@ fn logs_that_are_there_are_used_again_and_those_of_another_trial_are_not() {
     let line = text.lines().find(|line| line.starts_with("robot = ")).unwrap();
     fs::write(&scenario, text.replace(line, "robot = \"/elsewhere/robot.toml\"")).unwrap();
     let again = clean.run(&folder).unwrap();
-    assert_eq!(again.put_in[0].at.effect, EffectKind::Payload);
+    assert_eq!(again.injected[0].at.effect, EffectKind::Payload);
     assert!(again.findings.is_empty() && !again.exactly);
 
     let other = cheap(Hidden::Nothing, 2).run(&folder).unwrap();
-    assert_eq!((other.seed, other.put_in.len()), (2, 0));
+    assert_eq!((other.seed, other.injected.len()), (2, 0));
     fs::write(folder.join("truth.json"), made_up).unwrap();
     let mut longer = cheap(Hidden::Nothing, 2);
     longer.settings.push("run.0.lead_in_s=0.5".to_owned());
-    assert!(longer.run(&folder).unwrap().put_in.is_empty());
+    assert!(longer.run(&folder).unwrap().injected.is_empty());
 }
 
 #[test]

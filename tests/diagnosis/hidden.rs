@@ -106,7 +106,7 @@ fn twin(seed: u64, motion: &'static Parts) -> &'static Score {
 /// Nothing that is said of the twin of `found` is what was hidden in `found`.
 fn check_twin(found: &Score, seed: u64, motion: &'static Parts) {
     let twin = twin(seed, motion);
-    assert!(!names(twin).any(|at| *at == found.put_in[0].at), "twin: {}", twin.words());
+    assert!(!names(twin).any(|at| *at == found.injected[0].at), "twin: {}", twin.words());
 }
 
 /// Everything that a diagnosis names, and what it may as well be.
@@ -132,15 +132,15 @@ fn check(kind: EffectKind, seed: u64, name: Name, motion: &'static Parts) {
 }
 
 fn check_sizes(found: &Score) {
-    for put_in in &found.put_in {
-        for size in &put_in.sizes {
+    for injected in &found.injected {
+        for size in &injected.sizes {
             let Some(estimate) = size.estimate.as_ref().filter(|e| e.determined) else { continue };
             let Some(error) = estimate.relative_error else { continue };
             println!("  {} {:.4}: {:.4}, {error:.3} off", size.name, size.truth, estimate.value);
             let shapes = SHAPES.contains(&size.name.as_str());
-            let is_bent = put_in.at.effect == E::PreslidingFriction && size.name != "level";
+            let is_bent = injected.at.effect == E::PreslidingFriction && size.name != "level";
             let most = if shapes || is_bent { SHAPE } else { LINEAR };
-            assert!(error < most, "{} {size:?}", put_in.at.words());
+            assert!(error < most, "{} {size:?}", injected.at.words());
         }
     }
 }
@@ -195,7 +195,7 @@ hidden! {
 fn hidden_cable_springs_are_named_in_short_logs() {
     let found = score(Hidden::One(E::CableSpring), 1);
     assert!(found.exactly, "{}", found.words());
-    for size in &found.put_in[0].sizes {
+    for size in &found.injected[0].sizes {
         let Some(estimate) = &size.estimate else { continue };
         assert!(!estimate.determined || is_held(size), "{estimate:?}");
     }
@@ -227,7 +227,7 @@ fn hidden_coulomb_friction_is_not_taken_for_one_that_grows_towards_rest() {
     for seed in [1, 2, 3, 4] {
         let found = score_along(Hidden::One(E::CoulombFriction), seed, DWELLING);
         assert!(found.exactly && found.stray.is_empty(), "{}", found.words());
-        let level = found.put_in[0].sizes[0].estimate.as_ref().unwrap();
+        let level = found.injected[0].sizes[0].estimate.as_ref().unwrap();
         assert!(level.relative_error.unwrap() < 0.02, "{level:?}");
     }
 }
@@ -248,11 +248,11 @@ fn hidden_springs_swing() {
 fn hidden_plays_are_as_wide_as_they_are() {
     for seed in [1, 2, 3] {
         let found = score_along(Hidden::One(E::Backlash), seed, LIVELY);
-        if found.put_in[0].of_smallest.is_some_and(|times| times < 2.0) {
+        if found.injected[0].of_smallest.is_some_and(|times| times < 2.0) {
             continue;
         }
         assert!(found.exactly, "{}", found.words());
-        let gap = found.put_in[0].sizes[0].estimate.as_ref().unwrap();
+        let gap = found.injected[0].sizes[0].estimate.as_ref().unwrap();
         assert!(gap.relative_error.unwrap() < 0.05, "{gap:?}");
     }
 }
@@ -276,7 +276,7 @@ fn hidden_tones_are_whole() {
         for seed in [15, 16, 17, 18] {
             let found = score_along(Hidden::One(kind), seed, LIVELY);
             assert!(found.exactly && found.stray.is_empty(), "{}", found.words());
-            let sizes = found.put_in[0].sizes.iter();
+            let sizes = found.injected[0].sizes.iter();
             for (size, estimate) in sizes.filter_map(|s| s.estimate.as_ref().map(|e| (s, e))) {
                 println!("  {} {:.5}: {:?}", size.name, size.truth, estimate.noise95);
                 intervals += 1;

@@ -18,7 +18,7 @@ const POSTURE: &Parts = &["terms=3, lowest_hz=0.15, highest_hz=0.4, duration_s=1
 
 /// Findings, in words, that are not what was hidden and are not said to be it perhaps.
 fn wrong(score: &Score) -> Vec<String> {
-    let is_hidden = |at: &EffectAt| score.put_in.iter().any(|put_in| put_in.at == *at);
+    let is_hidden = |at: &EffectAt| score.injected.iter().any(|injected| injected.at == *at);
     let findings = score.findings.iter();
     let wrong =
         findings.filter(|f| !is_hidden(&f.at) && !f.not_separable_from.iter().any(is_hidden));

@@ -6,7 +6,7 @@ use crate::columns::design::Design;
 use crate::columns::shapes::with_best_shapes;
 use crate::error::DiagnosisError;
 use crate::oscillations::lines::Oscillations;
-use crate::oscillations::tones::{Asked, tones};
+use crate::oscillations::tones::{ToneQuestion, tones};
 use crate::search::inputs::Inputs;
 use crate::settings::Settings;
 use crate::signals::log::Log;
@@ -83,6 +83,6 @@ fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, Diagnosi
     let all_differ = motions.len() >= 2 && motions.iter().enumerate().all(|(r, m)| *m == r);
     let slowest_hz = if all_differ { prepared.motion_hz } else { prepared.cutoff_hz };
     let (practical, open_share) = (&inputs.practical(), settings.open_share);
-    let asked = Asked { slowest_hz, practical, open_share };
-    Ok(tones(&extended, &wide, &Frame::of_logs(&wide), &inputs.log, &asked)?)
+    let question = ToneQuestion { slowest_hz, practical, open_share };
+    Ok(tones(&extended, &wide, &Frame::of_logs(&wide), &inputs.log, &question)?)
 }

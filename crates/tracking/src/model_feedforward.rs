@@ -8,17 +8,17 @@ use crate::feedforward::{Feedforward, TorquePrediction};
 /// ```text
 /// tau(t) = model(q_ref, qd_ref, qdd_ref),   all at t + lead_s
 /// ```
-pub struct ModelFeedforward<'a>(Asked<'a>);
+pub struct ModelFeedforward<'a>(ModelAhead<'a>);
 
 /// The torque that a model expects if the arm rested on the reference.
 ///
 /// ```text
 /// tau(t) = model(q_ref, 0, 0),   q_ref at t + lead_s
 /// ```
-pub struct GravityFeedforward<'a>(Asked<'a>);
+pub struct GravityFeedforward<'a>(ModelAhead<'a>);
 
 /// A model and what is needed to ask it.
-struct Asked<'a> {
+struct ModelAhead<'a> {
     model: &'a dyn TorqueModel,
     workspace: TorqueWorkspace,
     state: motion::State,
@@ -29,18 +29,18 @@ impl<'a> ModelFeedforward<'a> {
     /// The feedforward of `model`, asked for `lead_s` (s) later than the tick: half a period
     /// since a command is held for one, and the delay of the motors as far as it is known.
     pub fn new(model: &'a dyn TorqueModel, lead_s: f64) -> Self {
-        Self(Asked::new(model, lead_s))
+        Self(ModelAhead::new(model, lead_s))
     }
 }
 
 impl<'a> GravityFeedforward<'a> {
     /// The feedforward of `model` at rest, asked for `lead_s` (s) later than the tick.
     pub fn new(model: &'a dyn TorqueModel, lead_s: f64) -> Self {
-        Self(Asked::new(model, lead_s))
+        Self(ModelAhead::new(model, lead_s))
     }
 }
 
-impl<'a> Asked<'a> {
+impl<'a> ModelAhead<'a> {
     fn new(model: &'a dyn TorqueModel, lead_s: f64) -> Self {
         Self { model, workspace: model.workspace(), state: motion::State::default(), lead_s }
     }

@@ -15,7 +15,7 @@
 
 pub(crate) mod baseline;
 pub(crate) mod candidate;
-pub(crate) mod contest;
+pub(crate) mod competition;
 pub(crate) mod dataset;
 pub(crate) mod drive;
 pub(crate) mod fit;

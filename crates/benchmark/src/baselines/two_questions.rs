@@ -3,7 +3,7 @@ use robot::Robot;
 
 use crate::baselines::baseline::{Baseline, Nominal, Weighted};
 use crate::baselines::candidate::{Candidate, candidates};
-use crate::baselines::contest::{Change, Contest, Standing};
+use crate::baselines::competition::{Change, Competition, Standing};
 use crate::baselines::dataset::{Dataset, Target};
 use crate::baselines::fit::fit;
 use crate::baselines::prepare_runs::{prepare_runs, slowest_rate_hz};
@@ -99,7 +99,7 @@ fn weights(dataset: &Dataset, j: usize, search: &Search) -> Vec<Weighted> {
 
 /// The names so far and what they leave.
 struct Search<'a> {
-    contest: Contest<'a>,
+    competition: Competition<'a>,
     candidates: &'a [Candidate],
     chosen: Vec<usize>,
     standings: Vec<Standing>,
@@ -110,13 +110,13 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(dataset: &'a Dataset, candidates: &'a [Candidate]) -> Self {
-        let contest = Contest::new(dataset);
-        let standings = (0..dataset.joints.len()).map(|j| contest.standing(j, Vec::new()));
+        let competition = Competition::new(dataset);
+        let standings = (0..dataset.joints.len()).map(|j| competition.standing(j, Vec::new()));
         let unknown: Vec<Vec<Option<Change>>> =
             candidates.iter().map(|c| vec![None; c.parts.len()]).collect();
         Self {
             standings: standings.collect(),
-            contest,
+            competition,
             candidates,
             chosen: Vec::new(),
             asked: unknown.clone(),
@@ -174,7 +174,7 @@ impl<'a> Search<'a> {
         let mut evidence = -candidate.price;
         for (part, known) in self.asked[c].iter_mut().enumerate() {
             let standing = &self.standings[candidate.parts[part].0];
-            let ask = || self.contest.ask(candidate, part, standing);
+            let ask = || self.competition.ask(candidate, part, standing);
             let change = *known.get_or_insert_with(ask);
             evidence += change.possible.then_some(change.evidence)?;
         }
@@ -187,7 +187,7 @@ impl<'a> Search<'a> {
         let mut gain = 0.0;
         for (part, known) in self.predicted[c].iter_mut().enumerate() {
             let standing = &self.standings[candidate.parts[part].0];
-            let ask = || self.contest.predict(candidate, part, standing);
+            let ask = || self.competition.predict(candidate, part, standing);
             let change = *known.get_or_insert_with(ask);
             gain += (!change.is_worse).then_some(change.gain)?;
         }
@@ -199,13 +199,13 @@ impl<'a> Search<'a> {
         let names = self.chosen.iter().filter(|name| Some(**name) != without);
         let parts = names.flat_map(|name| &self.candidates[*name].parts);
         let here = parts.filter(|(at, _)| *at == j);
-        here.fold(Vec::new(), |all, part| Contest::union(&all, &self.contest.places(part)))
+        here.fold(Vec::new(), |all, part| Competition::union(&all, &self.competition.places(part)))
     }
 
     /// Fits the joints of a name anew and forgets what was asked at them.
     fn update(&mut self, name: usize) {
         for (j, _) in &self.candidates[name].parts {
-            self.standings[*j] = self.contest.standing(*j, self.columns(*j, None));
+            self.standings[*j] = self.competition.standing(*j, self.columns(*j, None));
             for (c, candidate) in self.candidates.iter().enumerate() {
                 for (part, _) in candidate.parts.iter().enumerate().filter(|(_, p)| p.0 == *j) {
                     self.asked[c][part] = None;
@@ -218,7 +218,7 @@ impl<'a> Search<'a> {
     /// Evidence that goes with a name (nats).
     fn loss(&self, name: usize) -> f64 {
         let of = |(j, _): &(usize, Vec<Shape>)| {
-            self.contest.loss(*j, &self.standings[*j], &self.columns(*j, Some(name)))
+            self.competition.loss(*j, &self.standings[*j], &self.columns(*j, Some(name)))
         };
         self.candidates[name].parts.iter().map(of).sum()
     }

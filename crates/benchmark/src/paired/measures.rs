@@ -19,7 +19,8 @@ pub enum Measure {
     /// Something is named or left open in a trial that hides nothing.
     FalseAlarm,
     /// The findings make the prediction of torque worse, by more than 1 %.
-    Worse,
+    #[serde(rename = "worse")]
+    WorsePrediction,
 }
 
 /// What a trial is asked that has a number.
@@ -38,7 +39,8 @@ pub enum Quantity {
 
 impl Measure {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Right, Self::FalseAssurance, Self::FalseAlarm, Self::Worse];
+    pub const ALL: [Self; 4] =
+        [Self::Right, Self::FalseAssurance, Self::FalseAlarm, Self::WorsePrediction];
 
     /// Whether yes is the better answer.
     pub fn wanted(self) -> bool {
@@ -60,13 +62,13 @@ impl Measure {
             Self::Right => one.right(),
             Self::FalseAssurance => one.false_assurance(),
             Self::FalseAlarm => one.false_alarm(),
-            Self::Worse => one.prediction.worse(),
+            Self::WorsePrediction => one.prediction.worse(),
         }
     }
 
     /// What is put into the arm of a scenario counts as visible, what is not looked for as a stranger.
     fn of_scenario(self, one: &Score) -> Option<bool> {
-        let hides = !one.put_in.is_empty();
+        let hides = !one.injected.is_empty();
         let named = one.looked_for && one.found();
         match self {
             Self::Right => Some(one.stray.is_empty() && (named || !one.looked_for)),
@@ -79,7 +81,7 @@ impl Measure {
                 let open = matches!(one.verdict, Verdict::Unexplained | Verdict::PartlyExplained);
                 open || !one.stray.is_empty()
             }),
-            Self::Worse => {
+            Self::WorsePrediction => {
                 let gain = one.gains.as_ref()?.torque?;
                 Some(gain.after > 1.01 * gain.before)
             }
@@ -127,7 +129,7 @@ impl Quantity {
             ),
             Self::Recall if !one.looked_for => None,
             Self::Recall => {
-                part(one.put_in.iter().filter(|p| p.one_of.is_some()).count(), one.put_in.len())
+                part(one.injected.iter().filter(|p| p.one_of.is_some()).count(), one.injected.len())
             }
             Self::ErrorRatio => {
                 let gain = one.gains.as_ref()?.torque?;
@@ -144,7 +146,7 @@ impl fmt::Display for Measure {
             Self::Right => "right",
             Self::FalseAssurance => "false assurance",
             Self::FalseAlarm => "false alarm",
-            Self::Worse => "worse prediction",
+            Self::WorsePrediction => "worse prediction",
         })
     }
 }

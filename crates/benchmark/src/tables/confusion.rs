@@ -9,14 +9,14 @@ pub struct Confusion {
     /// The columns: codes, and `nothing` at the end.
     pub named: Vec<&'static str>,
     /// The rows: what was put in, its own column where it has one, and how often each was named.
-    pub put_in: Vec<(Group, Option<usize>, Vec<usize>)>,
+    pub injected: Vec<(Group, Option<usize>, Vec<usize>)>,
 }
 
 impl Tally {
     /// The rows of kinds, of two effects, of an unknown one and of none; the columns of what was named.
     pub fn confusion(&self) -> Confusion {
-        let rows = || self.rows.iter().filter(|row| row.put_in != Group::One);
-        let own = |row: &Row| match row.put_in {
+        let rows = || self.rows.iter().filter(|row| row.injected != Group::One);
+        let own = |row: &Row| match row.injected {
             Group::Kind(kind) => Some(kind.code()),
             Group::Clean => Some(NOTHING),
             Group::One | Group::Two | Group::Unknown => None,
@@ -28,9 +28,9 @@ impl Tally {
         let count = |row: &Row, code: &&str| row.named_first.get(code).copied().unwrap_or(0);
         let row = |row: &Row| {
             let own = own(row).and_then(|own| named.iter().position(|code| *code == own));
-            (row.put_in, own, named.iter().map(|code| count(row, code)).collect())
+            (row.injected, own, named.iter().map(|code| count(row, code)).collect())
         };
-        Confusion { put_in: rows().map(row).collect(), named }
+        Confusion { injected: rows().map(row).collect(), named }
     }
 }
 
@@ -42,8 +42,8 @@ impl Confusion {
             Some((family, number)) if *code != NOTHING => format!("{family}\n{number}"),
             _ => "none".to_owned(),
         };
-        let row = |(put_in, _, counts): &(Group, Option<usize>, Vec<usize>)| {
-            let name = match put_in {
+        let row = |(injected, _, counts): &(Group, Option<usize>, Vec<usize>)| {
+            let name = match injected {
                 Group::Kind(kind) => kind.code().to_owned(),
                 other => other.to_string(),
             };
@@ -57,7 +57,7 @@ impl Confusion {
             header: std::iter::once("put in".to_owned())
                 .chain(self.named.iter().map(two_lines))
                 .collect(),
-            rows: self.put_in.iter().map(row).collect(),
+            rows: self.injected.iter().map(row).collect(),
         }
     }
 }

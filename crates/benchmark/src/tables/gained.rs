@@ -15,7 +15,8 @@ const ENOUGH: f64 = 2.0;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gained {
     /// What was put in.
-    pub put_in: Group,
+    #[serde(rename = "put_in")]
+    pub injected: Group,
     /// Trials with such runs.
     pub trials: usize,
     /// Of the torque.
@@ -42,19 +43,19 @@ impl Gained {
     /// One for every group of trials in which gains were measured.
     pub fn all(scores: &[Score]) -> Vec<Self> {
         let groups = Group::by_group(scores).into_iter();
-        groups.filter_map(|(put_in, members)| Self::of(put_in, &members)).collect()
+        groups.filter_map(|(injected, members)| Self::of(injected, &members)).collect()
     }
 
-    fn of(put_in: Group, scores: &[&Score]) -> Option<Self> {
+    fn of(injected: Group, scores: &[&Score]) -> Option<Self> {
         let measured: Vec<(&Score, Gains)> =
             scores.iter().filter_map(|score| Some((*score, score.gains?))).collect();
-        let lessened = |of: fn(&Gains) -> Option<Gain>| Reduction::of(&measured, of);
+        let reduction = |of: fn(&Gains) -> Option<Gain>| Reduction::of(&measured, of);
         (!measured.is_empty()).then(|| Self {
-            put_in,
+            injected,
             trials: measured.len(),
-            torque: lessened(|gains| gains.torque),
-            drift: lessened(|gains| gains.drift),
-            tracking: lessened(|gains| gains.tracking),
+            torque: reduction(|gains| gains.torque),
+            drift: reduction(|gains| gains.drift),
+            tracking: reduction(|gains| gains.tracking),
         })
     }
 
@@ -64,7 +65,7 @@ impl Gained {
         let halved = ["torque", "drift", "tracking"].map(|name| format!("{name} halved"));
         let row = |gained: &Self| {
             let errors = [&gained.torque, &gained.drift, &gained.tracking];
-            let mut cells = vec![gained.put_in.to_string(), gained.trials.to_string()];
+            let mut cells = vec![gained.injected.to_string(), gained.trials.to_string()];
             cells.extend(errors.map(Reduction::words));
             cells.extend(errors.map(|e| format!("{} of {}", e.halved.count, e.halved.of)));
             cells
@@ -124,7 +125,7 @@ mod tests {
         let not_separable_from = Vec::new();
         Score {
             seed: 1,
-            put_in: vec![Injected {
+            injected: vec![Injected {
                 at: at.clone(),
                 finding: Some(0),
                 one_of: Some(0),
@@ -146,7 +147,7 @@ mod tests {
         let unmeasured = Score { gains: None, ..score(0.9, 9.0) };
         let scores = [score(0.9, 5.0), score(0.9, 0.6), score(0.3, 0.4), unmeasured];
         let gained = &Gained::all(&scores)[0];
-        assert_eq!((gained.put_in, gained.trials), (Group::Kind(CoulombFriction), 3));
+        assert_eq!((gained.injected, gained.trials), (Group::Kind(CoulombFriction), 3));
         assert_eq!((gained.torque.median, gained.torque.least), (Some(1.2), Some(0.8)));
         assert_eq!((gained.torque.halved.count, gained.torque.halved.of), (1, 2));
         assert_eq!((gained.tracking.median, gained.tracking.halved.of), (None, 0));

@@ -75,7 +75,7 @@ impl Merged {
         };
         let row = |power: &Power| {
             let unit = if power.unit == "1" { String::new() } else { format!(" ({})", power.unit) };
-            let mut cells = vec![power.put_in.to_string(), format!("{}{unit}", power.parameter)];
+            let mut cells = vec![power.injected.to_string(), format!("{}{unit}", power.parameter)];
             cells.extend(power.classes.iter().map(class));
             cells.resize(5, "-".to_owned());
             cells

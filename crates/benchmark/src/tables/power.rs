@@ -12,7 +12,8 @@ const CLASSES: usize = 3;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Power {
     /// What was put in.
-    pub put_in: Group,
+    #[serde(rename = "put_in")]
+    pub injected: Group,
     /// The parameter that is its size.
     pub parameter: &'static str,
     /// Its unit at a revolute joint.
@@ -41,9 +42,9 @@ impl Power {
     fn of(kind: EffectKind, scores: &[Score]) -> Option<Self> {
         let parameter = size_of(kind)?;
         let sized = scores.iter().filter_map(|score| {
-            let [put_in] = &score.put_in[..] else { return None };
-            let own = put_in.at.effect == kind && score.looked_for;
-            own.then(|| size(put_in, parameter).map(|size| (size, score))).flatten()
+            let [injected] = &score.injected[..] else { return None };
+            let own = injected.at.effect == kind && score.looked_for;
+            own.then(|| size(injected, parameter).map(|size| (size, score))).flatten()
         });
         let mut sized: Vec<(f64, &Score)> = sized.collect();
         sized.sort_by(|(a, one), (b, other)| a.total_cmp(b).then(one.seed.cmp(&other.seed)));
@@ -53,8 +54,8 @@ impl Power {
             Some(SizeClass { sizes, exactly: Share::of(trials, |(_, score)| score.exactly) })
         };
         let classes: Vec<SizeClass> = (0..CLASSES).filter_map(class).collect();
-        let (put_in, unit) = (Group::Kind(kind), parameter.unit);
-        (!classes.is_empty()).then_some(Self { put_in, parameter: parameter.name, unit, classes })
+        let (injected, unit) = (Group::Kind(kind), parameter.unit);
+        (!classes.is_empty()).then_some(Self { injected, parameter: parameter.name, unit, classes })
     }
 }
 
@@ -72,8 +73,8 @@ fn size_of(kind: EffectKind) -> Option<&'static Parameter> {
 }
 
 /// What was put in: the length of a vector, the distance of a factor from 1, or the number.
-fn size(put_in: &Injected, parameter: &Parameter) -> Option<f64> {
-    let value = |name: &str| put_in.sizes.iter().find(|s| s.name == name).map(|s| s.truth);
+fn size(injected: &Injected, parameter: &Parameter) -> Option<f64> {
+    let value = |name: &str| injected.sizes.iter().find(|s| s.name == name).map(|s| s.truth);
     match parameter.name {
         "tilt_1" => Some(value("tilt_1")?.hypot(value("tilt_2")?)),
         "gain" | "ratio" => Some((value(parameter.name)? - 1.0).abs()),

@@ -39,7 +39,8 @@ pub enum Group {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
     /// What was put in.
-    pub put_in: Group,
+    #[serde(rename = "put_in")]
+    pub injected: Group,
     /// How many trials there are.
     pub trials: usize,
     /// Trials in which it was named first, effect and place; nothing, in clean ones.
@@ -103,7 +104,7 @@ impl Group {
     }
 
     fn all_of(score: &Score) -> Vec<Self> {
-        match &score.put_in[..] {
+        match &score.injected[..] {
             _ if !score.looked_for => vec![Self::Unknown],
             [] => vec![Self::Clean],
             [one] => vec![Self::Kind(one.at.effect), Self::One],
@@ -143,7 +144,7 @@ impl Serialize for Group {
 }
 
 impl Row {
-    fn new(put_in: Group, scores: &[&Score]) -> Self {
+    fn new(injected: Group, scores: &[&Score]) -> Self {
         let share = |is: &dyn Fn(&Score) -> bool| Share::of(scores, |score| is(score));
         let mut named_first = BTreeMap::new();
         for score in scores {
@@ -151,9 +152,9 @@ impl Row {
             *named_first.entry(first).or_default() += 1;
         }
         let visible: Vec<&&Score> = scores.iter().filter(|s| s.visible()).collect();
-        let hiding: Vec<&&Score> = scores.iter().filter(|s| !s.put_in.is_empty()).collect();
+        let hiding: Vec<&&Score> = scores.iter().filter(|s| !s.injected.is_empty()).collect();
         Self {
-            put_in,
+            injected,
             trials: scores.len(),
             exactly: share(&|score| score.exactly),
             visibly: Share::of(&visible, |score| score.exactly),
@@ -162,14 +163,15 @@ impl Row {
             unknown: share(&Score::unknown),
             stray: share(&|score| !score.stray.is_empty()),
             named_first,
-            sizes: sizes(put_in, scores),
+            sizes: sizes(injected, scores),
         }
     }
 }
 
 fn sizes(group: Group, scores: &[&Score]) -> Vec<SizeTally> {
     let mut named: BTreeMap<&str, Vec<&Estimated>> = BTreeMap::new();
-    for size in scores.iter().flat_map(|score| &score.put_in).flat_map(|put_in| &put_in.sizes) {
+    for size in scores.iter().flat_map(|score| &score.injected).flat_map(|injected| &injected.sizes)
+    {
         let name = if matches!(group, Group::Kind(_)) { size.name.as_str() } else { "all" };
         named.entry(name).or_default().extend(&size.estimate);
     }

@@ -20,7 +20,7 @@ impl Tally {
         let row = |row: &Row| {
             let shares =
                 [row.exactly, row.visibly, row.as_one_of, row.found, row.unknown, row.stray];
-            let mut cells = vec![row.put_in.to_string(), row.trials.to_string()];
+            let mut cells = vec![row.injected.to_string(), row.trials.to_string()];
             cells.extend(shares.map(|share| share.words()));
             cells
         };
@@ -36,7 +36,7 @@ impl Tally {
         let row = |(row, size): (&Row, &SizeTally)| {
             let error = size.median_error.map_or("-".to_owned(), |e| format!("{:.1} %", 100.0 * e));
             vec![
-                row.put_in.to_string(),
+                row.injected.to_string(),
                 size.name.clone(),
                 size.estimates.to_string(),
                 size.determined.to_string(),

@@ -69,7 +69,7 @@ impl Trial {
         let (learned, test): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(is_learned);
         let answer = answer(&robot, &learned, &without)?;
         let score = score_answer(folder, &answer, &without)?;
-        let place = match &score.put_in[..] {
+        let place = match &score.injected[..] {
             [one] => {
                 robot.robot.joint_names().position(|name| one.at.joint.as_deref() == Some(name))
             }

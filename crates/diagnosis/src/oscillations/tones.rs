@@ -28,7 +28,7 @@ const BESIDE: usize = 32;
 const AROUND: usize = 200;
 
 /// Which tones of a log are asked for.
-pub(crate) struct Asked<'a> {
+pub(crate) struct ToneQuestion<'a> {
     /// Frequency below which a line may be the motion's (Hz).
     pub slowest_hz: f64,
     /// Least fall of the RMS error of each joint that counts (N·m or N).
@@ -47,16 +47,17 @@ pub(crate) fn tones(
     wide: &Prepared,
     frame: &Frame,
     log: &Log,
-    asked: &Asked,
+    question: &ToneQuestion,
 ) -> Result<Oscillations, LogError> {
     let (cutoff_hz, t) = (wide.cutoff_hz, &log.thresholds.tones);
     let along = |run| Along::new(robot, frame, run, cutoff_hz, log.limits, &log.thresholds.signals);
     let rest = |run| Rest::new(along(run)?);
     let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
-    let bands = Bands { cutoff_hz, band_hz: log.prepared.cutoff_hz, slowest_hz: asked.slowest_hz };
+    let bands =
+        Bands { cutoff_hz, band_hz: log.prepared.cutoff_hz, slowest_hz: question.slowest_hz };
     let at = |j: usize| {
         if log.moved[j] {
-            let least = Least { rms: asked.practical[j], share: asked.open_share };
+            let least = Least { rms: question.practical[j], share: question.open_share };
             at_joint(&runs, j, least, bands, t)
         } else {
             Vec::new()

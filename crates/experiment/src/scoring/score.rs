@@ -15,7 +15,8 @@ pub struct Score {
     /// The seed that everything was drawn from.
     pub seed: u64,
     /// What was put in.
-    pub put_in: Vec<Injected>,
+    #[serde(rename = "put_in")]
+    pub injected: Vec<Injected>,
     /// Whether the diagnosis looked for it; if not, the right answer is that something is unknown.
     pub looked_for: bool,
     /// The verdict over all joints.
@@ -72,13 +73,13 @@ impl Score {
     pub fn new(diagnosis: &Diagnosis, truth: &[Truth], seed: u64) -> Self {
         let mut findings: Vec<&Finding> = diagnosis.findings.iter().collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
-        let put_in = |truth| Injected::new(truth, &findings, &diagnosis.ruled_out);
-        let put_in: Vec<Injected> = truth.iter().map(put_in).collect();
-        let among_first = |of: fn(&Injected) -> Option<usize>| match put_in.len() {
+        let injected = |truth| Injected::new(truth, &findings, &diagnosis.ruled_out);
+        let injected: Vec<Injected> = truth.iter().map(injected).collect();
+        let among_first = |of: fn(&Injected) -> Option<usize>| match injected.len() {
             0 => findings.is_empty(),
-            k => put_in.iter().all(|p| of(p).is_some_and(|finding| finding < k)),
+            k => injected.iter().all(|p| of(p).is_some_and(|finding| finding < k)),
         };
-        let is_true = |at: &EffectAt| put_in.iter().any(|p| p.at == *at);
+        let is_true = |at: &EffectAt| injected.iter().any(|p| p.at == *at);
         let excused = |finding: &Finding| {
             let mut names = std::iter::once(&finding.at).chain(&finding.not_separable_from);
             let of_a_true_one = |f: &&&Finding| is_true(&f.at);
@@ -96,26 +97,26 @@ impl Score {
             stray,
             gains: None,
             findings: findings.into_iter().map(Named::new).collect(),
-            put_in,
+            injected,
         }
     }
 
     /// Share of the nominal residual's power that the true findings explain.
     pub fn explained(&self) -> f64 {
-        let own = self.put_in.iter().filter_map(|p| p.finding);
+        let own = self.injected.iter().filter_map(|p| p.finding);
         own.map(|finding| self.findings[finding].share_explained).sum()
     }
 
     /// Whether every injected effect is among the findings or their rivals.
     pub fn found(&self) -> bool {
-        self.put_in.iter().all(|p| p.one_of.is_some())
+        self.injected.iter().all(|p| p.one_of.is_some())
     }
 
     /// Whether the logs show the injected effects. They do not where an effect is missed, no false
     /// one is named in its place, and the diagnosis calls its size too small to be found.
     pub fn visible(&self) -> bool {
         let large = |p: &Injected| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
-        self.found() || !self.stray.is_empty() || self.put_in.iter().all(large)
+        self.found() || !self.stray.is_empty() || self.injected.iter().all(large)
     }
 
     /// Whether the diagnosis leaves structure open and names no false effect: the right answer to
@@ -130,10 +131,10 @@ impl Score {
         let all = |words: Vec<String>, join: &str, none: &str| {
             if words.is_empty() { none.to_owned() } else { words.join(join) }
         };
-        let put_in = self.put_in.iter().map(|p| p.at.words()).collect();
+        let injected = self.injected.iter().map(|p| p.at.words()).collect();
         let named = self.findings.iter().map(Named::words).collect();
-        let (put_in, named) = (all(put_in, " and ", "clean"), all(named, "; ", "nothing"));
-        format!("{put_in}, seed {}: {}, named {named}", self.seed, self.verdict.words())
+        let (injected, named) = (all(injected, " and ", "clean"), all(named, "; ", "nothing"));
+        format!("{injected}, seed {}: {}, named {named}", self.seed, self.verdict.words())
     }
 }
 

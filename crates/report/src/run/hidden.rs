@@ -25,25 +25,25 @@ pub(crate) struct SizeRow {
 
 /// What was put in, in its order.
 pub(crate) fn hidden_rows(score: &Score, robot: &Robot) -> Vec<HiddenRow> {
-    score.put_in.iter().map(|put_in| row(put_in, &score.findings, robot)).collect()
+    score.injected.iter().map(|injected| row(injected, &score.findings, robot)).collect()
 }
 
-fn row(put_in: &Injected, findings: &[Named], robot: &Robot) -> HiddenRow {
+fn row(injected: &Injected, findings: &[Named], robot: &Robot) -> HiddenRow {
     let share = |finding: usize| {
         let share = findings.get(finding).map_or(f64::NAN, |named| named.share_explained);
         percent(share)
     };
-    let (found, class) = match (put_in.finding, put_in.one_of) {
+    let (found, class) = match (injected.finding, injected.one_of) {
         (Some(finding), _) => (format!("found, {} of the gap", share(finding)), "good"),
         (None, Some(finding)) => {
             // At the same joint its name is enough.
             let name = findings.get(finding).map_or_else(String::new, |f| match &f.at.joint {
-                Some(_) if f.at.joint == put_in.at.joint => f.at.effect.label(),
+                Some(_) if f.at.joint == injected.at.joint => f.at.effect.label(),
                 _ => f.at.words(),
             });
             (format!("as {name}, {}", share(finding)), "good")
         }
-        (None, None) => match put_in.of_smallest.filter(|ratio| *ratio < 1.0) {
+        (None, None) => match injected.of_smallest.filter(|ratio| *ratio < 1.0) {
             None => ("not found".to_owned(), "bad"),
             Some(ratio) => {
                 let ratio = percent(ratio);
@@ -51,14 +51,14 @@ fn row(put_in: &Injected, findings: &[Named], robot: &Robot) -> HiddenRow {
             }
         },
     };
-    let sizes = put_in.sizes.iter().map(|size| size_row(put_in, size, robot)).collect();
-    HiddenRow { hidden: put_in.at.words(), found, class, sizes }
+    let sizes = injected.sizes.iter().map(|size| size_row(injected, size, robot)).collect();
+    HiddenRow { hidden: injected.at.words(), found, class, sizes }
 }
 
-fn size_row(put_in: &Injected, size: &Size, robot: &Robot) -> SizeRow {
-    let parameters = put_in.at.effect.entry().parameters;
+fn size_row(injected: &Injected, size: &Size, robot: &Robot) -> SizeRow {
+    let parameters = injected.at.effect.entry().parameters;
     let known = parameters.iter().find(|parameter| parameter.name == size.name);
-    let slides = put_in.at.joint.as_ref().is_some_and(|joint| {
+    let slides = injected.at.joint.as_ref().is_some_and(|joint| {
         // A slide is told by the unit of its position.
         JointUnits::of(robot, joint).position == "m"
     });
@@ -90,9 +90,9 @@ pub(crate) fn stray_sentence(score: &Score) -> Option<String> {
 
 /// How the answer compares with the truth, in a sentence.
 pub(crate) fn score_sentence(score: &Score) -> String {
-    let found = score.put_in.iter().filter(|put_in| put_in.one_of.is_some()).count();
+    let found = score.injected.iter().filter(|injected| injected.one_of.is_some()).count();
     let effects = |count: usize| count_noun(count, "effect");
-    match (score.put_in.len(), score.findings.len()) {
+    match (score.injected.len(), score.findings.len()) {
         (0, 0) => "Nothing was put in, and nothing was named".to_owned(),
         (0, named) => format!("Nothing was put in, and {} named", effects(named)),
         (1, _) if found == 1 => "The effect that was put in was found".to_owned(),

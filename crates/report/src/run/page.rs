@@ -160,7 +160,7 @@ mod tests {
         sample.metrics.torque.clear();
         sample.metrics.forward.windows.clear();
         sample.metrics.tracking.clear();
-        sample.metrics.score.put_in.clear();
+        sample.metrics.score.injected.clear();
         let page = sample.report().page().unwrap();
         assert_eq!(page.matches("</script>").count(), 2);
         assert!(!page.contains("<img>") && page.contains("Nothing was put in"));

@@ -110,7 +110,7 @@ fn score() -> Score {
         as_one_of: false,
         stray: vec![at(catalogue::EffectKind::Backlash, "elbow")],
         gains: None,
-        put_in: vec![
+        injected: vec![
             Injected {
                 at: friction,
                 finding: Some(0),

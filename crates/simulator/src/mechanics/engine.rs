@@ -151,12 +151,12 @@ impl Engine {
             fresh: true,
             pushed: false,
         };
-        engine.settle(bodies)?;
+        engine.prepare_bodies(bodies)?;
         Some(engine)
     }
 
     /// Gives the fixed root its place, takes rapier's default damping away and adds armatures.
-    fn settle(&mut self, bodies: &[EngineBody]) -> Option<()> {
+    fn prepare_bodies(&mut self, bodies: &[EngineBody]) -> Option<()> {
         let PhysicsWorld { bodies: rigid, multibody_joints, .. } = &mut self.world;
         for handle in &self.bodies {
             rigid.get_mut(*handle)?.recompute_mass_properties_from_colliders(&ColliderSet::new());

@@ -44,12 +44,12 @@ pub fn write(
     format: LogFormat,
 ) -> Result<(), SimulatorError> {
     let coded = simulation.truth.iter().map(|truth| Coded { code: truth.effect.code(), truth });
-    let sealed = Sealed {
+    let content = TruthFile {
         seed: scenario.seed(),
         effects: coded.collect(),
         strangers: &simulation.strangers,
     };
-    let truth = serde_json::to_string_pretty(&sealed).unwrap_or_default() + "\n";
+    let truth = serde_json::to_string_pretty(&content).unwrap_or_default() + "\n";
     let truth_file = folder.join("truth.json");
     match std::fs::remove_file(&truth_file) {
         Err(error) if error.kind() != ErrorKind::NotFound => {
@@ -73,7 +73,7 @@ pub fn write(
 
 /// `truth.json`
 #[derive(Serialize)]
-struct Sealed<'a> {
+struct TruthFile<'a> {
     seed: u64,
     effects: Vec<Coded<'a>>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]

@@ -63,28 +63,29 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
     let wide = (CELLS[1] - CELLS[0]) / confusion.named.len().max(1) as f64;
     let wide = wide.min(WIDEST);
     let left = |column: usize| CELLS[0] + wide * column as f64;
-    let rows = confusion.put_in.iter().enumerate().map(|(place, (put_in, own, counts))| DrawnRow {
-        y: top + ROW * place as f64,
-        name: put_in.to_string(),
-        cells: counts
-            .iter()
-            .enumerate()
-            .map(|(column, &count)| DrawnCell {
-                x: round_px(left(column)),
-                width: round_px(wide - BETWEEN),
-                colour: colour(&colours, *put_in, *own, (column, confusion.named.len())),
-                opacity: round_px(
-                    DARKEST * count as f64 / counts.iter().sum::<usize>().max(1) as f64,
-                ),
-                count,
-                words: format!(
-                    "{put_in}: {} named first in {count} of {}",
-                    confusion.named[column],
-                    counts.iter().sum::<usize>()
-                ),
-            })
-            .collect(),
-    });
+    let rows =
+        confusion.injected.iter().enumerate().map(|(place, (injected, own, counts))| DrawnRow {
+            y: top + ROW * place as f64,
+            name: injected.to_string(),
+            cells: counts
+                .iter()
+                .enumerate()
+                .map(|(column, &count)| DrawnCell {
+                    x: round_px(left(column)),
+                    width: round_px(wide - BETWEEN),
+                    colour: colour(&colours, *injected, *own, (column, confusion.named.len())),
+                    opacity: round_px(
+                        DARKEST * count as f64 / counts.iter().sum::<usize>().max(1) as f64,
+                    ),
+                    count,
+                    words: format!(
+                        "{injected}: {} named first in {count} of {}",
+                        confusion.named[column],
+                        counts.iter().sum::<usize>()
+                    ),
+                })
+                .collect(),
+        });
     let rows: Vec<DrawnRow> = rows.collect();
     let names = confusion.named.iter().enumerate();
     let drawing = Drawing {
@@ -100,14 +101,14 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
 /// Of two effects either may be first: no column is theirs.
 fn colour(
     colours: &Palette,
-    put_in: Group,
+    injected: Group,
     own: Option<usize>,
     (column, columns): (usize, usize),
 ) -> String {
     match own {
         Some(own) if own == column => colours.extended(),
         _ if column + 1 == columns => colours.measured(),
-        None if put_in == Group::Two => colours.soft.to_owned(),
+        None if injected == Group::Two => colours.soft.to_owned(),
         _ => colours.nominal(),
     }
 }

@@ -61,7 +61,7 @@ pub fn trials_page(
 
 /// How well the largest groups were diagnosed, in a sentence.
 fn sentence(merged: &Merged) -> String {
-    let of = |group| merged.tally.rows.iter().find(|row| row.put_in == group);
+    let of = |group| merged.tally.rows.iter().find(|row| row.injected == group);
     let one = of(Group::One).map(|row| {
         format!("one hidden effect is named exactly {} of {} times", row.exactly.count, row.trials)
     });
@@ -91,10 +91,10 @@ mod tests {
 
     use super::*;
 
-    fn row(put_in: Group, count: usize, named: &[(&'static str, usize)]) -> Row {
+    fn row(injected: Group, count: usize, named: &[(&'static str, usize)]) -> Row {
         let share = Share::new(count, 4);
         Row {
-            put_in,
+            injected,
             trials: 4,
             exactly: share,
             visibly: share,
@@ -135,7 +135,7 @@ mod tests {
                 ],
             },
             power: vec![Power {
-                put_in: kind(Backlash),
+                injected: kind(Backlash),
                 parameter: "gap",
                 unit: "rad",
                 classes: vec![class],
@@ -149,7 +149,7 @@ mod tests {
         let torque = Reduction { median: Some(11.7), least: Some(0.4), halved };
         let drift = Reduction { median: Some(2.0), ..torque.clone() };
         let tracking = Reduction { median: None, least: None, halved: Share::new(0, 0) };
-        Gained { put_in: Group::Kind(Backlash), trials: 4, torque, drift, tracking }
+        Gained { injected: Group::Kind(Backlash), trials: 4, torque, drift, tracking }
     }
 
     fn page(merged: &Merged, doubts: &[String]) -> String {

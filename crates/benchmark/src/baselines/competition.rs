@@ -38,12 +38,12 @@ pub(super) struct Change {
 }
 
 /// The joints of some logs and what is asked of them.
-pub(super) struct Contest<'a> {
+pub(super) struct Competition<'a> {
     dataset: &'a Dataset,
 }
 
-impl<'a> Contest<'a> {
-    /// A contest over the columns that were dataset.
+impl<'a> Competition<'a> {
+    /// A competition over the columns that were dataset.
     pub fn new(dataset: &'a Dataset) -> Self {
         Self { dataset }
     }
