@@ -5,12 +5,6 @@ use crate::assert_kept;
 use crate::modules::{ROOT, Texts, folders_of, graph, rings, units_of};
 use crate::tree::{folders, rust_files, text};
 
-/// Crates with rings left: to be taken off, and never to be added to.
-const RINGED: [&str; 0] = [];
-
-/// Crates that import through what `lib.rs` or a `mod.rs` re-exports: to be taken off, and never to be added to.
-const ROUNDABOUT: [&str; 0] = [];
-
 /// The texts of a crate's files by the name of the module, such as `search::select`.
 fn texts(name: &str) -> Texts {
     let source = format!("crates/{name}/src");
@@ -44,32 +38,21 @@ fn roundabout(name: &str, texts: &Texts) -> Vec<String> {
     told.collect()
 }
 
-/// Holds a rule against the crates that are not excused, and the excuses against the rule.
-fn assert_kept_but_by(excused: &[&str], rule: fn(&str, &Texts) -> Vec<String>) {
+/// Holds a rule against every crate.
+fn assert_kept_by_all(rule: fn(&str, &Texts) -> Vec<String>) {
     let all = folders("crates");
     assert!(!all.is_empty());
-    let mut broken = Vec::new();
-    for name in &all {
-        let told = rule(name, &texts(name));
-        match (excused.contains(&name.as_str()), told.is_empty()) {
-            (false, _) => broken.extend(told),
-            (true, true) => broken.push(format!("{name} keeps the rule and is excused")),
-            (true, false) => {}
-        }
-    }
-    let gone = excused.iter().filter(|name| !all.iter().any(|other| other == *name));
-    broken.extend(gone.map(|name| format!("{name} is excused and no crate")));
-    assert_kept(&broken);
+    assert_kept(&all.iter().flat_map(|name| rule(name, &texts(name))).collect::<Vec<_>>());
 }
 
 #[test]
 fn files_and_folders_import_in_one_direction() {
-    assert_kept_but_by(&RINGED, ringed);
+    assert_kept_by_all(ringed);
 }
 
 #[test]
 fn an_import_names_the_file_that_defines_a_thing() {
-    assert_kept_but_by(&ROUNDABOUT, roundabout);
+    assert_kept_by_all(roundabout);
 }
 
 fn made_up(files: &[(&str, &str)]) -> Texts {

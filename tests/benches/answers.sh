@@ -35,7 +35,7 @@ diagnose() {
 }
 
 "$program" demo --out "$out/demo" --quiet &>/dev/null || true
-while IFS= read -r found; do print_hash demo "$(dirname "$found")"; done < <(find "$out/demo" -name diagnosis.json)
+while IFS= read -r found; do print_hash demo "$(dirname "$found")"; done < <(find "$out/demo" -name diagnosis.json -not -path '*/stages/*')
 
 for set in kuka_lwr4 kinova_gen3 staubli_tx40 ur10e_joint_by_joint panda; do
     robot=$data/$set/robot.toml
