@@ -23,7 +23,7 @@ const WIDTH: usize = 100;
 pub struct Arguments {
     #[command(flatten)]
     robot: RobotArguments,
-    /// The first logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
+    /// The first logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2), one run each
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     before: Vec<PathBuf>,
     /// The logs in which something may have changed

@@ -35,7 +35,7 @@ const BEGUN: &str = ".plumbline-recording.rrd";
 pub struct Arguments {
     #[command(flatten)]
     robot: RobotArguments,
-    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2, datasets of LeRobot), one run each, of the same robot
+    /// Logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2, datasets of LeRobot), one run each, of the same robot
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
     /// Folder for report.html, recording.rrd, figure.svg, diagnosis.json and extended.toml

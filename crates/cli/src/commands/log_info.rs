@@ -13,7 +13,7 @@ use crate::output::{display_path, print, print_json, table};
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each, and datasets of LeRobot, one
+    /// Logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2), one run each, and datasets of LeRobot, one
     /// run an episode
     #[arg(required = true)]
     files: Vec<PathBuf>,

@@ -20,7 +20,7 @@ pub struct Arguments {
     robot: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2), one run each
+    /// Logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2), one run each
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
     /// Folder for report.html, replay.json and the simulated motion and torque of every run

@@ -23,7 +23,7 @@ const MODELS: [ModelKind; 6] = [
 pub struct Arguments {
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// Logs (CSV, Parquet, NumPy, MATLAB, bags of ROS 2) to learn from, one run each
+    /// Logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2) to learn from, one run each
     #[arg(long, value_name = "LOG", num_args = 1.., required = true)]
     pub train: Vec<PathBuf>,
     /// Files to measure the errors on, none of which is learned from
