@@ -5,7 +5,7 @@ use crate::{
         error::FormatError,
         strangers::{UNKNOWN, is_text, stranger},
     },
-    format::{Format, Magic},
+    format::{FileFormat, Magic},
     packed::unpack::{Packing, unpack},
 };
 
@@ -15,16 +15,16 @@ const FIRST_BYTES: usize = 4096;
 /// The kinds of file that are read.
 pub(crate) struct Formats {
     /// Those that are told by their bytes.
-    pub by_magic: &'static [&'static dyn Format],
+    pub by_magic: &'static [&'static dyn FileFormat],
     /// What text is.
-    pub text: &'static dyn Format,
+    pub text: &'static dyn FileFormat,
 }
 
 /// What a file is.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
     /// One that is read.
-    Read(&'static dyn Format),
+    Read(&'static dyn FileFormat),
     /// Any of those, packed.
     Packed(Packing),
 }
@@ -66,7 +66,7 @@ impl Formats {
         if is_text(first) {
             return Ok(Kind::Read(self.text));
         }
-        let is_called = |f: &&&dyn Format| {
+        let is_called = |f: &&&dyn FileFormat| {
             let extension = path.extension();
             f.extension().is_some_and(|e| extension.is_some_and(|own| own.eq_ignore_ascii_case(e)))
         };
@@ -78,7 +78,7 @@ impl Formats {
 }
 
 /// A file that is called as one of a format and does not begin as one.
-fn not_begun(path: &Path, format: &dyn Format) -> FormatError {
+fn not_begun(path: &Path, format: &dyn FileFormat) -> FormatError {
     let begin = format.magic().first().map_or(&[][..], |(_, bytes)| bytes);
     let reason = format!("it does not begin with {}", String::from_utf8_lossy(begin));
     FormatError::broken(path, format.name(), &reason)

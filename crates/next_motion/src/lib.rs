@@ -27,6 +27,8 @@ mod testing;
 mod trial_shapes;
 
 pub use aim::{Goal, Question};
-pub use design::{Design, DesignSettings, DesignedMotion, Prospect, SEPARATING_NATS, design};
+pub use design::{
+    DesignSettings, DesignedMotion, ExcitationDesign, Prospect, SEPARATING_NATS, design,
+};
 pub use error::NextMotionError;
 pub use trial_shapes::with_trial_shapes;

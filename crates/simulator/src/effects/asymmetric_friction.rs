@@ -5,7 +5,7 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
+use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
@@ -30,7 +30,7 @@ pub struct AsymmetricFriction {
     pub backward_nm: f64,
 }
 
-impl Effect for AsymmetricFriction {
+impl ScenarioEffect for AsymmetricFriction {
     const KIND: EffectKind = EffectKind::AsymmetricFriction;
 
     fn truth(&self) -> Truth {

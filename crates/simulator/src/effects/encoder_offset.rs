@@ -5,7 +5,7 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
+use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
@@ -30,7 +30,7 @@ pub struct EncoderOffset {
     pub offset_rad: f64,
 }
 
-impl Effect for EncoderOffset {
+impl ScenarioEffect for EncoderOffset {
     const KIND: EffectKind = EffectKind::EncoderOffset;
 
     fn truth(&self) -> Truth {

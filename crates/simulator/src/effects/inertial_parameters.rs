@@ -6,7 +6,7 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
+use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, link_of};
 use crate::effects::payload::{body, mass_and_com, symmetric};
 use crate::effects::surroundings::{Surroundings, direction};
@@ -40,7 +40,7 @@ const MOST_DRAWN: f64 = 2.0;
 /// Longest way by which a drawn centre of mass is off (m).
 const FARTHEST_DRAWN_M: f64 = 0.15;
 
-impl Effect for InertialParameters {
+impl ScenarioEffect for InertialParameters {
     const KIND: EffectKind = EffectKind::InertialParameters;
 
     fn truth(&self) -> Truth {

@@ -43,7 +43,7 @@ pub use cable_spring::{CableSpring, Pulls};
 pub use coulomb_friction::CoulombFriction;
 pub use counterbalance::Counterbalance;
 pub use differential_coupling::DifferentialCoupling;
-pub use effect::Effect;
+pub use effect::ScenarioEffect;
 pub use encoder_offset::EncoderOffset;
 pub use external_disturbance::ExternalDisturbance;
 pub use friction_temperature_drift::FrictionTemperatureDrift;

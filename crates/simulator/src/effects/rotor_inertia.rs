@@ -4,7 +4,7 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
+use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
@@ -26,7 +26,7 @@ pub struct RotorInertia {
     pub inertia_kg_m2: f64,
 }
 
-impl Effect for RotorInertia {
+impl ScenarioEffect for RotorInertia {
     const KIND: EffectKind = EffectKind::RotorInertia;
 
     fn truth(&self) -> Truth {

@@ -5,7 +5,7 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
+use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
@@ -33,7 +33,7 @@ pub struct TorqueConstant {
     pub gain: f64,
 }
 
-impl Effect for TorqueConstant {
+impl ScenarioEffect for TorqueConstant {
     const KIND: EffectKind = EffectKind::TorqueConstant;
 
     fn truth(&self) -> Truth {

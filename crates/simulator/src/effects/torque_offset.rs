@@ -5,7 +5,7 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
+use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
@@ -29,7 +29,7 @@ pub struct TorqueOffset {
     pub offset_nm: f64,
 }
 
-impl Effect for TorqueOffset {
+impl ScenarioEffect for TorqueOffset {
     const KIND: EffectKind = EffectKind::TorqueOffset;
 
     fn truth(&self) -> Truth {

@@ -6,7 +6,7 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
+use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
@@ -28,7 +28,7 @@ pub struct TorqueSaturation {
     pub limit_nm: f64,
 }
 
-impl Effect for TorqueSaturation {
+impl ScenarioEffect for TorqueSaturation {
     const KIND: EffectKind = EffectKind::TorqueSaturation;
 
     fn truth(&self) -> Truth {

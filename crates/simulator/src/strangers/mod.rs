@@ -32,7 +32,7 @@ pub use soft_wall::{Side, SoftWall};
 pub use spec::StrangerSpec;
 pub use speed_crosstalk::SpeedCrosstalk;
 pub use square_drag::SquareDrag;
-pub use stranger::Stranger;
+pub use stranger::ScenarioStranger;
 pub use tilting_bearing::TiltingBearing;
 pub use torque_dropout::TorqueDropout;
 pub use torque_rate_limit::TorqueRateLimit;
