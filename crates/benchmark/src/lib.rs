@@ -38,8 +38,8 @@ pub use panel::answers::{Answers, Costs, HeldOut};
 pub use panel::judged_cause::JudgedCause;
 pub use panel::judged_finding::{BaselineClaim, JudgedFinding};
 pub use panel::judgement::Judgement;
+pub use panel::panel_side::PanelSide;
 pub use panel::prediction::{Prediction, RelativeError};
-pub use panel::side::PanelSide;
 pub use paper::figure_spec::{
     DataSpec, FigureScenario, FigureSpec, LearningFigureSpec, PredictionTimeFigureSpec,
 };

@@ -1,9 +1,9 @@
 use robot::Robot;
 
 use crate::judge::Judge;
+use crate::log_reading::LogReading;
+use crate::motion_samples::MotionSamples;
 use crate::observation::{Observation, ObservationKind, Rival, Spoils};
-use crate::reading::LogReading;
-use crate::samples::MotionSamples;
 
 /// A velocity column against the derivative of its position.
 #[derive(Debug, Clone, Copy)]

@@ -1,11 +1,11 @@
 use robot::Robot;
 
 use crate::fit::{Drive, Fitted, ProductSums};
+use crate::log_reading::LogReading;
+use crate::motion_samples::MotionSamples;
+use crate::nominal_torque::NominalTorque;
 use crate::pooled::fit_pooled;
-use crate::reading::LogReading;
-use crate::samples::MotionSamples;
 use crate::thresholds::InspectionThresholds;
-use crate::torque::NominalTorque;
 
 /// Compares readings of samples with the nominal torque.
 pub(crate) struct Judge<'a> {

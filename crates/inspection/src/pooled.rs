@@ -1,6 +1,6 @@
 use nalgebra::{DMatrix, DVector};
 
-use crate::samples::MotionSamples;
+use crate::motion_samples::MotionSamples;
 
 /// Rounds of weighting: every joint is weighted by one over its residual.
 const ROUNDS: usize = 4;

@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 
 use crate::fit::Drive;
 use crate::judge::{Judge, ReadingFit};
+use crate::log_reading::LogReading;
 use crate::observation::{Observation, ReadingEvidence, Rival, Spoils};
 use crate::payload::shares_with_a_tool;
-use crate::reading::LogReading;
 
 /// Errors that the nominal torque shows: readings that improve its fit, the best first.
 pub(crate) fn readings(judge: &mut Judge, runs: usize) -> Vec<Observation> {

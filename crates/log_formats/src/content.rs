@@ -3,9 +3,9 @@ use std::{fs::File, io::Read, path::Path};
 use crate::{
     common::{
         error::FormatError,
-        strangers::{UNKNOWN, is_text, stranger},
+        unread_kinds::{UNKNOWN, is_text, stranger},
     },
-    format::{FileFormat, Magic},
+    file_format::{FileFormat, Magic},
     packed::unpack::{Packing, unpack},
 };
 

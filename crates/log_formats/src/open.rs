@@ -1,9 +1,9 @@
 use std::{collections::BTreeSet, fs, io, path::Path};
 
 use crate::{
-    common::{damage::Damage, error::FormatError, strangers::TWICE},
+    common::{damage::Damage, error::FormatError, unread_kinds::TWICE},
     content::Kind,
-    format::{Opened, Request},
+    file_format::{Opened, Request},
     formats::{
         FORMATS,
         bag::folder::open_folder,

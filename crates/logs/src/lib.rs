@@ -41,7 +41,7 @@ pub use runs::stretches::{ENOUGH_SAMPLES, thin_out};
 pub use signals::agreement::Agreement;
 pub use signals::differentiate::differentiate;
 pub use signals::filter::{LowPass, decimate};
-pub use signals::fourier::FourierTransform;
+pub use signals::fourier_transform::FourierTransform;
 pub use signals::held::centre_commands;
 pub use signals::noise::{ChannelNoise, JointNoise, NoiseSource};
 pub use signals::prepare::{PrepareSettings, prepare};

@@ -177,7 +177,7 @@ mod tests {
     use robot::Robot;
 
     use super::*;
-    use crate::record::MotionRecord;
+    use crate::motion_record::MotionRecord;
     use crate::testing::{RATE_HZ, arm, log, turntable};
 
     fn at(kind: EffectKind, joint: usize) -> Hypothesis {

@@ -221,7 +221,7 @@ mod tests {
     use effects::{Frame, Place};
 
     use super::*;
-    use crate::record::MotionRecord;
+    use crate::motion_record::MotionRecord;
     use crate::testing::turntable;
 
     const NOISE: f64 = 0.02;

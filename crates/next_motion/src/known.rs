@@ -6,7 +6,7 @@ use robot::Robot;
 use crate::error::NextMotionError;
 use crate::information::{ColumnInformation, ColumnLayout, ORDER};
 use crate::limits::{Usable, efforts, usable};
-use crate::record::{EVALUATION_RATE, MotionRecord};
+use crate::motion_record::{EVALUATION_RATE, MotionRecord};
 
 /// Size of a cause that no log shows, as a share of its prior standard deviation.
 const SUPPOSED: f64 = 0.1;

@@ -19,7 +19,7 @@ mod error;
 mod information;
 mod known;
 mod limits;
-mod record;
+mod motion_record;
 mod search;
 mod steps;
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::aim::Aim;
 use crate::error::NextMotionError;
 use crate::information::{ColumnInformation, ColumnLayout};
 use crate::limits::Usable;
-use crate::record::{EVALUATION_RATE, MotionRecord};
+use crate::motion_record::{EVALUATION_RATE, MotionRecord};
 use crate::steps::Steps;
 
 /// Motions drawn at random.

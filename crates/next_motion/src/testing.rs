@@ -4,7 +4,7 @@ use effects::Frame;
 use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::Robot;
 
-use crate::record::MotionRecord;
+use crate::motion_record::MotionRecord;
 
 /// Rate of [`log`] (Hz).
 pub(crate) const RATE_HZ: f64 = 100.0;

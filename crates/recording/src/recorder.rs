@@ -7,17 +7,17 @@ use rerun::{
 };
 
 use crate::arms::ArmTrack;
-use crate::bounds::BoundingBox;
+use crate::bounding_box::BoundingBox;
 use crate::colour;
 use crate::disk::Disk;
 use crate::entities::{DOCUMENT, EVENTS, part, time_column};
 use crate::error::{RecordingError, refusal, unwritable};
-use crate::layout::{Bars, ScreenLayout};
 use crate::live::Viewer;
-use crate::pace::RowPace;
 use crate::plots::Plots;
+use crate::row_pace::RowPace;
 use crate::rows::{BarSeries, FinishedRecording, RowBlock};
 use crate::scene::{EventLevel, Live, Scene, SceneSignal};
+use crate::screen_layout::{Bars, ScreenLayout};
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;

@@ -5,7 +5,7 @@ use std::time::Duration;
 use benchmark::{Record, WorkProgress};
 use cli::{Line, Watch, display_path};
 
-use crate::commands::pace::{TrialPace, words};
+use crate::commands::trial_pace::{TrialPace, words};
 use crate::error::BenchError;
 
 /// Shows how the work goes on; Ctrl-C lets the trials that are being made come to their end.

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use crate::panel::judgement::Judgement;
-use crate::panel::side::PanelSide;
+use crate::panel::panel_side::PanelSide;
 use crate::tables::kind_row::KindRow;
 use crate::tables::panel_row::PanelRow;
 use crate::tables::slow_diagnosis::SlowDiagnosis;

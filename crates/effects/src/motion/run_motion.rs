@@ -8,11 +8,11 @@ use crate::motion::cable_loop::Loop;
 use crate::motion::compliance::{Compliance, curvature, rate};
 use crate::motion::direction::{direction, stands};
 use crate::motion::drive::{bristles, motor_torque, warmth};
+use crate::motion::effort_timing::EffortTiming;
 use crate::motion::encoders::{Encoders, JointMotions};
 use crate::motion::frame::Frame;
 use crate::motion::rigid_bodies::{LinkRegressor, link_regressor, loads, tilt};
 use crate::motion::slopes::Slopes;
-use crate::motion::timing::EffortTiming;
 use crate::motion::transmission::{Deflection, Gap, LoadAlong, correct_reading, play};
 
 /// The motion of one run and the efforts that the nominal robot expects along it.

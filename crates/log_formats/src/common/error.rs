@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use crate::common::{
     allowance::Exceeded,
-    strangers::UnreadKind,
+    unread_kinds::UnreadKind,
     words::{list, suggestion},
 };
 

@@ -14,7 +14,7 @@ use crate::{
         hdf5_tree::{Layout, read_arrays},
     },
     common::{damage::Damage, error::FormatError},
-    format::{FileFormat, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
 };
 
 /// What a damaged file is called.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::signals::{
     differentiate::differentiate,
-    fourier::FourierTransform,
+    fourier_transform::FourierTransform,
     noise::ChannelNoise,
     spectrum::Density,
     uniform::{UniformJoint, UniformRun},

@@ -4,7 +4,7 @@ use std::f64::consts::{LN_2, SQRT_2, TAU};
 
 use realfft::num_complex::Complex;
 
-use crate::signals::fourier::FourierTransform;
+use crate::signals::fourier_transform::FourierTransform;
 
 /// Share of half the sampling rate above which nothing is looked at: the filters of loggers and
 /// the interpolation of a clock end there.

@@ -6,9 +6,9 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, link_of};
 use crate::effects::payload::{body, mass_and_com, symmetric};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::{Surroundings, direction};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;

@@ -8,8 +8,8 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::ScenarioEffect;
 use crate::effects::mistake::{Mistake, link_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::{Surroundings, direction};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;

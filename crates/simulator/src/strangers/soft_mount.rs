@@ -13,7 +13,7 @@ use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::mechanics::plant::Plant;
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::ScenarioStranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// A base that tilts under the weight of its arm, as one on rubber or on a thin table does.

@@ -8,7 +8,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::ScenarioStranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// Torque that changes no faster than it can, as of a drive short of voltage.

@@ -9,10 +9,10 @@ use crate::{
         damage::Damage,
         error::FormatError,
         sha256::sha256_of_files,
-        strangers::PROSE,
         table::{Needed, Rows, Table, TableCell},
+        unread_kinds::PROSE,
     },
-    format::{FileFormat, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::csv::dialect::{Dialect, Header, Numerals},
 };
 

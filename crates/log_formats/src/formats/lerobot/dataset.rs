@@ -7,9 +7,9 @@ use std::{
 };
 
 use crate::{
-    common::{error::FormatError, strangers::NOT_PARQUET},
+    common::{error::FormatError, unread_kinds::NOT_PARQUET},
     content::{Formats, Kind},
-    format::FileFormat,
+    file_format::FileFormat,
     formats::parquet::parquet_file::{Parquet, ParquetFile},
 };
 

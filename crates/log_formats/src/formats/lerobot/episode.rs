@@ -11,7 +11,7 @@ use crate::{
         table::{Needed, Table},
     },
     content::Formats,
-    format::Opened,
+    file_format::Opened,
     formats::{
         lerobot::dataset::{DESCRIPTION, DataFile, LerobotDataset, open},
         parquet::{list_column::part_name, parquet_file::ParquetFile},

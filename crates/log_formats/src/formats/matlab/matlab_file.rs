@@ -13,7 +13,7 @@ use crate::{
         hdf5_tree::{Layout, read_arrays},
     },
     common::{allowance::Allowance, damage::Damage, error::FormatError},
-    format::{FileFormat, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::matlab::element::{Elements, Order},
 };
 

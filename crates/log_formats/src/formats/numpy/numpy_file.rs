@@ -13,10 +13,10 @@ use crate::{
         error::FormatError,
         guard::guard,
         sha256::sha256_of_files,
-        strangers::{NO_TABLE, of_archive},
         table::{Needed, Table},
+        unread_kinds::{NO_TABLE, of_archive},
     },
-    format::{FileFormat, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::numpy::{
         npy_header::{MAGIC, NpyHeader},
         numpy_array::NumpyArray,

@@ -22,7 +22,7 @@ use crate::{
         sha256::sha256_of_files,
         table::{Needed, Table},
     },
-    format::{FileFormat, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::parquet::{
         array_numbers::{append, is_number},
         growing_columns::GrowingColumns,

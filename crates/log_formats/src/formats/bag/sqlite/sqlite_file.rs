@@ -7,7 +7,7 @@ use crate::{
         damage::Damage,
         error::FormatError,
         guard::guard,
-        strangers::{NO_BAG, UNFINISHED},
+        unread_kinds::{NO_BAG, UNFINISHED},
     },
     formats::bag::{
         sqlite::{

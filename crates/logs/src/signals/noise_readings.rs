@@ -3,7 +3,7 @@
 use crate::{
     runs::run::{Channels, Run, range},
     signals::{
-        fourier::FourierTransform,
+        fourier_transform::FourierTransform,
         lattice,
         noise::{ChannelNoise, JointNoise, NoiseSource},
         origin::{Origin, Sources},

@@ -2,7 +2,7 @@ use dynamics::{Dynamics, Workspace};
 use nalgebra::Vector3;
 use robot::Robot;
 
-use crate::samples::MotionSamples;
+use crate::motion_samples::MotionSamples;
 
 /// Nominal torque along samples, `rows x joints`: rigid bodies alone.
 pub(crate) struct NominalTorque {

@@ -13,7 +13,7 @@ use rerun::external::re_sdk_types::blueprint::datatypes::{
 use rerun::external::re_sdk_types::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
 use rerun::{EntityPath, RecordingStream};
 
-use crate::bounds::BoundingBox;
+use crate::bounding_box::BoundingBox;
 use crate::entities::{DOCUMENT, EVENTS, TIMELINE};
 use crate::error::RecordingError;
 use crate::plots::Plots;

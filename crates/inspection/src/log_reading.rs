@@ -2,8 +2,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use crate::motion_samples::MotionSamples;
 use crate::observation::{ObservationKind, Rival};
-use crate::samples::MotionSamples;
 
 /// A way to read logs other than as they stand.
 #[derive(Debug, Clone, PartialEq)]
