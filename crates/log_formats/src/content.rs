@@ -3,7 +3,7 @@ use std::{fs::File, io::Read, path::Path};
 use crate::{
     common::{
         error::FormatError,
-        unread_kinds::{UNKNOWN, is_text, stranger},
+        unread_kinds::{UNKNOWN, is_text, unread_kind},
     },
     file_format::{FileFormat, Magic},
     packed::unpack::{Packing, unpack},
@@ -60,8 +60,8 @@ impl Formats {
         if let Some(packing) = Packing::ALL.into_iter().find(|p| holds(&p.magic())) {
             return Ok(Kind::Packed(packing));
         }
-        if let Some(stranger) = stranger(first) {
-            return Err(FormatError::other_kind(path, stranger));
+        if let Some(kind) = unread_kind(first) {
+            return Err(FormatError::other_kind(path, kind));
         }
         if is_text(first) {
             return Ok(Kind::Read(self.text));

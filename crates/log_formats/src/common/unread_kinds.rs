@@ -10,10 +10,10 @@ pub(crate) struct UnreadKind {
 }
 
 /// What a file with these first bytes is, where it is a known kind that is not read.
-pub(crate) fn stranger(first: &[u8]) -> Option<UnreadKind> {
+pub(crate) fn unread_kind(first: &[u8]) -> Option<UnreadKind> {
     let holds =
         |at: usize, magic: &[u8]| first.get(at..).is_some_and(|rest| rest.starts_with(magic));
-    let found = STRANGERS.iter().find(|(at, magic, ..)| holds(*at, magic))?;
+    let found = UNREAD_KINDS.iter().find(|(at, magic, ..)| holds(*at, magic))?;
     Some(UnreadKind { found: found.2, advice: found.3 })
 }
 
@@ -35,7 +35,7 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 21] = [
+const UNREAD_KINDS: [(usize, &[u8], &str, &str); 21] = [
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
     (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
@@ -127,13 +127,13 @@ mod tests {
 
     #[test]
     fn a_kind_that_is_not_read_is_known_by_its_bytes() {
-        let found = |bytes: &[u8]| stranger(bytes).unwrap().found;
-        assert_eq!(stranger(b"\x00\x01\x02"), None);
+        let found = |bytes: &[u8]| unread_kind(bytes).unwrap().found;
+        assert_eq!(unread_kind(b"\x00\x01\x02"), None);
         let of = |name: &str| of_archive(&["mimetype".to_owned(), name.to_owned()]).found;
         assert_eq!(of("xl/workbook.xml"), "an Excel workbook");
         assert_eq!(of("run.csv"), "a zip archive without an array of NumPy in it");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[18].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), UNREAD_KINDS[18].2);
     }
 
     #[test]
@@ -145,10 +145,10 @@ mod tests {
     }
 
     #[test]
-    fn every_stranger_is_found_behind_its_bytes_and_described_in_one_sentence() {
-        for (at, magic, found, advice) in STRANGERS {
+    fn every_unread_kind_is_found_behind_its_bytes_and_described_in_one_sentence() {
+        for (at, magic, found, advice) in UNREAD_KINDS {
             let bytes = [&vec![b'x'; at][..], magic].concat();
-            assert_eq!(stranger(&bytes), Some(UnreadKind { found, advice }));
+            assert_eq!(unread_kind(&bytes), Some(UnreadKind { found, advice }));
             assert!(!found.contains(". ") && !advice.ends_with('.'), "{found}: {advice}");
         }
     }
