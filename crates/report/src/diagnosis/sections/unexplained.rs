@@ -10,13 +10,13 @@ use crate::diagnosis::sections::section::Section;
 /// What the findings leave without a name.
 #[derive(Template)]
 #[template(path = "diagnosis/sections/unexplained.html")]
-pub(crate) struct UnexplainedSection<'a> {
+pub(crate) struct UnexplainedStructure<'a> {
     rows: Vec<UnexplainedRow>,
     residual: Option<&'a ResidualModel>,
     residual_rows: Vec<ResidualRow>,
 }
 
-impl<'a> Section<'a> for UnexplainedSection<'a> {
+impl<'a> Section<'a> for UnexplainedStructure<'a> {
     fn new(report: &Report<'a>) -> Result<Option<Self>, ReportError> {
         Ok(Some(Self {
             rows: unexplained_rows(report.diagnosis),
