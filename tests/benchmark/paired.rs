@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use benchmark::{Comparison, Judgement, Measure, PairedMean, PairedShare, Quantity, Record};
+use benchmark::{
+    Judgement, Measure, PairedComparison, PairedMean, PairedShare, Record, TrialQuantity,
+};
 use catalogue::EffectKind::{Backlash, CoulombFriction};
 use diagnosis::Verdict;
 use population::TruthSheet;
@@ -59,19 +61,20 @@ fn trials_that_all_agree_say_nothing_of_a_difference() {
 /// Differences 1, 2 and 3: mean 2, deviation 1, t = 4.30265 with two degrees of freedom.
 #[test]
 fn a_mean_has_the_interval_of_student() {
-    let mean = PairedMean::new(Quantity::Recall, &[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]).unwrap();
+    let mean =
+        PairedMean::new(TrialQuantity::Recall, &[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]).unwrap();
     assert!((mean.difference - 2.0).abs() < 1e-12 && (mean.first - 1.0).abs() < 1e-12);
     let [low, high] = mean.interval.unwrap();
     let half = 4.302_653 / 3.0_f64.sqrt();
     assert!((low - (2.0 - half)).abs() < 1e-5 && (high - (2.0 + half)).abs() < 1e-5);
-    assert_eq!(PairedMean::new(Quantity::Recall, &[(0.0, 1.0)]).unwrap().interval, None);
-    assert!(PairedMean::new(Quantity::Recall, &[]).is_none());
+    assert_eq!(PairedMean::new(TrialQuantity::Recall, &[(0.0, 1.0)]).unwrap().interval, None);
+    assert!(PairedMean::new(TrialQuantity::Recall, &[]).is_none());
 }
 
 #[test]
 fn times_are_compared_as_factors() {
     let pairs = [(1.0_f64.ln(), 2.0_f64.ln()), (3.0_f64.ln(), 6.0_f64.ln())];
-    let mean = PairedMean::new(Quantity::Time, &pairs).unwrap();
+    let mean = PairedMean::new(TrialQuantity::Time, &pairs).unwrap();
     assert!((mean.difference - 2.0).abs() < 1e-12);
     assert!((mean.first - 3.0_f64.sqrt()).abs() < 1e-12);
     assert!(mean.interval.unwrap().iter().all(|end| (end - 2.0).abs() < 1e-9));
@@ -115,7 +118,7 @@ fn two_tables_are_compared_trial_by_trial() {
     second.push(Record { seed: 5, ..trial(9, true, 3.0) });
     second[3].score = Err("it gave up".to_owned());
     let second = table(folder.path(), "b.parquet", &second);
-    let compared = Comparison::read(&first, &second).unwrap();
+    let compared = PairedComparison::read(&first, &second).unwrap();
     assert_eq!((compared.pairs, compared.alone, compared.failed), (4, [1, 1], [0, 1]));
     let of = |measure| *compared.shares.iter().find(|share| share.measure == measure).unwrap();
     let right = of(Measure::Right);
@@ -125,7 +128,7 @@ fn two_tables_are_compared_trial_by_trial() {
     let worse = of(Measure::WorsePrediction);
     assert_eq!((worse.first, worse.second, worse.wins, worse.losses), (2, 1, 2, 1));
     assert!(!compared.shares.iter().any(|share| share.measure == Measure::FalseAlarm));
-    let time = compared.means.iter().find(|mean| mean.quantity == Quantity::Time).unwrap();
+    let time = compared.means.iter().find(|mean| mean.quantity == TrialQuantity::Time).unwrap();
     assert!((time.difference - 3.0).abs() < 1e-9);
     let tasks: Vec<usize> = compared.turned.iter().map(|turned| turned.task).collect();
     assert_eq!(tasks, [0, 1, 2, 3]);
@@ -148,7 +151,7 @@ fn what_cannot_be_compared_is_said() {
     let c = table(path, "c.parquet", std::slice::from_ref(&other));
     let d = table(path, "d.parquet", &[trial(0, true, 1.0), Record { task: 1, ..other }]);
     let e = table(path, "e.parquet", &[trial(0, true, 1.0), trial(0, true, 2.0)]);
-    let refused = |a: &Path, b: &Path| Comparison::read(a, b).unwrap_err().to_string();
+    let refused = |a: &Path, b: &Path| PairedComparison::read(a, b).unwrap_err().to_string();
     for (second, expected) in [
         (&b, "they have no trial in common"),
         (&c, "its trials are of another campaign (abcdefgh)"),

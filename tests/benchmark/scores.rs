@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use benchmark::{Group, Power, Row, Tally};
+use benchmark::{Power, Tally, TallyRow, TrialGroup};
 use catalogue::EffectKind::{
     self, Backlash, CoulombFriction, GravityDirection, InertialParameters, Payload, TorqueConstant,
     TorqueOffset, ViscousFriction,
@@ -143,7 +143,7 @@ fn what_the_logs_would_not_have_shown_is_counted_apart() {
     let scores = [missed(0.25), missed(5.0), score(Verdict::Explained, found, &[coulomb()])];
     assert_eq!(scores.each_ref().map(Score::visible), [true, false, true]);
     let tally = Tally::of(&scores);
-    let row = row(&tally, Group::One);
+    let row = row(&tally, TrialGroup::One);
     assert_eq!((row.exactly.count, row.exactly.of), (1, 3));
     assert_eq!((row.visibly.count, row.visibly.of), (1, 2));
 }
@@ -170,7 +170,7 @@ fn effects_that_are_not_looked_for_are_a_group_of_their_own() {
         Score { looked_for: false, ..score(Verdict::Unexplained, Vec::new(), &[coulomb()]) };
     let tally = Tally::of(&[unknown.clone(), unknown]);
     assert_eq!(tally.rows.len(), 1);
-    let row = row(&tally, Group::Unknown);
+    let row = row(&tally, TrialGroup::Unknown);
     assert_eq!((row.unknown.count, row.exactly.count, row.trials), (2, 0, 2));
     assert_eq!(row.injected.to_string(), "not looked for");
 }
@@ -201,16 +201,16 @@ fn the_sizes_of_the_finding_that_names_it_are_compared() {
     assert!((of(&scores[1]).value - 0.6).abs() < 1e-12 && !of(&scores[1]).covers);
     assert!(of(&scores[2]).covers);
     let tally = Tally::of(&scores);
-    let sizes = &row(&tally, Group::Kind(CoulombFriction)).sizes[0];
+    let sizes = &row(&tally, TrialGroup::Kind(CoulombFriction)).sizes[0];
     assert_eq!((sizes.name.as_str(), sizes.estimates, sizes.determined), ("level", 4, 3));
     assert!((sizes.median_error.unwrap() - 0.04).abs() < 1e-12, "of 0, 4 and 20 %");
     assert_eq!((sizes.covered.count, sizes.covered.of), (2, 3));
-    let all = &row(&tally, Group::One).sizes;
+    let all = &row(&tally, TrialGroup::One).sizes;
     assert_eq!(all.len(), 1);
     assert_eq!((all[0].name.as_str(), all[0].covered), ("all", sizes.covered));
 }
 
-fn row(tally: &Tally, group: Group) -> &Row {
+fn row(tally: &Tally, group: TrialGroup) -> &TallyRow {
     tally.rows.iter().find(|row| row.injected == group).unwrap()
 }
 
@@ -234,10 +234,13 @@ fn campaign() -> Vec<Score> {
 #[test]
 fn a_tally_counts_every_answer_in_its_row() {
     let tally = Tally::of(&campaign());
-    let groups: Vec<Group> = tally.rows.iter().map(|row| row.injected).collect();
-    let kinds = [Group::Kind(CoulombFriction), Group::Kind(Backlash)];
-    assert_eq!(groups, [&kinds[..], &[Group::One, Group::Two, Group::Clean]].concat());
-    let counts = |row: &Row| {
+    let groups: Vec<TrialGroup> = tally.rows.iter().map(|row| row.injected).collect();
+    let kinds = [TrialGroup::Kind(CoulombFriction), TrialGroup::Kind(Backlash)];
+    assert_eq!(
+        groups,
+        [&kinds[..], &[TrialGroup::One, TrialGroup::Two, TrialGroup::Clean]].concat()
+    );
+    let counts = |row: &TallyRow| {
         let shares = [row.exactly, row.as_one_of, row.unknown, row.stray];
         assert!(shares.iter().all(|share| share.of == row.trials));
         let shares = [row.exactly, row.as_one_of, row.found, row.unknown, row.stray];
@@ -245,10 +248,10 @@ fn a_tally_counts_every_answer_in_its_row() {
     };
     assert_eq!(counts(row(&tally, kinds[0])), [2, 3, 3, 0, 1]);
     assert_eq!(counts(row(&tally, kinds[1])), [0, 0, 0, 1, 0]);
-    assert_eq!(counts(row(&tally, Group::One)), [2, 3, 3, 1, 1]);
-    assert_eq!(counts(row(&tally, Group::Two)), [0, 0, 0, 1, 0]);
-    assert_eq!(counts(row(&tally, Group::Clean)), [1, 1, 0, 0, 1]);
-    assert_eq!(row(&tally, Group::Clean).found.of, 0);
+    assert_eq!(counts(row(&tally, TrialGroup::One)), [2, 3, 3, 1, 1]);
+    assert_eq!(counts(row(&tally, TrialGroup::Two)), [0, 0, 0, 1, 0]);
+    assert_eq!(counts(row(&tally, TrialGroup::Clean)), [1, 1, 0, 0, 1]);
+    assert_eq!(row(&tally, TrialGroup::Clean).found.of, 0);
     let first = &row(&tally, kinds[0]).named_first;
     assert_eq!(*first, BTreeMap::from([("FR02", 2), ("FR01", 1), ("DR03", 1)]));
     assert_eq!(row(&tally, kinds[1]).named_first, BTreeMap::from([("nothing", 1)]));
@@ -341,7 +344,7 @@ fn the_power_is_told_in_three_classes_of_equal_number_by_size() {
         let classes = power.classes.iter();
         classes.map(|c| (c.sizes, c.exactly.count, c.exactly.of)).collect::<Vec<_>>()
     };
-    let kinds = [TorqueConstant, GravityDirection, CoulombFriction].map(Group::Kind);
+    let kinds = [TorqueConstant, GravityDirection, CoulombFriction].map(TrialGroup::Kind);
     assert_eq!(power.iter().map(|power| power.injected).collect::<Vec<_>>(), kinds);
     let expected = [([0.1, 0.2], 0, 2), ([0.3, 0.4], 1, 2), ([0.5, 0.6], 2, 2)];
     assert_eq!((power[2].parameter, told(&power[2])), ("level", expected.to_vec()));

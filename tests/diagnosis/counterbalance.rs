@@ -3,7 +3,7 @@
 use catalogue::EffectKind;
 use checks::arms::wam;
 use diagnosis::{Diagnosis, Verdict};
-use robot::{Counterbalance, Robot};
+use robot::{CounterbalanceTerm, Robot};
 
 use crate::blind::{diagnosed, read, simulate};
 
@@ -14,7 +14,7 @@ const PHASE: f64 = 0.4;
 fn described(amplitude: f64) -> Robot {
     let mut robot = wam();
     let elbow = robot.joint_index(AT).unwrap();
-    let balance = Counterbalance { amplitude, phase: PHASE };
+    let balance = CounterbalanceTerm { amplitude, phase: PHASE };
     robot.link_mut(elbow).unwrap().actuator.counterbalance = Some(balance);
     robot
 }

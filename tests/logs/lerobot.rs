@@ -8,8 +8,8 @@ use arrow_array::types::Float32Type;
 use arrow_array::{ArrayRef, Float64Array, ListArray, RecordBatch};
 use checks::lerobot::{Layout, write};
 use logs::{
-    Channel, Channels, ColumnMap, Dataset, FormatError, LogError, ReadOptions, Run, read_run,
-    recognise,
+    Channel, Channels, ColumnMap, FormatError, LerobotDataset, LogError, ReadOptions, Run,
+    read_run, recognise,
 };
 use parquet::arrow::ArrowWriter;
 use tempfile::TempDir;
@@ -66,7 +66,7 @@ fn joined(runs: &[Run]) -> Run {
 
 /// The episodes of the dataset in a folder.
 fn episodes(path: &Path) -> Result<Vec<u64>, LogError> {
-    Ok(Dataset::open(path)?.unwrap().episodes())
+    Ok(LerobotDataset::open(path)?.unwrap().episodes())
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn every_episode_is_a_run_with_the_joints_by_their_names() {
 #[test]
 fn episodes_of_a_dataset_that_is_open_are_read_without_their_column() {
     let folder = dataset(Layout::OneFile, &[]);
-    let opened = Dataset::open(folder.path()).unwrap().unwrap();
+    let opened = LerobotDataset::open(folder.path()).unwrap().unwrap();
     write(folder.path(), &[joined(&runs())], Layout::OneFile, &[]);
     assert_eq!(episodes(folder.path()).unwrap(), [0]);
     let map = recognise(folder.path(), &two_joints(), None, &ReadOptions::default()).unwrap();
@@ -97,7 +97,7 @@ fn episodes_of_a_dataset_that_is_open_are_read_without_their_column() {
     let run = read_run(folder.path(), &two_joints(), &known).unwrap();
     assert_eq!(run.joints, runs()[1].joints);
     assert!(read_run(folder.path(), &two_joints(), &options).is_err());
-    assert_eq!(Dataset::open(&folder.path().join("data")).unwrap(), None);
+    assert_eq!(LerobotDataset::open(&folder.path().join("data")).unwrap(), None);
 }
 
 /// Other names than those of the robot: the order of the joints counts where it is asked for.

@@ -60,12 +60,12 @@ Ctrl-C ends the run; what was finished is kept.";
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
-    pub command: Command,
+    pub command: BenchCommand,
 }
 
 /// The commands.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub enum BenchCommand {
     /// Puts a campaign into a folder, with all that it needs
     Plan(plan::Arguments),
     /// Makes every trial that is left; may be ended and begun again, and run several times at once

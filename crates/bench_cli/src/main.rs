@@ -11,21 +11,21 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::arguments::{Arguments, Command};
+use crate::arguments::{Arguments, BenchCommand};
 use crate::commands::figure::draw;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
 use crate::commands::{compare, merge, plan, schema, status, work};
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 fn main() -> ExitCode {
     let command_line: Vec<OsString> = std::env::args_os().collect();
     let arguments = Arguments::parse_from(&command_line);
     cli::keep_command_line("plumbline-bench", command_line);
     match run(&arguments) {
-        Ok(ExitStatus::Good) => ExitCode::SUCCESS,
-        Ok(ExitStatus::Gap) => ExitCode::FAILURE,
+        Ok(BenchExitStatus::Good) => ExitCode::SUCCESS,
+        Ok(BenchExitStatus::Gap) => ExitCode::FAILURE,
         Err(error) => {
             error.print();
             ExitCode::from(error.exit_code())
@@ -33,16 +33,16 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
+fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     match &arguments.command {
-        Command::Plan(arguments) => plan::run(arguments),
-        Command::Work(arguments) => work::run(arguments),
-        Command::Submit(arguments) => submission::run(arguments),
-        Command::Status(arguments) => status::run(arguments),
-        Command::Merge(arguments) => merge::run(arguments),
-        Command::Compare(arguments) => compare::run(arguments),
-        Command::Figure(arguments) => draw::run(arguments),
-        Command::Times(arguments) => measure::run(arguments),
-        Command::Schema(arguments) => schema::run(arguments),
+        BenchCommand::Plan(arguments) => plan::run(arguments),
+        BenchCommand::Work(arguments) => work::run(arguments),
+        BenchCommand::Submit(arguments) => submission::run(arguments),
+        BenchCommand::Status(arguments) => status::run(arguments),
+        BenchCommand::Merge(arguments) => merge::run(arguments),
+        BenchCommand::Compare(arguments) => compare::run(arguments),
+        BenchCommand::Figure(arguments) => draw::run(arguments),
+        BenchCommand::Times(arguments) => measure::run(arguments),
+        BenchCommand::Schema(arguments) => schema::run(arguments),
     }
 }

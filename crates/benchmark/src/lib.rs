@@ -4,7 +4,7 @@
 //! Campaign --plan--> CampaignFolder --work--> shards of Records --> Merged or MergedPanel
 //! Trial: simulate, diagnose blind --> Score --many--> Tally, Power
 //! Sheet, Answers --> Judgement --many--> PanelTally
-//! two results of the same trials --> Comparison
+//! two results of the same trials --> PairedComparison
 //! LearningFigure --simulate, diagnose, learn--> LearningErrors --judge--> Claims
 //! Merged, MergedPanel, LearningErrors, PredictionTimes --> pages, drawings, text, JSON
 //! ```
@@ -29,8 +29,8 @@ pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
 pub use baselines::two_questions::two_questions;
 pub use error::BenchmarkError;
-pub use paired::comparison::Comparison;
-pub use paired::measures::{Measure, Quantity};
+pub use paired::comparison::PairedComparison;
+pub use paired::measures::{Measure, TrialQuantity};
 pub use paired::paired_mean::PairedMean;
 pub use paired::paired_share::PairedShare;
 pub use paired::turned::Turned;
@@ -38,8 +38,8 @@ pub use panel::answers::{Answers, Costs, HeldOut};
 pub use panel::judged_cause::JudgedCause;
 pub use panel::judged_finding::{BaselineClaim, JudgedFinding};
 pub use panel::judgement::Judgement;
+pub use panel::panel_side::PanelSide;
 pub use panel::prediction::{Prediction, RelativeError};
-pub use panel::side::Side;
 pub use paper::figure_spec::{
     DataSpec, FigureScenario, FigureSpec, LearningFigureSpec, PredictionTimeFigureSpec,
 };
@@ -52,7 +52,7 @@ pub use reports::paper::learning_figure::{LEARNING_FIGURE_SCHEMA, LearningFigure
 pub use reports::paper::prediction_time_figure::{
     PREDICTION_TIME_FIGURE_SCHEMA, PredictionTimeFigureReport,
 };
-pub use reports::times::prediction_times::{Curve, Maker, PredictionTimes, TimePoint};
+pub use reports::times::prediction_times::{Maker, PredictionTimes, TimeCurve, TimePoint};
 pub use reports::trials::page::trials_page;
 pub use reports::trials::panel_page::panel_page;
 pub use statistics::rate::{Fraction, Rate};
@@ -68,7 +68,7 @@ pub use tables::panel_tally::PanelTally;
 pub use tables::power::{Power, SizeClass};
 pub use tables::slow_diagnosis::SlowDiagnosis;
 pub use tables::stranger_row::StrangerRow;
-pub use tables::tally::{Group, Row, SizeTally, Tally};
+pub use tables::tally::{SizeTally, Tally, TallyRow, TrialGroup};
 pub use trials::campaign::{Campaign, PopulationCampaign};
 pub use trials::campaign_folder::{BrokenShard, CampaignFolder, Manifest, read_finished};
 pub use trials::failure::Failure;

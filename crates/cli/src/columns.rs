@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use logs::{
-    ColumnMap, Dataset, ENOUGH_SAMPLES, Excerpt, FormatError, LogError, ReadOptions, Recognised,
-    Repair, Run, thin_out,
+    ColumnMap, ENOUGH_SAMPLES, Excerpt, FormatError, LerobotDataset, LogError, ReadOptions,
+    Recognised, Repair, Run, thin_out,
 };
 use robot::Robot;
 
@@ -120,7 +120,7 @@ impl ColumnArguments {
     ///
     /// [`CliError::Log`], and [`CliError::NoEpisode`] where episodes are asked for that are not there.
     pub fn episodes_of(&self, path: &Path) -> Result<SelectedRuns, CliError> {
-        let dataset = Dataset::open(path).map_err(LogError::from)?;
+        let dataset = LerobotDataset::open(path).map_err(LogError::from)?;
         let all = dataset.as_ref().map_or_else(
             || vec![None],
             |dataset| dataset.episodes().into_iter().map(Some).collect(),
@@ -156,25 +156,25 @@ impl ColumnArguments {
 
 /// The runs at a path that are asked for.
 pub struct SelectedRuns {
-    dataset: Option<Dataset>,
+    dataset: Option<LerobotDataset>,
     /// The episode that each run is; none of a log that is no dataset.
     numbers: Vec<Option<u64>>,
 }
 
 /// One run at a path.
 #[derive(Clone, Copy, Default)]
-pub struct Episode<'a> {
+pub struct RunAtPath<'a> {
     /// Its number; none of a log that is no dataset.
     pub number: Option<u64>,
     /// The dataset that has it, where it is opened.
-    dataset: Option<&'a Dataset>,
+    dataset: Option<&'a LerobotDataset>,
 }
 
 impl SelectedRuns {
     /// The runs in their order.
-    pub fn iter(&self) -> impl Iterator<Item = Episode<'_>> {
+    pub fn iter(&self) -> impl Iterator<Item = RunAtPath<'_>> {
         let dataset = self.dataset.as_ref();
-        self.numbers.iter().map(move |&number| Episode { number, dataset })
+        self.numbers.iter().map(move |&number| RunAtPath { number, dataset })
     }
 }
 
@@ -188,17 +188,22 @@ pub struct Reader<'a> {
 
 impl Reader<'_> {
     /// How a log, or an episode of a dataset, is read with the map of a file, or without one.
-    pub fn options<'a>(&'a self, episode: Episode<'a>) -> ReadOptions<'a> {
+    pub fn options<'a>(&'a self, episode: RunAtPath<'a>) -> ReadOptions<'a> {
         let ColumnArguments { effort, topic, excerpt, .. } = self.arguments;
         let (topic, excerpt) = (topic.as_deref(), excerpt.excerpt());
-        let Episode { number, dataset } = episode;
+        let RunAtPath { number, dataset } = episode;
         ReadOptions { map: self.map.as_ref(), effort, topic, excerpt, episode: number, dataset }
     }
 
     /// The run of a file, or of an episode of a dataset.
     ///
     /// Where the usual columns are absent, those of a known program are read, and a note says so.
-    pub fn read(&self, path: &Path, episode: Episode<'_>, robot: &Robot) -> Result<Run, CliError> {
+    pub fn read(
+        &self,
+        path: &Path,
+        episode: RunAtPath<'_>,
+        robot: &Robot,
+    ) -> Result<Run, CliError> {
         let options = self.options(episode);
         if let Some(name) = self.arguments.preset() {
             let Some(found) = logs::recognise(path, robot, Some(name), &options)? else {

@@ -37,14 +37,14 @@ impl Bar {
 }
 
 /// Does some work under a bar, or without one where nothing is to be printed.
-pub fn with_bar<T>(quiet: bool, work: impl FnOnce(&dyn diagnosis::Progress) -> T) -> T {
+pub fn with_bar<T>(quiet: bool, work: impl FnOnce(&dyn diagnosis::DiagnosisProgress) -> T) -> T {
     let bar = Bar::new();
     let done = work(if quiet { &diagnosis::Silent } else { &bar });
     bar.finish();
     done
 }
 
-impl diagnosis::Progress for Bar {
+impl diagnosis::DiagnosisProgress for Bar {
     fn stage(&self, name: &str, steps: usize) {
         self.appear_when_due();
         self.bar.set_length(steps as u64);

@@ -110,7 +110,7 @@ impl learner::TrainingProgress for Watch {
     }
 }
 
-impl diagnosis::Progress for Watch {
+impl diagnosis::DiagnosisProgress for Watch {
     fn stage(&self, name: &str, _: usize) {
         self.begin(name);
     }

@@ -8,10 +8,10 @@ use crate::columns::design::Design;
 use crate::diagnose::{DiagnosisRun, diagnose};
 use crate::error::DiagnosisError;
 use crate::outcome::effect_at::effect_at;
-use crate::progress::Progress;
+use crate::progress::DiagnosisProgress;
 use crate::readiness::extent::inadequate;
 use crate::regression::linear_fit::LinearFit;
-use crate::regression::problem::Model;
+use crate::regression::problem::HypothesisSet;
 use crate::regression::uncertainty::Uncertainty;
 use crate::result::{EffectAt, Estimate, Finding};
 use crate::search::inputs::Inputs;
@@ -59,7 +59,7 @@ pub fn compare(
     robot: &Robot,
     [before, after]: [&[Run]; 2],
     settings: &Settings,
-    progress: &dyn Progress,
+    progress: &dyn DiagnosisProgress,
 ) -> Result<Comparison, DiagnosisError> {
     if let Some(run) = after.iter().find(|a| before.iter().any(|b| is_repeat(a, b))) {
         return Err(DiagnosisError::InBoth { run: run.name.clone() });
@@ -103,7 +103,7 @@ fn sizes(
     inputs.with_dataset(|dataset| {
         let all: Vec<usize> = (0..dataset.blocks.len()).collect();
         let problem = dataset.problem(&all);
-        let model: Model = (0..design.groups.len()).collect();
+        let model: HypothesisSet = (0..design.groups.len()).collect();
         let Some(fit) = problem.fit(&model) else { return Vec::new() };
         let weights = fit.expand(design.width);
         let fitted = LinearFit {

@@ -10,7 +10,7 @@ use crate::outcome::held_out::HeldOutPart;
 use crate::outcome::hold::words_for_hold;
 use crate::outcome::second_encoder::compare_encoders;
 use crate::outcome::traces::{RunTraces, traces};
-use crate::progress::Progress;
+use crate::progress::DiagnosisProgress;
 use crate::readiness::at_limits::at_limits;
 use crate::readiness::extent::{inadequate, without_unrecorded};
 use crate::readiness::inspected_logs::inspect_logs;
@@ -60,7 +60,7 @@ pub fn diagnose(
     robot: &Robot,
     runs: &[Run],
     settings: &Settings,
-    progress: &dyn Progress,
+    progress: &dyn DiagnosisProgress,
 ) -> Result<DiagnosisRun, DiagnosisError> {
     settings.check()?;
     progress.stage("preparing the logs", 2);
@@ -123,7 +123,7 @@ struct Answer {
 }
 
 /// Searches, tests and assembles the diagnosis.
-fn answer(inputs: &Inputs, progress: &dyn Progress) -> Result<Answer, DiagnosisError> {
+fn answer(inputs: &Inputs, progress: &dyn DiagnosisProgress) -> Result<Answer, DiagnosisError> {
     progress.stage("searching for causes", 3);
     inputs.with_dataset(|dataset| {
         progress.step();

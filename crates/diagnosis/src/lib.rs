@@ -37,7 +37,7 @@ pub use error::DiagnosisError;
 pub use how_found::{HowFound, how_found};
 pub use outcome::held_out::{HeldOutPart, Span};
 pub use outcome::traces::{JointTraces, RunTraces};
-pub use progress::{Progress, Silent};
+pub use progress::{DiagnosisProgress, Silent};
 pub use result::{
     DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
     JointReport, Negligible, NoiseFloorSource, NoiseSpectrum, RuledOut, RunSummary, SCHEMA,

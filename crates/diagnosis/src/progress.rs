@@ -1,5 +1,5 @@
 /// Receives the progress of a diagnosis.
-pub trait Progress: Sync {
+pub trait DiagnosisProgress: Sync {
     /// A stage of so many steps begins.
     fn stage(&self, name: &str, steps: usize);
 
@@ -11,7 +11,7 @@ pub trait Progress: Sync {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Silent;
 
-impl Progress for Silent {
+impl DiagnosisProgress for Silent {
     fn stage(&self, _: &str, _: usize) {}
 
     fn step(&self) {}

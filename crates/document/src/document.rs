@@ -7,7 +7,7 @@ use crate::error::DocumentError;
 use crate::key_path::{KeyPath, Segment};
 use crate::names::unknown_name;
 use crate::node::{Node, Value};
-use crate::source::{Origin, Source};
+use crate::source::{TextOrigin, TextSource};
 use crate::{read, set};
 
 /// A TOML document, every value of which knows the file, line and column it comes from.
@@ -63,8 +63,8 @@ impl Document {
     /// [`DocumentError::Mistake`] when the text is not TOML, or extends files: it has no
     /// folder to look for them.
     pub fn from_text(name: &str, text: &str) -> Result<Self, DocumentError> {
-        let origin = Origin::Text(name.to_owned());
-        let source = Arc::new(Source { origin, text: text.to_owned() });
+        let origin = TextOrigin::Text(name.to_owned());
+        let source = Arc::new(TextSource { origin, text: text.to_owned() });
         let mut root = read::parse(&source)?;
         match read::take_extends(&mut root) {
             None => Ok(Self { root }),

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
 
 use crate::key_path::KeyPath;
-use crate::source::{Origin, SourceSpan, printable};
+use crate::source::{SourceSpan, TextOrigin, printable};
 
 /// How an assignment is given on the command line.
 const SET: &str = "--set ";
@@ -89,7 +89,7 @@ impl DocumentError {
         };
         let source = &place.source;
         let (text, shift) = match source.origin {
-            Origin::Assignment => (format!("{SET}{}", source.text), SET.len()),
+            TextOrigin::Assignment => (format!("{SET}{}", source.text), SET.len()),
             _ => (source.text.clone(), 0),
         };
         let span = place.span();

@@ -7,7 +7,7 @@ use toml::de::{DeInteger, DeTable, DeValue};
 use toml::value::Datetime;
 
 use crate::key_path::{Quoted, Segment};
-use crate::source::{Source, SourceSpan};
+use crate::source::{SourceSpan, TextSource};
 
 /// Deepest nesting of tables and arrays.
 pub(crate) const DEEPEST: usize = 128;
@@ -16,7 +16,7 @@ pub(crate) const DEEPEST: usize = 128;
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
     pub value: Value,
-    pub source: Arc<Source>,
+    pub source: Arc<TextSource>,
     /// The span of its key; in an array, the span of the value itself.
     pub key: Range<usize>,
     /// The value; for a table under a header, the header.
@@ -39,14 +39,14 @@ pub(crate) type Wrong = (Range<usize>, String);
 
 impl Node {
     /// The document that a text holds.
-    pub(crate) fn document(source: &Arc<Source>) -> Result<Self, Wrong> {
+    pub(crate) fn document(source: &Arc<TextSource>) -> Result<Self, Wrong> {
         let table = DeTable::parse(&source.text).map_err(syntax)?;
         let root = Layer { source, offset: 0 };
         root.table(table.into_inner(), DEEPEST).map(|value| root.node(value, 0..0, 0..0))
     }
 
     /// The value written at `span` of a text.
-    pub(crate) fn value_at(source: &Arc<Source>, span: Range<usize>) -> Result<Self, Wrong> {
+    pub(crate) fn value_at(source: &Arc<TextSource>, span: Range<usize>) -> Result<Self, Wrong> {
         let layer = Layer { source, offset: span.start };
         let there = |range| layer.shift(range);
         let text = source.text.get(span.clone()).unwrap_or_default();
@@ -142,7 +142,7 @@ fn syntax(error: toml::de::Error) -> Wrong {
 
 /// What turns parsed values into nodes: a text, and where in it the parser began.
 struct Layer<'a> {
-    source: &'a Arc<Source>,
+    source: &'a Arc<TextSource>,
     offset: usize,
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::error::DocumentError;
 use crate::key_path::KeyPath;
 use crate::node::{Node, Value};
-use crate::source::{Origin, Source, SourceSpan};
+use crate::source::{SourceSpan, TextOrigin, TextSource};
 
 /// The key of a file that names the files it extends.
 pub(crate) const EXTENDS: &str = "extends";
@@ -28,7 +28,7 @@ pub(crate) fn read(path: &Path) -> Result<Node, DocumentError> {
 }
 
 /// The document in a text, `extends` among its keys.
-pub(crate) fn parse(source: &Arc<Source>) -> Result<Node, DocumentError> {
+pub(crate) fn parse(source: &Arc<TextSource>) -> Result<Node, DocumentError> {
     Node::document(source).map_err(|(span, message)| {
         DocumentError::at(SourceSpan::new(source, span), KeyPath::root(), &message, None)
     })
@@ -52,7 +52,7 @@ struct Reader {
 
 impl Reader {
     fn layers(&mut self, path: &Path, text: String) -> Result<Node, DocumentError> {
-        let source = Arc::new(Source { origin: Origin::File(path.to_owned()), text });
+        let source = Arc::new(TextSource { origin: TextOrigin::File(path.to_owned()), text });
         let mut top = parse(&source)?;
         let mut below = None;
         for base in take_extends(&mut top).map_or(Ok(Vec::new()), bases)? {

@@ -7,23 +7,24 @@ use crate::key_path::{KeyPath, Quoted, Segment};
 use crate::node::{Node, Value, Wrong};
 use crate::parse_key_path;
 use crate::read::EXTENDS;
-use crate::source::{Origin, Source, SourceSpan};
+use crate::source::{SourceSpan, TextOrigin, TextSource};
 
 /// A step of a written path, and where it stands in the text.
 type Step = (Segment, Range<usize>);
 
 /// Puts the value of `path=value` into a document.
 pub(crate) fn set(root: &mut Node, assignment: &str) -> Result<(), DocumentError> {
-    let source = Arc::new(Source { origin: Origin::Assignment, text: assignment.to_owned() });
+    let source =
+        Arc::new(TextSource { origin: TextOrigin::Assignment, text: assignment.to_owned() });
     let (steps, value) = parse_assignment(&source).map_err(|wrong| mistake(&source, wrong))?;
     put(root, &steps, value).map_err(|wrong| mistake(&source, wrong))
 }
 
-fn mistake(source: &Arc<Source>, (span, message): Wrong) -> DocumentError {
+fn mistake(source: &Arc<TextSource>, (span, message): Wrong) -> DocumentError {
     DocumentError::at(SourceSpan::new(source, span), KeyPath::root(), &message, None)
 }
 
-fn parse_assignment(source: &Arc<Source>) -> Result<(Vec<Step>, Node), Wrong> {
+fn parse_assignment(source: &Arc<TextSource>) -> Result<(Vec<Step>, Node), Wrong> {
     let text = &source.text;
     let form = "expected `path=value`, such as `effect.0.delay_s=0.002`";
     let equals = equals_sign(text).ok_or_else(|| (0..text.len(), form.to_owned()))?;

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 /// A text that values come from.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Source {
-    pub origin: Origin,
+pub(crate) struct TextSource {
+    pub origin: TextOrigin,
     pub text: String,
 }
 
 /// Where a text comes from.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Origin {
+pub(crate) enum TextOrigin {
     File(PathBuf),
     /// A text of the program, by its name.
     Text(String),
@@ -20,21 +20,21 @@ pub(crate) enum Origin {
     Assignment,
 }
 
-impl Source {
+impl TextSource {
     /// The folder that paths in the text are relative to; empty for the current one.
     pub(crate) fn folder(&self) -> &Path {
         match &self.origin {
-            Origin::File(path) => path.parent().unwrap_or(Path::new("")),
-            Origin::Text(_) | Origin::Assignment => Path::new(""),
+            TextOrigin::File(path) => path.parent().unwrap_or(Path::new("")),
+            TextOrigin::Text(_) | TextOrigin::Assignment => Path::new(""),
         }
     }
 
     /// What stands before line and column; nothing for the command line.
     pub(crate) fn name(&self) -> Option<String> {
         match &self.origin {
-            Origin::File(path) => Some(path.display().to_string()),
-            Origin::Text(name) => Some(name.clone()),
-            Origin::Assignment => None,
+            TextOrigin::File(path) => Some(path.display().to_string()),
+            TextOrigin::Text(name) => Some(name.clone()),
+            TextOrigin::Assignment => None,
         }
     }
 }
@@ -44,13 +44,13 @@ impl Source {
 /// Displays as `file.toml:12:9`, or as the whole `--set path=value`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SourceSpan {
-    pub(crate) source: Arc<Source>,
+    pub(crate) source: Arc<TextSource>,
     span: Range<usize>,
 }
 
 impl SourceSpan {
     /// A span that reaches over the end, or into a character, is cut back.
-    pub(crate) fn new(source: &Arc<Source>, span: Range<usize>) -> Self {
+    pub(crate) fn new(source: &Arc<TextSource>, span: Range<usize>) -> Self {
         let start = source.text.floor_char_boundary(span.start);
         let end = source.text.floor_char_boundary(span.end).max(start);
         Self { source: Arc::clone(source), span: start..end }
@@ -108,7 +108,7 @@ mod tests {
     fn lines_and_columns_count_characters_from_one() {
         let text = "a = 1\nμ = 'é'  x\n".to_owned();
         let at = text.find('x').unwrap();
-        let source = Arc::new(Source { origin: Origin::Text("notes".to_owned()), text });
+        let source = Arc::new(TextSource { origin: TextOrigin::Text("notes".to_owned()), text });
         assert_eq!(SourceSpan::new(&source, at..at + 1).to_string(), "notes:2:10");
         assert_eq!(SourceSpan::new(&source, 0..1).to_string(), "notes:1:1");
         assert_eq!(SourceSpan::new(&source, 900..901).to_string(), "notes:3:1");

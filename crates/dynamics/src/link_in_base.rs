@@ -1,20 +1,20 @@
 use nalgebra::{Matrix3, Vector3};
 
-use crate::spatial::{Force, Motion, Pose, RigidInertia, multiply, multiply_transposed};
+use crate::spatial::{Force, Pose, RigidInertia, SpatialMotion, multiply, multiply_transposed};
 
 /// One link in the base frame, all about the origin of that frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LinkInBase {
     pub pose: Pose,
     /// Motion of a unit of velocity of the joint that carries the link.
-    pub s: Motion,
-    pub v: Motion,
+    pub s: SpatialMotion,
+    pub v: SpatialMotion,
     /// Acceleration relative to free fall.
-    pub a: Motion,
+    pub a: SpatialMotion,
     /// Change of `s` as the link moves, `v x s`.
-    pub s_rate: Motion,
+    pub s_rate: SpatialMotion,
     /// Change of the acceleration by the joint's position, `a_parent x s + v_parent x (v_parent x s)`.
-    pub a_by_q: Motion,
+    pub a_by_q: SpatialMotion,
     /// Inertia, momentum's change by velocity and wrench, of the link with all it carries.
     pub inertia: RigidInertia,
     pub change: VelocityChange,
@@ -37,9 +37,9 @@ pub(crate) struct VelocityChange {
 
 impl VelocityChange {
     #[inline(always)]
-    pub fn of(inertia: &RigidInertia, velocity: &Motion) -> Self {
+    pub fn of(inertia: &RigidInertia, velocity: &SpatialMotion) -> Self {
         let RigidInertia { mass, h, about_origin } = inertia;
-        let Motion { angular: w, linear: v } = velocity;
+        let SpatialMotion { angular: w, linear: v } = velocity;
         let turned = w.cross_matrix() * about_origin;
         let moment = multiply(about_origin, w) + h.cross(v);
         // I [w]x is the negative transpose of [w]x I.
@@ -51,13 +51,13 @@ impl VelocityChange {
 
     /// `B m`.
     #[inline(always)]
-    pub fn apply(&self, m: &Motion) -> Force {
+    pub fn apply(&self, m: &SpatialMotion) -> Force {
         Force { angular: multiply(&self.t, &m.angular), linear: self.l.cross(&m.angular) * -2.0 }
     }
 
     /// `B' m`, of which the linear part is zero.
     #[inline(always)]
-    pub fn apply_transposed(&self, m: &Motion) -> Vector3<f64> {
+    pub fn apply_transposed(&self, m: &SpatialMotion) -> Vector3<f64> {
         multiply_transposed(&self.t, &m.angular) + self.l.cross(&m.linear) * 2.0
     }
 }
@@ -67,11 +67,11 @@ impl LinkInBase {
         let zero = Vector3::zeros();
         Self {
             pose: Pose::identity(),
-            s: Motion::zero(),
-            v: Motion::zero(),
-            a: Motion::zero(),
-            s_rate: Motion::zero(),
-            a_by_q: Motion::zero(),
+            s: SpatialMotion::zero(),
+            v: SpatialMotion::zero(),
+            a: SpatialMotion::zero(),
+            s_rate: SpatialMotion::zero(),
+            a_by_q: SpatialMotion::zero(),
             inertia: RigidInertia { mass: 0.0, h: zero, about_origin: Matrix3::zeros() },
             change: VelocityChange { t: Matrix3::zeros(), l: zero },
             f: Force::zero(),

@@ -2,7 +2,7 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use robot::Robot;
 
 use crate::link_in_base::LinkInBase;
-use crate::spatial::{Force, Motion, Pose, RigidInertia};
+use crate::spatial::{Force, Pose, RigidInertia, SpatialMotion};
 
 /// A robot prepared for dynamics: constant transforms, axes and inertias of its tree.
 ///
@@ -21,7 +21,7 @@ pub(crate) struct JointModel {
     /// Slot of the parent in the workspace: 0 is the base, `i + 1` is link `i`.
     pub parent: usize,
     /// The motion of a unit of velocity, in the link's frame.
-    pub axis: Motion,
+    pub axis: SpatialMotion,
     pub is_rotation: bool,
     /// Rotation of the link in its parent: `constant + cos(q) cosine + sin(q) sine`.
     constant: Matrix3<f64>,
@@ -39,7 +39,7 @@ pub struct Workspace {
     /// Base first, then the links.
     pub(crate) links: Vec<LinkState>,
     /// Axis of joint `i` in the frame of link `j` at `j n + i`, for `i` at or above `j`.
-    pub(crate) axes: Vec<Motion>,
+    pub(crate) axes: Vec<SpatialMotion>,
     /// Inertia of each link with everything it carries, base first.
     pub(crate) composite: Vec<RigidInertia>,
     /// The links in the base frame, base first.
@@ -56,7 +56,7 @@ pub(crate) struct LinkState {
     /// Angular velocity.
     pub w: Vector3<f64>,
     /// Acceleration: angular, and of the link's origin relative to free fall.
-    pub a: Motion,
+    pub a: SpatialMotion,
     /// Wrench that the parent exerts on the link.
     pub f: Force,
 }
@@ -84,14 +84,14 @@ impl Dynamics {
         let at_rest = LinkState {
             pose: Pose::identity(),
             w: Vector3::zeros(),
-            a: Motion::zero(),
+            a: SpatialMotion::zero(),
             f: Force::zero(),
         };
         let nothing =
             RigidInertia { mass: 0.0, h: Vector3::zeros(), about_origin: Matrix3::zeros() };
         Workspace {
             links: vec![at_rest; n + 1],
-            axes: vec![Motion::zero(); n * n],
+            axes: vec![SpatialMotion::zero(); n * n],
             composite: vec![nothing; n + 1],
             in_base: vec![LinkInBase::at_rest(); n + 1],
             matrix: vec![0.0; n * n],
@@ -119,11 +119,11 @@ impl JointModel {
         let is_rotation = joint.kind.is_rotation();
         let (constant, cosine, sine, slide, axis) = if is_rotation {
             let turned = r0 * (Matrix3::identity() - along);
-            let axis = Motion { angular: axis, linear: Vector3::zeros() };
+            let axis = SpatialMotion { angular: axis, linear: Vector3::zeros() };
             (r0 * along, turned, r0 * axis.angular.cross_matrix(), Vector3::zeros(), axis)
         } else {
             let slide = r0 * axis;
-            (r0, zero, zero, slide, Motion { angular: Vector3::zeros(), linear: axis })
+            (r0, zero, zero, slide, SpatialMotion { angular: Vector3::zeros(), linear: axis })
         };
         Self {
             parent: link.parent.map_or(0, |p| p + 1),

@@ -2,7 +2,7 @@ use nalgebra::{DMatrix, Vector3};
 
 use crate::error::{DynamicsError, check};
 use crate::model::{Dynamics, LinkState, Workspace};
-use crate::spatial::{Motion, multiply};
+use crate::spatial::{SpatialMotion, multiply};
 
 /// Parameters of one link in the regressor.
 pub const PARAMETERS_PER_LINK: usize = 10;
@@ -166,7 +166,7 @@ impl Dynamics {
 /// row pi = s_linear . force + s_angular . moment
 /// ```
 #[inline(always)]
-fn write_block(s: &Motion, link: &LinkState, row: &mut [f64]) {
+fn write_block(s: &SpatialMotion, link: &LinkState, row: &mut [f64]) {
     let (sw, sv) = (&s.angular, &s.linear);
     let (w, wd, a) = (&link.w, &link.a.angular, &link.a.linear);
     let h = sv.cross(wd) + w * w.dot(sv) - sv * w.dot(w) + a.cross(sw);

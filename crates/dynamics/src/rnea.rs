@@ -2,7 +2,7 @@ use nalgebra::{DVector, Vector3};
 
 use crate::error::{DynamicsError, check};
 use crate::model::{Dynamics, JointModel, LinkState, Workspace};
-use crate::spatial::{Force, Motion, multiply, multiply_transposed};
+use crate::spatial::{Force, SpatialMotion, multiply, multiply_transposed};
 
 impl Dynamics {
     /// Joint torques that produce the acceleration `qdd` in the state `(q, qd)`.
@@ -172,7 +172,7 @@ impl JointModel {
         let at_origin =
             parent.a.linear + parent.a.angular.cross(p) + parent.w.cross(&parent.w.cross(p));
         let mut w = multiply_transposed(&pose.rotation, &parent.w);
-        let mut a = Motion {
+        let mut a = SpatialMotion {
             angular: multiply_transposed(&pose.rotation, &parent.a.angular),
             linear: multiply_transposed(&pose.rotation, &at_origin),
         };

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// A motion: angular part and the linear part at the origin of the frame it is written in.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Motion {
+pub(crate) struct SpatialMotion {
     pub angular: Vector3<f64>,
     pub linear: Vector3<f64>,
 }
@@ -53,13 +53,13 @@ pub(crate) fn multiply_transposed(r: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3
     )
 }
 
-impl Motion {
+impl SpatialMotion {
     pub fn zero() -> Self {
         Self { angular: Vector3::zeros(), linear: Vector3::zeros() }
     }
 
     #[inline(always)]
-    pub fn add(&mut self, other: &Motion) {
+    pub fn add(&mut self, other: &SpatialMotion) {
         self.angular += other.angular;
         self.linear += other.linear;
     }
@@ -71,8 +71,8 @@ impl Motion {
 
     /// Rate of a motion `m` that is fixed in a frame that moves as this one says, `v x m`.
     #[inline(always)]
-    pub fn cross(&self, m: &Motion) -> Motion {
-        Motion {
+    pub fn cross(&self, m: &SpatialMotion) -> SpatialMotion {
+        SpatialMotion {
             angular: self.angular.cross(&m.angular),
             linear: self.angular.cross(&m.linear) + self.linear.cross(&m.angular),
         }
@@ -113,8 +113,8 @@ impl Pose {
 
     /// A motion written in the parent's frame, written in the link's.
     #[inline(always)]
-    pub fn motion_to_link(&self, m: &Motion) -> Motion {
-        Motion {
+    pub fn motion_to_link(&self, m: &SpatialMotion) -> SpatialMotion {
+        SpatialMotion {
             angular: multiply_transposed(&self.rotation, &m.angular),
             linear: multiply_transposed(
                 &self.rotation,
@@ -125,10 +125,10 @@ impl Pose {
 
     /// A motion written in the link's frame, written in the parent's.
     #[inline(always)]
-    pub fn motion_to_parent(&self, m: &Motion) -> Motion {
+    pub fn motion_to_parent(&self, m: &SpatialMotion) -> SpatialMotion {
         let angular = multiply(&self.rotation, &m.angular);
         let linear = multiply(&self.rotation, &m.linear) + self.origin.cross(&angular);
-        Motion { angular, linear }
+        SpatialMotion { angular, linear }
     }
 
     /// Pose of a link in this frame's parent, whose pose in this frame is `link`.
@@ -175,7 +175,7 @@ impl RigidInertia {
 
     /// Wrench that gives the resting body the acceleration `a`.
     #[inline(always)]
-    pub fn apply(&self, a: &Motion) -> Force {
+    pub fn apply(&self, a: &SpatialMotion) -> Force {
         Force {
             angular: multiply(&self.about_origin, &a.angular) + self.h.cross(&a.linear),
             linear: self.mass * a.linear + a.angular.cross(&self.h),

@@ -9,7 +9,7 @@ const COMPARED: [&str; 2] = ["cad", "named"];
 
 /// The error of the robot as described beside that of the extended one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Gain {
+pub struct PredictionGain {
     /// As described.
     pub before: f64,
     /// Extended.
@@ -21,14 +21,14 @@ pub struct Gain {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Gains {
     /// RMS error of the torque (N m or N).
-    pub torque: Option<Gain>,
+    pub torque: Option<PredictionGain>,
     /// RMS drift of the simulation in [`Gains::WINDOW_S`] (rad or m).
-    pub drift: Option<Gain>,
+    pub drift: Option<PredictionGain>,
     /// RMS error of the tracking (rad or m).
-    pub tracking: Option<Gain>,
+    pub tracking: Option<PredictionGain>,
 }
 
-impl Gain {
+impl PredictionGain {
     /// How many times less the error is.
     pub fn times(&self) -> f64 {
         self.before / self.after
@@ -77,9 +77,9 @@ impl Gains {
     /// tracks by the origin of its last link.
     pub fn of_all(torque: &[TorqueError], forward: &ForwardGap, tracking: &[TrackedError]) -> Self {
         Self {
-            torque: Gain::of_torque(torque),
-            drift: Gain::of_drift(forward, Self::WINDOW_S),
-            tracking: Gain::of_tracking(tracking),
+            torque: PredictionGain::of_torque(torque),
+            drift: PredictionGain::of_drift(forward, Self::WINDOW_S),
+            tracking: PredictionGain::of_tracking(tracking),
         }
     }
 
@@ -98,9 +98,9 @@ impl Gains {
         };
         let drift = |drift: &Drift| drift.rms.as_ref()?.get(j).copied();
         Self {
-            torque: Gain::of(torque_of),
-            drift: Gain::in_window(forward, Self::WINDOW_S, drift),
-            tracking: Gain::of(tracked),
+            torque: PredictionGain::of(torque_of),
+            drift: PredictionGain::in_window(forward, Self::WINDOW_S, drift),
+            tracking: PredictionGain::of(tracked),
         }
     }
 }

@@ -44,7 +44,7 @@ pub struct Staged<T> {
 
 /// What a stage is made from, as a hash.
 #[derive(Debug, Clone)]
-pub struct Inputs(Sha256);
+pub struct StageInputs(Sha256);
 
 /// `stages/NAME.json`
 #[derive(Serialize, Deserialize)]
@@ -54,7 +54,7 @@ struct Stored<T> {
     value: T,
 }
 
-impl Inputs {
+impl StageInputs {
     /// Those of a version of the program.
     pub fn of(version: &str) -> Self {
         Self(Sha256::new()).and(version.as_bytes())
@@ -97,7 +97,7 @@ impl Stage {
     /// [`ExperimentError::Stage`] when a file cannot be read or written, and what `make` refuses.
     pub fn make<T, E>(
         &self,
-        inputs: Inputs,
+        inputs: StageInputs,
         make: impl FnOnce() -> Result<Product<T>, E>,
     ) -> Result<Staged<T>, E>
     where
@@ -183,7 +183,7 @@ mod tests {
             std::fs::write(folder.join("a.txt"), input).unwrap();
             Ok::<_, ExperimentError>(Product { value: input.len(), files: vec!["a.txt".into()] })
         };
-        let inputs = Inputs::of("1").and(input.as_bytes());
+        let inputs = StageInputs::of("1").and(input.as_bytes());
         Stage::new(folder, "first").make(inputs, make).unwrap()
     }
 
@@ -217,7 +217,7 @@ mod tests {
         made(folder, "abc", &mut count);
         let stage = Stage::new(folder, "first");
         let fails = || Err(ExperimentError::WriterDied { path: PathBuf::new() });
-        let inputs = || Inputs::of("1").and(b"other");
+        let inputs = || StageInputs::of("1").and(b"other");
         assert!(stage.make::<usize, _>(inputs(), fails).is_err());
         assert!(!made(folder, "abc", &mut count).is_kept);
     }
@@ -225,7 +225,7 @@ mod tests {
     #[test]
     fn where_one_input_ends_and_the_next_begins_matters() {
         let hash = |parts: [&str; 2]| {
-            Inputs::of("1").and(parts[0].as_bytes()).and(parts[1].as_bytes()).hash()
+            StageInputs::of("1").and(parts[0].as_bytes()).and(parts[1].as_bytes()).hash()
         };
         assert_ne!(hash(["ab", "c"]), hash(["a", "bc"]));
     }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::exp::exp;
 use crate::packed::Packed;
 use crate::panels::{Panels, ROWS, SQUARE};
-use crate::tile::{self, Entry, Product};
+use crate::tile::{self, Entry, MatrixProduct};
 
 /// Registers of a panel's column that are summed together.
 const REGISTERS: usize = 3;
@@ -107,7 +107,7 @@ impl WithSimd for Assemble<'_> {
         for (j, k) in self.panel.chunks_exact_mut(SQUARE).enumerate() {
             self.gram.block(simd, (self.p, j), k);
             if let Some(f) = &self.gram.features {
-                tile::square(simd, f.panel(self.p), f.panel(j), k, Product::ADD);
+                tile::square(simd, f.panel(self.p), f.panel(j), k, MatrixProduct::ADD);
             }
         }
         for i in 0..ROWS {

@@ -66,12 +66,12 @@ pub struct KernelSum {
     inputs: usize,
     /// `[block][input]`; the last block is filled up with zeros.
     points: Vec<Lanes>,
-    groups: Vec<Group>,
+    groups: Vec<PanelGroup>,
 }
 
 /// Up to [`GROUP`] outputs.
 #[derive(Debug, Clone)]
-struct Group {
+struct PanelGroup {
     outputs: usize,
     /// `-1/2 / length_scales²`, `[input][output]`.
     weights: Vec<f64>,
@@ -113,7 +113,7 @@ impl KernelSum {
             len,
             inputs,
             points: into_blocks(len, inputs, |i, d| points[i * inputs + d]),
-            groups: groups.map(|(kernels, alpha)| Group::new(kernels, alpha)).collect(),
+            groups: groups.map(|(kernels, alpha)| PanelGroup::new(kernels, alpha)).collect(),
         })
     }
 
@@ -212,13 +212,13 @@ impl KernelSum {
         Arch::new().dispatch(Covariances { points, x, group, output, variance, k_star });
     }
 
-    fn sum_group<const C: usize>(&self, group: &Group, x: &[f64], out: &mut [f64]) {
+    fn sum_group<const C: usize>(&self, group: &PanelGroup, x: &[f64], out: &mut [f64]) {
         let sum = GroupSum::<C> { points: &self.points, x, group };
         out.copy_from_slice(&Arch::new().dispatch(sum));
     }
 }
 
-impl Group {
+impl PanelGroup {
     fn new(kernels: &[GaussianKernel], alpha: &[Vec<f64>]) -> Self {
         // A width whose square underflows has the largest weight: 1 at the point, 0 elsewhere.
         let weight = |l: f64| (-0.5 / (l * l)).max(-f64::MAX);
@@ -288,7 +288,7 @@ fn exponents<'a, S: Simd, const C: usize>(
 struct GroupSum<'a, const C: usize> {
     points: &'a [Lanes],
     x: &'a [f64],
-    group: &'a Group,
+    group: &'a PanelGroup,
 }
 
 impl<const C: usize> WithSimd for GroupSum<'_, C> {
@@ -321,7 +321,7 @@ impl<const C: usize> WithSimd for GroupSum<'_, C> {
 struct Covariances<'a> {
     points: &'a [Lanes],
     x: &'a [f64],
-    group: &'a Group,
+    group: &'a PanelGroup,
     output: usize,
     variance: f64,
     k_star: &'a mut [f64],

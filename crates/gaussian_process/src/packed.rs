@@ -64,14 +64,14 @@ impl Packed {
     }
 
     /// Panels in groups of at most `size`.
-    pub fn groups_mut(&mut self, size: usize) -> Vec<Group<'_>> {
+    pub fn groups_mut(&mut self, size: usize) -> Vec<PanelGroup<'_>> {
         let panels = self.panels();
         let mut rest = self.values.as_mut_slice();
         let mut groups = Vec::with_capacity(panels.div_ceil(size));
         for first in (0..panels).step_by(size) {
             let end = (first + size).min(panels);
             let (values, after) = rest.split_at_mut(offset(end) - offset(first));
-            groups.push(Group { first, end, values });
+            groups.push(PanelGroup { first, end, values });
             rest = after;
         }
         groups
@@ -85,13 +85,13 @@ fn diagonal(i: usize) -> usize {
 
 /// Consecutive panels `first..end`.
 #[derive(Debug)]
-pub(crate) struct Group<'a> {
+pub(crate) struct PanelGroup<'a> {
     pub first: usize,
     pub end: usize,
     values: &'a mut [f64],
 }
 
-impl Group<'_> {
+impl PanelGroup<'_> {
     /// Panel `p`.
     pub fn panel(&mut self, p: usize) -> &mut [f64] {
         let start = offset(self.first);

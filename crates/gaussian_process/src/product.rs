@@ -3,7 +3,7 @@ use rayon::prelude::*;
 
 use crate::packed::Packed;
 use crate::panels::{Panels, ROWS, SQUARE, transpose};
-use crate::tile::{self, Product};
+use crate::tile::{self, MatrixProduct};
 
 /// Square blocks of the matrix that are multiplied by all columns before the next.
 const BLOCKS: usize = 4;
@@ -150,7 +150,7 @@ impl WithSimd for Columns<'_> {
             }
             for (f, sums) in sums.chunks_exact_mut(SQUARE).enumerate() {
                 let x = &x.panel(f)[start * SQUARE..end * SQUARE];
-                tile::square(simd, rows, x, sums, Product::ADD);
+                tile::square(simd, rows, x, sums, MatrixProduct::ADD);
             }
         }
         for (i, out) in out.chunks_exact_mut(columns).enumerate() {

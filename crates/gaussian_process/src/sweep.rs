@@ -3,9 +3,9 @@ use std::ops::Range;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use crate::packed::{Group, Packed};
+use crate::packed::{Packed, PanelGroup};
 use crate::panels::{self, Panels, ROWS, SQUARE};
-use crate::tile::{self, Product};
+use crate::tile::{self, MatrixProduct};
 
 /// Panels of a pivot block. 96 columns: less reads and writes the matrix more often, more takes
 /// longer for the blocks themselves.
@@ -169,7 +169,7 @@ impl WithSimd for Outside<'_> {
             // Panel c of the triangle ends with its diagonal block.
             let depth = (c + 1) * SQUARE;
             let l = &self.l_inverse.panel(c)[..depth];
-            tile::square(simd, &columns[..depth], l, q, Product::SET);
+            tile::square(simd, &columns[..depth], l, q, MatrixProduct::SET);
         }
     }
 }
@@ -178,7 +178,7 @@ impl WithSimd for Outside<'_> {
 struct Update<'a> {
     pivot: Range<usize>,
     q: &'a [f64],
-    group: Group<'a>,
+    group: PanelGroup<'a>,
 }
 
 impl WithSimd for Update<'_> {
@@ -196,7 +196,7 @@ impl WithSimd for Update<'_> {
                     let keep = if row || column { 0.0 } else { 1.0 };
                     let sign = if p < self.pivot.start || column { 1.0 } else { -1.0 };
                     let c = &mut panel[j * SQUARE..][..SQUARE];
-                    tile::square(simd, q(p), q(j), c, Product { keep, sign });
+                    tile::square(simd, q(p), q(j), c, MatrixProduct { keep, sign });
                 }
             }
         }

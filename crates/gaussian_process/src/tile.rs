@@ -17,19 +17,19 @@ pub(crate) trait Entry: Copy {
 
 /// The product of matrices: `keep C + sign A B'`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Product {
+pub(crate) struct MatrixProduct {
     pub keep: f64,
     pub sign: f64,
 }
 
-impl Product {
+impl MatrixProduct {
     /// `A B'`
     pub const SET: Self = Self { keep: 0.0, sign: 1.0 };
     /// `C + A B'`
     pub const ADD: Self = Self { keep: 1.0, sign: 1.0 };
 }
 
-impl Entry for Product {
+impl Entry for MatrixProduct {
     #[inline(always)]
     fn add<S: Simd>(self, simd: S, a: S::f64s, b: S::f64s, sum: S::f64s) -> S::f64s {
         simd.mul_add_e_f64s(a, b, sum)
@@ -115,7 +115,7 @@ mod tests {
     use crate::panels::{Panels, SQUARE};
     use pulp::WithSimd;
 
-    struct Square<'a>(&'a Panels, &'a Panels, &'a mut [f64], Product);
+    struct Square<'a>(&'a Panels, &'a Panels, &'a mut [f64], MatrixProduct);
 
     impl WithSimd for Square<'_> {
         type Output = ();
@@ -133,7 +133,9 @@ mod tests {
         let b = |i: usize, k: usize| ((7 * i + 2 * k) % 13) as f64 - 6.0;
         let (left, right) = (Panels::new(2 * ROWS, 9, a), Panels::new(ROWS, 9, b));
         for arch in every_arch() {
-            for product in [Product::SET, Product::ADD, Product { keep: 1.0, sign: -1.0 }] {
+            for product in
+                [MatrixProduct::SET, MatrixProduct::ADD, MatrixProduct { keep: 1.0, sign: -1.0 }]
+            {
                 let mut c: Vec<f64> = (0..SQUARE).map(|i| i as f64).collect();
                 arch.dispatch(Square(&left, &right, &mut c, product));
                 for (at, &value) in c.iter().enumerate() {

@@ -1,9 +1,9 @@
 use robot::Robot;
 
 use crate::judge::Judge;
+use crate::log_reading::LogReading;
+use crate::motion_samples::MotionSamples;
 use crate::observation::{Observation, ObservationKind, Rival, Spoils};
-use crate::reading::Reading;
-use crate::samples::Samples;
 
 /// A velocity column against the derivative of its position.
 #[derive(Debug, Clone, Copy)]
@@ -14,7 +14,7 @@ struct Slope {
     correlation: f64,
 }
 
-fn slopes(samples: &Samples, least: f64) -> Vec<Slope> {
+fn slopes(samples: &MotionSamples, least: f64) -> Vec<Slope> {
     let of = |joint: usize| {
         let v = samples.column(&samples.velocity, joint);
         let d = samples.column(&samples.motion[1], joint);
@@ -50,7 +50,7 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
     sizes.sort_unstable_by(f64::total_cmp);
     let Some(&factor) = sizes.get(sizes.len() / 2) else {
         all.extend(slow_clock(judge).map(|factor| {
-            judge.adopt(&Reading::Time(factor));
+            judge.adopt(&LogReading::Time(factor));
             let joints = (0..robot.joint_count()).collect();
             observation(
                 ObservationKind::TimeUnit { factor },
@@ -71,7 +71,7 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
         return all;
     }
     let as_is = judge.as_is();
-    let reading = Reading::Time(factor);
+    let reading = LogReading::Time(factor);
     let gain = judge.judge_reading(reading.clone(), &as_is).gain;
     let joints: Vec<usize> = (0..robot.joint_count()).collect();
     let margin = judge.thresholds.margin;
@@ -102,6 +102,6 @@ fn slow_clock(judge: &mut Judge) -> Option<f64> {
     let factor =
         (1..=3).map(|k| 1e3_f64.powi(k)).find(|f| f / step_s > judge.thresholds.least_rate_hz)?;
     let as_is = judge.as_is();
-    let found = judge.judge_reading(Reading::Time(factor), &as_is);
+    let found = judge.judge_reading(LogReading::Time(factor), &as_is);
     (found.gain > -judge.thresholds.margin).then_some(factor)
 }

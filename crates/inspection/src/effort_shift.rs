@@ -1,8 +1,8 @@
 use robot::Robot;
 
 use crate::judge::Judge;
+use crate::motion_samples::Thinned;
 use crate::observation::{Observation, ObservationKind, ReadingEvidence, Spoils};
-use crate::samples::Thinned;
 use crate::thresholds::InspectionThresholds;
 
 /// A shift of the efforts against the motion that explains as much as a reading does.

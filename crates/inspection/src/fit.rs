@@ -25,13 +25,13 @@ pub(crate) struct Fitted {
 
 /// Sums of products of the columns and the effort of a joint, about their means.
 #[derive(Debug, Clone)]
-pub(crate) struct Sums {
+pub(crate) struct ProductSums {
     gram: DMatrix<f64>,
     right: DVector<f64>,
     total: f64,
 }
 
-impl Sums {
+impl ProductSums {
     /// From columns and effort, one value a row.
     pub fn of(columns: [&[f64]; COLUMNS], effort: &[f64]) -> Self {
         let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len().max(1) as f64;
@@ -117,7 +117,7 @@ mod tests {
         let columns = columns();
         let sum = |k: usize| 7.0 + columns.iter().zip(effort).map(|(c, x)| x * c[k]).sum::<f64>();
         let effort: Vec<f64> = (0..400).map(sum).collect();
-        Sums::of(columns.each_ref().map(Vec::as_slice), &effort).fit(Drive { gain })
+        ProductSums::of(columns.each_ref().map(Vec::as_slice), &effort).fit(Drive { gain })
     }
 
     #[test]

@@ -7,11 +7,11 @@ use crate::effort_shift::effort_shift;
 use crate::judge::Judge;
 use crate::limits::at_limits;
 use crate::moments::moments;
+use crate::motion_samples::Thinned;
 use crate::observation::Observation;
 use crate::overlaps::overlaps;
 use crate::pieces::pieces;
 use crate::readings::readings;
-use crate::samples::Thinned;
 use crate::thresholds::InspectionThresholds;
 
 /// Looks for errors of logs as a whole, before causes are sought.

@@ -1,18 +1,18 @@
 use robot::Robot;
 
-use crate::fit::{Drive, Fitted, Sums};
+use crate::fit::{Drive, Fitted, ProductSums};
+use crate::log_reading::LogReading;
+use crate::motion_samples::MotionSamples;
+use crate::nominal_torque::NominalTorque;
 use crate::pooled::fit_pooled;
-use crate::reading::Reading;
-use crate::samples::Samples;
 use crate::thresholds::InspectionThresholds;
-use crate::torque::Torque;
 
 /// Compares readings of samples with the nominal torque.
 pub(crate) struct Judge<'a> {
     pub robot: &'a Robot,
     pub thresholds: &'a InspectionThresholds,
-    torque: Torque,
-    pub samples: Samples,
+    torque: NominalTorque,
+    pub samples: MotionSamples,
     /// Nominal torque as the samples stand: rigid bodies without gravity, gravity per unit, and all.
     pub inertial: Vec<f64>,
     pub gravity: [Vec<f64>; 3],
@@ -24,7 +24,7 @@ pub(crate) struct Judge<'a> {
 /// A reading, and the residual that it leaves.
 #[derive(Debug, Clone)]
 pub(crate) struct ReadingFit {
-    pub reading: Reading,
+    pub reading: LogReading,
     /// Share of the effort left at each joint as the log stands, and when it is read so.
     pub before: Vec<f64>,
     pub shares: Vec<f64>,
@@ -33,8 +33,12 @@ pub(crate) struct ReadingFit {
 }
 
 impl<'a> Judge<'a> {
-    pub fn new(robot: &'a Robot, thresholds: &'a InspectionThresholds, samples: Samples) -> Self {
-        let mut torque = Torque::new(robot);
+    pub fn new(
+        robot: &'a Robot,
+        thresholds: &'a InspectionThresholds,
+        samples: MotionSamples,
+    ) -> Self {
+        let mut torque = NominalTorque::new(robot);
         let inertial = torque.inertial(&samples);
         let gravity = torque.gravity(&samples);
         let whole = torque.whole(samples.joints, &samples.motion);
@@ -56,34 +60,34 @@ impl<'a> Judge<'a> {
     pub fn as_is(&self) -> ReadingFit {
         let fits = self.fits(&self.samples, &self.whole, self.drive());
         let shares: Vec<f64> = fits.iter().map(|fit| fit.share).collect();
-        ReadingFit { reading: Reading::AsIs, before: shares.clone(), shares, gain: 0.0 }
+        ReadingFit { reading: LogReading::AsIs, before: shares.clone(), shares, gain: 0.0 }
     }
 
     /// The fit of every joint for samples and their nominal torque.
-    pub fn fits(&self, samples: &Samples, tau: &[f64], drive: Drive) -> Vec<Fitted> {
+    pub fn fits(&self, samples: &MotionSamples, tau: &[f64], drive: Drive) -> Vec<Fitted> {
         let fit = |j| self.sums(samples, tau, j).fit(drive);
         (0..samples.joints).map(fit).collect()
     }
 
     /// Sums of a joint for samples and their nominal torque.
-    pub fn sums(&self, samples: &Samples, tau: &[f64], j: usize) -> Sums {
+    pub fn sums(&self, samples: &MotionSamples, tau: &[f64], j: usize) -> ProductSums {
         let column = |x: &[f64]| samples.column(x, j);
         let turned = samples.direction(j);
         let columns = [column(tau), turned, column(&samples.motion[1]), column(&samples.motion[2])];
-        Sums::of(columns.each_ref().map(Vec::as_slice), &column(&samples.effort))
+        ProductSums::of(columns.each_ref().map(Vec::as_slice), &column(&samples.effort))
     }
 
     /// The residual with a reading.
-    pub fn judge_reading(&mut self, reading: Reading, as_is: &ReadingFit) -> ReadingFit {
+    pub fn judge_reading(&mut self, reading: LogReading, as_is: &ReadingFit) -> ReadingFit {
         let read = reading.apply(&self.samples);
         let tau = match &reading {
             _ if reading.is_of_efforts() => self.whole.clone(),
-            Reading::WithoutGravity => self.inertial.clone(),
-            Reading::Gravity(g) => self.torque_under([g.x, g.y, g.z]),
+            LogReading::WithoutGravity => self.inertial.clone(),
+            LogReading::Gravity(g) => self.torque_under([g.x, g.y, g.z]),
             _ => self.torque.whole(read.joints, &read.motion),
         };
         let narrow = Drive { gain: self.thresholds.unit_gain };
-        let drive = if matches!(reading, Reading::Unit(_)) { narrow } else { self.drive() };
+        let drive = if matches!(reading, LogReading::Unit(_)) { narrow } else { self.drive() };
         let shares: Vec<f64> = self.fits(&read, &tau, drive).iter().map(|f| f.share).collect();
         let gain = self.gain(&as_is.shares, &shares);
         ReadingFit { reading, before: as_is.shares.clone(), shares, gain }
@@ -106,7 +110,7 @@ impl<'a> Judge<'a> {
         };
         let (before, shares) = (shares(&self.whole), shares(&self.inertial));
         let gain = self.gain(&before, &shares);
-        Some(ReadingFit { reading: Reading::WithoutGravity, before, shares, gain })
+        Some(ReadingFit { reading: LogReading::WithoutGravity, before, shares, gain })
     }
 
     /// Nominal torque with another acceleration of free fall.
@@ -138,14 +142,14 @@ impl<'a> Judge<'a> {
     }
 
     /// Reads the samples so from now on.
-    pub fn adopt(&mut self, reading: &Reading) {
+    pub fn adopt(&mut self, reading: &LogReading) {
         self.samples = reading.apply(&self.samples);
         match reading {
-            Reading::WithoutGravity => {
+            LogReading::WithoutGravity => {
                 self.gravity.iter_mut().flatten().for_each(|unit| *unit = 0.0);
                 self.whole = self.inertial.clone();
             }
-            Reading::Gravity(g) => self.whole = self.torque_under([g.x, g.y, g.z]),
+            LogReading::Gravity(g) => self.whole = self.torque_under([g.x, g.y, g.z]),
             _ => {
                 self.inertial = self.torque.inertial(&self.samples);
                 self.gravity = self.torque.gravity(&self.samples);
@@ -158,7 +162,7 @@ impl<'a> Judge<'a> {
 
 /// Squares of the error of models over those of the effort about its mean. The error is a share of the whole effort, also of
 /// the mean, which an offset takes off.
-fn floors(samples: &Samples, t: &InspectionThresholds) -> Vec<f64> {
+fn floors(samples: &MotionSamples, t: &InspectionThresholds) -> Vec<f64> {
     let floor = |j: usize| {
         let effort = samples.column(&samples.effort, j);
         let mean = effort.iter().sum::<f64>() / effort.len().max(1) as f64;

@@ -9,23 +9,23 @@ mod inspect;
 mod judge;
 mod jumps;
 mod limits;
+mod log_reading;
 mod mend;
 mod moments;
+mod motion_samples;
+mod nominal_torque;
 mod observation;
 mod overlaps;
 mod payload;
 mod pieces;
 mod pooled;
-mod reading;
 mod readings;
-mod samples;
 mod scale;
 mod sentence;
 mod spikes;
 #[cfg(test)]
 mod testing;
 mod thresholds;
-mod torque;
 
 pub use inspect::{inspect, inspect_with};
 pub use mend::{CorrectedLogs, correct, correct_with};

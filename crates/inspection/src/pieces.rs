@@ -6,22 +6,22 @@ use crate::thresholds::InspectionThresholds;
 
 /// A stretch of a run on an even clock, without the rows that are left out.
 #[derive(Debug, Clone)]
-pub(crate) struct Piece {
+pub(crate) struct RunPiece {
     /// Time between two samples, on the clock of the file (s).
     pub step_s: f64,
     /// Signals of each joint.
-    pub joints: Vec<Signals>,
+    pub joints: Vec<JointSignals>,
 }
 
 /// Signals of a joint that are looked at.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Signals {
+pub(crate) struct JointSignals {
     pub position: Vec<f64>,
     pub effort: Vec<f64>,
     pub velocity: Option<Vec<f64>>,
 }
 
-impl Piece {
+impl RunPiece {
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.joints.first().map_or(0, |joint| joint.position.len())
@@ -31,7 +31,11 @@ impl Piece {
 /// The pieces of a run between its gaps and the rows that are left out.
 ///
 /// A clock with jitter or lost rows is made even by linear interpolation.
-pub(crate) fn pieces(run: &Run, left_out: &[Range<usize>], t: &InspectionThresholds) -> Vec<Piece> {
+pub(crate) fn pieces(
+    run: &Run,
+    left_out: &[Range<usize>],
+    t: &InspectionThresholds,
+) -> Vec<RunPiece> {
     let usual = usual_step(&run.time);
     if usual <= 0.0 {
         return Vec::new();
@@ -62,7 +66,7 @@ pub(crate) fn usual_step(time: &[f64]) -> f64 {
     *steps.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-fn piece(run: &Run, rows: Range<usize>, usual: f64, even_step: f64) -> Piece {
+fn piece(run: &Run, rows: Range<usize>, usual: f64, even_step: f64) -> RunPiece {
     let time = &run.time[rows.clone()];
     let even = time.windows(2).all(|t| (t[1] - t[0] - usual).abs() <= even_step * usual);
     let length = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
@@ -71,12 +75,12 @@ fn piece(run: &Run, rows: Range<usize>, usual: f64, even_step: f64) -> Piece {
         let own = &x[rows.clone()];
         if even { own.to_vec() } else { resample(time, own, step_s) }
     };
-    let joint = |joint: &logs::Channels| Signals {
+    let joint = |joint: &logs::Channels| JointSignals {
         position: read(&joint.position),
         effort: read(&joint.effort),
         velocity: joint.velocity.as_deref().map(read),
     };
-    Piece { step_s, joints: run.joints.iter().map(joint).collect() }
+    RunPiece { step_s, joints: run.joints.iter().map(joint).collect() }
 }
 
 fn resample(time: &[f64], x: &[f64], step: f64) -> Vec<f64> {

@@ -1,6 +1,6 @@
 use nalgebra::{DMatrix, DVector};
 
-use crate::samples::Samples;
+use crate::motion_samples::MotionSamples;
 
 /// Rounds of weighting: every joint is weighted by one over its residual.
 const ROUNDS: usize = 4;
@@ -14,7 +14,7 @@ const ROUNDS: usize = 4;
 ///
 /// Signals are row-major, `rows x joints`. `None` where the columns cannot be told apart.
 pub(crate) fn fit_pooled(
-    samples: &Samples,
+    samples: &MotionSamples,
     granted: &[f64],
     columns: &[&[f64]],
     least_share: f64,
@@ -54,7 +54,7 @@ struct Projected {
 }
 
 impl Projected {
-    fn of(samples: &Samples, granted: &[f64], columns: &[&[f64]], j: usize) -> Option<Self> {
+    fn of(samples: &MotionSamples, granted: &[f64], columns: &[&[f64]], j: usize) -> Option<Self> {
         let column = |x: &[f64]| samples.column(x, j);
         let [_, qd, qdd] = &samples.motion;
         let mut effort = column(&samples.effort);

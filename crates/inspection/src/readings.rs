@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 
 use crate::fit::Drive;
 use crate::judge::{Judge, ReadingFit};
+use crate::log_reading::LogReading;
 use crate::observation::{Observation, ReadingEvidence, Rival, Spoils};
 use crate::payload::shares_with_a_tool;
-use crate::reading::Reading;
 
 /// Errors that the nominal torque shows: readings that improve its fit, the best first.
 pub(crate) fn readings(judge: &mut Judge, runs: usize) -> Vec<Observation> {
@@ -115,7 +115,7 @@ fn observation(
 }
 
 /// Readings that may be true of these logs.
-fn candidates(judge: &Judge, as_is: &ReadingFit) -> Vec<Reading> {
+fn candidates(judge: &Judge, as_is: &ReadingFit) -> Vec<LogReading> {
     let t = judge.thresholds;
     if as_is.shares.iter().all(|share| *share < t.misfit[1]) {
         return Vec::new();
@@ -124,26 +124,26 @@ fn candidates(judge: &Judge, as_is: &ReadingFit) -> Vec<Reading> {
     let n = links.len();
     let mut all = Vec::new();
     if n > 1 {
-        all.extend([Reading::EffortSign(None), Reading::PositionSign(None)]);
+        all.extend([LogReading::EffortSign(None), LogReading::PositionSign(None)]);
     }
     for (j, link) in links.iter().enumerate() {
-        all.extend([Reading::EffortSign(Some(j)), Reading::PositionSign(Some(j))]);
+        all.extend([LogReading::EffortSign(Some(j)), LogReading::PositionSign(Some(j))]);
         if link.joint.kind.is_rotation() {
-            all.extend([FRAC_PI_2, -FRAC_PI_2, PI].map(|offset| Reading::Offset(j, offset)));
+            all.extend([FRAC_PI_2, -FRAC_PI_2, PI].map(|offset| LogReading::Offset(j, offset)));
             if span(judge, j) > t.degrees_range {
-                all.push(Reading::Degrees(Some(j)));
+                all.push(LogReading::Degrees(Some(j)));
             }
         }
         for (k, other) in links.iter().enumerate().skip(j + 1) {
-            all.push(Reading::EffortsExchanged(j, k));
+            all.push(LogReading::EffortsExchanged(j, k));
             if link.joint.kind.is_rotation() == other.joint.kind.is_rotation() {
-                all.push(Reading::Exchanged(j, k));
+                all.push(LogReading::Exchanged(j, k));
             }
         }
     }
     let turn = links.iter().all(|link| link.joint.kind.is_rotation());
     if n > 1 && turn && (0..n).any(|j| span(judge, j) > t.degrees_range) {
-        all.push(Reading::Degrees(None));
+        all.push(LogReading::Degrees(None));
     }
     all.extend(gravity(judge));
     all.extend(time(judge));
@@ -158,7 +158,7 @@ fn span(judge: &Judge, j: usize) -> f64 {
 }
 
 /// The gravity that fits the efforts, where it differs from that of the description.
-fn gravity(judge: &Judge) -> Option<Reading> {
+fn gravity(judge: &Judge) -> Option<LogReading> {
     let t = judge.thresholds;
     let columns = judge.gravity.each_ref().map(Vec::as_slice);
     let found = judge.fit_pooled(&judge.inertial, &columns)?;
@@ -170,7 +170,7 @@ fn gravity(judge: &Judge) -> Option<Reading> {
     // Of a direction, the size says whether the efforts are torques at all.
     let turned = found.angle(&nominal) > t.gravity_angle && !other_size;
     let aligned = found.angle(&nominal) < t.gravity_angle && other_size;
-    (is_somewhere && (turned || aligned)).then_some(Reading::Gravity(found))
+    (is_somewhere && (turned || aligned)).then_some(LogReading::Gravity(found))
 }
 
 /// The unit of time that fits the efforts.
@@ -178,17 +178,17 @@ fn gravity(judge: &Judge) -> Option<Reading> {
 /// ```text
 /// effort = g(q) + factor² (M qdd + C qd)_logged
 /// ```
-fn time(judge: &Judge) -> Option<Reading> {
+fn time(judge: &Judge) -> Option<LogReading> {
     let granted: Vec<f64> =
         judge.whole.iter().zip(&judge.inertial).map(|(w, inertial)| w - inertial).collect();
     let squared = *judge.fit_pooled(&granted, &[&judge.inertial])?.first()?;
     let least = judge.thresholds.time_factor;
     let factor = squared.max(0.0).sqrt();
-    (factor > least || (factor > 0.0 && factor < 1.0 / least)).then_some(Reading::Time(factor))
+    (factor > least || (factor > 0.0 && factor < 1.0 / least)).then_some(LogReading::Time(factor))
 }
 
 /// Units of the efforts: factors that no error of a drive makes, for each joint or the same everywhere.
-fn unit(judge: &Judge) -> Vec<Reading> {
+fn unit(judge: &Judge) -> Vec<LogReading> {
     let t = judge.thresholds;
     let free = Drive { gain: [0.0, f64::INFINITY] };
     let fits = judge.fits(&judge.samples, &judge.whole, free);
@@ -206,7 +206,7 @@ fn unit(judge: &Judge) -> Vec<Reading> {
     let alike = known.iter().all(|c| (c / middle).ln().abs() < (1.0 + t.alike).ln());
     let mut all = Vec::new();
     if is_unit(middle) && alike {
-        all.push(Reading::Unit(vec![middle; fits.len()]));
+        all.push(LogReading::Unit(vec![middle; fits.len()]));
     }
     let mut units: Vec<f64> = known.iter().copied().filter(|c| is_unit(*c)).collect();
     units.sort_unstable_by(f64::total_cmp);
@@ -224,7 +224,7 @@ fn unit(judge: &Judge) -> Vec<Reading> {
     };
     let each: Vec<f64> = (0..fits.len()).map(own).collect();
     if each.iter().any(|c| (c - 1.0).abs() > 1e-9) {
-        all.push(Reading::Unit(each));
+        all.push(LogReading::Unit(each));
     }
     all
 }

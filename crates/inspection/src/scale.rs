@@ -1,4 +1,4 @@
-use crate::pieces::Piece;
+use crate::pieces::RunPiece;
 use crate::thresholds::InspectionThresholds;
 
 /// Least scale in samples: derivatives over a quarter of it either way are then those of the motion.
@@ -11,7 +11,7 @@ const LOOKED_AT: usize = 1000;
 /// and that at which it is smooth. `None` without motion.
 ///
 /// All joints and pieces count together, those that move most count most.
-pub(crate) fn scale_s(pieces: &[Piece], t: &InspectionThresholds) -> Option<f64> {
+pub(crate) fn scale_s(pieces: &[RunPiece], t: &InspectionThresholds) -> Option<f64> {
     let step_s = pieces.iter().map(|p| p.step_s).fold(f64::INFINITY, f64::min);
     let longest_s = pieces.iter().map(|p| p.step_s * p.len() as f64).fold(0.0, f64::max);
     let most = (longest_s / step_s / 24.0) as usize;
@@ -39,7 +39,7 @@ pub(crate) fn scale_s(pieces: &[Piece], t: &InspectionThresholds) -> Option<f64>
 }
 
 /// Sum over joints of the mean square of the second difference over `s` samples.
-fn bend(piece: &Piece, s: usize) -> f64 {
+fn bend(piece: &RunPiece, s: usize) -> f64 {
     let length = piece.len();
     let step = (length / LOOKED_AT).max(1);
     let of = |q: &[f64]| -> f64 {

@@ -14,7 +14,7 @@ use crate::spread::Spread;
 use crate::training::{JointFit, TrainedModel, Training, features};
 
 /// One joint, conditioned on the points. The weights of its linear part are still open.
-pub(crate) struct Joint {
+pub(crate) struct JointPosterior {
     kernel: GaussianKernel,
     noise_variance: f64,
     inverse: Inverse,
@@ -23,7 +23,7 @@ pub(crate) struct Joint {
 
 /// All joints, conditioned about the rigid bodies.
 struct RigidBodyPart {
-    joints: Vec<Joint>,
+    joints: Vec<JointPosterior>,
     /// `Phi` of every joint, row-major.
     features: Vec<Vec<f64>>,
     kernels: Vec<LearnedKernel>,
@@ -31,14 +31,14 @@ struct RigidBodyPart {
 
 /// One joint and the weights of its linear part.
 pub(crate) struct WeightedJoint {
-    pub joint: Joint,
+    pub joint: JointPosterior,
     pub posterior: LinearPosterior,
     pub fit: JointFit,
 }
 
 /// One joint with the final weights of its points.
 struct FinalJoint {
-    joint: Joint,
+    joint: JointPosterior,
     alpha: Vec<f64>,
     fit: JointFit,
 }
@@ -50,11 +50,11 @@ impl Training<'_> {
         (kernel, noise_variance): (GaussianKernel, f64),
         targets: &[f64],
         linear: Linear,
-    ) -> Result<Joint, LearnerError> {
+    ) -> Result<JointPosterior, LearnerError> {
         let likelihood = Likelihood::new(&self.points, self.inputs.width())?;
         let inverse = likelihood.condition(&kernel, noise_variance)?;
         let residual = ResidualProcess::new(&inverse, targets, linear)?;
-        Ok(Joint { kernel, noise_variance, inverse, residual })
+        Ok(JointPosterior { kernel, noise_variance, inverse, residual })
     }
 
     /// A process about a fixed mean.
@@ -219,7 +219,7 @@ impl Training<'_> {
             let (phi, y) = (&features[k], &targets[k]);
             let rigid = rigid_body_kernel(phi, width, y, self.progress)?;
             let linear = Linear { features: phi, mean: &origin };
-            let mut best: Option<(f64, f64, Joint, LinearPosterior)> = None;
+            let mut best: Option<(f64, f64, JointPosterior, LinearPosterior)> = None;
             let mut held_out = Vec::new();
             for &lambda in &self.settings.lambdas {
                 let mut kernel = found.kernel.clone();

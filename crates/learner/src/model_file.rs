@@ -15,7 +15,7 @@ use robot::Robot;
 
 use crate::error::LearnerError;
 use crate::model::{Mean, Model, Process};
-use crate::saved::{Header, VERSION, symmetric, tree_sha256};
+use crate::saved::{ModelHeader, VERSION, symmetric, tree_sha256};
 use crate::spread::Spread;
 use crate::training;
 
@@ -51,7 +51,7 @@ impl Model {
             path: path.to_owned(),
             reason: e.to_string(),
         };
-        let header = serde_json::to_string(&Header::of(self)).map_err(unwritable)?;
+        let header = serde_json::to_string(&ModelHeader::of(self)).map_err(unwritable)?;
         Ok(KeyValue::new(HEADER.to_owned(), header))
     }
 
@@ -154,7 +154,7 @@ fn lower_rows(matrix: &[f64], width: usize) -> ArrayRef {
 /// Columns by name; lists are of numbers, one after the other.
 type Columns = Vec<(String, Vec<f64>)>;
 
-fn read(path: &Path) -> Result<(Header, Columns), String> {
+fn read(path: &Path) -> Result<(ModelHeader, Columns), String> {
     let say = |e: &dyn std::fmt::Display| e.to_string();
     let file = File::open(path).map_err(|e| say(&e))?;
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|e| say(&e))?;
@@ -166,7 +166,7 @@ fn read(path: &Path) -> Result<(Header, Columns), String> {
     if let Some(version) = version.get("version").filter(|v| **v != VERSION) {
         return Err(format!("version {version}, this program reads version {VERSION}"));
     }
-    let header: Header = serde_json::from_str(header).map_err(|e| say(&e))?;
+    let header: ModelHeader = serde_json::from_str(header).map_err(|e| say(&e))?;
     let mut columns: Columns = Vec::new();
     for batch in builder.build().map_err(|e| say(&e))? {
         let batch = batch.map_err(|e| say(&e))?;
@@ -193,7 +193,7 @@ fn append(array: &ArrayRef, values: &mut Vec<f64>) -> Option<()> {
     Some(())
 }
 
-fn restore(header: &Header, columns: Columns, robot: &Robot) -> Result<Model, String> {
+fn restore(header: &ModelHeader, columns: Columns, robot: &Robot) -> Result<Model, String> {
     let kind = header.kind.parse()?;
     let joints = robot.joint_count();
     let mean = header.mean.restore(robot).ok_or("the mean does not fit the robot")?;
@@ -214,7 +214,11 @@ fn restore(header: &Header, columns: Columns, robot: &Robot) -> Result<Model, St
     Ok(model)
 }
 
-fn process(header: &Header, columns: Columns, joints: usize) -> Result<Option<Process>, String> {
+fn process(
+    header: &ModelHeader,
+    columns: Columns,
+    joints: usize,
+) -> Result<Option<Process>, String> {
     let Some(saved) = &header.process else { return Ok(None) };
     let inputs = saved.inputs(joints).ok_or("inputs and kernels do not fit the robot")?;
     let mut columns: std::collections::BTreeMap<String, Vec<f64>> = columns.into_iter().collect();

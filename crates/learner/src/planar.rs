@@ -40,14 +40,14 @@ pub fn pendulum() -> Robot {
 
 /// Signals that a stretch borrows.
 #[derive(Clone)]
-pub struct Record {
+pub struct PlanarRecord {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
     pub qdd: Vec<f64>,
     pub tau: Vec<f64>,
 }
 
-impl Record {
+impl PlanarRecord {
     /// `samples` at 500 Hz of joints that swing at two frequencies each, without torque.
     pub fn motion(joints: usize, samples: usize) -> Self {
         let mut record = Self { q: vec![], qd: vec![], qdd: vec![], tau: vec![] };
@@ -138,12 +138,12 @@ impl Record {
     }
 }
 
-/// `[A, H, Z, I2, x, z]` of [`Record::arm_columns`] for the ten parameters of each link.
+/// `[A, H, Z, I2, x, z]` of [`PlanarRecord::arm_columns`] for the ten parameters of each link.
 pub fn arm_theta(pi: &[f64]) -> [f64; 6] {
     [pi[6] + pi[10] * L1 * L1, pi[1] + pi[10] * L1, pi[3], pi[16], pi[11], pi[13]]
 }
 
-/// `[I, mx, mz]` of [`Record::pendulum_columns`] for the ten parameters of the link.
+/// `[I, mx, mz]` of [`PlanarRecord::pendulum_columns`] for the ten parameters of the link.
 pub fn pendulum_theta(pi: &[f64]) -> [f64; 3] {
     [pi[6], pi[1], pi[3]]
 }

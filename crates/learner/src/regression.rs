@@ -193,19 +193,19 @@ fn is_seen(robot: &Robot, joint: usize, column: RegressorColumn) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planar::{Record, arm, generator, normal};
+    use crate::planar::{PlanarRecord, arm, generator, normal};
 
     const THETA: [f64; 6] = [2.2, 3.1, 0.2, 0.6, 1.4, -0.1];
 
-    fn record(samples: usize) -> Record {
+    fn record(samples: usize) -> PlanarRecord {
         let mut rng = generator(3);
-        let motion = Record::motion(2, samples);
+        let motion = PlanarRecord::motion(2, samples);
         let noise: Vec<f64> = motion.q.iter().map(|_| 0.1 * normal(&mut rng)).collect();
         let columns = motion.arm_columns();
         motion.with(&columns, &THETA, &noise)
     }
 
-    fn part(record: &Record, samples: Range<usize>) -> SampleSlices<'_> {
+    fn part(record: &PlanarRecord, samples: Range<usize>) -> SampleSlices<'_> {
         let at = 2 * samples.start..2 * samples.end;
         SampleSlices {
             q: &record.q[at.clone()],

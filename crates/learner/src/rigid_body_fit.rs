@@ -11,7 +11,7 @@ use crate::prior::GaussianPrior;
 use crate::regression::Regression;
 use crate::undetermined::{Direction, directions};
 use crate::weighting::{
-    FitNoise, LEAST_INFORMATION, Problem, Solution, Weighting, scaled, to_base,
+    FitNoise, LEAST_INFORMATION, LeastSquaresProblem, Solution, Weighting, scaled, to_base,
 };
 
 /// Rigid-body parameters with their uncertainty: `tau = Y pi`.
@@ -78,7 +78,7 @@ impl Regression {
     pub fn fit(&self, prior: Option<&GaussianPrior>) -> Result<RigidBodyFit, LearnerError> {
         let total = self.sums.total().ok_or(LearnerError::NoSamples)?;
         prior.map_or(Ok(()), |p| p.check(self.base.columns.len()))?;
-        let problem = Problem::new(self, &total, prior);
+        let problem = LeastSquaresProblem::new(self, &total, prior);
         let (solution, noise, weighting) = problem.reweight();
         let (covariance, groups) = covariance(&problem, &solution, &noise);
         let columns = self.base.columns.clone();
@@ -111,7 +111,11 @@ impl Regression {
 
 /// Covariance of the parameters: in determined directions that of the blocks, in the others
 /// the squared size.
-fn covariance(problem: &Problem, solution: &Solution, noise: &[FitNoise]) -> (DMatrix<f64>, usize) {
+fn covariance(
+    problem: &LeastSquaresProblem,
+    solution: &Solution,
+    noise: &[FitNoise],
+) -> (DMatrix<f64>, usize) {
     let (mut z, groups) = problem.sandwich(solution, noise);
     z += &solution.undetermined * solution.undetermined.transpose();
     (z.map_with_location(|i, k, v| v * problem.size[i] * problem.size[k]), groups)
@@ -196,18 +200,20 @@ mod tests {
     use robot::Inertia;
 
     use super::*;
-    use crate::planar::{Record, arm, arm_theta, generator, normal, pendulum, pendulum_theta};
+    use crate::planar::{
+        PlanarRecord, arm, arm_theta, generator, normal, pendulum, pendulum_theta,
+    };
 
     const THETA: [f64; 6] = [2.2, 3.1, 0.2, 0.6, 1.4, -0.1];
 
-    fn fitted(robot: &Robot, set: ColumnSet, record: &Record) -> RigidBodyFit {
+    fn fitted(robot: &Robot, set: ColumnSet, record: &PlanarRecord) -> RigidBodyFit {
         fitted_with(robot, set, record, None)
     }
 
     fn fitted_with(
         robot: &Robot,
         set: ColumnSet,
-        record: &Record,
+        record: &PlanarRecord,
         prior: Option<&GaussianPrior>,
     ) -> RigidBodyFit {
         let mut regression = Regression::new(robot, set);
@@ -215,9 +221,9 @@ mod tests {
         regression.fit(prior).unwrap()
     }
 
-    fn arm_record(samples: usize, sd: [f64; 2], seed: u64) -> Record {
+    fn arm_record(samples: usize, sd: [f64; 2], seed: u64) -> PlanarRecord {
         let mut rng = generator(seed);
-        let motion = Record::motion(2, samples);
+        let motion = PlanarRecord::motion(2, samples);
         let noise: Vec<f64> = (0..2 * samples).map(|at| sd[at % 2] * normal(&mut rng)).collect();
         let columns = motion.arm_columns();
         motion.with(&columns, &THETA, &noise)
@@ -260,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_gaussian_prior_gives_the_posterior_by_hand() {
-        let motion = Record::motion(1, 600);
+        let motion = PlanarRecord::motion(1, 600);
         let mut rng = generator(5);
         let noise: Vec<f64> = motion.q.iter().map(|_| 4.0 * normal(&mut rng)).collect();
         let columns = motion.pendulum_columns();
@@ -301,7 +307,7 @@ mod tests {
     fn coverage(memory: f64, samples: usize) -> [[f64; 4]; 2] {
         const SEEDS: u64 = 200;
         let truth = [0.8, 1.1, -0.1, 0.3];
-        let motion = Record::motion(1, samples);
+        let motion = PlanarRecord::motion(1, samples);
         let columns = motion.pendulum_columns().insert_column(3, 1.0);
         let gram = columns.tr_mul(&columns).try_inverse().unwrap();
         let set = ColumnSet { offset: true, ..ColumnSet::INERTIAL };
@@ -348,7 +354,7 @@ mod tests {
 
     #[test]
     fn parameters_that_few_samples_pay_for_do_not_make_the_noise_small() {
-        let motion = Record::motion(1, 16);
+        let motion = PlanarRecord::motion(1, 16);
         let mean = (0..400).map(|seed| {
             let mut rng = generator(seed);
             let noise: Vec<f64> = motion.q.iter().map(|_| 0.1 * normal(&mut rng)).collect();
@@ -365,7 +371,7 @@ mod tests {
     #[test]
     fn directions_that_a_motion_leaves_open_are_named_and_stay_as_described() {
         // The shoulder is held level: nothing shows its inertia and what stands off its axis.
-        let mut motion = Record::motion(2, 3000);
+        let mut motion = PlanarRecord::motion(2, 3000);
         for k in 0..3000 {
             motion.q[2 * k] = 0.0;
             motion.qd[2 * k] = 0.0;
@@ -393,7 +399,7 @@ mod tests {
             arm().links().iter().flat_map(|link| link.inertia.parameters()).collect();
         let full = arm_record(50, [0.1; 2], 4);
         for samples in [1, 2, 5] {
-            let few = Record {
+            let few = PlanarRecord {
                 q: full.q[..2 * samples].to_vec(),
                 qd: full.qd[..2 * samples].to_vec(),
                 qdd: full.qdd[..2 * samples].to_vec(),
@@ -406,7 +412,8 @@ mod tests {
             assert!(off.fold(0.0, f64::max) < 10.0);
         }
         let zeros = vec![0.0; 200];
-        let still = Record { q: zeros.clone(), qd: zeros.clone(), qdd: zeros.clone(), tau: zeros };
+        let still =
+            PlanarRecord { q: zeros.clone(), qd: zeros.clone(), qdd: zeros.clone(), tau: zeros };
         let fit = fitted(&arm(), ColumnSet::ALL, &still);
         assert!(fit.parameters.iter().chain(&fit.standard_errors).all(|v| v.is_finite()));
         assert!(fit.rank <= 2, "{}", fit.rank);
@@ -441,7 +448,7 @@ mod tests {
     #[test]
     fn a_consistent_fit_has_physical_links_and_the_best_drives_for_them() {
         // A moment of inertia of 0.05 with a first moment of 1.1 asks for 24 kg on the spot.
-        let motion = Record::motion(1, 5000);
+        let motion = PlanarRecord::motion(1, 5000);
         let mut rng = generator(6);
         let noise: Vec<f64> = motion.q.iter().map(|_| 0.1 * normal(&mut rng)).collect();
         let body = motion.pendulum_columns();

@@ -16,7 +16,7 @@ pub(crate) const VERSION: u32 = 2;
 /// What a model file says beside its table of points.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Header {
+pub(crate) struct ModelHeader {
     pub version: u32,
     pub kind: String,
     pub robot: String,
@@ -85,7 +85,7 @@ pub(crate) struct SavedInducing {
     pub samples: usize,
 }
 
-impl Header {
+impl ModelHeader {
     /// Of a model.
     pub fn of(model: &Model) -> Self {
         let robot = model.robot();

@@ -71,7 +71,7 @@ pub enum Weighting {
 /// ```text
 /// pi = centre + S z,   pi_base = P pi
 /// ```
-pub(crate) struct Problem<'a> {
+pub(crate) struct LeastSquaresProblem<'a> {
     regression: &'a Regression,
     joints: Vec<JointTotal>,
     samples: f64,
@@ -120,7 +120,7 @@ pub(crate) struct Solution {
     base_covariance: DMatrix<f64>,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> LeastSquaresProblem<'a> {
     pub fn new(regression: &'a Regression, total: &Sums, prior: Option<&GaussianPrior>) -> Self {
         let base = &regression.base;
         let columns = &base.columns;

@@ -9,7 +9,7 @@ use crate::{
         sha256::hexadecimal,
         table::{Needed, Table},
     },
-    format::Opened,
+    file_format::Opened,
 };
 
 /// Columns in memory, by name, all of one length: a log that was never a file.

@@ -3,9 +3,9 @@ use std::{fs::File, io::Read, path::Path};
 use crate::{
     common::{
         error::FormatError,
-        strangers::{UNKNOWN, is_text, stranger},
+        unread_kinds::{UNKNOWN, is_text, unread_kind},
     },
-    format::{Format, Magic},
+    file_format::{FileFormat, Magic},
     packed::unpack::{Packing, unpack},
 };
 
@@ -15,16 +15,16 @@ const FIRST_BYTES: usize = 4096;
 /// The kinds of file that are read.
 pub(crate) struct Formats {
     /// Those that are told by their bytes.
-    pub by_magic: &'static [&'static dyn Format],
+    pub by_magic: &'static [&'static dyn FileFormat],
     /// What text is.
-    pub text: &'static dyn Format,
+    pub text: &'static dyn FileFormat,
 }
 
 /// What a file is.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
     /// One that is read.
-    Read(&'static dyn Format),
+    Read(&'static dyn FileFormat),
     /// Any of those, packed.
     Packed(Packing),
 }
@@ -60,13 +60,13 @@ impl Formats {
         if let Some(packing) = Packing::ALL.into_iter().find(|p| holds(&p.magic())) {
             return Ok(Kind::Packed(packing));
         }
-        if let Some(stranger) = stranger(first) {
-            return Err(FormatError::other_kind(path, stranger));
+        if let Some(kind) = unread_kind(first) {
+            return Err(FormatError::other_kind(path, kind));
         }
         if is_text(first) {
             return Ok(Kind::Read(self.text));
         }
-        let is_called = |f: &&&dyn Format| {
+        let is_called = |f: &&&dyn FileFormat| {
             let extension = path.extension();
             f.extension().is_some_and(|e| extension.is_some_and(|own| own.eq_ignore_ascii_case(e)))
         };
@@ -78,7 +78,7 @@ impl Formats {
 }
 
 /// A file that is called as one of a format and does not begin as one.
-fn not_begun(path: &Path, format: &dyn Format) -> FormatError {
+fn not_begun(path: &Path, format: &dyn FileFormat) -> FormatError {
     let begin = format.magic().first().map_or(&[][..], |(_, bytes)| bytes);
     let reason = format!("it does not begin with {}", String::from_utf8_lossy(begin));
     FormatError::broken(path, format.name(), &reason)

@@ -1,14 +1,14 @@
 use std::{collections::BTreeSet, fs, io, path::Path};
 
 use crate::{
-    common::{damage::Damage, error::FormatError, strangers::TWICE},
+    common::{damage::Damage, error::FormatError, unread_kinds::TWICE},
     content::Kind,
-    format::{Opened, Request},
+    file_format::{Opened, Request},
     formats::{
         FORMATS,
         bag::folder::open_folder,
         lerobot::{
-            dataset::{Dataset, is_dataset},
+            dataset::{LerobotDataset, is_dataset},
             episode::Episode,
         },
     },
@@ -24,7 +24,7 @@ use crate::{
 pub fn open(
     path: &Path,
     request: &Request,
-    dataset: Option<&Dataset>,
+    dataset: Option<&LerobotDataset>,
     damage: &mut Damage,
 ) -> Result<Box<dyn Opened>, FormatError> {
     let data = fs::metadata(path).map_err(|e| match e.kind() {
@@ -63,7 +63,7 @@ pub fn column_names(log: &dyn Opened, path: &Path) -> Result<Vec<String>, Format
     }
 }
 
-impl Dataset {
+impl LerobotDataset {
     /// The dataset in a folder; `None` where a path is none.
     ///
     /// # Errors

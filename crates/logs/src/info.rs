@@ -10,7 +10,7 @@ use crate::{
         agreement::Agreement,
         choice,
         clock::Fill,
-        sources::Comparison,
+        sources::ComparisonBands,
         uniform::{moving, uniform_pieces},
     },
 };
@@ -35,7 +35,7 @@ pub struct LogInfo {
     /// Largest difference of a step from the median step, gaps left out (s).
     pub jitter_max_s: f64,
     /// Steps of more than one and a half times the median.
-    pub gaps: Vec<Gap>,
+    pub gaps: Vec<TimeGap>,
     /// Each joint, in the order of the robot.
     pub joints: Vec<JointInfo>,
     /// Joints of the log that the robot does not have.
@@ -46,7 +46,7 @@ pub struct LogInfo {
 
 /// A step of time that is too long.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gap {
+pub struct TimeGap {
     /// Row after which it comes, counted from 1.
     pub row: usize,
     /// Time at which it begins, as in the file (s).
@@ -96,7 +96,7 @@ pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
     let regular: Vec<f64> = steps.iter().copied().filter(|&s| !is_gap(s)).collect();
     let (jitter_std_s, jitter_max_s) = jitter(&regular, usual);
     let gap = |(row, &step): (usize, &f64)| {
-        is_gap(step).then(|| Gap { row: row + 1, start_s: run.time[row], length_s: step })
+        is_gap(step).then(|| TimeGap { row: row + 1, start_s: run.time[row], length_s: step })
     };
     let agreements = agreements(run);
     let joints = robot.links().iter().zip(&run.joints).zip(agreements);
@@ -176,7 +176,7 @@ fn agreements(run: &Run) -> Vec<Option<Agreement>> {
         return none();
     };
     let (cutoff_hz, motion_hz) = (choice.cutoff.cutoff_hz, choice.cutoff.motion_hz);
-    let comparison = Comparison { cutoff_hz, motion_hz };
+    let comparison = ComparisonBands { cutoff_hz, motion_hz };
     let of = |joint: usize| match moves[0][joint] {
         true => comparison.velocity_agreement(&pieces[0], joint),
         false => None,

@@ -76,7 +76,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::harmonics::{Harmonics, Series, Term};
+    use crate::harmonics::{HarmonicSeries, Harmonics, Term};
 
     #[test]
     fn extremes_of_two_harmonics_are_those_of_the_closed_form() {
@@ -84,7 +84,8 @@ mod tests {
         let hz = 0.37;
         let terms =
             vec![Term { hz, sin: 1.0, cos: 0.0 }, Term { hz: 2.0 * hz, sin: 0.0, cos: 0.5 }];
-        let curve = Curve::Harmonics(Harmonics { joints: vec![Series { offset: 0.0, terms }] });
+        let curve =
+            Curve::Harmonics(Harmonics { joints: vec![HarmonicSeries { offset: 0.0, terms }] });
         let found = extremes(&curve, 0, 10.0);
         assert!((found.lowest.value + 1.5).abs() < 1e-14, "{found:?}");
         assert!((found.highest.value - 0.75).abs() < 1e-14, "{found:?}");

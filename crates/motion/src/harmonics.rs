@@ -7,12 +7,12 @@ use std::f64::consts::TAU;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Harmonics {
-    pub joints: Vec<Series>,
+    pub joints: Vec<HarmonicSeries>,
 }
 
 /// The sum of one joint.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Series {
+pub(crate) struct HarmonicSeries {
     /// Position about which it swings (rad or m).
     pub offset: f64,
     pub terms: Vec<Term>,
@@ -47,7 +47,7 @@ impl Harmonics {
     }
 }
 
-impl Series {
+impl HarmonicSeries {
     /// The same with every amplitude multiplied.
     pub(crate) fn scaled(mut self, factor: f64) -> Self {
         for term in &mut self.terms {
@@ -98,7 +98,7 @@ mod tests {
             0.7 + terms.iter().map(of).sum::<f64>()
         };
         let samples: Vec<f64> = (0..16).map(wave).collect();
-        let series = Series::through(&samples, 0.5);
+        let series = HarmonicSeries::through(&samples, 0.5);
         assert!((series.offset - 0.7).abs() < 1e-15);
         assert_eq!(series.terms.len(), 6, "what lies above is nothing");
         for (k, s, c) in terms {

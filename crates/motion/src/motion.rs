@@ -25,21 +25,21 @@ pub struct Motion {
     joint_count: usize,
     duration_s: f64,
     /// At least one, each with the time at which it begins.
-    parts: Vec<(f64, Part)>,
+    parts: Vec<(f64, ClockedCurve)>,
 }
 
 /// One curve and its clock.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Part {
+pub(crate) struct ClockedCurve {
     pub curve: Curve,
     pub clock: Clock,
 }
 
 impl Motion {
     /// The parts one after the other.
-    pub(crate) fn new(joint_count: usize, parts: Vec<Part>) -> Self {
+    pub(crate) fn new(joint_count: usize, parts: Vec<ClockedCurve>) -> Self {
         let mut duration_s = 0.0;
-        let begin = |part: Part| {
+        let begin = |part: ClockedCurve| {
             let begin_s = duration_s;
             duration_s += part.clock.duration_s();
             (begin_s, part)
@@ -86,7 +86,7 @@ impl Motion {
     }
 }
 
-impl Part {
+impl ClockedCurve {
     /// Position, velocity and acceleration of a joint at a time since the part began (s).
     pub(crate) fn at(&self, joint: usize, time_s: f64) -> [f64; 3] {
         let [s, ds, dds] = self.clock.at(time_s);
@@ -100,10 +100,10 @@ mod tests {
     use super::*;
     use crate::knots::Knots;
 
-    fn moves_for_one_second(to: f64) -> Part {
+    fn moves_for_one_second(to: f64) -> ClockedCurve {
         let mut knots = Knots::at_rest(vec![to - 1.0]);
         knots.glide(&[to], 1.0);
-        Part { curve: Curve::Knots(knots), clock: Clock::steady(1.0) }
+        ClockedCurve { curve: Curve::Knots(knots), clock: Clock::steady(1.0) }
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::curve::Curve;
 use crate::error::{LimitedQuantity, MotionError};
 use crate::extremes::extremes;
 use crate::knots::Knots;
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 
 /// Longest motion (s): a day.
 pub(crate) const LONGEST_S: f64 = 86_400.0;
@@ -150,13 +150,17 @@ impl<'a> Site<'a> {
     }
 
     /// Knots, one after the other at an even clock.
-    pub(crate) fn evenly(&self, knots: Knots) -> Result<Vec<Part>, MotionError> {
+    pub(crate) fn evenly(&self, knots: Knots) -> Result<Vec<ClockedCurve>, MotionError> {
         let clock = Clock::steady(knots.duration_s());
         self.part(Curve::Knots(knots), clock)
     }
 
     /// A curve with its clock, held against the limits of every joint.
-    pub(crate) fn part(&self, curve: Curve, clock: Clock) -> Result<Vec<Part>, MotionError> {
+    pub(crate) fn part(
+        &self,
+        curve: Curve,
+        clock: Clock,
+    ) -> Result<Vec<ClockedCurve>, MotionError> {
         for index in 0..self.robot.joint_count() {
             let joint = self.joint(index);
             let found = extremes(&curve, index, clock.run_s());
@@ -186,7 +190,7 @@ impl<'a> Site<'a> {
                 });
             }
         }
-        Ok(vec![Part { curve, clock }])
+        Ok(vec![ClockedCurve { curve, clock }])
     }
 }
 

@@ -2,7 +2,7 @@ use effects::Hypothesis;
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
-use crate::information::{Information, Layout};
+use crate::information::{ColumnInformation, ColumnLayout};
 use crate::known::Known;
 use crate::limits::efforts;
 
@@ -56,7 +56,7 @@ impl<'a> Question<'a> {
         Self { robot, goals, findings: Vec::new(), noise, cutoff_hz: SUPPOSED_CUTOFF_HZ }
     }
     /// All hypotheses of findings and goals, each once.
-    pub(crate) fn layout(&self) -> Layout {
+    pub(crate) fn layout(&self) -> ColumnLayout {
         let mut hypotheses = self.findings.clone();
         for goal in &self.goals {
             match *goal {
@@ -74,7 +74,7 @@ impl<'a> Question<'a> {
             .iter()
             .map(|h| h.bounds(self.robot, &effects::Priors::default()).len())
             .collect();
-        Layout { hypotheses, widths, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
+        ColumnLayout { hypotheses, widths, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
     }
 
     /// The findings that change other parameters than `one` and `other`.
@@ -107,12 +107,22 @@ pub(crate) enum Aim<'a> {
     Separate { truth: Vec<usize>, weights: DVector<f64>, model: Vec<usize> },
     /// Weights are known from logs and motion together: `1/2 ln det(1 + S M S)`, with `M` the
     /// information and `S` the prior standard deviations.
-    Determine { columns: Vec<usize>, others: Vec<usize>, prior: Vec<f64>, logs: &'a Information },
+    Determine {
+        columns: Vec<usize>,
+        others: Vec<usize>,
+        prior: Vec<f64>,
+        logs: &'a ColumnInformation,
+    },
 }
 
 impl<'a> Aim<'a> {
     /// The aims of a goal: a pair of rivals is to be told apart whichever is true.
-    pub fn of(goal: Goal, question: &Question, layout: &Layout, known: &'a Known) -> Vec<Self> {
+    pub fn of(
+        goal: Goal,
+        question: &Question,
+        layout: &ColumnLayout,
+        known: &'a Known,
+    ) -> Vec<Self> {
         match goal {
             Goal::Separate { finding, rival } => {
                 let shared = [finding, rival].into_iter().find_map(shared_part);
@@ -142,7 +152,7 @@ impl<'a> Aim<'a> {
         model: Hypothesis,
         besides: &[Hypothesis],
         question: &Question,
-        layout: &Layout,
+        layout: &ColumnLayout,
         known: &Known,
     ) -> Self {
         let of = |first| known.weights(layout, question.robot, &[&[first], besides].concat());
@@ -162,7 +172,7 @@ impl<'a> Aim<'a> {
     }
 
     /// What the logs tell (nats).
-    pub fn nats_before(&self, logs: &Information) -> f64 {
+    pub fn nats_before(&self, logs: &ColumnInformation) -> f64 {
         match self {
             Self::Separate { .. } => self.nats(logs),
             Self::Determine { columns, others, prior, logs } => {
@@ -172,13 +182,13 @@ impl<'a> Aim<'a> {
     }
 
     /// What a motion tells (nats).
-    pub fn nats(&self, motion: &Information) -> f64 {
+    pub fn nats(&self, motion: &ColumnInformation) -> f64 {
         match self {
             Self::Separate { truth, weights, model } => {
                 0.5 * motion.deviance(&motion.residual_weights(truth, weights, model))
             }
             Self::Determine { columns, others, prior, logs } => {
-                let both = Information::sum(&[(*logs).clone(), motion.clone()]);
+                let both = ColumnInformation::sum(&[(*logs).clone(), motion.clone()]);
                 both.map_or(0.0, |both| information_gain(&both, columns, others, prior))
             }
         }
@@ -188,8 +198,8 @@ impl<'a> Aim<'a> {
     /// chance.
     pub fn nats_without_best_stretch(
         &self,
-        motion: &Information,
-        stretches: &[Information],
+        motion: &ColumnInformation,
+        stretches: &[ColumnInformation],
     ) -> f64 {
         match self {
             Self::Separate { truth, weights, model } => {
@@ -202,7 +212,7 @@ impl<'a> Aim<'a> {
     }
 
     /// Share of the cause that no part of the model imitates in a motion.
-    pub fn unimitated_share(&self, motion: &Information) -> f64 {
+    pub fn unimitated_share(&self, motion: &ColumnInformation) -> f64 {
         match self {
             Self::Separate { truth, weights, model } => {
                 let whole = motion.deviance(&motion.expand(truth, weights));
@@ -216,7 +226,7 @@ impl<'a> Aim<'a> {
 
 /// Information gained on some weights, `1/2 ln det(1 + S M S)` (nats).
 fn information_gain(
-    known: &Information,
+    known: &ColumnInformation,
     columns: &[usize],
     others: &[usize],
     prior: &[f64],
@@ -284,8 +294,8 @@ mod tests {
         assert_eq!(aims(StribeckFriction, CoulombFriction), expected);
     }
 
-    fn power(xx: f64) -> Information {
-        Information { xx: DMatrix::from_element(1, 1, xx), xy: DVector::zeros(1) }
+    fn power(xx: f64) -> ColumnInformation {
+        ColumnInformation { xx: DMatrix::from_element(1, 1, xx), xy: DVector::zeros(1) }
     }
 
     /// A cause with weight 3 that nothing imitates is worth `9/2 xx`.

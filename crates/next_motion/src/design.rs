@@ -29,7 +29,7 @@ impl Default for DesignSettings {
 
 /// The answer to a [`Question`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Design {
+pub struct ExcitationDesign {
     /// One entry a goal.
     pub prospects: Vec<Prospect>,
     /// The motion; none where no motion helps any goal.
@@ -97,7 +97,7 @@ pub fn design(
     question: &Question,
     logs: Option<&Prepared>,
     settings: &DesignSettings,
-) -> Result<Design, NextMotionError> {
+) -> Result<ExcitationDesign, NextMotionError> {
     check(question, logs, settings)?;
     let layout = question.layout();
     let known = match logs {
@@ -128,7 +128,7 @@ pub fn design(
             after: found.as_ref().and_then(after),
         }
     };
-    Ok(Design {
+    Ok(ExcitationDesign {
         prospects: question.goals.iter().zip(&open).map(prospect).collect(),
         motion: best.map(|c| DesignedMotion { spec: c.spec, motion: c.motion }),
     })
@@ -177,7 +177,7 @@ mod tests {
     use robot::Robot;
 
     use super::*;
-    use crate::record::Record;
+    use crate::motion_record::MotionRecord;
     use crate::testing::{RATE_HZ, arm, log, turntable};
 
     fn at(kind: EffectKind, joint: usize) -> Hypothesis {
@@ -235,7 +235,7 @@ mod tests {
             resolution: vec![0.0; 2],
         };
         let motion = found.motion.unwrap().motion;
-        let along = Record::of_motion(&motion, 500.0).evaluate(&robot, &frame);
+        let along = MotionRecord::of_motion(&motion, 500.0).evaluate(&robot, &frame);
         for (torque, limit) in along.torque.iter().zip(limits) {
             let largest = torque.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
             assert!(largest < 0.81 * limit, "{largest}");

@@ -12,7 +12,7 @@ const RANK: f64 = 1e-10;
 
 /// The hypotheses of a question, and the positions of their columns.
 #[derive(Debug, Clone)]
-pub(crate) struct Layout {
+pub(crate) struct ColumnLayout {
     /// The hypotheses.
     pub hypotheses: Vec<Hypothesis>,
     /// Number of columns of each.
@@ -30,12 +30,12 @@ pub(crate) struct Layout {
 /// xx = sum_j 1/noise_j integral x_j x_j' dt,   xy = sum_j 1/noise_j integral x_j y_j dt
 /// ```
 #[derive(Debug, Clone)]
-pub(crate) struct Information {
+pub(crate) struct ColumnInformation {
     pub xx: DMatrix<f64>,
     pub xy: DVector<f64>,
 }
 
-impl Layout {
+impl ColumnLayout {
     /// The columns of some hypotheses.
     pub fn columns(&self, hypotheses: &[Hypothesis]) -> Vec<usize> {
         let start = |at: usize| self.widths[..at].iter().sum::<usize>();
@@ -45,9 +45,9 @@ impl Layout {
     }
 
     /// The information of no motion: zeros.
-    pub fn no_information(&self) -> Information {
+    pub fn no_information(&self) -> ColumnInformation {
         let width = self.widths.iter().sum();
-        Information { xx: DMatrix::zeros(width, width), xy: DVector::zeros(width) }
+        ColumnInformation { xx: DMatrix::zeros(width, width), xy: DVector::zeros(width) }
     }
 
     /// The normal equations of a motion, one for each of its equal `stretches`. `measured` is the
@@ -58,7 +58,7 @@ impl Layout {
         motion: &RunMotion,
         measured: Option<&[Vec<f64>]>,
         stretches: usize,
-    ) -> Result<Vec<Information>, LogError> {
+    ) -> Result<Vec<ColumnInformation>, LogError> {
         let filter = LowPass::new(ORDER, self.cutoff_hz, motion.period_s.recip())?;
         let columns = self.hypotheses.iter().flat_map(|h| h.columns(motion));
         let mut signals: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); self.noise.len()];
@@ -87,7 +87,7 @@ impl Layout {
     }
 }
 
-impl Information {
+impl ColumnInformation {
     fn add(
         &mut self,
         signals: &[(usize, Vec<f64>)],
@@ -187,7 +187,7 @@ struct Inverse {
 }
 
 impl Inverse {
-    fn new(information: &Information, columns: &[usize]) -> Self {
+    fn new(information: &ColumnInformation, columns: &[usize]) -> Self {
         let norm = |&k: &usize| {
             let power = information.xx[(k, k)];
             if power > 0.0 && power.is_finite() { power.sqrt().recip() } else { 0.0 }
@@ -221,14 +221,14 @@ mod tests {
     use effects::{Frame, Place};
 
     use super::*;
-    use crate::record::Record;
+    use crate::motion_record::MotionRecord;
     use crate::testing::turntable;
 
     const NOISE: f64 = 0.02;
     const SPRING: f64 = 3.0;
 
     /// What `sum a sin(2 pi hz t)`, over whole periods, says of a cable spring and of a rotor.
-    fn along(waves: &[(f64, f64)]) -> [Information; 2] {
+    fn along(waves: &[(f64, f64)]) -> [ColumnInformation; 2] {
         let (rate_hz, duration_s) = (200.0, 20.0);
         let signal = |derivative: i32| -> Vec<f64> {
             let at = |t: f64| {
@@ -242,7 +242,7 @@ mod tests {
             (0..(duration_s * rate_hz) as u32).map(|k| at(f64::from(k) / rate_hz)).collect()
         };
         let [q, qd, qdd] = [0, 1, 2].map(|d| vec![signal(d)]);
-        let record = Record { state: [q, qd, qdd], period_s: 1.0 / rate_hz };
+        let record = MotionRecord { state: [q, qd, qdd], period_s: 1.0 / rate_hz };
         let frame = Frame {
             rest_speed: vec![1e-6],
             centre: vec![0.0],
@@ -250,7 +250,7 @@ mod tests {
             resolution: vec![0.0],
         };
         let at = |kind| Hypothesis { kind, place: Place::Joint(0) };
-        let layout = Layout {
+        let layout = ColumnLayout {
             hypotheses: vec![at(EffectKind::CableSpring), at(EffectKind::RotorInertia)],
             widths: vec![1, 1],
             noise: vec![Some(NOISE)],
@@ -263,7 +263,7 @@ mod tests {
     }
 
     fn deviance(waves: &[(f64, f64)]) -> f64 {
-        let whole = Information::sum(&along(waves)).unwrap();
+        let whole = ColumnInformation::sum(&along(waves)).unwrap();
         let left = whole.residual_weights(&[0], &DVector::from_element(1, SPRING), &[1]);
         whole.deviance(&left)
     }
@@ -290,7 +290,7 @@ mod tests {
     #[test]
     fn stretches_add_up_to_the_whole() {
         let [first, second] = along(&[(0.8, 0.5), (0.3, 1.25)]);
-        let both = Information::sum(&[first.clone(), second.clone()]).unwrap();
+        let both = ColumnInformation::sum(&[first.clone(), second.clone()]).unwrap();
         assert!((&both.xx - &first.xx - &second.xx).amax() < 1e-9 * both.xx.amax());
         assert!(first.xx[(0, 0)] > 0.0 && second.xx[(0, 0)] > 0.0);
     }
@@ -299,7 +299,7 @@ mod tests {
     /// `2 xx / (xx + 1/s^2)`.
     #[test]
     fn weights_are_drawn_to_zero_by_what_is_believed() {
-        let mut one = Information::sum(&along(&[(0.8, 0.5)])).unwrap();
+        let mut one = ColumnInformation::sum(&along(&[(0.8, 0.5)])).unwrap();
         one.xy = one.xx.column(0) * 2.0;
         let power = one.xx[(0, 0)];
         for believed in [1e6, 1.0, power.recip().sqrt()] {
@@ -312,7 +312,7 @@ mod tests {
 
     #[test]
     fn what_is_known_of_one_column_is_less_by_what_the_other_takes() {
-        let whole = Information::sum(&along(&[(0.8, 0.5), (0.3, 1.25)])).unwrap();
+        let whole = ColumnInformation::sum(&along(&[(0.8, 0.5), (0.3, 1.25)])).unwrap();
         let [a, b, c] = [whole.xx[(0, 0)], whole.xx[(0, 1)], whole.xx[(1, 1)]];
         let found = whole.information_about(&[0], &[1])[(0, 0)];
         assert!((found - (a - b * b / c)).abs() < 1e-9 * a);
@@ -321,7 +321,7 @@ mod tests {
 
     #[test]
     fn signals_that_are_no_numbers_say_nothing_and_end() {
-        let mut whole = Information::sum(&along(&[(0.8, 0.5)])).unwrap();
+        let mut whole = ColumnInformation::sum(&along(&[(0.8, 0.5)])).unwrap();
         whole.xx.fill(f64::NAN);
         let left = whole.residual_weights(&[0], &DVector::from_element(1, 1.0), &[1]);
         assert!(whole.deviance(&left) <= 0.0);

@@ -4,9 +4,9 @@ use nalgebra::DVector;
 use robot::Robot;
 
 use crate::error::NextMotionError;
-use crate::information::{Information, Layout, ORDER};
+use crate::information::{ColumnInformation, ColumnLayout, ORDER};
 use crate::limits::{Usable, efforts, usable};
-use crate::record::{EVALUATION_RATE, Record};
+use crate::motion_record::{EVALUATION_RATE, MotionRecord};
 
 /// Size of a cause that no log shows, as a share of its prior standard deviation.
 const SUPPOSED: f64 = 0.1;
@@ -22,7 +22,7 @@ pub(crate) struct Known {
     /// Typical sizes of efforts, speeds and inertias.
     pub scale: Scale,
     /// Information from the logs; zero without logs.
-    pub information: Information,
+    pub information: ColumnInformation,
     source: Source,
 }
 
@@ -36,7 +36,7 @@ impl Known {
     /// From logs.
     pub fn of_logs(
         robot: &Robot,
-        layout: &Layout,
+        layout: &ColumnLayout,
         logs: &Prepared,
     ) -> Result<Self, NextMotionError> {
         let scale = Scale::of_logs(robot, logs);
@@ -47,7 +47,7 @@ impl Known {
     }
 
     /// From the limits of the joints, before there is any log.
-    pub fn of_limits(robot: &Robot, layout: &Layout) -> Self {
+    pub fn of_limits(robot: &Robot, layout: &ColumnLayout) -> Self {
         let usable = usable(robot);
         let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
         Self {
@@ -65,7 +65,12 @@ impl Known {
 
     /// The weights of the columns of some causes: those that explain the logs best or, without
     /// logs, a tenth of their prior standard deviations.
-    pub fn weights(&self, layout: &Layout, robot: &Robot, causes: &[Hypothesis]) -> DVector<f64> {
+    pub fn weights(
+        &self,
+        layout: &ColumnLayout,
+        robot: &Robot,
+        causes: &[Hypothesis],
+    ) -> DVector<f64> {
         let prior: Vec<f64> = causes
             .iter()
             .flat_map(|h| h.prior(robot, &self.scale, &effects::Priors::default()))
@@ -97,14 +102,14 @@ pub(crate) fn scale_of_limits(robot: &Robot) -> Scale {
 /// The normal equations of the columns and the measured effort over all runs.
 fn along_logs(
     robot: &Robot,
-    layout: &Layout,
+    layout: &ColumnLayout,
     frame: &Frame,
     logs: &Prepared,
-) -> Result<Information, NextMotionError> {
+) -> Result<ColumnInformation, NextMotionError> {
     let mut all = Vec::new();
     for run in &logs.runs {
         let stride = (run.rate_hz / (EVALUATION_RATE * layout.cutoff_hz)).max(1.0) as usize;
-        let motion = Record::of_run(run, stride).evaluate(robot, frame);
+        let motion = MotionRecord::of_run(run, stride).evaluate(robot, frame);
         let filter = LowPass::new(ORDER, layout.cutoff_hz, run.rate_hz)?;
         let effort = |joint: &PreparedJoint| {
             let mut effort = joint.effort.clone();
@@ -114,7 +119,7 @@ fn along_logs(
         let measured: Vec<Vec<f64>> = run.joints.iter().map(effort).collect();
         all.extend(layout.information_along(&motion, Some(&measured), 1)?);
     }
-    Information::sum(&all).ok_or(NextMotionError::NoRuns)
+    ColumnInformation::sum(&all).ok_or(NextMotionError::NoRuns)
 }
 
 #[cfg(test)]
@@ -130,7 +135,7 @@ mod tests {
         let mut robot = turntable();
         robot.link_mut(0).unwrap().actuator.viscous = 0.5;
         let cause = Hypothesis { kind: EffectKind::ViscousFriction, place: Place::Joint(0) };
-        let layout = Layout {
+        let layout = ColumnLayout {
             hypotheses: vec![cause],
             widths: vec![1],
             noise: vec![Some(1e-6)],

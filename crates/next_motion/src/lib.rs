@@ -19,7 +19,7 @@ mod error;
 mod information;
 mod known;
 mod limits;
-mod record;
+mod motion_record;
 mod search;
 mod steps;
 #[cfg(test)]
@@ -27,6 +27,8 @@ mod testing;
 mod trial_shapes;
 
 pub use aim::{Goal, Question};
-pub use design::{Design, DesignSettings, DesignedMotion, Prospect, SEPARATING_NATS, design};
+pub use design::{
+    DesignSettings, DesignedMotion, ExcitationDesign, Prospect, SEPARATING_NATS, design,
+};
 pub use error::NextMotionError;
 pub use trial_shapes::with_trial_shapes;

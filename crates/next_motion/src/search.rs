@@ -10,9 +10,9 @@ use robot::Robot;
 
 use crate::aim::Aim;
 use crate::error::NextMotionError;
-use crate::information::{Information, Layout};
+use crate::information::{ColumnInformation, ColumnLayout};
 use crate::limits::Usable;
-use crate::record::{EVALUATION_RATE, Record};
+use crate::motion_record::{EVALUATION_RATE, MotionRecord};
 use crate::steps::Steps;
 
 /// Motions drawn at random.
@@ -38,7 +38,7 @@ const UNLIKE: f64 = 1e-6;
 #[derive(Debug)]
 pub(crate) struct Search<'a> {
     pub robot: &'a Robot,
-    pub layout: &'a Layout,
+    pub layout: &'a ColumnLayout,
     pub frame: &'a Frame,
     pub usable: &'a [Usable],
     pub duration_s: f64,
@@ -60,7 +60,7 @@ enum Feasibility {
     /// Largest effort over what is usable.
     TooHeavy(f64),
     /// Information of the whole motion and of its stretches.
-    Feasible { whole: Box<Information>, stretches: Vec<Information> },
+    Feasible { whole: Box<ColumnInformation>, stretches: Vec<ColumnInformation> },
 }
 
 impl Candidate {
@@ -85,7 +85,7 @@ impl Candidate {
     }
 
     /// Its information, if it can be run.
-    fn information(&self) -> Option<&Information> {
+    fn information(&self) -> Option<&ColumnInformation> {
         match &self.feasibility {
             Feasibility::TooHeavy(_) => None,
             Feasibility::Feasible { whole, .. } => Some(whole),
@@ -118,14 +118,14 @@ impl Search<'_> {
     }
 
     /// The information of a motion at the rate of the diagnosis.
-    pub fn information_of(&self, motion: &Motion) -> Result<Option<Information>, LogError> {
+    pub fn information_of(&self, motion: &Motion) -> Result<Option<ColumnInformation>, LogError> {
         let along = self.along(motion, EVALUATION_RATE);
-        Ok(Information::sum(&self.layout.information_along(&along, None, 1)?))
+        Ok(ColumnInformation::sum(&self.layout.information_along(&along, None, 1)?))
     }
 
     fn along(&self, motion: &Motion, rate: f64) -> Along {
         let rate_hz = rate * self.layout.cutoff_hz;
-        Record::of_motion(motion, rate_hz).evaluate(self.robot, self.frame)
+        MotionRecord::of_motion(motion, rate_hz).evaluate(self.robot, self.frame)
     }
 
     /// Improves the best of the drawn motions, and returns the best result.
@@ -205,7 +205,7 @@ impl Search<'_> {
             return Ok(Feasibility::TooHeavy(heaviest));
         }
         let stretches = self.layout.information_along(&along, None, STRETCHES)?;
-        let whole = Information::sum(&stretches).map(Box::new);
+        let whole = ColumnInformation::sum(&stretches).map(Box::new);
         Ok(whole.map_or(Feasibility::TooHeavy(f64::INFINITY), |whole| Feasibility::Feasible {
             whole,
             stretches,

@@ -4,7 +4,7 @@ use effects::Frame;
 use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::Robot;
 
-use crate::record::Record;
+use crate::motion_record::MotionRecord;
 
 /// Rate of [`log`] (Hz).
 pub(crate) const RATE_HZ: f64 = 100.0;
@@ -64,7 +64,7 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
         reach: vec![1.0; joints],
         resolution: vec![0.0; joints],
     };
-    let motion = Record::of_run(&run, 1).evaluate(robot, &frame);
+    let motion = MotionRecord::of_run(&run, 1).evaluate(robot, &frame);
     for (joint, effort) in run.joints.iter_mut().zip(&motion.effort) {
         joint.effort.clone_from(effort);
     }

@@ -14,7 +14,7 @@ const BLOCK: usize = 1024;
 
 /// What the columns of a table are.
 #[derive(Clone, Copy)]
-pub enum Columns<'a> {
+pub enum TableColumns<'a> {
     /// Those of joints with names.
     Joints(&'a [String]),
     /// As many as another table has.
@@ -23,7 +23,7 @@ pub enum Columns<'a> {
     Any,
 }
 
-impl Columns<'_> {
+impl TableColumns<'_> {
     fn fit(self, shape: &[usize]) -> bool {
         match (self, shape) {
             (Self::Joints(joints), [.., n]) => *n == joints.len() && shape.len() <= 2,
@@ -69,7 +69,7 @@ impl<'py> SampleRows<'py> {
     ///
     /// `TypeError` for what holds no real numbers, `ValueError` for another shape and for a number that
     /// is masked or not finite; both name the argument.
-    pub fn new(name: &str, value: &Bound<'py, PyAny>, columns: Columns<'_>) -> PyResult<Self> {
+    pub fn new(name: &str, value: &Bound<'py, PyAny>, columns: TableColumns<'_>) -> PyResult<Self> {
         let array = numbers(name, value)?;
         let shape = array.shape().to_vec();
         let n = match shape.last() {

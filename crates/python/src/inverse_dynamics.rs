@@ -1,7 +1,7 @@
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use crate::arrays::{Columns, SampleRows, same_rows, table};
+use crate::arrays::{SampleRows, TableColumns, same_rows, table};
 use crate::robot::PyRobot;
 
 /// The torque that moves the rigid bodies of `robot` so,
@@ -24,7 +24,7 @@ pub fn inverse_dynamics<'py>(
     qdd: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let joints = robot.joints();
-    let (n, columns) = (joints.len(), Columns::Joints(&joints));
+    let (n, columns) = (joints.len(), TableColumns::Joints(&joints));
     let q = SampleRows::new("q", q, columns)?;
     let qd = SampleRows::new("qd", qd, columns)?;
     let qdd = SampleRows::new("qdd", qdd, columns)?;

@@ -7,7 +7,7 @@ use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::{Columns, SampleRows, rows_of, table, type_name, vector};
+use crate::arrays::{SampleRows, TableColumns, rows_of, table, type_name, vector};
 use crate::error::raised;
 
 /// One recorded run.
@@ -217,14 +217,14 @@ impl PyLog {
             (Channel::CommandedEffort, tau_commanded),
             (Channel::LinkPosition, q_link),
         ];
-        let mut columns = joints.as_deref().map_or(Columns::Any, Columns::Joints);
+        let mut columns = joints.as_deref().map_or(TableColumns::Any, TableColumns::Joints);
         let mut signals = Signals::new();
         for (channel, value) in given {
             let Some(value) = value else { continue };
             let argument = argument(channel);
             let rows = SampleRows::new(argument, value, columns)?;
-            if matches!(columns, Columns::Any) {
-                columns = Columns::Count(rows.width());
+            if matches!(columns, TableColumns::Any) {
+                columns = TableColumns::Count(rows.width());
             }
             if rows.len() != time.len() || rows.is_single {
                 return Err(PyValueError::new_err(format!(

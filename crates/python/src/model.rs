@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arguments::positive;
-use crate::arrays::{Columns, SampleRows, same_rows, table};
+use crate::arrays::{SampleRows, TableColumns, same_rows, table};
 use crate::error::raised;
 use crate::log::PyLog;
 use crate::robot::PyRobot;
@@ -37,7 +37,7 @@ impl PyModel {
         [q, qd, qdd]: [&Bound<'py, PyAny>; 3],
         tells: fn(&learner::Model, &Samples) -> Vec<f64>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let rows = |name, value| SampleRows::new(name, value, Columns::Joints(&self.joints));
+        let rows = |name, value| SampleRows::new(name, value, TableColumns::Joints(&self.joints));
         let (q, qd, qdd) = (rows("q", q)?, rows("qd", qd)?, rows("qdd", qdd)?);
         same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
         let states = [q.as_slice()?.to_vec(), qd.as_slice()?.to_vec(), qdd.as_slice()?.to_vec()];

@@ -120,7 +120,7 @@ impl Work {
     }
 }
 
-impl diagnosis::Progress for Work {
+impl diagnosis::DiagnosisProgress for Work {
     fn stage(&self, name: &str, steps: usize) {
         self.stage(name, steps);
     }

@@ -21,7 +21,7 @@
 #[cfg(feature = "rerun")]
 mod arms;
 #[cfg(feature = "rerun")]
-mod bounds;
+mod bounding_box;
 #[cfg(feature = "rerun")]
 mod colour;
 #[cfg(feature = "rerun")]
@@ -32,21 +32,21 @@ mod disk;
 mod entities;
 mod error;
 #[cfg(feature = "rerun")]
-mod layout;
-#[cfg(feature = "rerun")]
 mod live;
 #[cfg(not(feature = "rerun"))]
 mod no_recorder;
-#[cfg(feature = "rerun")]
-mod pace;
 #[cfg(feature = "rerun")]
 mod plots;
 #[cfg(feature = "rerun")]
 mod properties;
 #[cfg(feature = "rerun")]
 mod recorder;
+#[cfg(feature = "rerun")]
+mod row_pace;
 mod rows;
 mod scene;
+#[cfg(feature = "rerun")]
+mod screen_layout;
 #[cfg(feature = "rerun")]
 mod shapes;
 #[cfg(feature = "rerun")]

@@ -7,17 +7,17 @@ use rerun::{
 };
 
 use crate::arms::ArmTrack;
-use crate::bounds::Bounds;
+use crate::bounding_box::BoundingBox;
 use crate::colour;
 use crate::disk::Disk;
 use crate::entities::{DOCUMENT, EVENTS, part, time_column};
 use crate::error::{RecordingError, refusal, unwritable};
-use crate::layout::{Bars, Layout};
 use crate::live::Viewer;
-use crate::pace::Pace;
 use crate::plots::Plots;
+use crate::row_pace::RowPace;
 use crate::rows::{BarSeries, FinishedRecording, RowBlock};
 use crate::scene::{EventLevel, Live, Scene, SceneSignal};
+use crate::screen_layout::{Bars, ScreenLayout};
 use crate::signals::Signals;
 use crate::sinks::open;
 use crate::skeleton::Skeleton;
@@ -42,12 +42,12 @@ pub struct Recorder {
     path: PathBuf,
     disk: Disk,
     viewer: Viewer,
-    layout: Layout,
+    layout: ScreenLayout,
     skeleton: Skeleton,
     arms: Vec<(String, ArmTrack)>,
     signal_names: Vec<String>,
     signals: Signals,
-    pace: Pace,
+    pace: RowPace,
     last_s: f64,
     rows: u64,
 }
@@ -65,10 +65,10 @@ impl Recorder {
         let skeleton = Skeleton::new(scene.robot, scene.looks);
         let arms = draw(&stream, scene, &skeleton).map_err(refusal)?;
         let joints = scene.robot.links().iter().map(|l| (l.joint.name.clone(), l.joint.kind));
-        let layout = Layout {
+        let layout = ScreenLayout {
             title: scene.title.to_owned(),
             reach_m: skeleton.reach_m,
-            seen: Bounds::default(),
+            seen: BoundingBox::default(),
             plots: Plots::new(joints.collect(), &scene.signals),
             bars: vec![],
             opened: None,
@@ -86,7 +86,7 @@ impl Recorder {
             arms,
             signal_names: scene.signals.iter().map(|s| s.name.to_owned()).collect(),
             signals: Signals::new(joint_paths, &scene.signals),
-            pace: Pace::new(POSE_PERIOD_S),
+            pace: RowPace::new(POSE_PERIOD_S),
             last_s: f64::NEG_INFINITY,
             rows: 0,
         })
@@ -229,7 +229,7 @@ impl Recorder {
     /// [`RecordingError::Refused`].
     pub fn finish(mut self) -> Result<FinishedRecording, RecordingError> {
         self.write().map_err(refusal)?;
-        let Layout { bars, plots, opened, .. } = &self.layout;
+        let ScreenLayout { bars, plots, opened, .. } = &self.layout;
         if self.rows > 0 || !bars.is_empty() || plots.has_further() || opened.is_some() {
             self.layout.send(&self.stream)?;
         }

@@ -30,7 +30,7 @@ pub use crate::diagnosis::markdown::markdown;
 pub use crate::diagnosis::notebook::notebook;
 pub use crate::diagnosis::page::html;
 pub use crate::diagnosis::report::Report;
-pub use crate::diagnosis::residual::{LengthScale, ResidualJoint, ResidualModel};
+pub use crate::diagnosis::residual::{LengthScale, ResidualJointRow, ResidualModel};
 pub use crate::diagnosis::tables::sizes;
 pub use crate::diagnosis::text::text;
 pub use change::page::{change_page, change_sentence, sizes_before};
@@ -44,6 +44,6 @@ pub use run::claims::{ClaimRow, ClaimUnit, claim_rows, claim_text, claims_senten
 pub use run::diagnosis_summary::{DiagnosisSummary, summarise};
 pub use run::run_report::RunReport;
 pub use tracking::comparison::{
-    ControllerGains, ErrorSweep, FirstSeconds, SweptModel, TrackedModel, TrackingComparison,
+    ControllerGains, ErrorSweep, FirstSeconds, SweptFeedforward, TrackedModel, TrackingComparison,
     WallTiming,
 };

@@ -12,18 +12,18 @@ use quick_xml::events::Event;
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 
 use crate::diagnosis::report::Report;
-use crate::diagnosis::residual::{LengthScale, ResidualJoint, ResidualModel};
+use crate::diagnosis::residual::{LengthScale, ResidualJointRow, ResidualModel};
 use pages::{FileHash, Provenance};
 
 /// What a [`Report`] borrows.
-pub struct Sample {
+pub struct DiagnosisSample {
     pub diagnosis: Diagnosis,
     pub traces: Vec<RunTraces>,
     pub robot: Robot,
     pub provenance: Provenance,
 }
 
-impl Sample {
+impl DiagnosisSample {
     pub fn report(&self) -> Report<'_> {
         Report {
             diagnosis: &self.diagnosis,
@@ -39,10 +39,10 @@ impl Sample {
 
 /// A two-joint arm with Coulomb friction at the shoulder, an inertia finding and structure
 /// left at the elbow.
-pub fn arm() -> Sample {
+pub fn arm() -> DiagnosisSample {
     let names = ["shoulder", "elbow"];
     let links = names.iter().enumerate().map(|(i, name)| link(i, name)).collect();
-    Sample {
+    DiagnosisSample {
         diagnosis: diagnosis(&names),
         traces: vec![trace("run_1", &names), trace("run_2", &names)],
         robot: Robot::new("arm", nalgebra::Vector3::new(0.0, 0.0, -9.81), links).unwrap(),
@@ -62,7 +62,7 @@ pub fn arm() -> Sample {
 
 /// A residual model of [`arm`] that is used at the elbow.
 pub fn residual() -> ResidualModel {
-    let unused = ResidualJoint {
+    let unused = ResidualJointRow {
         name: "shoulder".into(),
         extended_rms_nm: 0.4,
         with_residual_rms_nm: 0.5,
@@ -71,7 +71,7 @@ pub fn residual() -> ResidualModel {
         is_used: false,
         length_scales: Vec::new(),
     };
-    let used = ResidualJoint {
+    let used = ResidualJointRow {
         name: "elbow".into(),
         extended_rms_nm: 0.5,
         with_residual_rms_nm: 0.32,

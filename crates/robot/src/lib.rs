@@ -31,8 +31,8 @@ pub use machine::{Machine, MachineFault, Reading};
 pub use meshes::folders::MeshFolders;
 pub use meshes::packages::Packages;
 pub use structure::actuator::{
-    Actuator, Counterbalance, Coupling, FrictionWave, Ripple, SensingSide, Stribeck, TorqueSource,
-    Warming,
+    Actuator, CounterbalanceTerm, Coupling, FrictionWave, Ripple, SensingSide, Stribeck,
+    TorqueSource, Warming,
 };
 pub use structure::control::{ControlSettings, PdGain};
 pub use structure::inertia::{Inertia, InertiaDefect};

@@ -40,7 +40,7 @@ pub use metrics::{Distance, JointMetrics, LinkMetrics, TrackingMetrics};
 pub use model_feedforward::{GravityFeedforward, ModelFeedforward};
 pub use named_feedforward::NamedFeedforward;
 pub use rows::{Signal, TrackingRows};
-pub use settings::{Ahead, Clock, TrackingSettings, VirtualClock, WallClock};
+pub use settings::{Ahead, RunClock, TrackingSettings, VirtualClock, WallClock};
 pub use timing::{Latency, Timing, WallClockTiming};
 pub use tip::tip_in_base;
 pub use torque_limits::TorqueLimits;

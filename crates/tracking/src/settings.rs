@@ -5,7 +5,7 @@ use crate::error::TrackingError;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackingSettings {
     /// The clock of the run.
-    pub clock: Clock,
+    pub clock: RunClock,
     /// Time without a new prediction after which the last one is no longer trusted (s). It must be
     /// longer than a prediction takes.
     pub stall_s: f64,
@@ -16,7 +16,7 @@ pub struct TrackingSettings {
 
 /// Which time a run goes by.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Clock {
+pub enum RunClock {
     /// The machine's time, as fast as it can be simulated, with a given time for a prediction.
     /// Every run gives the same bits.
     Virtual(VirtualClock),
@@ -63,7 +63,7 @@ pub enum Ahead {
 impl Default for TrackingSettings {
     /// The machine's time, predictions at once; 0.1 s to a stall, 0.5 s to fade.
     fn default() -> Self {
-        Self { clock: Clock::Virtual(VirtualClock::default()), stall_s: 0.1, fade_s: 0.5 }
+        Self { clock: RunClock::Virtual(VirtualClock::default()), stall_s: 0.1, fade_s: 0.5 }
     }
 }
 
@@ -71,7 +71,7 @@ impl TrackingSettings {
     pub(crate) fn check(&self) -> Result<(), TrackingError> {
         error::not_negative(|| "the time to a stall (s)".to_owned(), self.stall_s)?;
         error::not_negative(|| "the time of a fade (s)".to_owned(), self.fade_s)?;
-        if let Clock::Virtual(clock) = self.clock {
+        if let RunClock::Virtual(clock) = self.clock {
             let time_s = clock.prediction_time_s;
             error::not_negative(|| "the time of a prediction (s)".to_owned(), time_s)?;
             if let Some(stop_s) = clock.stops_at_s {

@@ -7,7 +7,7 @@ use crate::feedforward::Feedforward;
 use crate::pace::Pace;
 use crate::predictor::{Delivery, Predictor, VirtualPredictor, tick_from};
 use crate::rows::TrackingRows;
-use crate::settings::{Clock, TrackingSettings};
+use crate::settings::{RunClock, TrackingSettings};
 use crate::timing::Timing;
 use crate::tracking::{End, Tracking};
 use crate::trust::Trust;
@@ -65,11 +65,11 @@ pub fn track(
         updates_missed: 0,
     };
     let (end, wall) = match settings.clock {
-        Clock::Virtual(clock) => {
+        RunClock::Virtual(clock) => {
             let mut predictor = VirtualPredictor::new(feedforward, motion, clock, period_s);
             (run.whole(ticks, &mut predictor, &mut Pace::Free), None)
         }
-        Clock::Wall(clock) => {
+        RunClock::Wall(clock) => {
             let go =
                 |predictor: &mut dyn Predictor, pace: &mut Pace| run.whole(ticks, predictor, pace);
             let (end, timing) = on_the_wall(feedforward, motion, clock, period_s, go);
@@ -233,7 +233,7 @@ mod tests {
     const LEAD_S: f64 = 0.5 * PERIOD_S;
 
     fn settings(clock: VirtualClock) -> TrackingSettings {
-        TrackingSettings { clock: Clock::Virtual(clock), ..TrackingSettings::default() }
+        TrackingSettings { clock: RunClock::Virtual(clock), ..TrackingSettings::default() }
     }
 
     fn run(

@@ -146,7 +146,7 @@ mod tests {
 
     use super::*;
     use crate::rows::Signal;
-    use crate::settings::{Clock, TrackingSettings};
+    use crate::settings::{RunClock, TrackingSettings};
     use crate::testing::{Of, PERIOD_S, TestPlant, controller, rest, slider};
     use crate::track;
     use crate::tracking::Tracking;
@@ -160,7 +160,7 @@ mod tests {
 
     fn run(machine: &mut dyn Machine, feedforward: &mut dyn Feedforward, ahead: Ahead) -> Tracking {
         let settings = TrackingSettings {
-            clock: Clock::Wall(WallClock { ahead }),
+            clock: RunClock::Wall(WallClock { ahead }),
             ..TrackingSettings::default()
         };
         track(machine, &motion(), &controller(90.0, 20.0), feedforward, &settings, &mut ()).unwrap()

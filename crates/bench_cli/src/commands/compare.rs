@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 
-use benchmark::Comparison;
+use benchmark::PairedComparison;
 use cli::{print, print_json};
 
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
@@ -21,12 +21,12 @@ pub struct Arguments {
 }
 
 /// Compares two results of the same trials.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
-    let comparison = Comparison::read(&arguments.first, &arguments.second)?;
+pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
+    let comparison = PairedComparison::read(&arguments.first, &arguments.second)?;
     if arguments.json {
         print_json(&comparison)?;
     } else {
         print(&comparison.text())?;
     }
-    Ok(ExitStatus::Good)
+    Ok(BenchExitStatus::Good)
 }

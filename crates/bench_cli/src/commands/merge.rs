@@ -6,10 +6,10 @@ use report::{FileHash, Provenance, sha256_of};
 
 use crate::commands::missing::{Folder, missing, sentences};
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Puts the trials that are made together: tables, `trials.parquet`, `tally.json`, `report.html`.
-pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
+pub fn run(arguments: &Folder) -> Result<BenchExitStatus, BenchError> {
     let root = arguments.folder.as_path();
     let folder = CampaignFolder::open(root)?;
     let made = folder.manifest()?;
@@ -34,7 +34,7 @@ pub fn run(arguments: &Folder) -> Result<ExitStatus, BenchError> {
     report::write_folder(root, &files)?;
     print(&format!("{text}{}", sentences(&doubts)))?;
     print(&format!("\nreport  {}\n", display_path(&root.join("report.html"))))?;
-    Ok(if doubts.is_empty() { ExitStatus::Good } else { ExitStatus::Gap })
+    Ok(if doubts.is_empty() { BenchExitStatus::Good } else { BenchExitStatus::Gap })
 }
 
 /// The same for whoever merges, wherever the folder lies.

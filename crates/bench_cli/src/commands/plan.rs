@@ -5,7 +5,7 @@ use cli::{create_folder, display_path, print};
 use document::Document;
 
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Characters of a line.
 const WIDTH: usize = 80;
@@ -27,7 +27,7 @@ pub struct Arguments {
 }
 
 /// Plans a campaign and takes over the trials that are made already.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
+pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     let campaign = Campaign::from_document(&Document::read(&arguments.campaign)?)?;
     let read = |table: &PathBuf| -> Result<Vec<Record>, BenchError> {
         Ok(read_finished(&campaign, table)?)
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
             contents(folder.campaign())
         ))?;
     }
-    Ok(ExitStatus::Good)
+    Ok(BenchExitStatus::Good)
 }
 
 /// How many trials, and of what.

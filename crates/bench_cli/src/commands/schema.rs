@@ -5,7 +5,7 @@ use schemars::{Schema, schema_for};
 use serde_json::{Value, json};
 
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Arguments of `schema`.
 #[derive(Debug, clap::Args)]
@@ -25,12 +25,12 @@ enum Kind {
 }
 
 /// Prints the JSON schema of campaigns or of figures, which editors complete and check keys with.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
+pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     print_schema(match arguments.kind {
         Kind::Campaign => campaigns(),
         Kind::Figure => schema_for!(FigureScenario),
     })?;
-    Ok(ExitStatus::Good)
+    Ok(BenchExitStatus::Good)
 }
 
 /// A campaign of either form: its keys are those of both, and a population leaves out the others.

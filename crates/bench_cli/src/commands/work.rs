@@ -7,7 +7,7 @@ use cli::{Line, print};
 
 use crate::commands::work_line::WorkLine;
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Arguments of `work`.
 #[derive(Debug, clap::Args)]
@@ -43,7 +43,7 @@ impl Arguments {
 }
 
 /// Makes every trial that is left.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
+pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     let folder = CampaignFolder::open(&arguments.folder)?;
     let workers = arguments.workers();
     let line = WorkLine::new(workers.jobs, (!arguments.quiet).then(Line::new))?;
@@ -54,5 +54,5 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
     if !arguments.quiet {
         print(&format!("{}\n", line.summary(left)))?;
     }
-    Ok(if left == 0 { ExitStatus::Good } else { ExitStatus::Gap })
+    Ok(if left == 0 { BenchExitStatus::Good } else { BenchExitStatus::Gap })
 }

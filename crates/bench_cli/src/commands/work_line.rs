@@ -5,7 +5,7 @@ use std::time::Duration;
 use benchmark::{Record, WorkProgress};
 use cli::{Line, Watch, display_path};
 
-use crate::commands::pace::{Pace, words};
+use crate::commands::trial_pace::{TrialPace, words};
 use crate::error::BenchError;
 
 /// Shows how the work goes on; Ctrl-C lets the trials that are being made come to their end.
@@ -23,7 +23,7 @@ struct Count {
     failed: usize,
     /// Entries of the store that were made again, in sentences.
     remade: Vec<String>,
-    pace: Pace,
+    pace: TrialPace,
 }
 
 impl WorkLine {

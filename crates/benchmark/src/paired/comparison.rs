@@ -4,7 +4,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::error::BenchmarkError;
-use crate::paired::measures::{Measure, Quantity};
+use crate::paired::measures::{Measure, TrialQuantity};
 use crate::paired::paired_mean::PairedMean;
 use crate::paired::paired_share::PairedShare;
 use crate::paired::turned::Turned;
@@ -13,7 +13,7 @@ use crate::trials::record::Record;
 
 /// Two results of the trials of one campaign, trial by trial.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub struct PairedComparison {
     /// The campaign, by its hash.
     pub campaign: String,
     /// Trials that both have.
@@ -30,7 +30,7 @@ pub struct Comparison {
     pub turned: Vec<Turned>,
 }
 
-impl Comparison {
+impl PairedComparison {
     /// Reads two results, each the folder of a campaign or a table that [`Record::write`] has written, and
     /// compares the trials that both have; the second is better where it wins.
     ///
@@ -68,7 +68,7 @@ impl Comparison {
                 |[first, second]: &[&Record; 2]| Some((measure.of(first)?, measure.of(second)?));
             PairedShare::new(measure, &pairs.iter().filter_map(both).collect::<Vec<_>>())
         };
-        let mean = |quantity: Quantity| {
+        let mean = |quantity: TrialQuantity| {
             let both =
                 |[first, second]: &[&Record; 2]| Some((quantity.of(first)?, quantity.of(second)?));
             PairedMean::new(quantity, &pairs.iter().filter_map(both).collect::<Vec<_>>())
@@ -80,7 +80,7 @@ impl Comparison {
             alone: [a.len() - pairs.len(), b.len() - pairs.len()],
             failed: [failed(0), failed(1)],
             shares: Measure::ALL.map(share).into_iter().filter(|share| share.trials > 0).collect(),
-            means: Quantity::ALL.into_iter().filter_map(mean).collect(),
+            means: TrialQuantity::ALL.into_iter().filter_map(mean).collect(),
             turned: pairs.iter().filter_map(|[a, b]| Turned::new(a, b)).collect(),
         })
     }

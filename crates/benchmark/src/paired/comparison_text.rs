@@ -1,10 +1,10 @@
-use crate::paired::comparison::Comparison;
+use crate::paired::comparison::PairedComparison;
 use crate::paired::paired_mean::PairedMean;
 use crate::paired::paired_share::PairedShare;
 use crate::paired::turned::Turned;
 use crate::statistics::text_table::TextTable;
 
-impl Comparison {
+impl PairedComparison {
     /// Counts, tables within 100 columns, and the trials that turned, each in a line.
     pub fn text(&self) -> String {
         let campaign = self.campaign.get(..8).unwrap_or(&self.campaign);

@@ -26,7 +26,7 @@ pub enum Measure {
 /// What a trial is asked that has a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Quantity {
+pub enum TrialQuantity {
     /// True findings of all of them.
     Precision,
     /// Visible causes that are named, of all of them.
@@ -89,7 +89,7 @@ impl Measure {
     }
 }
 
-impl Quantity {
+impl TrialQuantity {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Precision, Self::Recall, Self::ErrorRatio, Self::Time];
 
@@ -151,7 +151,7 @@ impl fmt::Display for Measure {
     }
 }
 
-impl fmt::Display for Quantity {
+impl fmt::Display for TrialQuantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Precision => "precision",

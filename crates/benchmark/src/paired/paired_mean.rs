@@ -1,7 +1,7 @@
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::paired::measures::Quantity;
+use crate::paired::measures::TrialQuantity;
 
 /// The mean of a number over the same trials, with two answers each.
 ///
@@ -14,7 +14,7 @@ use crate::paired::measures::Quantity;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PairedMean {
     /// Which number.
-    pub quantity: Quantity,
+    pub quantity: TrialQuantity,
     /// Trials that have both.
     pub trials: usize,
     /// Mean of the first, geometric for factors.
@@ -29,7 +29,7 @@ pub struct PairedMean {
 
 impl PairedMean {
     /// Pairs of a first and a second number, or of their logarithms; none without any.
-    pub fn new(quantity: Quantity, pairs: &[(f64, f64)]) -> Option<Self> {
+    pub fn new(quantity: TrialQuantity, pairs: &[(f64, f64)]) -> Option<Self> {
         let n = pairs.len() as f64;
         let mean = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / n;
         let difference = mean(&|pair| pair.1 - pair.0);

@@ -100,7 +100,7 @@ fn nmse(errors: &[ModelErrors], model: &str, joint: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use experiment::Verdict;
+    use experiment::ClaimVerdict;
 
     /// Two joints; every claim holds.
     fn errors() -> LearningErrors {
@@ -154,7 +154,10 @@ mod tests {
     #[test]
     fn every_claim_is_held_or_not_by_the_number_that_it_is_about() {
         let held = |errors: &LearningErrors| -> Vec<bool> {
-            learning_claims(errors).iter().map(|claim| claim.verdict == Verdict::Holds).collect()
+            learning_claims(errors)
+                .iter()
+                .map(|claim| claim.verdict == ClaimVerdict::Holds)
+                .collect()
         };
         assert_eq!(held(&errors()), [true; 5]);
         type Change = fn(&mut LearningErrors);
@@ -183,7 +186,7 @@ mod tests {
         errors.outside.clear();
         errors.real.retain(|model| model.model != "gp");
         assert_eq!(counts(&errors), [2, 6, 6, 0, 0]);
-        assert_eq!(learning_claims(&errors)[4].verdict, Verdict::NotJudged);
+        assert_eq!(learning_claims(&errors)[4].verdict, ClaimVerdict::NotJudged);
         assert_eq!(errors.outside_gain(0), None);
     }
 

@@ -64,7 +64,7 @@ fn beside(times: &[ModelTime], model: &str, other: &str, factor: f64) -> Vec<Cla
 #[cfg(test)]
 mod tests {
     use super::*;
-    use experiment::Verdict;
+    use experiment::ClaimVerdict;
 
     fn times(at_1000: [f64; 4]) -> Vec<ModelTime> {
         let of = |points, times: [f64; 4]| {
@@ -82,7 +82,7 @@ mod tests {
     fn every_claim_is_held_or_not_by_the_time_that_it_is_about() {
         let held = |at_1000: [f64; 4]| -> Vec<bool> {
             let claims = time_claims(&times(at_1000), "kernel");
-            claims.iter().map(|claim| claim.verdict == Verdict::Holds).collect()
+            claims.iter().map(|claim| claim.verdict == ClaimVerdict::Holds).collect()
         };
         assert_eq!(held([0.5, 20.0, 20.6, 100.0]), [true, true, true]);
         assert_eq!(held([21.0, 20.0, 20.6, 100.0]), [false, true, true]);
@@ -95,6 +95,6 @@ mod tests {
     fn times_that_were_not_measured_are_not_judged() {
         let claims = time_claims(&times([0.5, 20.0, 20.6, 100.0]), "another name");
         assert_eq!(claims[0].cases.len(), 4);
-        assert_eq!(claims[2].verdict, Verdict::NotJudged);
+        assert_eq!(claims[2].verdict, ClaimVerdict::NotJudged);
     }
 }

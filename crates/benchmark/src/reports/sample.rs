@@ -4,11 +4,11 @@ use pages::Provenance;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
-use crate::reports::times::prediction_times::{Curve, Maker, PredictionTimes, TimePoint};
+use crate::reports::times::prediction_times::{Maker, PredictionTimes, TimeCurve, TimePoint};
 
 /// Rigid bodies, a Gaussian process and a peer, which was not asked for many points.
 pub fn times() -> PredictionTimes {
-    let curve = |name: &str, maker, points: &[(usize, f64)]| Curve {
+    let curve = |name: &str, maker, points: &[(usize, f64)]| TimeCurve {
         name: name.into(),
         maker,
         points: points.iter().map(|&(n, microseconds)| TimePoint { n, microseconds }).collect(),

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use crate::statistics::text_table::TextTable;
-use crate::tables::tally::{Group, NOTHING, Row, Tally};
+use crate::tables::tally::{NOTHING, Tally, TallyRow, TrialGroup};
 
 /// What was named first for what was put in.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -9,24 +9,24 @@ pub struct Confusion {
     /// The columns: codes, and `nothing` at the end.
     pub named: Vec<&'static str>,
     /// The rows: what was put in, its own column where it has one, and how often each was named.
-    pub injected: Vec<(Group, Option<usize>, Vec<usize>)>,
+    pub injected: Vec<(TrialGroup, Option<usize>, Vec<usize>)>,
 }
 
 impl Tally {
     /// The rows of kinds, of two effects, of an unknown one and of none; the columns of what was named.
     pub fn confusion(&self) -> Confusion {
-        let rows = || self.rows.iter().filter(|row| row.injected != Group::One);
-        let own = |row: &Row| match row.injected {
-            Group::Kind(kind) => Some(kind.code()),
-            Group::Clean => Some(NOTHING),
-            Group::One | Group::Two | Group::Unknown => None,
+        let rows = || self.rows.iter().filter(|row| row.injected != TrialGroup::One);
+        let own = |row: &TallyRow| match row.injected {
+            TrialGroup::Kind(kind) => Some(kind.code()),
+            TrialGroup::Clean => Some(NOTHING),
+            TrialGroup::One | TrialGroup::Two | TrialGroup::Unknown => None,
         };
         let mut codes: BTreeSet<&str> =
             rows().flat_map(|row| row.named_first.keys().copied().chain(own(row))).collect();
         codes.remove(NOTHING);
         let named: Vec<&str> = codes.into_iter().chain([NOTHING]).collect();
-        let count = |row: &Row, code: &&str| row.named_first.get(code).copied().unwrap_or(0);
-        let row = |row: &Row| {
+        let count = |row: &TallyRow, code: &&str| row.named_first.get(code).copied().unwrap_or(0);
+        let row = |row: &TallyRow| {
             let own = own(row).and_then(|own| named.iter().position(|code| *code == own));
             (row.injected, own, named.iter().map(|code| count(row, code)).collect())
         };
@@ -42,9 +42,9 @@ impl Confusion {
             Some((family, number)) if *code != NOTHING => format!("{family}\n{number}"),
             _ => "none".to_owned(),
         };
-        let row = |(injected, _, counts): &(Group, Option<usize>, Vec<usize>)| {
+        let row = |(injected, _, counts): &(TrialGroup, Option<usize>, Vec<usize>)| {
             let name = match injected {
-                Group::Kind(kind) => kind.code().to_owned(),
+                TrialGroup::Kind(kind) => kind.code().to_owned(),
                 other => other.to_string(),
             };
             let count =

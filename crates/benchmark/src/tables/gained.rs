@@ -1,9 +1,9 @@
-use experiment::{Gain, Gains, Score};
+use experiment::{Gains, PredictionGain, Score};
 use serde::Serialize;
 
 use crate::statistics::share::Share;
 use crate::statistics::text_table::TextTable;
-use crate::tables::tally::{Group, median};
+use crate::tables::tally::{TrialGroup, median};
 
 /// Share of the gap above which naming an effect is to make an error [`ENOUGH`] times less.
 const LARGE: f64 = 0.6;
@@ -16,7 +16,7 @@ const ENOUGH: f64 = 2.0;
 pub struct Gained {
     /// What was put in.
     #[serde(rename = "put_in")]
-    pub injected: Group,
+    pub injected: TrialGroup,
     /// Trials with such runs.
     pub trials: usize,
     /// Of the torque.
@@ -42,14 +42,14 @@ pub struct Reduction {
 impl Gained {
     /// One for every group of trials in which gains were measured.
     pub fn all(scores: &[Score]) -> Vec<Self> {
-        let groups = Group::by_group(scores).into_iter();
+        let groups = TrialGroup::by_group(scores).into_iter();
         groups.filter_map(|(injected, members)| Self::of(injected, &members)).collect()
     }
 
-    fn of(injected: Group, scores: &[&Score]) -> Option<Self> {
+    fn of(injected: TrialGroup, scores: &[&Score]) -> Option<Self> {
         let measured: Vec<(&Score, Gains)> =
             scores.iter().filter_map(|score| Some((*score, score.gains?))).collect();
-        let reduction = |of: fn(&Gains) -> Option<Gain>| Reduction::of(&measured, of);
+        let reduction = |of: fn(&Gains) -> Option<PredictionGain>| Reduction::of(&measured, of);
         (!measured.is_empty()).then(|| Self {
             injected,
             trials: measured.len(),
@@ -82,7 +82,7 @@ impl Gained {
 }
 
 impl Reduction {
-    fn of(measured: &[(&Score, Gains)], of: fn(&Gains) -> Option<Gain>) -> Self {
+    fn of(measured: &[(&Score, Gains)], of: fn(&Gains) -> Option<PredictionGain>) -> Self {
         let times = |(_, gains): &(&Score, Gains)| of(gains).map(|gain| gain.times());
         let all: Vec<f64> = measured.iter().filter_map(times).collect();
         let large: Vec<f64> = measured
@@ -121,7 +121,7 @@ mod tests {
 
     fn score(share_explained: f64, before: f64) -> Score {
         let at = EffectAt { effect: CoulombFriction, joint: Some("a".to_owned()), link: None };
-        let gain = Some(Gain { before, after: 0.5 });
+        let gain = Some(PredictionGain { before, after: 0.5 });
         let not_separable_from = Vec::new();
         Score {
             seed: 1,
@@ -147,7 +147,7 @@ mod tests {
         let unmeasured = Score { gains: None, ..score(0.9, 9.0) };
         let scores = [score(0.9, 5.0), score(0.9, 0.6), score(0.3, 0.4), unmeasured];
         let gained = &Gained::all(&scores)[0];
-        assert_eq!((gained.injected, gained.trials), (Group::Kind(CoulombFriction), 3));
+        assert_eq!((gained.injected, gained.trials), (TrialGroup::Kind(CoulombFriction), 3));
         assert_eq!((gained.torque.median, gained.torque.least), (Some(1.2), Some(0.8)));
         assert_eq!((gained.torque.halved.count, gained.torque.halved.of), (1, 2));
         assert_eq!((gained.tracking.median, gained.tracking.halved.of), (None, 0));

@@ -3,8 +3,8 @@ use serde::Serialize;
 use crate::panel::judged_cause::JudgedCause;
 use crate::panel::judged_finding::BaselineClaim;
 use crate::panel::judgement::Judgement;
+use crate::panel::panel_side::PanelSide;
 use crate::panel::prediction::RelativeError;
-use crate::panel::side::Side;
 use crate::statistics::rate::Rate;
 use crate::statistics::share::Share;
 use crate::tables::tally::median;
@@ -13,7 +13,7 @@ use crate::tables::tally::median;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelRow {
     /// What they are alike in.
-    pub side: Side,
+    pub side: PanelSide,
     /// How many they are.
     pub trials: usize,
     /// How well the diagnosis names.
@@ -65,7 +65,7 @@ pub struct Ratios {
 }
 
 impl PanelRow {
-    pub(super) fn new(side: Side, all: &[&Judgement]) -> Self {
+    pub(super) fn new(side: PanelSide, all: &[&Judgement]) -> Self {
         let share = |is: fn(&Judgement) -> Option<bool>| {
             let answers: Vec<bool> = all.iter().filter_map(|one| is(one)).collect();
             Share::of(&answers, |answer| *answer)

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use crate::panel::judgement::Judgement;
-use crate::panel::side::Side;
+use crate::panel::panel_side::PanelSide;
 use crate::tables::kind_row::KindRow;
 use crate::tables::panel_row::PanelRow;
 use crate::tables::slow_diagnosis::SlowDiagnosis;
@@ -26,7 +26,7 @@ impl PanelTally {
     pub fn of(judgements: &[Judgement]) -> Self {
         let mut sorted = judgements.to_vec();
         sorted.sort_by_key(|judgement| judgement.seed);
-        let sides = Side::by_side(&sorted);
+        let sides = PanelSide::by_side(&sorted);
         Self {
             rows: sides.into_iter().map(|(side, own)| PanelRow::new(side, &own)).collect(),
             kinds: KindRow::all(&sorted),

@@ -3,7 +3,7 @@ use experiment::{Injected, Score};
 use serde::Serialize;
 
 use crate::statistics::share::Share;
-use crate::tables::tally::Group;
+use crate::tables::tally::TrialGroup;
 
 /// Classes by size.
 const CLASSES: usize = 3;
@@ -13,7 +13,7 @@ const CLASSES: usize = 3;
 pub struct Power {
     /// What was put in.
     #[serde(rename = "put_in")]
-    pub injected: Group,
+    pub injected: TrialGroup,
     /// The parameter that is its size.
     pub parameter: &'static str,
     /// Its unit at a revolute joint.
@@ -54,7 +54,7 @@ impl Power {
             Some(SizeClass { sizes, exactly: Share::of(trials, |(_, score)| score.exactly) })
         };
         let classes: Vec<SizeClass> = (0..CLASSES).filter_map(class).collect();
-        let (injected, unit) = (Group::Kind(kind), parameter.unit);
+        let (injected, unit) = (TrialGroup::Kind(kind), parameter.unit);
         (!classes.is_empty()).then_some(Self { injected, parameter: parameter.name, unit, classes })
     }
 }

@@ -17,12 +17,12 @@ pub struct Tally {
     /// One for every kind that was put in alone, by code; then all of these together, trials
     /// with two effects, those with one that is not looked for, and clean ones. Those without a
     /// trial are left out.
-    pub rows: Vec<Row>,
+    pub rows: Vec<TallyRow>,
 }
 
 /// Trials that belong together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Group {
+pub enum TrialGroup {
     /// One effect of this kind was put in.
     Kind(EffectKind),
     /// One effect of any kind.
@@ -37,10 +37,10 @@ pub enum Group {
 
 /// A group of trials.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct TallyRow {
     /// What was put in.
     #[serde(rename = "put_in")]
-    pub injected: Group,
+    pub injected: TrialGroup,
     /// How many trials there are.
     pub trials: usize,
     /// Trials in which it was named first, effect and place; nothing, in clean ones.
@@ -80,14 +80,17 @@ pub struct SizeTally {
 impl Tally {
     /// The tally of some scores, whatever their order.
     pub fn of(scores: &[Score]) -> Self {
-        let groups = Group::by_group(scores);
+        let groups = TrialGroup::by_group(scores);
         Self {
-            rows: groups.into_iter().map(|(group, members)| Row::new(group, &members)).collect(),
+            rows: groups
+                .into_iter()
+                .map(|(group, members)| TallyRow::new(group, &members))
+                .collect(),
         }
     }
 }
 
-impl Group {
+impl TrialGroup {
     /// Scores by group, in the order of the rows of a tally.
     pub(super) fn by_group(scores: &[Score]) -> Vec<(Self, Vec<&Score>)> {
         let mut groups: Vec<(Self, Vec<&Score>)> = Vec::new();
@@ -124,7 +127,7 @@ impl Group {
     }
 }
 
-impl fmt::Display for Group {
+impl fmt::Display for TrialGroup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Kind(kind) => f.write_str(&kind.label()),
@@ -137,14 +140,14 @@ impl fmt::Display for Group {
 }
 
 /// As it is written.
-impl Serialize for Group {
+impl Serialize for TrialGroup {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
 }
 
-impl Row {
-    fn new(injected: Group, scores: &[&Score]) -> Self {
+impl TallyRow {
+    fn new(injected: TrialGroup, scores: &[&Score]) -> Self {
         let share = |is: &dyn Fn(&Score) -> bool| Share::of(scores, |score| is(score));
         let mut named_first = BTreeMap::new();
         for score in scores {
@@ -168,11 +171,11 @@ impl Row {
     }
 }
 
-fn sizes(group: Group, scores: &[&Score]) -> Vec<SizeTally> {
+fn sizes(group: TrialGroup, scores: &[&Score]) -> Vec<SizeTally> {
     let mut named: BTreeMap<&str, Vec<&Estimated>> = BTreeMap::new();
     for size in scores.iter().flat_map(|score| &score.injected).flat_map(|injected| &injected.sizes)
     {
-        let name = if matches!(group, Group::Kind(_)) { size.name.as_str() } else { "all" };
+        let name = if matches!(group, TrialGroup::Kind(_)) { size.name.as_str() } else { "all" };
         named.entry(name).or_default().extend(&size.estimate);
     }
     named.into_iter().map(|(name, estimates)| SizeTally::new(name, &estimates)).collect()

@@ -1,5 +1,5 @@
 use crate::statistics::text_table::TextTable;
-use crate::tables::tally::{Row, SizeTally, Tally};
+use crate::tables::tally::{SizeTally, Tally, TallyRow};
 
 impl Tally {
     /// Three tables within 120 columns, for counts below 1000: how often it was right, what was
@@ -17,7 +17,7 @@ impl Tally {
     fn shares(&self) -> TextTable {
         let header =
             ["put in", "trials", "exactly", "if visible", "as one of", "found", "unknown", "stray"];
-        let row = |row: &Row| {
+        let row = |row: &TallyRow| {
             let shares =
                 [row.exactly, row.visibly, row.as_one_of, row.found, row.unknown, row.stray];
             let mut cells = vec![row.injected.to_string(), row.trials.to_string()];
@@ -33,7 +33,7 @@ impl Tally {
 
     fn sizes(&self) -> TextTable {
         let header = ["put in", "parameter", "estimates", "determined", "median error", "covered"];
-        let row = |(row, size): (&Row, &SizeTally)| {
+        let row = |(row, size): (&TallyRow, &SizeTally)| {
             let error = size.median_error.map_or("-".to_owned(), |e| format!("{:.1} %", 100.0 * e));
             vec![
                 row.injected.to_string(),

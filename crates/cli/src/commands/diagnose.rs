@@ -2,7 +2,7 @@ mod residual;
 
 use std::path::{Path, PathBuf};
 
-use diagnosis::{Diagnosis, Progress, Verdict};
+use diagnosis::{Diagnosis, DiagnosisProgress, Verdict};
 use exchange::{Export, Format};
 use experiment::{DiagnosedLogs, ExperimentError, ForwardGap};
 use logs::Run;
@@ -253,7 +253,7 @@ fn record(
 pub fn write_recording(
     out: &Path,
     diagnosed: &DiagnosedLogs<'_>,
-    progress: &dyn Progress,
+    progress: &dyn DiagnosisProgress,
 ) -> Result<PathBuf, Box<ExperimentError>> {
     let (path, begun) = (out.join(RECORDING), out.join(BEGUN));
     // One of an earlier diagnosis would show something else than the report beside it.

@@ -253,7 +253,8 @@ struct JointRecord<'a> {
 
 impl<'a> FileInfo<'a> {
     fn new(Info { path, info, repeats }: &'a Info) -> Self {
-        let gap = |g: &logs::Gap| GapInfo { row: g.row, start_s: g.start_s, length_s: g.length_s };
+        let gap =
+            |g: &logs::TimeGap| GapInfo { row: g.row, start_s: g.start_s, length_s: g.length_s };
         Self {
             path,
             samples: info.samples,

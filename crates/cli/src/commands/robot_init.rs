@@ -11,7 +11,7 @@ use robot::Loaded;
 use simulator::scenario::Scenario;
 
 use self::excitation::Excitation;
-use self::guess::{Drive, drives};
+use self::guess::{DriveGuess, drives};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
@@ -75,7 +75,7 @@ fn try_out(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-fn summary(arguments: &Arguments, loaded: &Loaded, drives: &[Drive]) -> String {
+fn summary(arguments: &Arguments, loaded: &Loaded, drives: &[DriveGuess]) -> String {
     let rows = loaded.robot.joint_names().zip(drives).map(|(name, drive)| {
         let short = |value| report::significant(value, 3);
         vec![name.to_owned(), short(drive.rotor), short(drive.gain.kp), short(drive.gain.kd)]

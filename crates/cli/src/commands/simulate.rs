@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use diagnosis::Progress;
+use diagnosis::DiagnosisProgress;
 use document::Document;
 use logs::Run;
 use simulator::LogFormat;

@@ -2,7 +2,7 @@ use std::f64::consts::{LN_2, TAU};
 use std::ops::Range;
 
 use effects::Frame;
-use logs::{Fourier, LogError, LowPass, Prepared};
+use logs::{FourierTransform, LogError, LowPass, Prepared};
 use nalgebra::Complex;
 use rayon::prelude::*;
 use robot::Robot;
@@ -327,7 +327,7 @@ impl Joint<'_> {
             return None;
         }
         let [first, last] = [lowest_hz, highest_hz].map(|f| (f / step) as usize);
-        let mut fourier = Fourier::default();
+        let mut fourier = FourierTransform::default();
         let power = |x: &Vec<f64>| -> Option<Vec<f64>> {
             let mut padded = x.clone();
             padded.resize(size, 0.0);

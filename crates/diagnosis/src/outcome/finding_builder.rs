@@ -6,7 +6,7 @@ use crate::outcome::effect_at::effect_at;
 use crate::outcome::size::size;
 use crate::outcome::unnamed::Unnamed;
 use crate::regression::linear_fit::LinearFit;
-use crate::regression::problem::{HeldOut, Model};
+use crate::regression::problem::{HeldOutResiduals, HypothesisSet};
 use crate::regression::uncertainty::Uncertainty;
 use crate::result::Finding;
 use crate::search::accept::Inconstant;
@@ -27,16 +27,16 @@ pub(crate) struct FindingWithFall {
 /// Held-out errors of the nominal model, of the model without a finding and of that with it.
 #[derive(Clone, Copy)]
 struct Errors<'a> {
-    nominal: &'a HeldOut,
-    without: &'a HeldOut,
-    with: &'a HeldOut,
+    nominal: &'a HeldOutResiduals,
+    without: &'a HeldOutResiduals,
+    with: &'a HeldOutResiduals,
 }
 
 /// Builds findings from the accepted causes, and reasons against all other hypotheses.
 #[derive(Debug)]
 pub(crate) struct FindingBuilder<'a> {
     pub selection: &'a Selection<'a>,
-    pub model: &'a Model,
+    pub model: &'a HypothesisSet,
     /// Findings, each with a twin that does worse in its place.
     pub separated: &'a Separated,
     /// Effects that are no findings because their sizes would have to vary.
@@ -56,7 +56,7 @@ impl FindingBuilder<'_> {
             uncertainty.with_unnamed(|columns| unnamed.about(fitted.problem.design, columns));
         let with = problem.held_out(self.model);
         let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
-        let nominal = problem.held_out(&Model::new());
+        let nominal = problem.held_out(&HypothesisSet::new());
         let mut found: Vec<FindingWithFall> = self
             .model
             .iter()
@@ -171,7 +171,8 @@ impl FindingBuilder<'_> {
     ) -> Finding {
         let (problem, robot) = (self.selection.problem, self.selection.robot);
         let group = &problem.design.groups[g];
-        let over = |of: &HeldOut| group.joints.iter().map(|&j| of.mean_square[j]).sum::<f64>();
+        let over =
+            |of: &HeldOutResiduals| group.joints.iter().map(|&j| of.mean_square[j]).sum::<f64>();
         let Errors { nominal, without, with } = errors;
         let (before, without, after) = (over(nominal), over(without), over(with));
         let share = |whole: f64| {
@@ -214,8 +215,8 @@ impl FindingBuilder<'_> {
         &self,
         g: usize,
         loss: f64,
-        bare: &HeldOut,
-        with: &HeldOut,
+        bare: &HeldOutResiduals,
+        with: &HeldOutResiduals,
     ) -> Vec<String> {
         let (problem, robot) = (self.selection.problem, self.selection.robot);
         let joints = &problem.design.groups[g].joints;

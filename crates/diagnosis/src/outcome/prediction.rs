@@ -6,10 +6,10 @@ use robot::Robot;
 
 use crate::error::DiagnosisError;
 use crate::outcome::gain::HeldOutGain;
-use crate::progress::Progress;
+use crate::progress::DiagnosisProgress;
 use crate::regression::blocks::Fold;
 use crate::regression::fitted_model::{FittedModel, fit_model};
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::accept::Inconstant;
 use crate::search::causes::Causes;
 use crate::search::dataset::Dataset;
@@ -25,7 +25,7 @@ impl Inputs<'_> {
         dataset: &Dataset<'b>,
         by_run: &Problem<'b>,
         mut causes: Causes<'b>,
-        progress: &dyn Progress,
+        progress: &dyn DiagnosisProgress,
     ) -> Result<(Causes<'b>, HeldOutGain), DiagnosisError> {
         progress.stage("testing on held-out data", by_run.folds.len());
         let search = |fold: &Fold| {
@@ -104,7 +104,7 @@ struct Exclusions<'a> {
 
 impl Exclusions<'_> {
     /// A model without the excluded effects.
-    fn remaining(self, problem: &Problem, model: &Model) -> Model {
+    fn remaining(self, problem: &Problem, model: &HypothesisSet) -> HypothesisSet {
         let mut remaining = self.kept_nominal.remaining(problem, model);
         remaining.retain(|g| !self.inconstant.contains_key(g));
         remaining
@@ -112,7 +112,7 @@ impl Exclusions<'_> {
 
     /// An effect at a doubted joint that is not sound about the fitted robot, such as bristles whose way the encoder does
     /// not resolve, which have a damping of any size.
-    fn unsound(self, problem: &Problem, model: &Model, robot: &Robot) -> Option<usize> {
+    fn unsound(self, problem: &Problem, model: &HypothesisSet, robot: &Robot) -> Option<usize> {
         model.iter().copied().find(|&g| {
             let group = &problem.design.groups[g];
             group.joints.iter().any(|j| self.doubted.contains(j))

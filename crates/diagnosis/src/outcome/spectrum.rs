@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use logs::Fourier;
+use logs::FourierTransform;
 
 /// Power of a residual over frequency.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -14,7 +14,7 @@ pub(crate) struct Spectrum {
 impl Spectrum {
     /// Of a residual, `[run][sample]`, at one rate: periodograms under a Hann window, without the mean.
     pub fn of(left: &[Vec<f64>], rate_hz: f64) -> Self {
-        let mut fourier = Fourier::default();
+        let mut fourier = FourierTransform::default();
         let mut bins = Vec::new();
         for run in left.iter().filter(|run| run.len() > 8) {
             let n = run.len();

@@ -6,7 +6,7 @@ use crate::outcome::findings::Findings;
 use crate::outcome::gain::HeldOutGain;
 use crate::outcome::held_out::{HeldOutPart, spans};
 use crate::outcome::second_encoder::{SecondEncoder, compare_encoders};
-use crate::progress::Progress;
+use crate::progress::DiagnosisProgress;
 use crate::regression::blocks::{Fold, Folding};
 use crate::regression::fitted_model::FittedModel;
 use crate::regression::problem::Problem;
@@ -40,7 +40,7 @@ impl Inputs<'_> {
     pub fn test_findings<'b>(
         &self,
         dataset: &Dataset<'b>,
-        progress: &dyn Progress,
+        progress: &dyn DiagnosisProgress,
     ) -> Result<TestedFindings<'b>, DiagnosisError> {
         let causes = self.find_causes(dataset, progress)?;
         let by_run = causes.problem.with_folding(Folding::ByRun);

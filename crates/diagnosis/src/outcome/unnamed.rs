@@ -4,7 +4,7 @@ use robot::Robot;
 
 use crate::columns::design::{Design, Group};
 use crate::regression::fit::Fit;
-use crate::regression::problem::Model;
+use crate::regression::problem::HypothesisSet;
 use crate::search::select::Selection;
 
 /// Uncertainty that effects outside the model add to the sizes of the findings.
@@ -34,7 +34,7 @@ pub(crate) struct Unnamed<'a> {
 
 impl<'a> Unnamed<'a> {
     /// The covariance from effects outside of `model`, of which `fit` is the fit.
-    pub fn new(selection: &Selection<'a>, model: &Model, fit: &Fit) -> Self {
+    pub fn new(selection: &Selection<'a>, model: &HypothesisSet, fit: &Fit) -> Self {
         let problem = selection.problem;
         let (design, info) = (problem.design, &problem.info);
         let prior = prior_of_small_errors(design, selection.robot, &problem.thresholds.priors);

@@ -1,13 +1,13 @@
 use robot::Robot;
 
 use crate::columns::design::Design;
-use crate::regression::problem::Model;
+use crate::regression::problem::HypothesisSet;
 
 /// Changes a robot by the weights of a model.
 pub(crate) fn extend_robot(
     robot: &Robot,
     design: &Design,
-    model: &Model,
+    model: &HypothesisSet,
     weights: &[f64],
 ) -> Robot {
     let mut changed = robot.clone();

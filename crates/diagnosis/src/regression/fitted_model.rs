@@ -9,7 +9,7 @@ use crate::regression::extend_robot::extend_robot;
 use crate::regression::gram::Grams;
 use crate::regression::linear_fit::LinearFit;
 use crate::regression::physical_inertias::physical_inertias;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::signals::log::Log;
 
 /// Most rounds of fitting anew about the extended robot.
@@ -28,7 +28,7 @@ pub(crate) struct Refit {
     pub about: Robot,
     pub design: Design,
     pub grams: Grams,
-    pub model: Model,
+    pub model: HypothesisSet,
     /// Weights that are still to be changed.
     pub weights: Vec<f64>,
     /// Weighted sum of squares that the robot leaves.
@@ -46,7 +46,7 @@ impl Refit {
     ) -> Result<Self, LogError> {
         let design = problem.design.about(&about, log, hypotheses)?;
         let grams = Grams::new(&design, problem.blocks);
-        let model: Model = (0..design.groups.len()).collect();
+        let model: HypothesisSet = (0..design.groups.len()).collect();
         let info = grams.information(&problem.of, &problem.weight);
         let weights = physical_inertias(&design, &model, &info, &about, &problem.thresholds.sizes);
         let (left, expected) = (info.yy, info.deviance(&weights));
@@ -100,7 +100,7 @@ pub(crate) fn fit_model(
     robot: &Robot,
     log: &Log,
     problem: &Problem,
-    model: &Model,
+    model: &HypothesisSet,
 ) -> Result<FittedModel, LogError> {
     let sizes = &problem.thresholds.sizes;
     let first = physical_inertias(problem.design, model, &problem.info, robot, sizes);

@@ -3,13 +3,13 @@ use std::borrow::Cow;
 use robot::Robot;
 
 use crate::regression::extend_robot::extend_robot;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 
 /// A model as a linear fit: columns about one robot, and their weights. The robot may have the findings already.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearFit<'a> {
     pub problem: Cow<'a, Problem<'a>>,
-    pub model: &'a Model,
+    pub model: &'a HypothesisSet,
     pub weights: &'a [f64],
     /// The robot that the columns are about.
     pub about: &'a Robot,

@@ -5,7 +5,7 @@ use robot::{Inertia, Robot};
 use crate::columns::design::Design;
 use crate::regression::fit::{Fit, pick};
 use crate::regression::gram::Information;
-use crate::regression::problem::Model;
+use crate::regression::problem::HypothesisSet;
 use crate::thresholds::sizes::SizeThresholds;
 
 /// Weights of a model with every inertia physical.
@@ -15,7 +15,7 @@ use crate::thresholds::sizes::SizeThresholds;
 /// columns are fitted again with the links held.
 pub(crate) fn physical_inertias(
     design: &Design,
-    model: &Model,
+    model: &HypothesisSet,
     info: &Information,
     robot: &Robot,
     t: &SizeThresholds,
@@ -48,7 +48,7 @@ pub(crate) fn physical_inertias(
 }
 
 /// The links of a model, each with its ten columns.
-pub(crate) fn links(design: &Design, model: &Model) -> Vec<(usize, Vec<usize>)> {
+pub(crate) fn links(design: &Design, model: &HypothesisSet) -> Vec<(usize, Vec<usize>)> {
     let of = |&g: &usize| {
         let group = &design.groups[g];
         group.hypothesis.link().map(|link| (link, group.columns.clone()))

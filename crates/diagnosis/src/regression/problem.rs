@@ -11,7 +11,7 @@ use crate::signals::response::Response;
 use crate::thresholds::Thresholds;
 
 /// A set of hypotheses, by index of their groups.
-pub(crate) type Model = BTreeSet<usize>;
+pub(crate) type HypothesisSet = BTreeSet<usize>;
 
 /// The regression problem on a part of the logs: selection, tests and fits work on it.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ pub(crate) struct Problem<'a> {
 
 /// Squared held-out residuals of a model.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct HeldOut {
+pub(crate) struct HeldOutResiduals {
     /// Mean square at each joint.
     pub mean_square: Vec<f64>,
     /// Weighted sum of squares of all joints.
@@ -96,30 +96,30 @@ impl<'a> Problem<'a> {
     }
 
     /// The columns of a model, in increasing order.
-    pub fn columns(&self, model: &Model) -> Vec<usize> {
+    pub fn columns(&self, model: &HypothesisSet) -> Vec<usize> {
         self.design.columns(model)
     }
 
     /// The columns of `group` that `model` does not have.
-    pub fn new_columns(&self, model: &Model, group: usize) -> Vec<usize> {
+    pub fn new_columns(&self, model: &HypothesisSet, group: usize) -> Vec<usize> {
         let have = self.columns(model);
         let of_group = &self.design.groups[group].columns;
         of_group.iter().copied().filter(|k| have.binary_search(k).is_err()).collect()
     }
 
     /// The fit of a model to all blocks.
-    pub fn fit(&self, model: &Model) -> Option<Fit> {
+    pub fn fit(&self, model: &HypothesisSet) -> Option<Fit> {
         Fit::new(&self.info, self.columns(model), self.design.weight_prior())
     }
 
     /// All weights of a model fitted to the training blocks of fold `fold`.
-    pub fn fold_weights(&self, model: &Model, fold: usize) -> Vec<f64> {
+    pub fn fold_weights(&self, model: &HypothesisSet, fold: usize) -> Vec<f64> {
         let fit = Fit::new(&self.training[fold], self.columns(model), self.design.weight_prior());
         fit.map_or_else(|| vec![0.0; self.design.width], |f| f.expand(self.design.width))
     }
 
     /// Squared residuals of a model on the blocks that its weights have not seen.
-    pub fn held_out(&self, model: &Model) -> HeldOut {
+    pub fn held_out(&self, model: &HypothesisSet) -> HeldOutResiduals {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
         for (f, test) in self.tests.iter().enumerate() {
@@ -131,11 +131,11 @@ impl<'a> Problem<'a> {
         }
         let deviance = squares.iter().zip(&self.weight).map(|(s, weight)| weight * s).sum();
         let mean = |(s, &n): (&f64, &usize)| s / n.max(1) as f64;
-        HeldOut { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
+        HeldOutResiduals { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
     }
 
     /// The weighted sum of squares of every block, where it is held out.
-    pub fn held_out_by_block(&self, model: &Model) -> Vec<f64> {
+    pub fn held_out_by_block(&self, model: &HypothesisSet) -> Vec<f64> {
         let mut deviance = vec![0.0; self.blocks.len()];
         for (f, fold) in self.folds.iter().enumerate() {
             let w = self.fold_weights(model, f);
@@ -210,7 +210,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The noise that a model leaves on held-out blocks.
-    pub fn noise(&self, model: &Model) -> Noise {
+    pub fn noise(&self, model: &HypothesisSet) -> Noise {
         let weights: Vec<Vec<f64>> =
             (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
         let left = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
@@ -218,13 +218,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.
-    pub fn training_noise(&self, model: &Model) -> Noise {
+    pub fn training_noise(&self, model: &HypothesisSet) -> Noise {
         let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
         Noise::of(&self.informative_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
     }
 
     /// The model of every hypothesis at once. Of efforts it leaves out effects that an error elsewhere may pass for.
-    pub fn everything(&self) -> Model {
+    pub fn everything(&self) -> HypothesisSet {
         let groups = &self.design.groups;
         let is_distinct = |g: &usize| {
             self.design.response == Response::Twist || !groups[*g].hypothesis.is_imitable()

@@ -6,7 +6,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 use crate::regression::extend_robot::extend_robot;
 use crate::regression::fit::{Fit, covariance, pick};
 use crate::regression::linear_fit::LinearFit;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::result::Estimate;
 use crate::thresholds::sizes::SizeThresholds;
 
@@ -193,7 +193,11 @@ impl Uncertainty {
 /// - it has one weight, and the 95 per cent interval of every parameter contains the described value,
 /// - it is a body, and the 95 per cent region of its ten parameters contains the described ones,
 /// - it is an asymmetry or an excess near rest, and its interval contains zero.
-pub(crate) fn undetermined(problem: &Problem, model: &Model, fitted: &LinearFit) -> Option<usize> {
+pub(crate) fn undetermined(
+    problem: &Problem,
+    model: &HypothesisSet,
+    fitted: &LinearFit,
+) -> Option<usize> {
     let uncertainty = Uncertainty::of(fitted)?;
     let robot = fitted.robot();
     let share = uncertainty.thresholds.rounding;

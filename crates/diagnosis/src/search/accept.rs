@@ -4,7 +4,7 @@ use logs::LogError;
 
 use crate::error::DiagnosisError;
 use crate::regression::fitted_model::{FittedModel, fit_model};
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::regression::uncertainty::undetermined;
 use crate::search::constancy::{Variation, size_variation};
 use crate::search::dataset::Dataset;
@@ -22,7 +22,7 @@ pub(crate) type Inconstant = BTreeMap<usize, Variation>;
 /// A model of sizes that are determined and constant, and the robot with it.
 #[derive(Debug)]
 pub(crate) struct Accepted {
-    pub model: Model,
+    pub model: HypothesisSet,
     pub fitted: FittedModel,
     pub inconstant: Inconstant,
 }
@@ -42,7 +42,8 @@ impl Inputs<'_> {
         loop {
             let TwinDecision { separated, better } =
                 twins.decide(&accepted.model, &accepted.fitted)?;
-            let is_constant = |m: &Model| !m.iter().any(|g| accepted.inconstant.contains_key(g));
+            let is_constant =
+                |m: &HypothesisSet| !m.iter().any(|g| accepted.inconstant.contains_key(g));
             match better.filter(|better| left > 0 && is_constant(better)) {
                 Some(better) => {
                     let fitted = fit_model(self.robot, &self.log, problem, &better)?;
@@ -59,12 +60,12 @@ impl Inputs<'_> {
     fn accept(
         &self,
         selection: &Selection,
-        mut model: Model,
+        mut model: HypothesisSet,
         mut fitted: FittedModel,
         mut inconstant: Inconstant,
     ) -> Result<Accepted, DiagnosisError> {
         let problem = selection.problem;
-        let fit = |model: &Model| fit_model(self.robot, &self.log, problem, model);
+        let fit = |model: &HypothesisSet| fit_model(self.robot, &self.log, problem, model);
         while let Some(plain) = selection.without_rare(&model) {
             model = plain;
             fitted = fit(&model)?;
@@ -91,11 +92,11 @@ impl Inputs<'_> {
     fn find_inconstant(
         &self,
         problem: &Problem,
-        model: &Model,
+        model: &HypothesisSet,
         inconstant: &Inconstant,
         fitted: &FittedModel,
     ) -> Result<Inconstant, LogError> {
-        let all: Model = model.iter().chain(inconstant.keys()).copied().collect();
+        let all: HypothesisSet = model.iter().chain(inconstant.keys()).copied().collect();
         if inconstant.is_empty() {
             return Ok(self.variations(problem, model, &all, fitted));
         }
@@ -107,8 +108,8 @@ impl Inputs<'_> {
     fn variations(
         &self,
         problem: &Problem,
-        model: &Model,
-        all: &Model,
+        model: &HypothesisSet,
+        all: &HypothesisSet,
         fitted: &FittedModel,
     ) -> Inconstant {
         let last = fitted.last_fit(self.first_fit(problem, all, fitted));

@@ -1,7 +1,7 @@
 use crate::error::DiagnosisError;
-use crate::progress::Progress;
+use crate::progress::DiagnosisProgress;
 use crate::regression::fitted_model::FittedModel;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::accept::{Accepted, Inconstant};
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
@@ -11,7 +11,7 @@ use crate::search::twins::Separated;
 /// The causes that a search over all blocks accepts.
 pub(crate) struct Causes<'a> {
     pub problem: Problem<'a>,
-    pub model: Model,
+    pub model: HypothesisSet,
     pub fitted: FittedModel,
     pub separated: Separated,
     pub inconstant: Inconstant,
@@ -23,7 +23,7 @@ impl Inputs<'_> {
     pub fn find_causes<'b>(
         &self,
         dataset: &Dataset<'b>,
-        progress: &dyn Progress,
+        progress: &dyn DiagnosisProgress,
     ) -> Result<Causes<'b>, DiagnosisError> {
         let all: Vec<usize> = (0..dataset.blocks.len()).collect();
         let found = self.search(dataset, &all)?;

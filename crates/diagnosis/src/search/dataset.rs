@@ -4,7 +4,7 @@ use crate::columns::design::Design;
 use crate::regression::blocks::Block;
 use crate::regression::gram::Grams;
 use crate::regression::noise::Noise;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::select::Selection;
 use crate::thresholds::Thresholds;
 
@@ -53,8 +53,8 @@ impl<'a> Dataset<'a> {
     }
 
     /// The hypotheses that the blocks `of` support, and the problem weighted by the noise that they leave.
-    pub fn select_model(&self, of: &[usize]) -> (Problem<'a>, Model) {
-        let (mut problem, mut model) = (self.problem(of), Model::new());
+    pub fn select_model(&self, of: &[usize]) -> (Problem<'a>, HypothesisSet) {
+        let (mut problem, mut model) = (self.problem(of), HypothesisSet::new());
         for _ in 0..ROUNDS {
             let next = self.selection(&problem).run(model.clone());
             let is_same = next == model;

@@ -9,7 +9,7 @@ use crate::regression::blocks::{Block, blocks};
 use crate::regression::fitted_model::FittedModel;
 use crate::regression::gram::Grams;
 use crate::regression::linear_fit::LinearFit;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::dataset::Dataset;
 use crate::settings::Settings;
 use crate::signals::log::Log;
@@ -90,7 +90,7 @@ impl Inputs<'_> {
     pub fn first_fit<'b>(
         &'b self,
         problem: &'b Problem<'b>,
-        model: &'b Model,
+        model: &'b HypothesisSet,
         fitted: &'b FittedModel,
     ) -> LinearFit<'b> {
         let Self { robot: about, nominal, .. } = *self;

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use crate::columns::design::Design;
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::result::InverseGain;
 
 /// Joints that keep their description, because a fit predicts their held-out efforts worse than it.
@@ -10,7 +10,7 @@ pub(crate) struct KeptNominal {
     /// Their indices.
     pub joints: BTreeSet<usize>,
     /// Causes of the search over all blocks that are removed for it.
-    pub dropped: Model,
+    pub dropped: HypothesisSet,
 }
 
 impl KeptNominal {
@@ -21,7 +21,7 @@ impl KeptNominal {
     }
 
     /// A model without the hypotheses that act on such joints alone.
-    pub fn remaining(&self, problem: &Problem, model: &Model) -> Model {
+    pub fn remaining(&self, problem: &Problem, model: &HypothesisSet) -> HypothesisSet {
         model.iter().copied().filter(|g| !self.drops(problem.design, *g)).collect()
     }
 

@@ -1,13 +1,13 @@
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::paired_difference::PairedDifference;
 use crate::search::select::Selection;
 
 /// Hypotheses that explain the held-out data as well in place of `group`, block by block.
-pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<usize> {
+pub(crate) fn rivals(selection: &Selection, model: &HypothesisSet, group: usize) -> Vec<usize> {
     let problem = selection.problem;
     let errors = problem.thresholds.search.rival_errors;
     let with = problem.held_out_by_block(model);
-    let is_as_good = |rival: &Model| {
+    let is_as_good = |rival: &HypothesisSet| {
         let rival = problem.held_out_by_block(rival);
         !PairedDifference::new(problem.of.iter().map(|&b| (with[b], rival[b]))).exceeds(errors)
     };
@@ -19,10 +19,10 @@ pub(crate) fn rivals(selection: &Selection, model: &Model, group: usize) -> Vec<
 /// the model that has it; of those that `is_asked_for`.
 pub(crate) fn contenders(
     selection: &Selection,
-    model: &Model,
+    model: &HypothesisSet,
     group: usize,
     is_asked_for: impl Fn(usize) -> bool,
-) -> Vec<(usize, Model)> {
+) -> Vec<(usize, HypothesisSet)> {
     let problem = selection.problem;
     let asked_for =
         |h: &usize| is_asked_for(*h) && !model.contains(h) && !is_special_case(problem, group, *h);
@@ -48,7 +48,11 @@ pub(crate) fn contenders(
 
 /// Whether a hypothesis makes the logs nearly as likely as `group` does. This finds rivals that the catalogue does not
 /// list: about one posture a gap that never opens is a turned encoder.
-fn is_nearly_as_likely(problem: &Problem, without: &Model, group: usize) -> impl Fn(usize) -> bool {
+fn is_nearly_as_likely(
+    problem: &Problem,
+    without: &HypothesisSet,
+    group: usize,
+) -> impl Fn(usize) -> bool {
     let fit = problem.fit(without);
     let evidence = move |g: usize| {
         let columns = problem.new_columns(without, g);
@@ -60,7 +64,12 @@ fn is_nearly_as_likely(problem: &Problem, without: &Model, group: usize) -> impl
 
 /// The model with `rival` in the place of `group`. Only the asymmetry of asymmetric friction is disputed: its symmetric part
 /// stays.
-pub(crate) fn with_rival(problem: &Problem, without: &Model, group: usize, rival: usize) -> Model {
+pub(crate) fn with_rival(
+    problem: &Problem,
+    without: &HypothesisSet,
+    group: usize,
+    rival: usize,
+) -> HypothesisSet {
     let mut model = without.clone();
     model.insert(rival);
     let hypothesis = problem.design.groups[group].hypothesis;

@@ -3,14 +3,14 @@ use robot::Robot;
 
 use crate::error::DiagnosisError;
 use crate::regression::fitted_model::{FittedModel, fit_model};
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
 
 /// The model that a search selects, before any test of it.
 pub(crate) struct SearchResult<'a> {
     pub problem: Problem<'a>,
-    pub model: Model,
+    pub model: HypothesisSet,
     pub fitted: FittedModel,
 }
 

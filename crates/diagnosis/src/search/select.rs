@@ -5,7 +5,7 @@ use robot::Robot;
 
 use crate::regression::fit::Fit;
 use crate::regression::physical_inertias::physical_inertias;
-use crate::regression::problem::{HeldOut, Model, Problem};
+use crate::regression::problem::{HeldOutResiduals, HypothesisSet, Problem};
 use crate::signals::response::Response;
 use crate::thresholds::search::SearchThresholds;
 
@@ -31,7 +31,7 @@ impl Selection<'_> {
     }
 
     /// Searches from the model `start`.
-    pub fn run(&self, start: Model) -> Model {
+    pub fn run(&self, start: HypothesisSet) -> HypothesisSet {
         let mut model = start;
         for _ in 0..ROUNDS {
             let before = model.clone();
@@ -49,7 +49,7 @@ impl Selection<'_> {
 
     /// Replaces two findings by one that is the same torque: Coulomb friction with a torque offset of the same joint, of at
     /// most half its level, by asymmetric friction.
-    fn merge_pairs(&self, model: &mut Model) {
+    fn merge_pairs(&self, model: &mut HypothesisSet) {
         for one in 0..self.problem.design.groups.len() {
             let Some(two) = self.two_for_one(model, one) else { continue };
             let mut other = model.clone();
@@ -63,7 +63,7 @@ impl Selection<'_> {
 
     /// Findings of a joint that the hypothesis `one` may replace. There are none where another finding says how the level of
     /// the friction varies.
-    fn two_for_one(&self, model: &Model, one: usize) -> Option<Vec<usize>> {
+    fn two_for_one(&self, model: &HypothesisSet, one: usize) -> Option<Vec<usize>> {
         let groups = &self.problem.design.groups;
         self.find(groups[one].hypothesis)?;
         let parts = groups[one].hypothesis.together();
@@ -76,7 +76,7 @@ impl Selection<'_> {
     /// Replaces findings by simpler rivals that have as much evidence: the inertia of the link behind a joint by its rotor
     /// inertia, a gear ratio by a torque constant, friction that grows with the load or differs with the direction by
     /// Coulomb friction, friction of shared motors by that of each joint.
-    fn prefer_simpler(&self, model: &mut Model) {
+    fn prefer_simpler(&self, model: &mut HypothesisSet) {
         for g in model.clone() {
             let plain = self.simpler_than(g);
             let mut other = model.clone();
@@ -93,14 +93,14 @@ impl Selection<'_> {
     }
 
     /// Whether `other` has about as much evidence as `model`.
-    fn is_as_evident(&self, other: &Model, model: &Model) -> bool {
-        let evidence = |m: &Model| self.problem.fit(m).map(|f| f.evidence);
+    fn is_as_evident(&self, other: &HypothesisSet, model: &HypothesisSet) -> bool {
+        let evidence = |m: &HypothesisSet| self.problem.fit(m).map(|f| f.evidence);
         let least = self.thresholds().rival_evidence;
         evidence(other).zip(evidence(model)).is_some_and(|(o, m)| o > m - least)
     }
 
     /// The model without `g`, and with the first special case of `g` that qualifies then: `g` has excluded it so far.
-    pub fn without(&self, model: &Model, g: usize) -> Model {
+    pub fn without(&self, model: &HypothesisSet, g: usize) -> HypothesisSet {
         let mut smaller = model_without(model, g);
         let Some(fit) = self.problem.fit(&smaller) else { return smaller };
         let held_out = self.problem.held_out(&smaller);
@@ -142,7 +142,7 @@ impl Selection<'_> {
     }
 
     /// Adds hypotheses, the most evident first, until none qualifies.
-    fn add(&self, model: &mut Model) {
+    fn add(&self, model: &mut HypothesisSet) {
         while let Some(fit) = self.problem.fit(model) {
             let held_out = self.problem.held_out(model);
             let entrant = self.rank(model, &fit).into_iter().find(|&g| {
@@ -161,7 +161,12 @@ impl Selection<'_> {
     /// The model with two hypotheses of one joint that predict better together, where the first, which reduces a described
     /// parameter, does not alone. Described damping that is too large and missing Coulomb friction cancel, so neither enters
     /// alone.
-    fn pair(&self, model: &Model, fit: &Fit, before: &HeldOut) -> Option<Model> {
+    fn pair(
+        &self,
+        model: &HypothesisSet,
+        fit: &Fit,
+        before: &HeldOutResiduals,
+    ) -> Option<HypothesisSet> {
         let ranked = self.rank(model, fit).into_iter();
         ranked
             .filter(|g| self.reduces_description(model, *g))
@@ -169,7 +174,7 @@ impl Selection<'_> {
     }
 
     /// Whether `g`, at a joint, reduces a parameter that is described there.
-    fn reduces_description(&self, model: &Model, g: usize) -> bool {
+    fn reduces_description(&self, model: &HypothesisSet, g: usize) -> bool {
         let design = self.problem.design;
         let group = &design.groups[g];
         let Some(fit) = self.problem.fit(&self.with(model, g)) else { return false };
@@ -179,12 +184,17 @@ impl Selection<'_> {
     }
 
     /// See [`Selection::pair`]: with `g` as the first.
-    fn pair_with(&self, model: &Model, g: usize, before: &HeldOut) -> Option<Model> {
+    fn pair_with(
+        &self,
+        model: &HypothesisSet,
+        g: usize,
+        before: &HeldOutResiduals,
+    ) -> Option<HypothesisSet> {
         let groups = &self.problem.design.groups;
         let one = self.with(model, g);
         let fit = self.problem.fit(&one)?;
         let is_near = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
-        let earns = |two: &Model, h: usize| {
+        let earns = |two: &HypothesisSet, h: usize| {
             let is_possible = |g| self.is_possible(two, g);
             let other = self.with(model, h);
             two.contains(&g)
@@ -203,7 +213,7 @@ impl Selection<'_> {
     }
 
     /// Hypotheses outside the model with enough evidence, the most evident first.
-    fn rank(&self, model: &Model, fit: &Fit) -> Vec<usize> {
+    fn rank(&self, model: &HypothesisSet, fit: &Fit) -> Vec<usize> {
         let all = 0..self.problem.design.groups.len();
         let mut ranked: Vec<(usize, f64)> = all
             .filter(|g| !model.contains(g))
@@ -215,7 +225,7 @@ impl Selection<'_> {
     }
 
     /// Gain in log evidence (nats) from adding `g` to a model, of which `fit` is the fit.
-    pub fn evidence_gain(&self, model: &Model, fit: &Fit, g: usize) -> f64 {
+    pub fn evidence_gain(&self, model: &HypothesisSet, fit: &Fit, g: usize) -> f64 {
         let columns = self.problem.new_columns(model, g);
         if columns.is_empty() || self.is_excluded(model, g) {
             f64::NEG_INFINITY
@@ -228,7 +238,7 @@ impl Selection<'_> {
 
     /// Gain in log evidence (nats) from adding `g` to the model with all its simpler rivals: friction of shared motors is
     /// compared with that of each joint by itself.
-    fn evidence_beyond_simpler(&self, model: &Model, g: usize) -> f64 {
+    fn evidence_beyond_simpler(&self, model: &HypothesisSet, g: usize) -> f64 {
         let mut plain = model.clone();
         plain.extend(self.simpler_than(g));
         let Some(fit) = self.problem.fit(&plain) else { return f64::NEG_INFINITY };
@@ -237,7 +247,7 @@ impl Selection<'_> {
     }
 
     /// Whether `h` must add to its simpler rivals, and adds too little to a model with them.
-    fn adds_too_little(&self, model: &Model, h: usize) -> bool {
+    fn adds_too_little(&self, model: &HypothesisSet, h: usize) -> bool {
         self.adds_to_simpler(h) && self.evidence_beyond_simpler(model, h) <= self.least_evidence(h)
     }
 
@@ -256,7 +266,7 @@ impl Selection<'_> {
 
     /// The model with a rare effect replaced by its simpler rivals, where its evidence beyond these is less than an effect
     /// that few arms have needs.
-    pub fn without_rare(&self, model: &Model) -> Option<Model> {
+    pub fn without_rare(&self, model: &HypothesisSet) -> Option<HypothesisSet> {
         let is_rare = |g: &usize| {
             let prior_log_odds_against = self.problem.design.groups[*g]
                 .hypothesis
@@ -273,7 +283,7 @@ impl Selection<'_> {
 
     /// Whether the model already has another name for the same change. A more general `g` is not excluded: asymmetric
     /// friction contains Coulomb friction.
-    pub fn is_excluded(&self, model: &Model, g: usize) -> bool {
+    pub fn is_excluded(&self, model: &HypothesisSet, g: usize) -> bool {
         let groups = &self.problem.design.groups;
         model.iter().any(|&m| {
             groups[m].hypothesis.excludes(groups[g].hypothesis)
@@ -282,7 +292,7 @@ impl Selection<'_> {
     }
 
     /// The model with `g`, without the hypotheses that `g` excludes.
-    pub fn with(&self, model: &Model, g: usize) -> Model {
+    pub fn with(&self, model: &HypothesisSet, g: usize) -> HypothesisSet {
         let hypothesis = |g: usize| self.problem.design.groups[g].hypothesis;
         let mut larger = model.clone();
         larger.retain(|&m| !hypothesis(m).excludes(hypothesis(g)));
@@ -291,7 +301,7 @@ impl Selection<'_> {
     }
 
     /// Whether the fitted weights of `g` are physically possible.
-    pub fn is_possible(&self, model: &Model, g: usize) -> bool {
+    pub fn is_possible(&self, model: &HypothesisSet, g: usize) -> bool {
         let Some(fit) = self.problem.fit(model) else { return false };
         let all = fit.expand(self.problem.design.width);
         self.admits(&all, g) && self.is_body(model, g, &all)
@@ -299,7 +309,7 @@ impl Selection<'_> {
 
     /// Whether a change of a link's inertia explains most of the same when every inertia is made physical; true for other
     /// effects.
-    fn is_body(&self, model: &Model, g: usize, weights: &[f64]) -> bool {
+    fn is_body(&self, model: &HypothesisSet, g: usize, weights: &[f64]) -> bool {
         let (problem, design) = (self.problem, self.problem.design);
         if design.groups[g].hypothesis.link().is_none() {
             return true;
@@ -324,7 +334,7 @@ impl Selection<'_> {
 
     /// Whether `larger`, which has `g`, lowers the error of held-out blocks by enough: by the practical share, or by half of
     /// what was left (RMS).
-    pub fn pays(&self, before: &HeldOut, larger: &Model, g: usize) -> bool {
+    pub fn pays(&self, before: &HeldOutResiduals, larger: &HypothesisSet, g: usize) -> bool {
         let after = self.problem.held_out(larger);
         let share = self.thresholds().remaining_share;
         let enough = |&j: &usize| {
@@ -335,11 +345,11 @@ impl Selection<'_> {
     }
 
     /// Replaces a hypothesis by one outside where that is more evident and no worse held out.
-    fn exchange(&self, model: &mut Model) {
+    fn exchange(&self, model: &mut HypothesisSet) {
         for g in model.clone() {
             let Some(fit) = self.problem.fit(model) else { return };
             let held_out = self.problem.held_out(model).deviance;
-            let mut best: Option<(f64, Model)> = None;
+            let mut best: Option<(f64, HypothesisSet)> = None;
             for h in self.neighbours(g) {
                 let mut other = model.clone();
                 other.remove(&g);
@@ -386,7 +396,7 @@ impl Selection<'_> {
     }
 
     /// Removes hypotheses that no longer qualify, the least evident first.
-    fn remove(&self, model: &mut Model) {
+    fn remove(&self, model: &mut HypothesisSet) {
         loop {
             let Some(full) = self.problem.fit(model) else { return };
             let weights = full.expand(self.problem.design.width);
@@ -413,7 +423,7 @@ impl Selection<'_> {
 }
 
 /// A model without one of its hypotheses.
-fn model_without(model: &Model, g: usize) -> Model {
+fn model_without(model: &HypothesisSet, g: usize) -> HypothesisSet {
     let mut smaller = model.clone();
     smaller.remove(&g);
     smaller

@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use logs::LogError;
 
 use crate::regression::fitted_model::{FittedModel, fit_model};
-use crate::regression::problem::{Model, Problem};
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::inputs::Inputs;
 use crate::search::paired_difference::PairedDifference;
 use crate::search::rivals::{contenders, with_rival};
@@ -25,12 +25,16 @@ pub(crate) type Separated = BTreeSet<(usize, usize)>;
 pub(crate) struct TwinDecision {
     pub separated: Separated,
     /// The model with the best twin in the place of a finding, where one does better.
-    pub better: Option<Model>,
+    pub better: Option<HypothesisSet>,
 }
 
 impl Twins<'_> {
     /// Compares every finding of a fitted model with its twins.
-    pub fn decide(&self, model: &Model, fitted: &FittedModel) -> Result<TwinDecision, LogError> {
+    pub fn decide(
+        &self,
+        model: &HypothesisSet,
+        fitted: &FittedModel,
+    ) -> Result<TwinDecision, LogError> {
         let problem = self.selection.problem;
         let errors = problem.thresholds.search.rival_errors;
         let here = self.deviance(model, fitted);
@@ -54,7 +58,7 @@ impl Twins<'_> {
     }
 
     /// Findings and their twins.
-    fn pairs(&self, model: &Model) -> Vec<(usize, usize)> {
+    fn pairs(&self, model: &HypothesisSet) -> Vec<(usize, usize)> {
         let hypothesis = |g: usize| self.selection.problem.design.groups[g].hypothesis;
         let of = |&g: &usize| {
             let is_twin = |h: usize| hypothesis(h).is_twin(hypothesis(g));
@@ -64,7 +68,7 @@ impl Twins<'_> {
     }
 
     /// Weighted sum of squares that a fitted model leaves of every independent group of blocks.
-    fn deviance(&self, model: &Model, fitted: &FittedModel) -> Vec<f64> {
+    fn deviance(&self, model: &HypothesisSet, fitted: &FittedModel) -> Vec<f64> {
         let first = self.inputs.first_fit(self.selection.problem, model, fitted);
         let last = fitted.last_fit(first);
         let Problem { grams, weight, .. } = &*last.problem;

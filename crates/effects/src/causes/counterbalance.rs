@@ -1,6 +1,6 @@
 use catalogue::EffectKind;
 use nalgebra::Complex;
-use robot::{Actuator, Counterbalance as Described, Robot};
+use robot::{Actuator, CounterbalanceTerm, Robot};
 
 use crate::bounds::unbounded;
 use crate::column::EffectColumn;
@@ -87,7 +87,7 @@ impl Effect for Counterbalance {
         let Some(link) = robot.link_mut(j) else { return };
         let changed = balance(&link.actuator) + Complex::new(*sine, *cosine);
         let (amplitude, phase) = changed.to_polar();
-        link.actuator.counterbalance = Some(Described { amplitude, phase });
+        link.actuator.counterbalance = Some(CounterbalanceTerm { amplitude, phase });
     }
 
     fn quantities(

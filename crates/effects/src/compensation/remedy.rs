@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
-    use robot::{Actuator, Counterbalance, Coupling, FrictionWave, Ripple, Robot, Stribeck};
+    use robot::{Actuator, CounterbalanceTerm, Coupling, FrictionWave, Ripple, Robot, Stribeck};
 
     use crate::compensation::feedforward::{Compensation, FeedforwardEfforts};
     use crate::model::remedy;
@@ -33,7 +33,7 @@ mod tests {
             K::RotorInertia => |a| a.rotor_inertia = 0.1,
             K::CableSpring => |a| a.spring_stiffness = 0.7,
             K::Counterbalance => {
-                |a| a.counterbalance = Some(Counterbalance { amplitude: 0.7, phase: 0.3 })
+                |a| a.counterbalance = Some(CounterbalanceTerm { amplitude: 0.7, phase: 0.3 })
             }
             K::TorqueConstant => |a| a.torque_gain = 1.1,
             // One joint stands for both.

@@ -1,8 +1,8 @@
 /// Position, velocity and acceleration, each `[joint][sample]`.
-pub(crate) type State = [Vec<Vec<f64>>; 3];
+pub(crate) type JointMotions = [Vec<Vec<f64>>; 3];
 
 /// Position, velocity and acceleration of one link, each `[sample]`.
-pub(crate) type Link = [Vec<f64>; 3];
+pub(crate) type LinkMotion = [Vec<f64>; 3];
 
 /// Signals of the encoders in one run.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@ use robot::Robot;
 
 use crate::motion::cable_loop::Loop;
 use crate::motion::drive::spring_torque;
-use crate::motion::encoders::State;
+use crate::motion::encoders::JointMotions;
 
 /// `[joint][parameter][sample]`: torque per unit of the ten parameters of a link; empty where the joint does not
 /// carry it.
@@ -16,7 +16,7 @@ pub(crate) type LinkRegressor = Vec<Vec<Vec<f64>>>;
 const BATCH: usize = 32;
 
 /// Torque of the links and springs of every joint, `[joint][sample]` (N·m or N).
-pub(crate) fn loads(robot: &Robot, motion: &State) -> Vec<Vec<f64>> {
+pub(crate) fn loads(robot: &Robot, motion: &JointMotions) -> Vec<Vec<f64>> {
     let n = robot.joint_count();
     let dynamics = Dynamics::new(robot);
     let mut ws = dynamics.workspace();
@@ -37,7 +37,7 @@ pub(crate) fn loads(robot: &Robot, motion: &State) -> Vec<Vec<f64>> {
 }
 
 /// Torque of every joint per unit of the parameters of a link.
-pub(crate) fn link_regressor(robot: &Robot, motion: &State, link: usize) -> LinkRegressor {
+pub(crate) fn link_regressor(robot: &Robot, motion: &JointMotions, link: usize) -> LinkRegressor {
     let width = PARAMETERS_PER_LINK * robot.joint_count();
     let carriers: Vec<usize> =
         std::iter::successors(Some(link), |&at| robot.links()[at].parent).collect();
@@ -72,7 +72,7 @@ pub(crate) fn link_regressor(robot: &Robot, motion: &State, link: usize) -> Link
 }
 
 /// Torque of every joint per radian of tilt about the two horizontal axes.
-pub(crate) fn tilt(robot: &Robot, motion: &State) -> Vec<[Vec<f64>; 2]> {
+pub(crate) fn tilt(robot: &Robot, motion: &JointMotions) -> Vec<[Vec<f64>; 2]> {
     let n = robot.joint_count();
     let gravity = robot.gravity_in_base();
     let turned = tilt_axes(gravity).map(|axis| axis.cross(&gravity));
@@ -100,12 +100,12 @@ pub(crate) fn tilt_axes(gravity: Vector3<f64>) -> [Vector3<f64>; 2] {
 }
 
 /// Number of samples of a motion.
-pub(crate) fn samples(motion: &State) -> usize {
+pub(crate) fn samples(motion: &JointMotions) -> usize {
     motion[0].first().map_or(0, Vec::len)
 }
 
 /// Calls `of` with position, velocity and acceleration of all joints at every sample.
-pub(crate) fn along(motion: &State, mut of: impl FnMut(usize, [&[f64]; 3])) {
+pub(crate) fn along(motion: &JointMotions, mut of: impl FnMut(usize, [&[f64]; 3])) {
     let mut state = motion.each_ref().map(|signals| vec![0.0; signals.len()]);
     for t in 0..samples(motion) {
         for (x, signals) in state.iter_mut().zip(motion) {

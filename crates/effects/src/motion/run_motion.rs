@@ -8,11 +8,11 @@ use crate::motion::cable_loop::Loop;
 use crate::motion::compliance::{Compliance, curvature, rate};
 use crate::motion::direction::{direction, stands};
 use crate::motion::drive::{bristles, motor_torque, warmth};
-use crate::motion::encoders::{Encoders, State};
+use crate::motion::effort_timing::EffortTiming;
+use crate::motion::encoders::{Encoders, JointMotions};
 use crate::motion::frame::Frame;
 use crate::motion::rigid_bodies::{LinkRegressor, link_regressor, loads, tilt};
 use crate::motion::slopes::Slopes;
-use crate::motion::timing::Timing;
 use crate::motion::transmission::{Deflection, Gap, LoadAlong, correct_reading, play};
 
 /// The motion of one run and the efforts that the nominal robot expects along it.
@@ -49,7 +49,7 @@ pub struct RunMotion {
     /// Time from when the drives were cold to the first sample (s).
     since_cold_s: f64,
     /// Position, velocity and acceleration of the links.
-    pub(crate) link: State,
+    pub(crate) link: JointMotions,
     /// Change of the load by a tilt of the base; filled at the first request.
     tilt: OnceLock<Vec<[Vec<f64>; 2]>>,
     /// Change of the load by a displacement of the links; filled at the first request.
@@ -223,7 +223,7 @@ impl RunMotion {
 
     /// Effort of joint `j` at the times at which the log has it.
     pub(crate) fn with_timing(&self, j: usize, effort: Vec<f64>) -> Vec<f64> {
-        Timing::of(&self.drives[j]).as_logged(effort, self.period_s)
+        EffortTiming::of(&self.drives[j]).as_logged(effort, self.period_s)
     }
 
     /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.

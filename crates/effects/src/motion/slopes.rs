@@ -2,7 +2,7 @@ use dynamics::Dynamics;
 use robot::Robot;
 
 use crate::motion::drive::spring_slope;
-use crate::motion::encoders::State;
+use crate::motion::encoders::JointMotions;
 use crate::motion::rigid_bodies::{along, samples};
 
 /// Derivatives of the loads of all joints by the motion of the links.
@@ -16,7 +16,7 @@ pub(crate) struct Slopes {
 impl Slopes {
     /// The derivatives of rigid-body and spring torques along `link` by the state of every joint, without
     /// the loop of the spring, which depends on the past.
-    pub fn new(robot: &Robot, link: &State) -> Self {
+    pub fn new(robot: &Robot, link: &JointMotions) -> Self {
         let n = robot.joint_count();
         let mut of = vec![vec![[(); 3].map(|()| vec![0.0; samples(link)]); n]; n];
         let dynamics = Dynamics::new(robot);

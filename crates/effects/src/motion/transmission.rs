@@ -3,13 +3,13 @@ use std::cell::LazyCell;
 use robot::{Actuator, Robot, SensingSide};
 
 use crate::motion::compliance::{Compliance, curvature, rate};
-use crate::motion::encoders::{Link, State};
+use crate::motion::encoders::{JointMotions, LinkMotion};
 use crate::motion::rigid_bodies::loads;
 use crate::motion::slopes::Slopes;
 
 /// The motion of the motors behind what their encoders report:
 /// `q = transmission_ratio (reported - encoder_offset)`.
-pub(crate) fn correct_reading(robot: &Robot, mut reading: State) -> State {
+pub(crate) fn correct_reading(robot: &Robot, mut reading: JointMotions) -> JointMotions {
     for (i, link) in robot.links().iter().enumerate() {
         let (ratio, offset) = (link.actuator.transmission_ratio, link.actuator.encoder_offset);
         reading[0][i].iter_mut().for_each(|q| *q = ratio * (*q - offset));
@@ -28,8 +28,8 @@ pub(crate) fn correct_reading(robot: &Robot, mut reading: State) -> State {
 /// would need along the measured motion.
 #[derive(Debug)]
 pub(crate) struct Deflection {
-    pub motor: State,
-    pub link: State,
+    pub motor: JointMotions,
+    pub link: JointMotions,
     /// Load of the links along the measured motion; `None` where motors and links move as one.
     pub rigid_load: Option<Vec<Vec<f64>>>,
     /// One for each joint; `None` without a spring between its encoder and its link.
@@ -43,7 +43,12 @@ const ROUNDS: usize = 3;
 impl Deflection {
     /// Motion of motors and links from what was `measured` every `period_s`. Joints whose `links` were measured too
     /// keep both as measured.
-    pub fn new(robot: &Robot, measured: State, links: Vec<Option<Link>>, period_s: f64) -> Self {
+    pub fn new(
+        robot: &Robot,
+        measured: JointMotions,
+        links: Vec<Option<LinkMotion>>,
+        period_s: f64,
+    ) -> Self {
         let joints = robot.joint_count();
         let parts = |(i, l): (usize, &robot::Link)| {
             let drive = &l.actuator;
@@ -96,10 +101,10 @@ type Twists = Vec<(usize, Vec<f64>)>;
 /// Motion of the links behind motors that moved as `measured`, with the given `play` and compliances.
 fn links_behind(
     robot: &Robot,
-    measured: State,
+    measured: JointMotions,
     (play, compliances): (Twists, &[Option<Compliance>]),
     period_s: f64,
-) -> State {
+) -> JointMotions {
     let behind = |twists: &Twists| {
         let mut link = measured.clone();
         for (i, twist) in twists {
@@ -128,7 +133,7 @@ fn links_behind(
 }
 
 /// Moves joint `i` by `change`.
-fn move_joint(state: &mut State, i: usize, change: &[f64], period_s: f64) {
+fn move_joint(state: &mut JointMotions, i: usize, change: &[f64], period_s: f64) {
     let changes = [change.to_vec(), rate(change, period_s), curvature(change, period_s)];
     for (x, change) in state.iter_mut().zip(changes) {
         x[i].iter_mut().zip(change).for_each(|(x, change)| *x += change);

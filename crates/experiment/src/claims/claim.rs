@@ -8,7 +8,7 @@ pub struct Claim {
     /// In how many of the cases it has to be so.
     pub scope: Scope,
     /// Whether it is.
-    pub verdict: Verdict,
+    pub verdict: ClaimVerdict,
     /// What was looked at.
     pub cases: Vec<ClaimCase>,
 }
@@ -26,7 +26,7 @@ pub enum Scope {
 /// Whether a claim is borne out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum ClaimVerdict {
     /// It is.
     Holds,
     /// It is not.
@@ -63,9 +63,9 @@ impl Claim {
             Scope::Most => 2 * held > cases.len(),
         };
         let verdict = match (cases.is_empty(), is_so) {
-            (true, _) => Verdict::NotJudged,
-            (false, true) => Verdict::Holds,
-            (false, false) => Verdict::DoesNotHold,
+            (true, _) => ClaimVerdict::NotJudged,
+            (false, true) => ClaimVerdict::Holds,
+            (false, false) => ClaimVerdict::DoesNotHold,
         };
         Self { statement: statement.into(), scope, verdict, cases }
     }
@@ -145,12 +145,12 @@ mod tests {
         let verdict = |scope, values: &[f64]| {
             Claim::new("", scope, values.iter().map(|&v| case(v)).collect()).verdict
         };
-        assert_eq!(verdict(Scope::Every, &[0.5, 1.0]), Verdict::Holds);
-        assert_eq!(verdict(Scope::Every, &[0.5, 1.1]), Verdict::DoesNotHold);
-        assert_eq!(verdict(Scope::Most, &[0.5, 1.1]), Verdict::DoesNotHold);
-        assert_eq!(verdict(Scope::Most, &[0.5, 1.1, 0.2]), Verdict::Holds);
-        assert_eq!(verdict(Scope::Every, &[]), Verdict::NotJudged);
-        assert_eq!(verdict(Scope::Most, &[f64::NAN]), Verdict::DoesNotHold);
+        assert_eq!(verdict(Scope::Every, &[0.5, 1.0]), ClaimVerdict::Holds);
+        assert_eq!(verdict(Scope::Every, &[0.5, 1.1]), ClaimVerdict::DoesNotHold);
+        assert_eq!(verdict(Scope::Most, &[0.5, 1.1]), ClaimVerdict::DoesNotHold);
+        assert_eq!(verdict(Scope::Most, &[0.5, 1.1, 0.2]), ClaimVerdict::Holds);
+        assert_eq!(verdict(Scope::Every, &[]), ClaimVerdict::NotJudged);
+        assert_eq!(verdict(Scope::Most, &[f64::NAN]), ClaimVerdict::DoesNotHold);
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub fn tracking_claims(errors: &[TrackedError], joints: &[String]) -> Vec<Claim>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::claim::Verdict;
+    use crate::claims::claim::ClaimVerdict;
 
     fn tracked(model: &str, rms: [f64; 6]) -> TrackedError {
         TrackedError {
@@ -89,7 +89,7 @@ mod tests {
     fn every_claim_is_held_or_not_by_the_run_that_it_is_about() {
         let held = |errors: &[TrackedError]| -> Vec<bool> {
             let claims = tracking_claims(errors, &joints());
-            claims.iter().map(|claim| claim.verdict == Verdict::Holds).collect()
+            claims.iter().map(|claim| claim.verdict == ClaimVerdict::Holds).collect()
         };
         assert_eq!(held(&errors()), [true; 4]);
         let with = |model: usize, rms: [f64; 6]| {

@@ -1,4 +1,4 @@
-use diagnosis::Progress;
+use diagnosis::DiagnosisProgress;
 use logs::{LogError, PrepareSettings, PreparedRun, Run, prepare, without_repeats};
 use nalgebra::Point3;
 use robot::Robot;
@@ -57,7 +57,7 @@ pub struct Drift {
 pub fn forward_gap(
     robots: [&Robot; 2],
     records: &[PreparedRun],
-    progress: &dyn Progress,
+    progress: &dyn DiagnosisProgress,
 ) -> ForwardGap {
     progress.stage("simulating the measured torque", 2 * WINDOWS_S.len() * records.len());
     let windows = WINDOWS_S.map(|window_s| {
@@ -79,7 +79,7 @@ pub fn forward_gap_of_logs(
     robots: [&Robot; 2],
     runs: &[Run],
     cutoff_hz: f64,
-    progress: &dyn Progress,
+    progress: &dyn DiagnosisProgress,
 ) -> Result<ForwardGap, LogError> {
     let records =
         prepare(&without_repeats(runs), &PrepareSettings { cutoff_hz: Some(cutoff_hz) })?.runs;
@@ -113,7 +113,12 @@ struct Sum {
 
 impl Sum {
     /// Over all windows of all records, as far as they can be simulated.
-    fn of(robot: &Robot, records: &[PreparedRun], window_s: f64, progress: &dyn Progress) -> Self {
+    fn of(
+        robot: &Robot,
+        records: &[PreparedRun],
+        window_s: f64,
+        progress: &dyn DiagnosisProgress,
+    ) -> Self {
         let mut sum = Self { joints: vec![0.0; robot.joint_count()], ..Self::default() };
         for record in records {
             match replay(robot, record, window_s) {

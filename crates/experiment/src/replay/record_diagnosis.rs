@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use diagnosis::{DiagnosisRun, Progress, RunTraces};
+use diagnosis::{DiagnosisProgress, DiagnosisRun, RunTraces};
 use logs::{PrepareSettings, PreparedRun, Run, of_run, prepare, without_repeats};
 use recording::{
     Arm, BarSeries, EventLevel, Live, Recorder, RowBlock, Scene, SceneRole, SceneSignal,
@@ -58,7 +58,7 @@ pub struct DiagnosedLogs<'a> {
 pub fn record_diagnosis(
     path: &Path,
     diagnosed: &DiagnosedLogs<'_>,
-    progress: &dyn Progress,
+    progress: &dyn DiagnosisProgress,
 ) -> Result<recording::FinishedRecording, ExperimentError> {
     let DiagnosedLogs { loaded, outcome, runs, .. } = *diagnosed;
     let cutoff_hz = Some(outcome.diagnosis.data.cutoff_hz);

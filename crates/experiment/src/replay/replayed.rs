@@ -1,4 +1,4 @@
-use diagnosis::Progress;
+use diagnosis::DiagnosisProgress;
 use logs::PreparedRun;
 use robot::Robot;
 use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
@@ -39,7 +39,11 @@ pub(crate) struct Simulated {
 
 impl Replayed {
     /// Rolls both models forward under the measured torques.
-    pub fn of(robots: [&Robot; 2], records: &[PreparedRun], progress: &dyn Progress) -> Self {
+    pub fn of(
+        robots: [&Robot; 2],
+        records: &[PreparedRun],
+        progress: &dyn DiagnosisProgress,
+    ) -> Self {
         let simulated_s = TOTAL_S / records.len().max(1) as f64;
         let parts: Vec<PreparedRun> = records.iter().map(|r| first(r, simulated_s)).collect();
         let roll = |robot: &Robot, window_s: f64, model: &str| -> Vec<_> {

@@ -5,8 +5,8 @@ use nalgebra::Point3;
 use rayon::prelude::*;
 use robot::{Machine, PdGain};
 use tracking::{
-    Ahead, Clock, Controller, ErrorRate, Feedforward, GravityFeedforward, ModelFeedforward,
-    NamedFeedforward, NoFeedforward, TorqueLimits, TorquePrediction, TrackingMetrics,
+    Ahead, Controller, ErrorRate, Feedforward, GravityFeedforward, ModelFeedforward,
+    NamedFeedforward, NoFeedforward, RunClock, TorqueLimits, TorquePrediction, TrackingMetrics,
     TrackingSettings, TrackingWatch, VirtualClock, WallClock,
 };
 
@@ -158,7 +158,7 @@ impl Parts<'_> {
             AheadSpec::Arrival => Ahead::Arrival,
         };
         let clock = match spec.clock {
-            ClockSpec::Virtual => Clock::Virtual(VirtualClock {
+            ClockSpec::Virtual => RunClock::Virtual(VirtualClock {
                 prediction_time_s: match spec.time_ms {
                     PredictionTimeSpec::Given(time_ms) => 1e-3 * time_ms,
                     PredictionTimeSpec::Here(_) => measured_s,
@@ -166,7 +166,7 @@ impl Parts<'_> {
                 ahead,
                 stops_at_s: spec.stops_at_s,
             }),
-            ClockSpec::Wall => Clock::Wall(WallClock { ahead }),
+            ClockSpec::Wall => RunClock::Wall(WallClock { ahead }),
         };
         TrackingSettings { clock, ..TrackingSettings::default() }
     }

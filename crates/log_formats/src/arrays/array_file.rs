@@ -14,7 +14,7 @@ use crate::{
         sha256::sha256_of_files,
         table::{Needed, Table},
     },
-    format::Opened,
+    file_format::Opened,
 };
 
 /// Taken for the name of a column (bytes).

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use crate::common::{
     allowance::Exceeded,
-    strangers::Stranger,
+    unread_kinds::UnreadKind,
     words::{list, suggestion},
 };
 
@@ -233,7 +233,7 @@ impl FormatError {
         Self::Unreadable { path: path.to_owned(), reason: error.to_string() }
     }
 
-    pub(crate) fn other_kind(path: &Path, Stranger { found, advice }: Stranger) -> Self {
+    pub(crate) fn other_kind(path: &Path, UnreadKind { found, advice }: UnreadKind) -> Self {
         Self::OtherKind { path: path.to_owned(), found, advice }
     }
 

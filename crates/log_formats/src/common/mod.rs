@@ -7,6 +7,6 @@ pub(crate) mod excerpt;
 pub(crate) mod guard;
 pub(crate) mod numeral;
 pub(crate) mod sha256;
-pub(crate) mod strangers;
 pub(crate) mod table;
+pub(crate) mod unread_kinds;
 pub(crate) mod words;

@@ -66,7 +66,7 @@ impl Table {
 
 /// What a row holds in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Cell {
+pub(crate) enum TableCell {
     Number(f64),
     Empty,
     Text,
@@ -116,23 +116,23 @@ impl Rows {
     /// # Errors
     ///
     /// The index of the first needed column without a number.
-    pub(crate) fn push(&mut self, row: usize, cells: &[Cell]) -> Result<(), usize> {
+    pub(crate) fn push(&mut self, row: usize, cells: &[TableCell]) -> Result<(), usize> {
         let of = |use_of_it: Use| {
             let all = self.columns.iter().zip(cells);
             all.filter(move |(column, _)| column.use_of_it == use_of_it).map(|(_, cell)| *cell)
         };
         let time = of(Use::Time).next();
-        let is_another_topics = of(Use::Signal).all(|cell| cell == Cell::Empty);
+        let is_another_topics = of(Use::Signal).all(|cell| cell == TableCell::Empty);
         if is_another_topics && of(Use::Signal).next().is_some() {
             return Ok(());
         }
-        if let (Some(filter), Some(Cell::Number(time))) = (&mut self.excerpt, time)
+        if let (Some(filter), Some(TableCell::Number(time))) = (&mut self.excerpt, time)
             && !filter.takes(time)
         {
             return Ok(());
         }
-        let wrong = |(column, cell): &(&Column, &Cell)| {
-            column.use_of_it != Use::Further && !matches!(cell, Cell::Number(_))
+        let wrong = |(column, cell): &(&Column, &TableCell)| {
+            column.use_of_it != Use::Further && !matches!(cell, TableCell::Number(_))
         };
         if let Some(index) = self.columns.iter().zip(cells).position(|pair| wrong(&pair)) {
             return Err(index);
@@ -140,7 +140,7 @@ impl Rows {
         self.rows.push(row);
         for (column, cell) in self.columns.iter_mut().zip(cells) {
             match (&mut column.samples, cell) {
-                (Some(samples), Cell::Number(value)) => samples.push(*value),
+                (Some(samples), TableCell::Number(value)) => samples.push(*value),
                 (samples, _) => *samples = None,
             }
         }
@@ -167,12 +167,12 @@ mod tests {
         let names = ["time", "q", "command", "note", ""].map(str::to_owned);
         let needed = Needed { time: "time", signals: BTreeSet::from(["q"]), excerpt: None };
         let mut rows = Rows::new(&names, &needed);
-        let (n, empty) = (Cell::Number, Cell::Empty);
-        rows.push(1, &[n(0.0), n(1.0), n(5.0), Cell::Text, n(1.0)]).unwrap();
+        let (n, empty) = (TableCell::Number, TableCell::Empty);
+        rows.push(1, &[n(0.0), n(1.0), n(5.0), TableCell::Text, n(1.0)]).unwrap();
         rows.push(2, &[n(0.1), empty, n(6.0), empty, empty]).unwrap();
         rows.push(3, &[n(0.2), n(2.0), n(7.0), n(1.0), n(1.0)]).unwrap();
         assert_eq!(rows.push(4, &[empty, n(3.0), n(8.0), n(1.0), n(1.0)]), Err(0));
-        assert_eq!(rows.push(5, &[n(0.4), Cell::Text, n(8.0), n(1.0), n(1.0)]), Err(1));
+        assert_eq!(rows.push(5, &[n(0.4), TableCell::Text, n(8.0), n(1.0), n(1.0)]), Err(1));
         let table = rows.finish();
         assert_eq!(table.columns["command"], [5.0, 7.0]);
         assert_eq!(table.columns.keys().collect::<Vec<_>>(), ["command", "q", "time"]);

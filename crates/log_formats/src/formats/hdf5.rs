@@ -14,7 +14,7 @@ use crate::{
         hdf5_tree::{Layout, read_arrays},
     },
     common::{damage::Damage, error::FormatError},
-    format::{Format, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
 };
 
 /// What a damaged file is called.
@@ -26,7 +26,7 @@ const USER_BLOCK: usize = 512;
 /// Arrays in the groups of an HDF5 file; one in groups is `group.array`.
 pub(crate) struct Hdf5;
 
-impl Format for Hdf5 {
+impl FileFormat for Hdf5 {
     fn name(&self) -> &'static str {
         NAME
     }

@@ -8,7 +8,7 @@ use flate2::read::MultiGzDecoder;
 
 use crate::{
     common::{allowance::Allowance, error::FormatError, guard::guard},
-    format::Magic,
+    file_format::Magic,
 };
 
 /// How a file is packed.

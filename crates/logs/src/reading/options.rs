@@ -1,4 +1,4 @@
-use log_formats::{Dataset, Excerpt, Request};
+use log_formats::{Excerpt, LerobotDataset, Request};
 
 use crate::naming::column_map::ColumnMap;
 
@@ -19,7 +19,7 @@ pub struct ReadOptions<'a> {
     /// The episode of a dataset of LeRobot; one that has a single episode needs none.
     pub episode: Option<u64>,
     /// The dataset at the path, where it is open already, so that its column of episodes is read once.
-    pub dataset: Option<&'a Dataset>,
+    pub dataset: Option<&'a LerobotDataset>,
 }
 
 impl Default for ReadOptions<'_> {

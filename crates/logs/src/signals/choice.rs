@@ -9,9 +9,9 @@ use crate::{
         filtered::{ORDER, SETTLING_PERIODS},
         motion_band::BandInputs,
         noise::JointNoise,
+        noise_readings::NoiseReadings,
         origin::Sources,
-        readings::Readings,
-        sources::{Comparison, Disagreement},
+        sources::{ComparisonBands, Disagreement},
         uniform::{UniformRun, moving},
         warning::LogWarning,
     },
@@ -42,7 +42,7 @@ pub(crate) fn choose(
     given_hz: Option<f64>,
 ) -> Result<Choice, LogError> {
     let moving = &moving(pieces);
-    let readings = Readings { runs, pieces, moving };
+    let readings = NoiseReadings { runs, pieces, moving };
     let joints = 0..pieces.first().map_or(0, |piece| piece.joints.len());
     let (positions, in_pieces): (Vec<_>, Vec<_>) =
         joints.clone().map(|j| readings.position(j)).unzip();
@@ -50,7 +50,8 @@ pub(crate) fn choose(
     let slowest_hz = pieces.iter().map(|p| p.rate_hz).fold(f64::INFINITY, f64::min);
     let bounds = Bounds::new(&motion, slowest_hz);
     let motion_hz = bounds.motion_hz();
-    let comparison = Comparison { cutoff_hz: given_hz.unwrap_or(bounds.by_motion()), motion_hz };
+    let comparison =
+        ComparisonBands { cutoff_hz: given_hz.unwrap_or(bounds.by_motion()), motion_hz };
     for piece in pieces {
         LowPass::new(ORDER, comparison.cutoff_hz, piece.rate_hz)?;
     }
@@ -72,7 +73,7 @@ pub(crate) fn choose(
 struct Columns<'a> {
     pieces: &'a [UniformRun],
     moving: &'a [Vec<bool>],
-    comparison: Comparison,
+    comparison: ComparisonBands,
     names: &'a [&'a str],
     warnings: Vec<LogWarning>,
 }

@@ -27,16 +27,16 @@ pub(crate) struct FilteredRun {
 
 pub(crate) struct FilteredJoint {
     /// Behind the cut-off.
-    pub own: Band,
+    pub own: FilteredSignals,
     /// Behind [`WIDE`] times that.
-    pub wide: Band,
+    pub wide: FilteredSignals,
     /// Position, velocity and acceleration of the link.
     pub link: Option<[Vec<f64>; 3]>,
 }
 
 /// The signals of a joint behind one low-pass. `qd` and `qdd` are derivatives of `q` until
-/// [`Band::take`] has taken measured ones.
-pub(crate) struct Band {
+/// [`FilteredSignals::take`] has taken measured ones.
+pub(crate) struct FilteredSignals {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
     pub qdd: Vec<f64>,
@@ -64,8 +64,8 @@ impl FilteredRun {
         let wide_hz = (WIDE * cutoff_hz).min(WIDEST * rate_hz).max(cutoff_hz);
         let wide = LowPass::new(ORDER, wide_hz, rate_hz)?;
         let joint = |(raw, from): (&UniformJoint, &Sources)| FilteredJoint {
-            own: Band::of(raw, &low_pass, rate_hz).take(*from, rate_hz),
-            wide: Band::of(raw, &wide, rate_hz).take(*from, rate_hz),
+            own: FilteredSignals::of(raw, &low_pass, rate_hz).take(*from, rate_hz),
+            wide: FilteredSignals::of(raw, &wide, rate_hz).take(*from, rate_hz),
             link: raw
                 .link
                 .as_ref()
@@ -88,7 +88,7 @@ pub(crate) fn settled_range(samples: usize, rate_hz: f64, cutoff_hz: f64) -> Ran
     end..samples - end
 }
 
-impl Band {
+impl FilteredSignals {
     pub(crate) fn of(raw: &UniformJoint, low_pass: &LowPass, rate_hz: f64) -> Self {
         let pass = |x: &Vec<f64>| low_pass_copy(low_pass, x);
         let [q, qd, qdd] = with_derivatives(pass(&raw.q), rate_hz);

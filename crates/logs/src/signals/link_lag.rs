@@ -5,7 +5,7 @@ use crate::{
     runs::run::Run,
     signals::{
         filter::LowPass,
-        filtered::{Band, ORDER, settled_range},
+        filtered::{FilteredSignals, ORDER, settled_range},
         uniform::{UniformRun, moving},
         warning::LogWarning,
     },
@@ -115,7 +115,7 @@ impl Rows {
         let joint = &piece.joints[j];
         let Some(link) = &joint.link else { return Ok(()) };
         let low_pass = LowPass::new(ORDER, cutoff_hz, piece.rate_hz)?;
-        let band = Band::of(joint, &low_pass, piece.rate_hz);
+        let band = FilteredSignals::of(joint, &low_pass, piece.rate_hz);
         let mut link = link.clone();
         low_pass.apply(&mut link);
         let stride = ((piece.rate_hz / (PER_PERIOD * cutoff_hz)) as usize).max(1);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::signals::{
     differentiate::differentiate,
-    fourier::Fourier,
+    fourier_transform::FourierTransform,
     noise::ChannelNoise,
     spectrum::Density,
     uniform::{UniformJoint, UniformRun},
@@ -67,7 +67,7 @@ impl BandInputs<'_> {
     /// The spectra are scaled to the same total and added; the motion lies below the frequency
     /// below which 99 % of the sum lies.
     pub(crate) fn band(&self) -> MotionBand {
-        let (mut sum, mut fourier) = (Velocities::default(), Fourier::default());
+        let (mut sum, mut fourier) = (Velocities::default(), FourierTransform::default());
         let mut accelerations = vec![Accelerations::default(); self.noise.len()];
         for (k, (piece, moves)) in self.pieces.iter().zip(self.moving).enumerate() {
             for (j, joint) in piece.joints.iter().enumerate().filter(|(j, _)| moves[*j]) {
@@ -117,7 +117,7 @@ const FASTEST: f64 = 3.0;
 
 /// Density of the velocity of a joint by differences of its position; what is three times as fast
 /// as all but one sample in 200 counts as that.
-fn velocity(joint: &UniformJoint, rate_hz: f64, fourier: &mut Fourier) -> Density {
+fn velocity(joint: &UniformJoint, rate_hz: f64, fourier: &mut FourierTransform) -> Density {
     let mut velocity = differentiate(&joint.q, rate_hz);
     let mut speeds: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
     let place = ((1.0 - OUTLIERS) * speeds.len() as f64) as usize;
@@ -204,6 +204,6 @@ mod tests {
         let q = (0..400).map(|k| if k % 2 == 0 { 1.7e308 } else { -1.7e308 }).collect();
         let joint =
             UniformJoint { q, effort: vec![], velocity: None, acceleration: None, link: None };
-        velocity(&joint, 1000.0, &mut Fourier::default());
+        velocity(&joint, 1000.0, &mut FourierTransform::default());
     }
 }

@@ -5,7 +5,7 @@ use crate::{
     signals::{
         agreement::Agreement,
         filter::LowPass,
-        filtered::{Band, ORDER, settled_range},
+        filtered::{FilteredSignals, ORDER, settled_range},
         origin::{Origin, Sources},
         uniform::UniformRun,
         warning::LogWarning,
@@ -28,14 +28,14 @@ enum Derivative {
 
 /// The bands that columns and derivatives are compared in.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Comparison {
+pub(crate) struct ComparisonBands {
     /// Cut-off of the low-pass (Hz).
     pub cutoff_hz: f64,
     /// Frequency below which the motion lies (Hz).
     pub motion_hz: f64,
 }
 
-impl Comparison {
+impl ComparisonBands {
     /// The sources of a joint: its columns where they agree with the derivatives in every piece in
     /// which it moves (`in_motion`). Tells where they do not.
     pub(crate) fn sources(
@@ -52,10 +52,11 @@ impl Comparison {
         if pieces.iter().all(has_none) {
             return Ok((sources, disagreements));
         }
-        let bands = |sources: Sources| -> Result<Vec<Band>, LogError> {
+        let bands = |sources: Sources| -> Result<Vec<FilteredSignals>, LogError> {
             let band = |p: &UniformRun| {
                 let low_pass = LowPass::new(ORDER, self.cutoff_hz, p.rate_hz)?;
-                Ok(Band::of(&p.joints[joint], &low_pass, p.rate_hz).take(sources, p.rate_hz))
+                Ok(FilteredSignals::of(&p.joints[joint], &low_pass, p.rate_hz)
+                    .take(sources, p.rate_hz))
             };
             pieces.iter().map(band).collect()
         };
@@ -99,14 +100,14 @@ impl Comparison {
     /// The velocity column of a joint against the derivative of its position.
     pub(crate) fn velocity_agreement(&self, piece: &UniformRun, joint: usize) -> Option<Agreement> {
         let low_pass = LowPass::new(ORDER, self.cutoff_hz, piece.rate_hz).ok()?;
-        let band = Band::of(&piece.joints[joint], &low_pass, piece.rate_hz);
+        let band = FilteredSignals::of(&piece.joints[joint], &low_pass, piece.rate_hz);
         self.agreement(piece.rate_hz, band.velocity.as_deref()?, &band.qd)
     }
 }
 
 impl Derivative {
     /// The column, and the derivative of what lies below it.
-    fn pair(self, band: &Band) -> Option<(&[f64], &[f64])> {
+    fn pair(self, band: &FilteredSignals) -> Option<(&[f64], &[f64])> {
         match self {
             Self::Velocity => Some((band.velocity.as_deref()?, &band.qd)),
             Self::Acceleration => Some((band.acceleration.as_deref()?, &band.qdd)),

@@ -4,7 +4,7 @@ use std::f64::consts::{LN_2, SQRT_2, TAU};
 
 use realfft::num_complex::Complex;
 
-use crate::signals::fourier::Fourier;
+use crate::signals::fourier_transform::FourierTransform;
 
 /// Share of half the sampling rate above which nothing is looked at: the filters of loggers and
 /// the interpolation of a clock end there.
@@ -57,7 +57,7 @@ impl Density {
     /// whose sum times the width of a bin is the variance of the signal. Its last few per cent
     /// are left out where a length of small factors is shorter: a prime one takes four times as
     /// long.
-    pub(crate) fn of(x: &[f64], rate_hz: f64, fourier: &mut Fourier) -> Self {
+    pub(crate) fn of(x: &[f64], rate_hz: f64, fourier: &mut FourierTransform) -> Self {
         let x = &x[..of_small_factors(x.len())];
         let n = x.len();
         let mean = x.iter().sum::<f64>() / n.max(1) as f64;

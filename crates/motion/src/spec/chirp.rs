@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::curve::Curve;
 use crate::error::MotionError;
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::rising_sine::{Growth, RisingSine};
 use crate::site::Site;
 use crate::spec::defaults::{ByJoint, two_seconds};
@@ -34,7 +34,7 @@ pub struct Chirp {
 }
 
 impl Chirp {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         site.duration(self.duration_s)?;
         site.frequency("from_hz", self.from_hz, self.duration_s)?;
         site.frequency("to_hz", self.to_hz, self.duration_s)?;

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::curve::Curve;
 use crate::error::MotionError;
-use crate::harmonics::{Harmonics, Series, Term};
-use crate::motion::Part;
+use crate::harmonics::{HarmonicSeries, Harmonics, Term};
+use crate::motion::ClockedCurve;
 use crate::site::Site;
 use crate::spec::defaults::two_seconds;
 
@@ -71,7 +71,7 @@ pub struct FourierJoint {
 const LARGEST_FILE: u64 = 1 << 20;
 
 impl Fourier {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         site.duration(self.duration_s)?;
         let clock = site.clock(self.duration_s, self.fade_s)?;
         let site_of = |name| site.within("coefficients").within(name);
@@ -103,9 +103,9 @@ fn read(path: &Path) -> Result<FourierSeries, String> {
 
 impl FourierSeries {
     fn curve(&self, site: &Site, duration_s: f64) -> Result<Curve, MotionError> {
-        let rest = |offset| Series { offset, terms: Vec::new() };
+        let rest = |offset| HarmonicSeries { offset, terms: Vec::new() };
         let middle = site.posture("joint", &BTreeMap::new())?;
-        let mut joints: Vec<Series> = middle.into_iter().map(rest).collect();
+        let mut joints: Vec<HarmonicSeries> = middle.into_iter().map(rest).collect();
         site.frequency("base_hz", self.base_hz, duration_s)?;
         for (name, joint) in &self.joint {
             let index = site.joint_index("joint", name)?;
@@ -126,7 +126,7 @@ impl FourierSeries {
 }
 
 impl FourierJoint {
-    fn series(&self, site: &Site, base_hz: f64) -> Result<Series, MotionError> {
+    fn series(&self, site: &Site, base_hz: f64) -> Result<HarmonicSeries, MotionError> {
         site.number(&["offset_rad"], self.offset_rad, ..)?;
         let mut terms = Vec::new();
         for (k, (&a, &b)) in self.a_rad_per_s.iter().zip(&self.b_rad_per_s).enumerate() {
@@ -136,6 +136,6 @@ impl FourierJoint {
             let w = std::f64::consts::TAU * hz;
             terms.push(Term { hz, sin: a / w, cos: -b / w });
         }
-        Ok(Series { offset: self.offset_rad, terms })
+        Ok(HarmonicSeries { offset: self.offset_rad, terms })
     }
 }

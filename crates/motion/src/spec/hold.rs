@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
 use crate::knots::Knots;
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::site::Site;
 use crate::spec::defaults::ByJoint;
 
@@ -19,7 +19,7 @@ pub struct Hold {
 }
 
 impl Hold {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         site.duration(self.duration_s)?;
         let mut knots = Knots::at_rest(site.posture("posture_rad", &self.posture_rad)?);
         knots.hold(self.duration_s);

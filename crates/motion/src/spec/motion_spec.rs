@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
-use crate::motion::{Motion, Part};
+use crate::motion::{ClockedCurve, Motion};
 use crate::site::Site;
 use crate::spec::chirp::Chirp;
 use crate::spec::fourier::{Coefficients, Fourier};
@@ -82,7 +82,7 @@ impl MotionSpec {
         }
     }
 
-    fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         match self {
             Self::Sinusoids(spec) => spec.parts(&site.within("sinusoids")),
             Self::Fourier(spec) => spec.parts(&site.within("fourier")),

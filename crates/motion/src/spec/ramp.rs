@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
 use crate::knots::Knots;
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::site::{Site, above_up_to};
 use crate::spec::defaults::ByJoint;
 
@@ -30,7 +30,7 @@ fn half_a_second() -> f64 {
 }
 
 impl Ramp {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         site.duration(self.duration_s)?;
         site.number(&["blend_s"], self.blend_s, above_up_to(0.0, 0.5 * self.duration_s))?;
         let from = site.posture("from_rad", &self.from_rad)?;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::curve::Curve;
 use crate::error::MotionError;
 use crate::knots::Knots;
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::site::Site;
 use crate::spec::defaults::two_seconds;
 use crate::spline::smoothest;
@@ -35,7 +35,7 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         let wrong = |key: &str| {
             let key = site.key(&[key]);
             move |problem| MotionError::Log { key, problem: Box::new(problem) }

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::curve::Curve;
 use crate::error::MotionError;
-use crate::harmonics::{Harmonics, Series};
+use crate::harmonics::{HarmonicSeries, Harmonics};
 use crate::kinematics::{REACHED_M, Tip};
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::site::{Site, above};
 use crate::spec::defaults::{ByJoint, two_seconds};
 
@@ -75,7 +75,7 @@ const POSTURES: [usize; 2] = [32, 1024];
 const TOLERANCE_M: f64 = 1e-5;
 
 impl Rhythm {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         site.number(&["radius_m"], self.radius_m, above(0.0))?;
         site.duration(self.duration_s)?;
         site.frequency("cycle_hz", self.cycle_hz, self.duration_s)?;
@@ -122,7 +122,7 @@ impl Rhythm {
             q = posture;
             samples.iter_mut().zip(q.iter()).for_each(|(list, &q)| list.push(q));
         }
-        let series = samples.iter().map(|list| Series::through(list, self.cycle_hz));
+        let series = samples.iter().map(|list| HarmonicSeries::through(list, self.cycle_hz));
         Ok(Harmonics { joints: series.collect() })
     }
 

@@ -1,6 +1,6 @@
 use crate::error::MotionError;
 use crate::knots::{Knots, glide_s};
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::site::Site;
 
 /// Speed of a move between two motions, as a share of a joint's velocity limit.
@@ -27,8 +27,8 @@ pub(super) fn check(count: usize, site: &Site) -> Result<(), MotionError> {
 /// state of the next, so that position, velocity and acceleration are continuous. Equal states
 /// need no move.
 pub(super) fn append(
-    parts: &mut Vec<Part>,
-    next: Vec<Part>,
+    parts: &mut Vec<ClockedCurve>,
+    next: Vec<ClockedCurve>,
     site: &Site,
 ) -> Result<(), MotionError> {
     if let (Some(last), Some(first)) = (parts.last(), next.first())
@@ -41,7 +41,7 @@ pub(super) fn append(
 }
 
 /// Refuses a sequence that lasts too long.
-pub(super) fn check_length(parts: &[Part], site: &Site) -> Result<(), MotionError> {
+pub(super) fn check_length(parts: &[ClockedCurve], site: &Site) -> Result<(), MotionError> {
     let duration: f64 = parts.iter().map(|part| part.clock.duration_s()).sum();
     site.short_enough(&[], duration)
 }
@@ -54,7 +54,7 @@ fn speeds(site: &Site) -> Vec<f64> {
 }
 
 /// The move from the end of one part to the start of the next.
-fn join(site: &Site, last: &Part, first: &Part) -> Option<Knots> {
+fn join(site: &Site, last: &ClockedCurve, first: &ClockedCurve) -> Option<Knots> {
     let joints = 0..site.robot.joint_count();
     let ends = joints.clone().map(|j| last.at(j, last.clock.duration_s())).collect::<Vec<_>>();
     let starts = joints.map(|j| first.at(j, 0.0)).collect::<Vec<_>>();

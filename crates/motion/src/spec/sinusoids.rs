@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::curve::Curve;
 use crate::error::{LimitedQuantity, MotionError};
 use crate::extremes::extremes;
-use crate::harmonics::{Harmonics, Series, Term};
-use crate::motion::Part;
+use crate::harmonics::{HarmonicSeries, Harmonics, Term};
+use crate::motion::ClockedCurve;
 use crate::site::{Site, above};
 use crate::spec::defaults::{ByJoint, four_fifths, two_seconds};
 
@@ -62,7 +62,7 @@ pub struct Sinusoids {
 const MOST_TERMS: f64 = 64.0;
 
 impl Sinusoids {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         self.check(site)?;
         let clock = site.clock(self.duration_s, self.fade_s)?;
         let centre = site.posture("centre_rad", &self.centre_rad)?;
@@ -91,7 +91,7 @@ impl Sinusoids {
                     (room / reach).min(highest / speed)
                 }
             };
-            joints.push(Series { offset, ..unit.scaled(scale) });
+            joints.push(HarmonicSeries { offset, ..unit.scaled(scale) });
         }
         site.part(Curve::Harmonics(Harmonics { joints }), clock)
     }
@@ -112,14 +112,14 @@ impl Sinusoids {
             .try_for_each(|(joint, &v)| site.number(&["max_speed_rad_per_s", joint], v, above(0.0)))
     }
 
-    fn draw(&self, rng: &mut ChaCha8Rng) -> Series {
+    fn draw(&self, rng: &mut ChaCha8Rng) -> HarmonicSeries {
         let mut term = || {
             let hz = rng.random_range(self.lowest_hz..=self.highest_hz);
             let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
             let amplitude: f64 = rng.random_range(0.5..1.0);
             Term { hz, sin: amplitude * cos, cos: amplitude * sin }
         };
-        Series { offset: 0.0, terms: (0..self.terms).map(|_| term()).collect() }
+        HarmonicSeries { offset: 0.0, terms: (0..self.terms).map(|_| term()).collect() }
     }
 
     /// How far a joint may swing about its centre (rad or m).

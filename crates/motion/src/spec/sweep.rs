@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{LimitedQuantity, MotionError};
 use crate::knots::{Knots, blend_s, fastest, glide_s};
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::site::{LONGEST_S, Site, above, above_up_to};
 use crate::spec::defaults::{ByJoint, four_fifths};
 
@@ -45,7 +45,7 @@ fn two() -> f64 {
 }
 
 impl Sweep {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         self.check(site)?;
         let posture = site.posture("posture_rad", &self.posture_rad)?;
         let given = site.by_index("range_rad", &self.range_rad)?;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
 use crate::knots::Knots;
-use crate::motion::Part;
+use crate::motion::ClockedCurve;
 use crate::site::{LONGEST_S, Site, above_up_to};
 use crate::spline::smoothest;
 
@@ -34,7 +34,7 @@ pub enum Via {
 }
 
 impl Waypoints {
-    pub(super) fn parts(&self, site: &Site) -> Result<Vec<Part>, MotionError> {
+    pub(super) fn parts(&self, site: &Site) -> Result<Vec<ClockedCurve>, MotionError> {
         self.check_times(site)?;
         let still = site.posture("positions_rad", &BTreeMap::new())?;
         let mut states: Vec<Vec<[f64; 3]>> =

@@ -1,6 +1,6 @@
 use faer::prelude::*;
 use faer::{Mat, Side};
-use logs::Fourier;
+use logs::FourierTransform;
 use nalgebra::DMatrix;
 
 use crate::oracle::column::{StandIn, TorqueColumn};
@@ -67,7 +67,7 @@ fn whiten(
     };
     let height: usize = runs.iter().map(|run| 2 * bins(run) * noise.len()).sum();
     let mut rows = Mat::zeros(height, columns.len());
-    let mut fourier = Fourier::default();
+    let mut fourier = FourierTransform::default();
     let mut top = 0;
     for (r, run) in runs.iter().enumerate() {
         let (n, kept) = (run.rows(), bins(run));

@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn joints_with_findings_are_open_and_the_others_folded() {
         let mut sample = sample::arm();
-        let open = |sample: &sample::Sample| -> Vec<bool> {
+        let open = |sample: &sample::DiagnosisSample| -> Vec<bool> {
             let page = super::html(&sample.report()).unwrap();
             let sections = page.split(r#"<details class="joint""#).skip(1);
             sections.map(|section| section.starts_with(" open>")).collect()

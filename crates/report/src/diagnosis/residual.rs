@@ -16,14 +16,14 @@ pub struct ResidualModel {
     /// Parts of the logs that were held out in turn.
     pub parts: usize,
     /// One entry a joint, in the order of the robot.
-    pub joints: Vec<ResidualJoint>,
+    pub joints: Vec<ResidualJointRow>,
     /// What to know of it, in sentences.
     pub remarks: Vec<String>,
 }
 
 /// The error at one joint on held-out data, with and without the residual model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ResidualJoint {
+pub struct ResidualJointRow {
     /// Name of the joint.
     pub name: String,
     /// RMS error of the extended model (N m or N).
@@ -51,13 +51,13 @@ pub struct LengthScale {
 }
 
 impl ResidualModel {
-    fn used(&self) -> impl Iterator<Item = &ResidualJoint> {
+    fn used(&self) -> impl Iterator<Item = &ResidualJointRow> {
         self.joints.iter().filter(|joint| joint.is_used)
     }
 
     /// What it is worth, in a sentence.
     pub(crate) fn sentence(&self) -> String {
-        let at = |j: &ResidualJoint| format!("{} at {}", percent(j.share), j.name);
+        let at = |j: &ResidualJointRow| format!("{} at {}", percent(j.share), j.name);
         let shares: Vec<String> = self.used().map(at).collect();
         if shares.is_empty() {
             return "On held-out data a Gaussian process predicts nothing of what is left: \
@@ -76,12 +76,12 @@ impl ResidualModel {
     }
 
     /// The joint with this name, if the model is used there.
-    pub(crate) fn used_at(&self, name: &str) -> Option<&ResidualJoint> {
+    pub(crate) fn used_at(&self, name: &str) -> Option<&ResidualJointRow> {
         self.used().find(|joint| joint.name == name)
     }
 }
 
-impl ResidualJoint {
+impl ResidualJointRow {
     /// What it bends with, in words.
     pub(crate) fn bends_with(&self) -> String {
         let one =

@@ -130,12 +130,12 @@ fn span(values: &[f64]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample::{self, Sample, text_of_xml};
+    use crate::sample::{self, DiagnosisSample, text_of_xml};
 
     const HZ: [f64; 3] = [0.1, 1.0, 10.0];
 
     /// An arm whose shoulder has these densities of what is left and of the noise.
-    fn with(left: [f64; 3], noise: [f64; 3]) -> Sample {
+    fn with(left: [f64; 3], noise: [f64; 3]) -> DiagnosisSample {
         let mut sample = sample::arm();
         let spectrum = &mut sample.diagnosis.joints[0].spectrum;
         spectrum.hz = HZ.to_vec();

@@ -1,6 +1,6 @@
 use std::ops::RangeInclusive;
 
-use experiment::{Claim, ClaimCase, Verdict};
+use experiment::{Claim, ClaimCase, ClaimVerdict};
 
 use pages::{BOLD, TABLE_DIGITS, TERMINAL_WIDTH, count_noun, significant, wrap};
 
@@ -47,9 +47,9 @@ pub struct ClaimRow {
 pub fn claim_rows(claims: &[Claim], unit: ClaimUnit) -> Vec<ClaimRow> {
     let row = |claim: &Claim| {
         let (verdict, class) = match claim.verdict {
-            Verdict::Holds => ("holds", "good"),
-            Verdict::DoesNotHold => ("does not hold", "bad"),
-            Verdict::NotJudged => ("not judged", "open"),
+            ClaimVerdict::Holds => ("holds", "good"),
+            ClaimVerdict::DoesNotHold => ("does not hold", "bad"),
+            ClaimVerdict::NotJudged => ("not judged", "open"),
         };
         let finding = finding(claim, unit);
         ClaimRow { statement: claim.statement.clone(), verdict, class, finding }
@@ -99,7 +99,7 @@ fn describe(case: &ClaimCase, unit: ClaimUnit) -> String {
 
 /// How many of some claims hold, in a sentence.
 pub fn claims_sentence(claims: &[Claim]) -> String {
-    let held = claims.iter().filter(|claim| claim.verdict == Verdict::Holds).count();
+    let held = claims.iter().filter(|claim| claim.verdict == ClaimVerdict::Holds).count();
     let names = match claims.len() {
         1 => "the claim",
         _ => "the claims",

@@ -8,17 +8,17 @@ use experiment::{
 
 use crate::run::diagnosis_summary::{DiagnosisSummary, summarise};
 use crate::run::run_report::RunReport;
-use crate::sample::Sample as Diagnosed;
+use crate::sample::DiagnosisSample as Diagnosed;
 
 /// What a [`RunReport`] borrows.
-pub struct Sample {
+pub struct RunSample {
     pub diagnosed: Diagnosed,
     pub metrics: Metrics,
     pub summary: DiagnosisSummary,
     pub next: [[String; 2]; 1],
 }
 
-impl Sample {
+impl RunSample {
     pub fn report(&self) -> RunReport<'_> {
         RunReport {
             metrics: &self.metrics,
@@ -33,11 +33,11 @@ impl Sample {
 
 /// The arm of [`crate::sample`] with friction at the shoulder, which is found, and a payload, which
 /// is not.
-pub fn run() -> Sample {
+pub fn run() -> RunSample {
     let diagnosed = crate::sample::arm();
     let summary = summarise(&diagnosed.report()).unwrap();
     let next = [["Look at it:".to_owned(), "plumbline view out".to_owned()]];
-    Sample { diagnosed, metrics: metrics(), summary, next }
+    RunSample { diagnosed, metrics: metrics(), summary, next }
 }
 
 fn metrics() -> Metrics {

@@ -124,12 +124,12 @@ pub struct ErrorSweep {
     /// `Kp` over that of the set, rising; `Kd` goes with its square root.
     pub scales: Vec<f64>,
     /// The errors of each feedforward.
-    pub models: Vec<SweptModel>,
+    pub models: Vec<SweptFeedforward>,
 }
 
 /// The errors of one feedforward at several gains.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SweptModel {
+pub struct SweptFeedforward {
     /// The name of the model.
     pub name: String,
     /// Root of the mean square error by joint, for each of the scales (rad).

@@ -2,7 +2,7 @@
 
 use crate::learning::comparison::ComparedJoint;
 use crate::tracking::comparison::{
-    ControllerGains, ErrorSweep, FirstSeconds, SweptModel, TrackedModel, TrackingComparison,
+    ControllerGains, ErrorSweep, FirstSeconds, SweptFeedforward, TrackedModel, TrackingComparison,
 };
 use pages::Provenance;
 
@@ -10,7 +10,7 @@ use pages::Provenance;
 /// loses its encoder with, with rigid bodies, and with both rigid bodies and a process.
 pub fn comparison() -> TrackingComparison {
     let joint = |name: &str, effort_unit| ComparedJoint { name: name.into(), effort_unit };
-    let swept = |name: &str, factor: f64| SweptModel {
+    let swept = |name: &str, factor: f64| SweptFeedforward {
         name: name.into(),
         rmse_rad: [4.0, 2.0, 1.0].map(|rise| vec![0.02 * factor * rise; 2]).to_vec(),
     };

@@ -1,6 +1,6 @@
 use askama::Template;
 
-use crate::tracking::comparison::{ErrorSweep, SweptModel, TrackingComparison};
+use crate::tracking::comparison::{ErrorSweep, SweptFeedforward, TrackingComparison};
 use pages::{
     AxisTick, FIGURE_EDGES, FigureSheet, LegendKey, LogAxis, Medium, Palette, ReportError,
     round_px, significant,
@@ -78,7 +78,7 @@ impl TrackingComparison {
 
 impl Drawing {
     fn new(comparison: &TrackingComparison, sweep: &ErrorSweep, medium: Medium) -> Self {
-        let key = |model: &SweptModel| LegendKey {
+        let key = |model: &SweptFeedforward| LegendKey {
             name: model.name.clone(),
             ink: comparison.ink_of(&model.name),
         };
@@ -117,7 +117,7 @@ fn panels(
         let errors = errors.map(|error| 1e3 * error);
         let y_axis = LogAxis::over_decades(errors, MOST_DECADES, [y[1], y[0]])?;
         let x_axis = LogAxis::over(sweep.scales.iter().copied(), [x[0] + 10.0, x[1] - 10.0])?;
-        let curve = |model: &SweptModel| Curve {
+        let curve = |model: &SweptFeedforward| Curve {
             colour: colours.of(comparison.ink_of(&model.name)),
             ..Curve::new(&sweep.scales, model, joint, [x_axis, y_axis])
         };
@@ -135,7 +135,7 @@ fn panels(
 }
 
 impl Curve {
-    fn new(scales: &[f64], model: &SweptModel, joint: usize, [x, y]: [LogAxis; 2]) -> Self {
+    fn new(scales: &[f64], model: &SweptFeedforward, joint: usize, [x, y]: [LogAxis; 2]) -> Self {
         let mut points: Vec<(f64, Option<f64>)> = scales
             .iter()
             .zip(&model.rmse_rad)

@@ -7,7 +7,7 @@ use crate::mjcf::classes::{Classes, MAIN};
 use crate::mjcf::compiler::{Compiler, InertiaSource};
 use crate::mjcf::element::Element;
 use crate::mjcf::geom::{Geom, Meshes};
-use crate::mjcf::joint::{Motion, motion, read_joint};
+use crate::mjcf::joint::{MjcfMotion, motion, read_joint};
 use crate::mjcf::unread::Unread;
 use crate::mjcf::view::View;
 use crate::structure::inertia::Inertia;
@@ -145,7 +145,7 @@ impl<'a> Walk<'a> {
         let view = self.view(element, place.class);
         let name = element.get("name").map_or_else(|| format!("{link}_joint"), str::to_owned);
         let kind = motion(&view, &name)?;
-        if kind == Motion::Free {
+        if kind == MjcfMotion::Free {
             if place.link.is_some() {
                 return Err(RobotError::UnsupportedJoint { joint: name, kind: "free" });
             }

@@ -7,7 +7,7 @@ use crate::structure::joint::{Joint, JointKind, Limits};
 
 /// How a joint of an MJCF moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Motion {
+pub enum MjcfMotion {
     Hinge,
     Slide,
     /// All six ways: that of a base.
@@ -19,14 +19,14 @@ pub enum Motion {
 /// # Errors
 ///
 /// [`RobotError::UnsupportedJoint`] for a ball, [`RobotError::BadElement`] for an unknown word.
-pub fn motion(view: &View<'_>, name: &str) -> Result<Motion, RobotError> {
+pub fn motion(view: &View<'_>, name: &str) -> Result<MjcfMotion, RobotError> {
     if view.element.name == "freejoint" {
-        return Ok(Motion::Free);
+        return Ok(MjcfMotion::Free);
     }
     match view.text("type").unwrap_or("hinge") {
-        "hinge" => Ok(Motion::Hinge),
-        "slide" => Ok(Motion::Slide),
-        "free" => Ok(Motion::Free),
+        "hinge" => Ok(MjcfMotion::Hinge),
+        "slide" => Ok(MjcfMotion::Slide),
+        "free" => Ok(MjcfMotion::Free),
         "ball" => Err(RobotError::UnsupportedJoint { joint: name.to_owned(), kind: "ball" }),
         other => {
             let reason = format!("type=\"{other}\" was found, hinge or slide was expected");
@@ -51,7 +51,7 @@ pub struct Driven {
 pub fn read_joint(
     view: &View<'_>,
     name: &str,
-    kind: Motion,
+    kind: MjcfMotion,
     parent_from_body: &Isometry3<f64>,
 ) -> Result<Driven, RobotError> {
     let axis = view.vector("axis")?.unwrap_or_else(Vector3::z);
@@ -59,7 +59,7 @@ pub fn read_joint(
         Unit::try_new(axis, 0.0).ok_or_else(|| RobotError::ZeroAxis { joint: name.to_owned() })?;
     let position = view.vector("pos")?.unwrap_or_default();
     let body_from_joint = Isometry3::from(Translation3::from(position));
-    let is_hinge = kind == Motion::Hinge;
+    let is_hinge = kind == MjcfMotion::Hinge;
     let place = |value: f64| if is_hinge { view.compiler.radians(value) } else { value };
     let at_rest = place(view.number("ref")?.unwrap_or(0.0));
     let back = if is_hinge {
@@ -72,8 +72,8 @@ pub fn read_joint(
     let joint = Joint {
         name: name.to_owned(),
         kind: match (kind, position) {
-            (Motion::Hinge, None) => JointKind::Continuous,
-            (Motion::Hinge, Some(_)) => JointKind::Revolute,
+            (MjcfMotion::Hinge, None) => JointKind::Continuous,
+            (MjcfMotion::Hinge, Some(_)) => JointKind::Revolute,
             _ => JointKind::Prismatic,
         },
         parent_from_joint: parent_from_body * body_from_joint * back,

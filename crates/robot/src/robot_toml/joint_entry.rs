@@ -5,8 +5,8 @@ use crate::loaded::Loaded;
 use crate::misfit::Misfit;
 use crate::range::{Range, in_range};
 use crate::structure::actuator::{
-    Actuator, Counterbalance, Coupling, FrictionWave, Ripple, SensingSide, Stribeck, TorqueSource,
-    Warming,
+    Actuator, CounterbalanceTerm, Coupling, FrictionWave, Ripple, SensingSide, Stribeck,
+    TorqueSource, Warming,
 };
 use crate::structure::control::PdGain;
 
@@ -369,13 +369,13 @@ impl JointEntry {
         Ok(Some(Ripple { amplitude: amplitude_nm, periods: periods_per_turn, phase: phase_rad }))
     }
 
-    fn counterbalance(&self, site: &KeyPath) -> Result<Option<Counterbalance>, Misfit> {
+    fn counterbalance(&self, site: &KeyPath) -> Result<Option<CounterbalanceTerm>, Misfit> {
         let Some(CounterbalanceEntry { amplitude_nm, phase_rad }) = self.counterbalance else {
             return Ok(None);
         };
         in_range(site, "counterbalance.amplitude_nm", amplitude_nm, Range::NotNegative)?;
         in_range(site, "counterbalance.phase_rad", phase_rad, Range::Finite)?;
-        Ok(Some(Counterbalance { amplitude: amplitude_nm, phase: phase_rad }))
+        Ok(Some(CounterbalanceTerm { amplitude: amplitude_nm, phase: phase_rad }))
     }
 
     fn coupling(

@@ -86,7 +86,7 @@ pub struct Ripple {
 /// `amplitude = k a b`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Counterbalance {
+pub struct CounterbalanceTerm {
     /// Largest torque that the drive needs against it (N·m).
     pub amplitude: f64,
     /// Phase at position zero (rad).
@@ -149,7 +149,7 @@ pub struct Coupling {
 /// s       = sign(qd), 0 at rest; with presliding ds = (dq - |dq| s) / presliding
 /// ```
 ///
-/// [`FrictionWave`], [`Stribeck`], [`Warming`], [`Ripple`] and [`Counterbalance`] define the other terms.
+/// [`FrictionWave`], [`Stribeck`], [`Warming`], [`Ripple`] and [`CounterbalanceTerm`] define the other terms.
 /// `viscous` and `coulomb` are those of the cold drive. `tau_rb`, the spring and the counterbalance
 /// act at the link, all other terms at the motor.
 ///
@@ -206,7 +206,7 @@ pub struct Actuator {
     /// Half the width of that spring's hysteresis loop (N·m or N), not below 0.
     pub spring_hysteresis: f64,
     /// Spring or counterweight that balances part of the weight; `None` without it.
-    pub counterbalance: Option<Counterbalance>,
+    pub counterbalance: Option<CounterbalanceTerm>,
     /// Reported effort per unit of true torque.
     pub torque_gain: f64,
     /// Effort reported at zero torque (N·m or N).

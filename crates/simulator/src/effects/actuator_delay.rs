@@ -5,8 +5,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::delay_line::DelayLine;
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Inject, Moment};
@@ -27,7 +27,7 @@ pub struct ActuatorDelay {
     pub delay_ms: f64,
 }
 
-impl Effect for ActuatorDelay {
+impl ScenarioEffect for ActuatorDelay {
     const KIND: EffectKind = EffectKind::ActuatorDelay;
 
     fn truth(&self) -> Truth {

@@ -4,8 +4,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Inject, Moment};
@@ -27,7 +27,7 @@ pub struct ActuatorLag {
     pub time_constant_ms: f64,
 }
 
-impl Effect for ActuatorLag {
+impl ScenarioEffect for ActuatorLag {
     const KIND: EffectKind = EffectKind::ActuatorLag;
 
     fn truth(&self) -> Truth {

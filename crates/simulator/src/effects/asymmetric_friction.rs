@@ -5,8 +5,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -30,7 +30,7 @@ pub struct AsymmetricFriction {
     pub backward_nm: f64,
 }
 
-impl Effect for AsymmetricFriction {
+impl ScenarioEffect for AsymmetricFriction {
     const KIND: EffectKind = EffectKind::AsymmetricFriction;
 
     fn truth(&self) -> Truth {

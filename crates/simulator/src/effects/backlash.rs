@@ -4,8 +4,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -32,7 +32,7 @@ pub struct Backlash {
 /// Largest play that is drawn (rad or m).
 const LARGEST: f64 = 0.03;
 
-impl Effect for Backlash {
+impl ScenarioEffect for Backlash {
     const KIND: EffectKind = EffectKind::Backlash;
 
     fn truth(&self) -> Truth {

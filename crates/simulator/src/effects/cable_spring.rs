@@ -7,8 +7,8 @@ use robot::{Actuator, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -56,7 +56,7 @@ pub enum Pulls {
     Below,
 }
 
-impl Effect for CableSpring {
+impl ScenarioEffect for CableSpring {
     const KIND: EffectKind = EffectKind::CableSpring;
 
     fn truth(&self) -> Truth {

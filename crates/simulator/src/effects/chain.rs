@@ -1,7 +1,7 @@
 use robot::Robot;
 
-use crate::effects::effect::chain_rank;
 use crate::effects::mistake::Mistake;
+use crate::effects::scenario_effect::chain_rank;
 use crate::effects::spec::EffectSpec;
 use crate::mechanics::inject::Inject;
 

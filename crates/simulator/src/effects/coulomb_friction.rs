@@ -4,8 +4,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -27,7 +27,7 @@ pub struct CoulombFriction {
     pub level_nm: f64,
 }
 
-impl Effect for CoulombFriction {
+impl ScenarioEffect for CoulombFriction {
     const KIND: EffectKind = EffectKind::CoulombFriction;
 
     fn truth(&self) -> Truth {

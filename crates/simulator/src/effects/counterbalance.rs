@@ -3,12 +3,12 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use catalogue::EffectKind;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use robot::{Counterbalance as Described, Robot};
+use robot::{CounterbalanceTerm, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -33,7 +33,7 @@ pub struct Counterbalance {
     pub phase_rad: f64,
 }
 
-impl Effect for Counterbalance {
+impl ScenarioEffect for Counterbalance {
     const KIND: EffectKind = EffectKind::Counterbalance;
 
     fn truth(&self) -> Truth {
@@ -49,7 +49,10 @@ impl Effect for Counterbalance {
         }
         within("amplitude_nm", self.amplitude_nm, 0.0, 1e5)?;
         within("phase_rad", self.phase_rad, -TAU, TAU)?;
-        Ok(acting(joint, Described { amplitude: self.amplitude_nm, phase: self.phase_rad }))
+        Ok(acting(
+            joint,
+            CounterbalanceTerm { amplitude: self.amplitude_nm, phase: self.phase_rad },
+        ))
     }
 
     /// A sine whose root mean square over a turn is the share, in any phase.
@@ -63,18 +66,18 @@ impl Effect for Counterbalance {
 }
 
 /// A counterbalance of a joint, ready to act.
-pub(super) fn acting(joint: usize, balance: Described) -> Box<dyn Inject> {
+pub(super) fn acting(joint: usize, balance: CounterbalanceTerm) -> Box<dyn Inject> {
     Box::new(Injected { joint, balance })
 }
 
 struct Injected {
     joint: usize,
-    balance: Described,
+    balance: CounterbalanceTerm,
 }
 
 impl Inject for Injected {
     fn on_substep(&mut self, moment: &Moment<'_>, efforts: &mut Efforts) {
-        let Described { amplitude, phase } = self.balance;
+        let CounterbalanceTerm { amplitude, phase } = self.balance;
         efforts.link[self.joint] -= amplitude * (moment.q[self.joint] + phase).sin();
     }
 

@@ -7,8 +7,8 @@ use robot::{Coupling, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -52,7 +52,7 @@ pub struct DifferentialCoupling {
     pub level_difference_nm: f64,
 }
 
-impl Effect for DifferentialCoupling {
+impl ScenarioEffect for DifferentialCoupling {
     const KIND: EffectKind = EffectKind::DifferentialCoupling;
 
     fn truth(&self) -> Truth {

@@ -5,8 +5,8 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -30,7 +30,7 @@ pub struct EncoderOffset {
     pub offset_rad: f64,
 }
 
-impl Effect for EncoderOffset {
+impl ScenarioEffect for EncoderOffset {
     const KIND: EffectKind = EffectKind::EncoderOffset;
 
     fn truth(&self) -> Truth {

@@ -8,8 +8,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, link_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -51,7 +51,7 @@ pub enum ExternalDisturbance {
     },
 }
 
-impl Effect for ExternalDisturbance {
+impl ScenarioEffect for ExternalDisturbance {
     const KIND: EffectKind = EffectKind::ExternalDisturbance;
 
     fn truth(&self) -> Truth {

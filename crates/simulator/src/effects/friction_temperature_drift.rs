@@ -5,8 +5,8 @@ use robot::{Robot, Warming};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -34,7 +34,7 @@ pub struct FrictionTemperatureDrift {
     pub time_constant_s: f64,
 }
 
-impl Effect for FrictionTemperatureDrift {
+impl ScenarioEffect for FrictionTemperatureDrift {
     const KIND: EffectKind = EffectKind::FrictionTemperatureDrift;
 
     fn truth(&self) -> Truth {

@@ -8,8 +8,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -34,7 +34,7 @@ pub struct GravityDirection {
     pub tilt_y_rad: f64,
 }
 
-impl Effect for GravityDirection {
+impl ScenarioEffect for GravityDirection {
     const KIND: EffectKind = EffectKind::GravityDirection;
 
     fn truth(&self) -> Truth {

@@ -6,9 +6,9 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, link_of};
 use crate::effects::payload::{body, mass_and_com, symmetric};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::{Surroundings, direction};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -40,7 +40,7 @@ const MOST_DRAWN: f64 = 2.0;
 /// Longest way by which a drawn centre of mass is off (m).
 const FARTHEST_DRAWN_M: f64 = 0.15;
 
-impl Effect for InertialParameters {
+impl ScenarioEffect for InertialParameters {
     const KIND: EffectKind = EffectKind::InertialParameters;
 
     fn truth(&self) -> Truth {

@@ -7,8 +7,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -36,7 +36,7 @@ pub struct JointElasticity {
 /// Lowest frequency at which a joint rings on the spring that is drawn (Hz).
 const SLOWEST_HZ: f64 = 3.0;
 
-impl Effect for JointElasticity {
+impl ScenarioEffect for JointElasticity {
     const KIND: EffectKind = EffectKind::JointElasticity;
 
     fn truth(&self) -> Truth {

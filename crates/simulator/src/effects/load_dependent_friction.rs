@@ -4,8 +4,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -29,7 +29,7 @@ pub struct LoadDependentFriction {
     pub coefficient: f64,
 }
 
-impl Effect for LoadDependentFriction {
+impl ScenarioEffect for LoadDependentFriction {
     const KIND: EffectKind = EffectKind::LoadDependentFriction;
 
     fn truth(&self) -> Truth {

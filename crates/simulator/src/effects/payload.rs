@@ -8,8 +8,8 @@ use robot::{Inertia, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, link_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::{Surroundings, direction};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -34,7 +34,7 @@ pub struct Payload {
     pub inertia_kg_m2: Option<[f64; 6]>,
 }
 
-impl Effect for Payload {
+impl ScenarioEffect for Payload {
     const KIND: EffectKind = EffectKind::Payload;
 
     fn truth(&self) -> Truth {

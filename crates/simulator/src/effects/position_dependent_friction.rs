@@ -7,8 +7,8 @@ use robot::{FrictionWave, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -36,7 +36,7 @@ pub struct PositionDependentFriction {
     pub phase_rad: f64,
 }
 
-impl Effect for PositionDependentFriction {
+impl ScenarioEffect for PositionDependentFriction {
     const KIND: EffectKind = EffectKind::PositionDependentFriction;
 
     fn truth(&self) -> Truth {

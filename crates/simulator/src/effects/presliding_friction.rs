@@ -5,8 +5,8 @@ use robot::{Actuator, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -40,7 +40,7 @@ pub struct PreslidingFriction {
     pub level_nm: f64,
 }
 
-impl Effect for PreslidingFriction {
+impl ScenarioEffect for PreslidingFriction {
     const KIND: EffectKind = EffectKind::PreslidingFriction;
 
     fn truth(&self) -> Truth {

@@ -4,8 +4,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -26,7 +26,7 @@ pub struct RotorInertia {
     pub inertia_kg_m2: f64,
 }
 
-impl Effect for RotorInertia {
+impl ScenarioEffect for RotorInertia {
     const KIND: EffectKind = EffectKind::RotorInertia;
 
     fn truth(&self) -> Truth {

@@ -12,7 +12,6 @@ use crate::effects::cable_spring::CableSpring;
 use crate::effects::coulomb_friction::CoulombFriction;
 use crate::effects::counterbalance::Counterbalance;
 use crate::effects::differential_coupling::DifferentialCoupling;
-use crate::effects::effect::Effect;
 use crate::effects::encoder_offset::EncoderOffset;
 use crate::effects::external_disturbance::ExternalDisturbance;
 use crate::effects::friction_temperature_drift::FrictionTemperatureDrift;
@@ -25,6 +24,7 @@ use crate::effects::payload::Payload;
 use crate::effects::position_dependent_friction::PositionDependentFriction;
 use crate::effects::presliding_friction::PreslidingFriction;
 use crate::effects::rotor_inertia::RotorInertia;
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::stribeck_friction::StribeckFriction;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::time_skew::TimeSkew;
@@ -37,7 +37,7 @@ use crate::effects::truth::Truth;
 use crate::effects::viscous_friction::ViscousFriction;
 use crate::mechanics::inject::Inject;
 
-/// Makes [`EffectSpec`] of the catalogue's list of effects, and calls the [`Effect`] that it is.
+/// Makes [`EffectSpec`] of the catalogue's list of effects, and calls the [`ScenarioEffect`] that it is.
 macro_rules! effects {
     ($($(#[$meaning:meta])* $name:ident $file:ident $code:literal;)*) => {
         /// Any effect, as `[[effect]]` of a scenario states it: one key, the effect's name.
@@ -51,7 +51,7 @@ macro_rules! effects {
             /// Its name.
             pub fn kind(&self) -> EffectKind {
                 match self {
-                    $(Self::$name(_) => <$name as Effect>::KIND,)*
+                    $(Self::$name(_) => <$name as ScenarioEffect>::KIND,)*
                 }
             }
 
@@ -62,7 +62,7 @@ macro_rules! effects {
                 }
             }
 
-            /// The effect ready to act on a robot; see [`Effect::inject`].
+            /// The effect ready to act on a robot; see [`ScenarioEffect::inject`].
             ///
             /// # Errors
             ///
@@ -74,7 +74,7 @@ macro_rules! effects {
                 }
             }
 
-            /// An effect of a kind, drawn; see [`Effect::draw`].
+            /// An effect of a kind, drawn; see [`ScenarioEffect::draw`].
             pub fn draw(
                 kind: EffectKind,
                 at: &Surroundings<'_>,
@@ -82,7 +82,7 @@ macro_rules! effects {
                 random: &mut ChaCha8Rng,
             ) -> Self {
                 match kind {
-                    $(EffectKind::$name => Self::$name(Effect::draw(at, share, random)),)*
+                    $(EffectKind::$name => Self::$name(ScenarioEffect::draw(at, share, random)),)*
                 }
             }
         }

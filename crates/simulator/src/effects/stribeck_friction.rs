@@ -5,8 +5,8 @@ use robot::{Robot, Stribeck};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -33,7 +33,7 @@ pub struct StribeckFriction {
     pub stribeck_velocity_rad_per_s: f64,
 }
 
-impl Effect for StribeckFriction {
+impl ScenarioEffect for StribeckFriction {
     const KIND: EffectKind = EffectKind::StribeckFriction;
 
     fn truth(&self) -> Truth {

@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::delay_line::DelayLine;
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -32,7 +32,7 @@ pub struct TimeSkew {
     pub skew_ms: f64,
 }
 
-impl Effect for TimeSkew {
+impl ScenarioEffect for TimeSkew {
     const KIND: EffectKind = EffectKind::TimeSkew;
 
     fn truth(&self) -> Truth {

@@ -5,8 +5,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -33,7 +33,7 @@ pub struct TorqueConstant {
     pub gain: f64,
 }
 
-impl Effect for TorqueConstant {
+impl ScenarioEffect for TorqueConstant {
     const KIND: EffectKind = EffectKind::TorqueConstant;
 
     fn truth(&self) -> Truth {

@@ -5,8 +5,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -29,7 +29,7 @@ pub struct TorqueOffset {
     pub offset_nm: f64,
 }
 
-impl Effect for TorqueOffset {
+impl ScenarioEffect for TorqueOffset {
     const KIND: EffectKind = EffectKind::TorqueOffset;
 
     fn truth(&self) -> Truth {

@@ -7,8 +7,8 @@ use robot::{Ripple, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
@@ -37,7 +37,7 @@ pub struct TorqueRipple {
     pub phase_rad: f64,
 }
 
-impl Effect for TorqueRipple {
+impl ScenarioEffect for TorqueRipple {
     const KIND: EffectKind = EffectKind::TorqueRipple;
 
     fn truth(&self) -> Truth {

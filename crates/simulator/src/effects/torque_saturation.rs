@@ -6,8 +6,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Inject, Moment};
@@ -28,7 +28,7 @@ pub struct TorqueSaturation {
     pub limit_nm: f64,
 }
 
-impl Effect for TorqueSaturation {
+impl ScenarioEffect for TorqueSaturation {
     const KIND: EffectKind = EffectKind::TorqueSaturation;
 
     fn truth(&self) -> Truth {

@@ -5,8 +5,8 @@ use robot::{Reading, Robot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -31,7 +31,7 @@ pub struct TransmissionRatio {
     pub ratio: f64,
 }
 
-impl Effect for TransmissionRatio {
+impl ScenarioEffect for TransmissionRatio {
     const KIND: EffectKind = EffectKind::TransmissionRatio;
 
     fn truth(&self) -> Truth {

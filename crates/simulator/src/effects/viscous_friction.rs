@@ -4,8 +4,8 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::effect::Effect;
 use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
@@ -28,7 +28,7 @@ pub struct ViscousFriction {
     pub viscous_nm_s_per_rad: f64,
 }
 
-impl Effect for ViscousFriction {
+impl ScenarioEffect for ViscousFriction {
     const KIND: EffectKind = EffectKind::ViscousFriction;
 
     fn truth(&self) -> Truth {

@@ -6,7 +6,7 @@ use rand_chacha::rand_core::SeedableRng;
 use crate::effects::spec::EffectSpec;
 use crate::effects::surroundings::{JointLevel, Surroundings};
 use crate::error::SimulatorError;
-use crate::run::follow::{Causes, ControlRow, Following, follow, simulator};
+use crate::run::follow::{ArmCauses, ControlRow, Following, follow, simulator};
 use crate::scenario::check::{Scenario, ScenarioRun};
 use crate::scenario::spec::HiddenSpec;
 use crate::sensors::{JointSensor, Sensors};
@@ -64,7 +64,7 @@ impl<'a> EffectSizer<'a> {
     }
 
     /// An effect at a joint whose torque is about `share` of the joint's. The size is the estimate of
-    /// [`Effect::draw`](crate::effects::Effect::draw), not checked by simulation.
+    /// [`ScenarioEffect::draw`](crate::effects::ScenarioEffect::draw), not checked by simulation.
     ///
     /// # Panics
     ///
@@ -104,7 +104,7 @@ impl<'a> EffectSizer<'a> {
         let seen = &scenario.spec().sensors;
         let silent = vec![silent; joints];
         let sensors = Sensors::new(seen.position, seen.effort, seen.velocity, silent, 0);
-        let causes = Causes { effects: &effects, strangers: scenario.strangers() };
+        let causes = ArmCauses { effects: &effects, strangers: scenario.strangers() };
         simulator(scenario.robot(), causes, sensors, scenario.stepping())
     }
 

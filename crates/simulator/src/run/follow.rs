@@ -12,7 +12,7 @@ use crate::{effects, strangers};
 
 /// The effects and strangers in an arm.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Causes<'a> {
+pub(crate) struct ArmCauses<'a> {
     pub effects: &'a [EffectSpec],
     pub strangers: &'a [StrangerSpec],
 }
@@ -40,11 +40,11 @@ pub(crate) struct Following<'a> {
 /// Builds a simulator. Strangers of the drive act first, then the effects, then all other strangers.
 pub(crate) fn simulator(
     robot: &Robot,
-    causes: Causes<'_>,
+    causes: ArmCauses<'_>,
     sensors: Sensors,
     stepping: Stepping,
 ) -> Result<Simulator, SimulatorError> {
-    let Causes { effects, strangers } = causes;
+    let ArmCauses { effects, strangers } = causes;
     let injected: Vec<Box<dyn Inject>> =
         effects::chain::inject_all(effects, robot).map_err(|(index, mistake)| {
             SimulatorError::Effect {

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::effects::spec::EffectSpec;
 use crate::effects::truth::Truth;
 use crate::error::SimulatorError;
-use crate::run::follow::{Causes, ControlRow, Following, follow, simulator};
+use crate::run::follow::{ArmCauses, ControlRow, Following, follow, simulator};
 use crate::run::hidden::draw_hidden;
 use crate::run::log::{LogClock, draw_dropouts, log_of_rows};
 use crate::scenario::check::{Scenario, ScenarioRun};
@@ -59,7 +59,7 @@ pub fn simulate_only(
     on_second: &(dyn Fn() + Sync),
 ) -> Result<Simulation, SimulatorError> {
     let effects = all_effects(scenario)?;
-    let causes = Causes { effects: &effects, strangers: scenario.strangers() };
+    let causes = ArmCauses { effects: &effects, strangers: scenario.strangers() };
     let runs: Vec<_> =
         scenario.runs().iter().enumerate().filter(|(_, run)| wanted(&run.name)).collect();
     let runs = runs
@@ -87,7 +87,7 @@ pub fn simulate_noise_free(
     effects: &[EffectSpec],
     strangers: &[StrangerSpec],
 ) -> Result<Vec<Run>, SimulatorError> {
-    let causes = Causes { effects, strangers };
+    let causes = ArmCauses { effects, strangers };
     let runs: Vec<_> = scenario.runs().iter().filter(|run| wanted(&run.name)).collect();
     let runs =
         runs.into_par_iter().map(|run| follow_without_noise(scenario, causes, run, f64::INFINITY));
@@ -106,7 +106,7 @@ pub fn simulate_noise_free_start(
 ) -> Result<Run, SimulatorError> {
     follow_without_noise(
         scenario,
-        Causes { effects, strangers: &[] },
+        ArmCauses { effects, strangers: &[] },
         &scenario.runs()[0],
         longest_s,
     )
@@ -114,7 +114,7 @@ pub fn simulate_noise_free_start(
 
 fn follow_without_noise(
     scenario: &Scenario,
-    causes: Causes<'_>,
+    causes: ArmCauses<'_>,
     run: &ScenarioRun,
     longest_s: f64,
 ) -> Result<Run, SimulatorError> {
@@ -133,7 +133,7 @@ fn follow_without_noise(
 pub fn arm(scenario: &Scenario, part: u64) -> Result<Simulator, SimulatorError> {
     let effects = all_effects(scenario)?;
     let sensors = scenario.sensors(mix_seed(mix_seed(scenario.seed(), u64::MAX), part));
-    let causes = Causes { effects: &effects, strangers: scenario.strangers() };
+    let causes = ArmCauses { effects: &effects, strangers: scenario.strangers() };
     simulator(scenario.robot(), causes, sensors, scenario.stepping())
 }
 
@@ -156,7 +156,7 @@ fn all_effects(scenario: &Scenario) -> Result<Vec<EffectSpec>, SimulatorError> {
 
 fn simulate_run(
     scenario: &Scenario,
-    causes: Causes<'_>,
+    causes: ArmCauses<'_>,
     index: usize,
     run: &ScenarioRun,
     on_second: &(dyn Fn() + Sync),
@@ -190,7 +190,7 @@ fn simulate_run(
 /// The rows of a run at the controller's rate, with exact times.
 fn follow_run(
     scenario: &Scenario,
-    causes: Causes<'_>,
+    causes: ArmCauses<'_>,
     sensors: Sensors,
     run: &ScenarioRun,
     longest_s: f64,

@@ -6,7 +6,7 @@ use crate::strangers::kind::StrangerKind;
 use crate::strangers::spec::StrangerSpec;
 
 /// Prepared strangers: those that act before the effects of a scenario, and those that act after them.
-pub(crate) struct Injected {
+pub(crate) struct InjectedStrangers {
     pub ahead: Vec<Box<dyn Inject>>,
     pub behind: Vec<Box<dyn Inject>>,
 }
@@ -23,7 +23,7 @@ pub(crate) struct Injected {
 pub(crate) fn inject_all(
     strangers: &[StrangerSpec],
     robot: &Robot,
-) -> Result<Injected, (usize, Mistake)> {
+) -> Result<InjectedStrangers, (usize, Mistake)> {
     let mut ranked = Vec::with_capacity(strangers.len());
     for (index, stranger) in strangers.iter().enumerate() {
         let inject = stranger.inject(robot).map_err(|mistake| (index, mistake))?;
@@ -33,7 +33,7 @@ pub(crate) fn inject_all(
     let first_behind = ranked.partition_point(|(rank, _)| *rank < BEHIND);
     let behind = ranked.split_off(first_behind);
     let plain = |ranked: Vec<(usize, Box<dyn Inject>)>| ranked.into_iter().map(|r| r.1).collect();
-    Ok(Injected { ahead: plain(ranked), behind: plain(behind) })
+    Ok(InjectedStrangers { ahead: plain(ranked), behind: plain(behind) })
 }
 
 /// Least rank of strangers that act after the effects.

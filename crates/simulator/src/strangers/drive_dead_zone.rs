@@ -7,7 +7,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// A drive to which small commands are none.
@@ -27,7 +27,7 @@ pub struct DriveDeadZone {
     pub width_nm: f64,
 }
 
-impl Stranger for DriveDeadZone {
+impl ScenarioStranger for DriveDeadZone {
     const KIND: StrangerKind = StrangerKind::DriveDeadZone;
 
     fn truth(&self) -> StrangerTruth {

@@ -10,7 +10,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::Inject;
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// Largest eccentricity that is drawn (rad): a disc of 20 mm that is 2 mm off.
@@ -37,7 +37,7 @@ pub struct EccentricEncoder {
     pub phase_rad: f64,
 }
 
-impl Stranger for EccentricEncoder {
+impl ScenarioStranger for EccentricEncoder {
     const KIND: StrangerKind = StrangerKind::EccentricEncoder;
 
     fn truth(&self) -> StrangerTruth {

@@ -8,7 +8,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// An integrator in the drive that nobody asked for: a slow torque up to its limit.
@@ -31,7 +31,7 @@ pub struct IntegratorWindup {
     pub limit_nm: f64,
 }
 
-impl Stranger for IntegratorWindup {
+impl ScenarioStranger for IntegratorWindup {
     const KIND: StrangerKind = StrangerKind::IntegratorWindup;
 
     fn truth(&self) -> StrangerTruth {

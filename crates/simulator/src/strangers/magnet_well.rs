@@ -9,7 +9,7 @@ use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::strangers::bump::Bump;
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::{Stranger, span, stiffest};
+use crate::strangers::scenario_stranger::{ScenarioStranger, span, stiffest};
 use crate::strangers::truth::StrangerTruth;
 
 /// A place that attracts the link, as two magnets that pass each other do.
@@ -40,7 +40,7 @@ impl MagnetWell {
     }
 }
 
-impl Stranger for MagnetWell {
+impl ScenarioStranger for MagnetWell {
     const KIND: StrangerKind = StrangerKind::MagnetWell;
 
     fn truth(&self) -> StrangerTruth {

@@ -9,7 +9,7 @@ use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::strangers::bump::Bump;
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::{Stranger, span};
+use crate::strangers::scenario_stranger::{ScenarioStranger, span};
 use crate::strangers::truth::StrangerTruth;
 
 /// A place where the joint rubs: a narrow bump of dry friction.
@@ -40,7 +40,7 @@ impl Snag {
     }
 }
 
-impl Stranger for Snag {
+impl ScenarioStranger for Snag {
     const KIND: StrangerKind = StrangerKind::Snag;
 
     fn truth(&self) -> StrangerTruth {

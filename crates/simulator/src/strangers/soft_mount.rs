@@ -13,7 +13,7 @@ use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::mechanics::plant::Plant;
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// A base that tilts under the weight of its arm, as one on rubber or on a thin table does.
@@ -40,7 +40,7 @@ pub struct SoftMount {
     pub damping_ratio: f64,
 }
 
-impl Stranger for SoftMount {
+impl ScenarioStranger for SoftMount {
     const KIND: StrangerKind = StrangerKind::SoftMount;
 
     fn truth(&self) -> StrangerTruth {

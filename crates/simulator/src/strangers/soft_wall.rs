@@ -8,7 +8,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::{Stranger, span, stiffest};
+use crate::strangers::scenario_stranger::{ScenarioStranger, span, stiffest};
 use crate::strangers::truth::StrangerTruth;
 
 /// Something soft in the way of a link: a spring with damping on one side.
@@ -55,7 +55,7 @@ impl Side {
     }
 }
 
-impl Stranger for SoftWall {
+impl ScenarioStranger for SoftWall {
     const KIND: StrangerKind = StrangerKind::SoftWall;
 
     fn truth(&self) -> StrangerTruth {

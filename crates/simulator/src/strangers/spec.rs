@@ -12,18 +12,18 @@ use crate::strangers::integrator_windup::IntegratorWindup;
 use crate::strangers::kind::StrangerKind;
 use crate::strangers::list::for_each_stranger;
 use crate::strangers::magnet_well::MagnetWell;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::snag::Snag;
 use crate::strangers::soft_mount::SoftMount;
 use crate::strangers::soft_wall::SoftWall;
 use crate::strangers::speed_crosstalk::SpeedCrosstalk;
 use crate::strangers::square_drag::SquareDrag;
-use crate::strangers::stranger::Stranger;
 use crate::strangers::tilting_bearing::TiltingBearing;
 use crate::strangers::torque_dropout::TorqueDropout;
 use crate::strangers::torque_rate_limit::TorqueRateLimit;
 use crate::strangers::truth::StrangerTruth;
 
-/// Makes [`StrangerSpec`] of the list of strangers, and calls the [`Stranger`] that it is.
+/// Makes [`StrangerSpec`] of the list of strangers, and calls the [`ScenarioStranger`] that it is.
 macro_rules! strangers {
     ($($(#[$meaning:meta])* $name:ident $file:ident;)*) => {
         /// Any stranger, as `[[stranger]]` of a scenario states it: one key, the stranger's name.
@@ -37,7 +37,7 @@ macro_rules! strangers {
             /// Its name.
             pub fn kind(&self) -> StrangerKind {
                 match self {
-                    $(Self::$name(_) => <$name as Stranger>::KIND,)*
+                    $(Self::$name(_) => <$name as ScenarioStranger>::KIND,)*
                 }
             }
 
@@ -48,7 +48,7 @@ macro_rules! strangers {
                 }
             }
 
-            /// The stranger ready to act on a robot; see [`Stranger::inject`].
+            /// The stranger ready to act on a robot; see [`ScenarioStranger::inject`].
             ///
             /// # Errors
             ///
@@ -60,7 +60,7 @@ macro_rules! strangers {
                 }
             }
 
-            /// A stranger of a kind, drawn; see [`Stranger::draw`].
+            /// A stranger of a kind, drawn; see [`ScenarioStranger::draw`].
             pub fn draw(
                 kind: StrangerKind,
                 at: &Surroundings<'_>,
@@ -68,7 +68,7 @@ macro_rules! strangers {
                 random: &mut ChaCha8Rng,
             ) -> Self {
                 match kind {
-                    $(StrangerKind::$name => Self::$name(Stranger::draw(at, share, random)),)*
+                    $(StrangerKind::$name => Self::$name(ScenarioStranger::draw(at, share, random)),)*
                 }
             }
         }

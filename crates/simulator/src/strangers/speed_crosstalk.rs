@@ -8,7 +8,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// Torque at one joint from the speed of another, as from a hose that is bent by both, or from
@@ -30,7 +30,7 @@ pub struct SpeedCrosstalk {
     pub coefficient_nm_s_per_rad: f64,
 }
 
-impl Stranger for SpeedCrosstalk {
+impl ScenarioStranger for SpeedCrosstalk {
     const KIND: StrangerKind = StrangerKind::SpeedCrosstalk;
 
     /// The joint is the one that the torque acts at.

@@ -7,7 +7,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// Drag with the square of the speed, as of a link that moves through water, or of much oil.
@@ -24,7 +24,7 @@ pub struct SquareDrag {
     pub coefficient_nm_s2_per_rad2: f64,
 }
 
-impl Stranger for SquareDrag {
+impl ScenarioStranger for SquareDrag {
     const KIND: StrangerKind = StrangerKind::SquareDrag;
 
     fn truth(&self) -> StrangerTruth {

@@ -7,7 +7,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// Largest coefficient, of a bearing whose neighbours carry little.
@@ -30,7 +30,7 @@ pub struct TiltingBearing {
     pub coefficient: f64,
 }
 
-impl Stranger for TiltingBearing {
+impl ScenarioStranger for TiltingBearing {
     const KIND: StrangerKind = StrangerKind::TiltingBearing;
 
     fn truth(&self) -> StrangerTruth {

@@ -11,7 +11,7 @@ use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Inject, Moment};
 use crate::seed::mix_seed;
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// Torque that is gone for moments, as with a loose plug.
@@ -40,7 +40,7 @@ pub struct TorqueDropout {
     pub seed: u64,
 }
 
-impl Stranger for TorqueDropout {
+impl ScenarioStranger for TorqueDropout {
     const KIND: StrangerKind = StrangerKind::TorqueDropout;
 
     /// The rate is told in 1/s.

@@ -8,7 +8,7 @@ use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::surroundings::Surroundings;
 use crate::mechanics::inject::{Inject, Moment};
 use crate::strangers::kind::StrangerKind;
-use crate::strangers::stranger::Stranger;
+use crate::strangers::scenario_stranger::ScenarioStranger;
 use crate::strangers::truth::StrangerTruth;
 
 /// Torque that changes no faster than it can, as of a drive short of voltage.
@@ -34,7 +34,7 @@ pub struct TorqueRateLimit {
     pub behind_nm: Option<f64>,
 }
 
-impl Stranger for TorqueRateLimit {
+impl ScenarioStranger for TorqueRateLimit {
     const KIND: StrangerKind = StrangerKind::TorqueRateLimit;
 
     fn truth(&self) -> StrangerTruth {

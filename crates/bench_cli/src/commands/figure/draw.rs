@@ -6,10 +6,10 @@ use document::Document;
 use crate::commands::figure::arguments::Arguments;
 use crate::commands::figure::{learning, prediction_time};
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Draws a figure of the paper and says of every claim about it whether it holds.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
+pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     let mut document = Document::read(&arguments.scenario)?;
     for assignment in &arguments.set {
         document.set(assignment)?;

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::commands::figure::arguments::Arguments;
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// The errors on the data of one arm.
 #[derive(Serialize, Deserialize)]
@@ -32,7 +32,7 @@ pub fn run(
     arguments: &Arguments,
     document: &Document,
     out: &Path,
-) -> Result<ExitStatus, BenchError> {
+) -> Result<BenchExitStatus, BenchError> {
     let figure = LearningFigure::from_document(document, arguments.seed)?;
     create_folder(out)?;
     let watch = Watch::of_all((!arguments.output.quiet).then(Line::new));
@@ -62,7 +62,7 @@ pub fn run(
         figure_files.join("\n               ")
     );
     arguments.output.say(&json, &report.text(), &closing)?;
-    Ok(ExitStatus::Good)
+    Ok(BenchExitStatus::Good)
 }
 
 /// What the motion outside is.

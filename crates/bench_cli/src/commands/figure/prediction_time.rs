@@ -1,7 +1,7 @@
 use std::path::Path;
 
-use benchmark::{Curve, PredictionTimeFigureReport, PredictionTimes};
 use benchmark::{PredictionTimeFigure, time_claims};
+use benchmark::{PredictionTimeFigureReport, PredictionTimes, TimeCurve};
 use cli::{Line, RunFolder, Watch, create_folder, display_path, hash, provenance};
 use document::Document;
 use experiment::Product;
@@ -9,7 +9,7 @@ use experiment::Product;
 use crate::commands::figure::arguments::Arguments;
 use crate::commands::times::curves::{AS_WRITTEN, MadeUp, curves, machine};
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// What is to know of the two curves of the rigid-body kernel.
 const KERNELS: &str = "The rigid-body kernel is a product, so that its sum over the training points is one vector: \
@@ -20,7 +20,7 @@ pub fn run(
     arguments: &Arguments,
     document: &Document,
     out: &Path,
-) -> Result<ExitStatus, BenchError> {
+) -> Result<BenchExitStatus, BenchError> {
     let figure = PredictionTimeFigure::from_document(document, arguments.seed)?;
     create_folder(out)?;
     let watch = Watch::of_all((!arguments.output.quiet).then(Line::new));
@@ -55,11 +55,11 @@ pub fn run(
         display_path(&out.join("figure1.svg"))
     );
     arguments.output.say(&json, &report.text(), &closing)?;
-    Ok(ExitStatus::Good)
+    Ok(BenchExitStatus::Good)
 }
 
 /// The times on this machine, measured now or before.
-fn measure(figure: &PredictionTimeFigure, run: RunFolder) -> Result<Vec<Curve>, BenchError> {
+fn measure(figure: &PredictionTimeFigure, run: RunFolder) -> Result<Vec<TimeCurve>, BenchError> {
     let (points, seed) = (figure.points(), figure.seed());
     let said = format!("{points:?} {seed} {}", machine());
     let inputs = RunFolder::inputs(figure.robot_file(), figure.loaded(), &said)?;

@@ -10,7 +10,7 @@ use crate::commands::submit::array_job::ArrayJob;
 use crate::commands::submit::job_number::JobNumber;
 use crate::commands::submit::sbatch_option::SbatchOption;
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Parts of a campaign where none are asked for: far below the 1000 that an array of Slurm has at
 /// most as long as nobody has set another limit, and enough to keep a lab's nodes busy.
@@ -50,17 +50,17 @@ enum Engine {
 }
 
 /// Writes the job that makes what is left, and submits it.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
+pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     let folder = CampaignFolder::open(&arguments.folder)?;
     let left = folder.remaining(Part::WHOLE)?;
     if left.is_empty() {
         print("0 trials left, nothing is submitted\n")?;
-        return Ok(ExitStatus::Good);
+        return Ok(BenchExitStatus::Good);
     }
     match arguments.engine {
         Engine::Slurm => to_slurm(arguments, &left)?,
     }
-    Ok(ExitStatus::Good)
+    Ok(BenchExitStatus::Good)
 }
 
 fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), BenchError> {

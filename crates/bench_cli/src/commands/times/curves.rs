@@ -1,6 +1,6 @@
 use std::hint::black_box;
 
-use benchmark::{Curve, Maker, TimePoint};
+use benchmark::{Maker, TimeCurve, TimePoint};
 use cli::{Watch, median_query_us, median_us};
 use dynamics::ColumnSet;
 use gaussian_process::{GaussianKernel, KernelSum};
@@ -30,10 +30,17 @@ pub struct MadeUp<'a> {
 }
 
 /// Our own curves, as far as they are not stopped.
-pub fn curves(robot: &Robot, made_up: MadeUp, watch: &Watch) -> Result<Vec<Curve>, LearnerError> {
-    let curve =
-        |name: &str| Curve { name: name.to_owned(), maker: Maker::Plumbline, points: Vec::new() };
-    let mut curves: Vec<Curve> = MODELS.iter().map(|kind| curve(kind.name())).collect();
+pub fn curves(
+    robot: &Robot,
+    made_up: MadeUp,
+    watch: &Watch,
+) -> Result<Vec<TimeCurve>, LearnerError> {
+    let curve = |name: &str| TimeCurve {
+        name: name.to_owned(),
+        maker: Maker::Plumbline,
+        points: Vec::new(),
+    };
+    let mut curves: Vec<TimeCurve> = MODELS.iter().map(|kind| curve(kind.name())).collect();
     let mut as_written = curve(AS_WRITTEN);
     let states = samples(robot, STATES, made_up.seed);
     for &n in made_up.points {

@@ -7,7 +7,7 @@ use report::ReportError;
 use crate::commands::times::curves::{MadeUp, curves, machine};
 use crate::commands::times::peers;
 use crate::error::BenchError;
-use crate::exit_status::ExitStatus;
+use crate::exit_status::BenchExitStatus;
 
 /// Numbers of training points.
 const POINTS: [usize; 6] = [100, 300, 1000, 3000, 10_000, 30_000];
@@ -33,7 +33,7 @@ pub struct Arguments {
 
 /// Times one prediction against the number of training points, as in figure 1 of Nguyen-Tuong
 /// & Peters 2010, for models of made-up points, beside other programs where there are any.
-pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
+pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     if let Some(out) = arguments.out.as_deref().filter(|out| out.exists() && !out.is_dir()) {
         return Err(ReportError::NotAFolder { path: out.to_owned() }.into());
     }
@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, BenchError> {
         (true, false) => {}
         (false, false) => print(&text(arguments, &times))?,
     }
-    Ok(ExitStatus::Good)
+    Ok(BenchExitStatus::Good)
 }
 
 fn text(arguments: &Arguments, times: &PredictionTimes) -> String {

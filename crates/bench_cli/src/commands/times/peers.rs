@@ -1,7 +1,7 @@
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use benchmark::{Curve, Maker, TimePoint};
+use benchmark::{Maker, TimeCurve, TimePoint};
 use serde::Deserialize;
 
 /// Times the queries of other programs; see there.
@@ -20,7 +20,7 @@ struct Line {
 
 /// The times of scikit-learn and NumPy for these numbers of points; a sentence where they
 /// cannot be had.
-pub fn measure(points: &[usize]) -> Result<Vec<Curve>, String> {
+pub fn measure(points: &[usize]) -> Result<Vec<TimeCurve>, String> {
     let output =
         run(points).map_err(|error| format!("no peers: python3 cannot be run ({error})"))?;
     let text = String::from_utf8_lossy(&output.stdout);
@@ -48,13 +48,13 @@ fn run(points: &[usize]) -> std::io::Result<Output> {
 }
 
 /// The lines by peer, in the order of their first appearance.
-fn curves(lines: Vec<Line>) -> Vec<Curve> {
-    let mut curves: Vec<Curve> = Vec::new();
+fn curves(lines: Vec<Line>) -> Vec<TimeCurve> {
+    let mut curves: Vec<TimeCurve> = Vec::new();
     for Line { peer, n, microseconds_p50 } in lines {
         let point = TimePoint { n, microseconds: microseconds_p50 };
         match curves.iter_mut().find(|curve| curve.name == peer) {
             Some(curve) => curve.points.push(point),
-            None => curves.push(Curve { name: peer, maker: Maker::Peer, points: vec![point] }),
+            None => curves.push(TimeCurve { name: peer, maker: Maker::Peer, points: vec![point] }),
         }
     }
     curves

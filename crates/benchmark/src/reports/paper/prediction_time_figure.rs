@@ -99,7 +99,7 @@ impl PredictionTimes {
 #[cfg(test)]
 mod tests {
     use crate::paper::time_claims::time_claims;
-    use experiment::Verdict;
+    use experiment::ClaimVerdict;
 
     use super::*;
     use crate::reports::sample;
@@ -110,8 +110,8 @@ mod tests {
         let times = sample::times();
         assert_eq!(times.each().len(), 5);
         let claims = time_claims(&times.each(), "scikit-learn");
-        assert_eq!(claims[0].verdict, Verdict::Holds);
-        assert_eq!(claims[1].verdict, Verdict::NotJudged, "no gp-rbd");
+        assert_eq!(claims[0].verdict, ClaimVerdict::Holds);
+        assert_eq!(claims[1].verdict, ClaimVerdict::NotJudged, "no gp-rbd");
         let report = PredictionTimeFigureReport { times: &times, claims: &claims };
         let text = without_escapes(&report.text());
         assert!(

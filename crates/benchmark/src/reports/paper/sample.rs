@@ -8,13 +8,13 @@ use crate::reports::paper::learning_figure::LearningFigureReport;
 use crate::reports::sample::provenance;
 
 /// What a [`LearningFigureReport`] borrows.
-pub struct Sample {
+pub struct LearningFigureSample {
     pub errors: LearningErrors,
     pub claims: Vec<Claim>,
     pub provenance: Provenance,
 }
 
-impl Sample {
+impl LearningFigureSample {
     pub fn report(&self) -> LearningFigureReport<'_> {
         LearningFigureReport {
             errors: &self.errors,
@@ -47,9 +47,9 @@ pub fn errors() -> LearningErrors {
     }
 }
 
-pub fn learning() -> Sample {
+pub fn learning() -> LearningFigureSample {
     let case = |value: f64| ClaimCase::within("rbd", "shoulder", Some(value), 0.1);
-    Sample {
+    LearningFigureSample {
         errors: errors(),
         claims: vec![
             Claim::new("rbd is small here", Scope::Every, vec![case(0.001)]),

@@ -16,7 +16,7 @@ pub struct PredictionTimes {
     /// The machine, in words.
     pub machine: String,
     /// The measured times.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<TimeCurve>,
     /// Times that were not measured and why, and cautions about the numbers, in sentences.
     pub remarks: Vec<String>,
     /// Where it all comes from.
@@ -25,7 +25,7 @@ pub struct PredictionTimes {
 
 /// The times of one model or program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Curve {
+pub struct TimeCurve {
     /// Its name.
     pub name: String,
     /// Whose it is.

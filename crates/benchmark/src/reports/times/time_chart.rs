@@ -4,7 +4,7 @@ use pages::{
     shorten,
 };
 
-use crate::reports::times::prediction_times::{Curve, Maker, PredictionTimes};
+use crate::reports::times::prediction_times::{Maker, PredictionTimes, TimeCurve};
 
 /// Height of the figure, edges of the curves (px): left, right, upper, lower.
 const HEIGHT: f64 = 480.0;
@@ -103,7 +103,7 @@ impl Drawing {
 
 /// The curves that have points, their names far enough apart.
 fn lines(
-    curves: &[Curve],
+    curves: &[TimeCurve],
     (x, y): (LogAxis, LogAxis),
     (lower, colours): (f64, &Palette),
 ) -> Vec<Line> {

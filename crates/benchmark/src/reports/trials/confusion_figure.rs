@@ -3,7 +3,7 @@ use colours::Role;
 use pages::{FigureSheet, Ink, LegendKey, Medium, Palette, ReportError, round_px};
 
 use crate::tables::confusion::Confusion;
-use crate::tables::tally::Group;
+use crate::tables::tally::TrialGroup;
 
 /// Left and right edge of the cells, height of a row, room for the names of the columns and what
 /// is left between two cells (px).
@@ -101,14 +101,14 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
 /// Of two effects either may be first: no column is theirs.
 fn colour(
     colours: &Palette,
-    injected: Group,
+    injected: TrialGroup,
     own: Option<usize>,
     (column, columns): (usize, usize),
 ) -> String {
     match own {
         Some(own) if own == column => colours.extended(),
         _ if column + 1 == columns => colours.measured(),
-        None if injected == Group::Two => colours.soft.to_owned(),
+        None if injected == TrialGroup::Two => colours.soft.to_owned(),
         _ => colours.nominal(),
     }
 }

@@ -4,7 +4,7 @@ use pages::{Provenance, ReportError, escape_json, render_page};
 use crate::reports::trials::confusion_figure::confusion_figure;
 use crate::reports::trials::table::table;
 use crate::tables::merged::Merged;
-use crate::tables::tally::Group;
+use crate::tables::tally::TrialGroup;
 use crate::trials::failure::Failure;
 use crate::trials::kind_count::KindCount;
 
@@ -62,12 +62,12 @@ pub fn trials_page(
 /// How well the largest groups were diagnosed, in a sentence.
 fn sentence(merged: &Merged) -> String {
     let of = |group| merged.tally.rows.iter().find(|row| row.injected == group);
-    let one = of(Group::One).map(|row| {
+    let one = of(TrialGroup::One).map(|row| {
         format!("one hidden effect is named exactly {} of {} times", row.exactly.count, row.trials)
     });
-    let two = of(Group::Two)
+    let two = of(TrialGroup::Two)
         .map(|row| format!("two hidden effects are {} of {} times", row.exactly.count, row.trials));
-    let clean = of(Group::Clean).map(|row| {
+    let clean = of(TrialGroup::Clean).map(|row| {
         let made_up = row.trials - row.exactly.count.min(row.trials);
         format!("something is made up in {made_up} of {} clean arms", row.trials)
     });
@@ -86,14 +86,14 @@ mod tests {
     use crate::tables::gained::{Gained, Reduction};
     use crate::tables::merged::MERGED_SCHEMA;
     use crate::tables::power::{Power, SizeClass};
-    use crate::tables::tally::{Row, Tally};
+    use crate::tables::tally::{Tally, TallyRow};
     use catalogue::EffectKind::{Backlash, CoulombFriction};
 
     use super::*;
 
-    fn row(injected: Group, count: usize, named: &[(&'static str, usize)]) -> Row {
+    fn row(injected: TrialGroup, count: usize, named: &[(&'static str, usize)]) -> TallyRow {
         let share = Share::new(count, 4);
-        Row {
+        TallyRow {
             injected,
             trials: 4,
             exactly: share,
@@ -108,7 +108,7 @@ mod tests {
     }
 
     fn merged() -> Merged {
-        let kind = Group::Kind;
+        let kind = TrialGroup::Kind;
         let count = |hidden: &str| KindCount {
             hidden: hidden.to_owned(),
             made: 4,
@@ -130,8 +130,8 @@ mod tests {
                 rows: vec![
                     row(kind(CoulombFriction), 4, &[("FR02", 4)]),
                     row(kind(Backlash), 2, &[("TR01", 2), ("FR02", 1), ("nothing", 1)]),
-                    row(Group::One, 3, &[]),
-                    row(Group::Clean, 4, &[("nothing", 4)]),
+                    row(TrialGroup::One, 3, &[]),
+                    row(TrialGroup::Clean, 4, &[("nothing", 4)]),
                 ],
             },
             power: vec![Power {
@@ -149,7 +149,7 @@ mod tests {
         let torque = Reduction { median: Some(11.7), least: Some(0.4), halved };
         let drift = Reduction { median: Some(2.0), ..torque.clone() };
         let tracking = Reduction { median: None, least: None, halved: Share::new(0, 0) };
-        Gained { injected: Group::Kind(Backlash), trials: 4, torque, drift, tracking }
+        Gained { injected: TrialGroup::Kind(Backlash), trials: 4, torque, drift, tracking }
     }
 
     fn page(merged: &Merged, doubts: &[String]) -> String {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use effects::{Frame, RunMotion as Along};
 use logs::{Channels, Prepared, Run};
 use motion::{MotionSpec, State};
-use next_motion::{Design, DesignedMotion, Goal, Prospect, SEPARATING_NATS};
+use next_motion::{DesignedMotion, ExcitationDesign, Goal, Prospect, SEPARATING_NATS};
 use robot::Robot;
 use serde::Serialize;
 
@@ -20,7 +20,7 @@ const FILES: [&str; 3] = ["motion.csv", "motion.parquet", "motion.toml"];
 const WIDTH: usize = 96;
 
 /// What the motion is for and what it brings, goal by goal.
-pub fn words(design: &Design, robot: &Robot, logs: Option<&Prepared>) -> String {
+pub fn words(design: &ExcitationDesign, robot: &Robot, logs: Option<&Prepared>) -> String {
     let runs = logs.map_or_else(Default::default, |logs| logs.runs.as_slice());
     let logged: f64 = runs.iter().map(|run| run.time.len() as f64 / run.rate_hz).sum();
     let length = design.motion.as_ref().map_or(0.0, |m| m.motion.duration_s());

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare};
-use next_motion::{Design, DesignSettings, DesignedMotion, Goal, Prospect, Question};
+use next_motion::{DesignSettings, DesignedMotion, ExcitationDesign, Goal, Prospect, Question};
 use robot::{Loaded, Robot};
 
 use super::cause;
@@ -28,7 +28,7 @@ pub struct MotionRequest<'a> {
 /// The result of a search: the motion, where one is worth running, and its information.
 pub struct MotionDesign {
     robot: Robot,
-    design: Design,
+    design: ExcitationDesign,
     text: String,
     rate_hz: f64,
 }

@@ -3,7 +3,7 @@ use std::path::Path;
 use diagnosis::{DiagnosisRun, Verdict};
 use experiment::{Residual, learn_residual};
 use learner::Model;
-use report::{LengthScale, ResidualJoint, ResidualModel};
+use report::{LengthScale, ResidualJointRow, ResidualModel};
 use robot::Robot;
 
 use crate::error::CliError;
@@ -49,7 +49,10 @@ fn model(outcome: &DiagnosisRun, residual: &Residual) -> ResidualModel {
     }
 }
 
-fn joint_of(joint: &diagnosis::JointReport, residual: &experiment::ResidualJoint) -> ResidualJoint {
+fn joint_of(
+    joint: &diagnosis::JointReport,
+    residual: &experiment::ResidualJoint,
+) -> ResidualJointRow {
     // Where everything has a name, nothing is to be said of what it bends with.
     let is_left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
     let scales = residual.relevance.iter().filter(|_| is_left);
@@ -57,7 +60,7 @@ fn joint_of(joint: &diagnosis::JointReport, residual: &experiment::ResidualJoint
         signal: r.signal.clone(),
         share_of_range: r.share_of_range,
     };
-    ResidualJoint {
+    ResidualJointRow {
         name: joint.name.clone(),
         extended_rms_nm: residual.extended_rms,
         with_residual_rms_nm: residual.with_process_rms,

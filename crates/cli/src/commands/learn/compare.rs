@@ -10,7 +10,7 @@ use report::{ComparedJoint, LearningComparison, ModelRow};
 use robot::{Loaded, Robot};
 
 use super::arguments::Arguments;
-use super::data::Data;
+use super::data::LearningData;
 use super::row::row;
 use super::timing::median_query_us;
 use crate::error::CliError;
@@ -26,7 +26,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Exit
     let robot = &loaded.robot;
     let named = arguments.named.as_deref().map(|path| read_named(path, robot)).transpose()?;
     settings(arguments, Vec::new()).check()?;
-    let data = Data::read(arguments, loaded)?;
+    let data = LearningData::read(arguments, loaded)?;
     let out = arguments.out.as_path();
     create_folder(out)?;
     let learned = Learning { arguments, robot, named: named.as_ref(), data: &data, watch }.run(out);
@@ -81,7 +81,7 @@ struct Learning<'a> {
     arguments: &'a Arguments,
     robot: &'a Robot,
     named: Option<&'a Robot>,
-    data: &'a Data,
+    data: &'a LearningData,
     watch: &'a Watch,
 }
 

@@ -21,7 +21,7 @@ const REGRESSION: &str = "regression";
 const MOST_TESTED: usize = 5000;
 
 /// The data that models learn from and are tested on, all through one filter.
-pub struct Data {
+pub struct LearningData {
     /// What Gaussian processes learn from.
     pub train: Set,
     /// What the rigid bodies come from, where that is something else.
@@ -44,7 +44,7 @@ pub struct Set {
     pub samples: Samples,
 }
 
-impl Data {
+impl LearningData {
     /// Reads the logs, and refuses one that a model would be trained and tested on.
     pub fn read(arguments: &Arguments, loaded: &Loaded) -> Result<Self, CliError> {
         let read = |role: &str, paths: &[PathBuf]| -> Result<Vec<Run>, CliError> {

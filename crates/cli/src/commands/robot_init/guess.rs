@@ -22,7 +22,7 @@ const DAMPED_A_PERIOD: f64 = 0.3;
 
 /// Rotor and gains of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drive {
+pub struct DriveGuess {
     /// Inertia of the rotor (kg m² or kg).
     pub rotor: f64,
     /// Gains of the controller.
@@ -42,7 +42,7 @@ pub struct Drive {
 /// ```
 ///
 /// the extremes over postures within the limits.
-pub fn drives(robot: &Robot, known: &[Option<PdGain>], rate_hz: f64) -> Vec<Drive> {
+pub fn drives(robot: &Robot, known: &[Option<PdGain>], rate_hz: f64) -> Vec<DriveGuess> {
     let n = robot.joint_count();
     let dynamics = Dynamics::new(robot);
     let postures: Vec<Vec<f64>> = (0..POSTURES).map(|k| posture(robot, k)).collect();
@@ -72,7 +72,7 @@ pub fn drives(robot: &Robot, known: &[Option<PdGain>], rate_hz: f64) -> Vec<Driv
             let kd = 2.0 * DAMPING * (kp * inertia).sqrt();
             let kd = kd.min(DAMPED_A_PERIOD * rate_hz * least[j]);
             let given = known.get(j).copied().flatten();
-            Drive {
+            DriveGuess {
                 rotor: rotors[j],
                 gain: given.unwrap_or(PdGain { kp: round(kp), kd: round(kd) }),
                 rotor_guessed: robot.links()[j].actuator.rotor_inertia <= 0.0,
@@ -83,7 +83,7 @@ pub fn drives(robot: &Robot, known: &[Option<PdGain>], rate_hz: f64) -> Vec<Driv
 }
 
 /// The robot with these rotors.
-pub fn with_rotors(robot: &Robot, drives: &[Drive]) -> Robot {
+pub fn with_rotors(robot: &Robot, drives: &[DriveGuess]) -> Robot {
     let mut robot = robot.clone();
     for (index, drive) in drives.iter().enumerate() {
         if let Some(link) = robot.link_mut(index) {

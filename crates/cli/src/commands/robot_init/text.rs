@@ -6,7 +6,7 @@ use std::path::Path;
 use robot::{Link, Loaded, Robot};
 
 use super::excitation::{Excitation, SEEDS};
-use super::guess::Drive;
+use super::guess::DriveGuess;
 use super::quote::{key, quote};
 
 const OTHERS: &str = "\
@@ -19,7 +19,7 @@ const OTHERS: &str = "\
 ";
 
 /// The text of `robot.toml`.
-pub fn robot_toml(loaded: &Loaded, model: &Path, drives: &[Drive], rate_hz: f64) -> String {
+pub fn robot_toml(loaded: &Loaded, model: &Path, drives: &[DriveGuess], rate_hz: f64) -> String {
     let robot = &loaded.robot;
     let mut text = format!(
         "# {}: what its description cannot say. Replace what is called a guess.\nurdf = {}\n",
@@ -54,7 +54,7 @@ pub fn robot_toml(loaded: &Loaded, model: &Path, drives: &[Drive], rate_hz: f64)
     text
 }
 
-fn joint(text: &mut String, link: &Link, drive: &Drive) {
+fn joint(text: &mut String, link: &Link, drive: &DriveGuess) {
     let limits = &link.joint.limits;
     let _ = writeln!(text, "\n[joint.{}]", key(&link.joint.name));
     if drive.rotor_guessed {

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use diagnosis::Settings;
-use experiment::{Blinded, ExperimentError, Inputs, Product, Stage, Staged};
+use experiment::{Blinded, ExperimentError, Product, Stage, StageInputs, Staged};
 use logs::{ReadOptions, Run};
 use report::{DiagnosisSummary, Report};
 use robot::{Loaded, Robot};
@@ -45,7 +45,7 @@ impl RunFolder<'_> {
         &self,
         name: &str,
         words: &str,
-        inputs: Inputs,
+        inputs: StageInputs,
         make: impl FnOnce() -> Result<Product<T>, E>,
     ) -> Result<Staged<T>, E> {
         let start = Instant::now();
@@ -63,8 +63,8 @@ impl RunFolder<'_> {
     /// # Errors
     ///
     /// [`CliError`] when a file cannot be read or written.
-    pub fn inputs(robot_file: &Path, loaded: &Loaded, said: &str) -> Result<Inputs, CliError> {
-        let inputs = Inputs::of(env!("CARGO_PKG_VERSION")).and(said.as_bytes());
+    pub fn inputs(robot_file: &Path, loaded: &Loaded, said: &str) -> Result<StageInputs, CliError> {
+        let inputs = StageInputs::of(env!("CARGO_PKG_VERSION")).and(said.as_bytes());
         Ok(inputs.and_file(robot_file)?.and_file(&loaded.urdf_path)?)
     }
 

@@ -2,8 +2,8 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use experiment::{
-    Blinded, DiagnosedLogs, Experiment, ForwardGap, Inputs, Learned, Metrics, Outputs, Product,
-    Score, Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap,
+    Blinded, DiagnosedLogs, Experiment, ForwardGap, Learned, Metrics, Outputs, Product, Score,
+    StageInputs, Staged, TorqueError, TrackedError, TrackedRun, TrackingScenario, forward_gap,
     torque_errors, track_all, tracking_claims,
 };
 use logs::{PrepareSettings, Run};
@@ -225,13 +225,13 @@ impl Stages<'_> {
         &self,
         name: &str,
         words: &str,
-        inputs: Inputs,
+        inputs: StageInputs,
         make: impl FnOnce() -> Result<Product<T>, CliError>,
     ) -> Result<Staged<T>, CliError> {
         self.folder().stage(name, words, inputs, make)
     }
 
-    fn inputs(&self, said: &str) -> Result<Inputs, CliError> {
+    fn inputs(&self, said: &str) -> Result<StageInputs, CliError> {
         RunFolder::inputs(self.experiment.plant().robot_file(), self.loaded(), said)
     }
 

@@ -5,7 +5,7 @@ use experiment::{
 };
 use recording::Listener;
 use report::{
-    ComparedJoint, ControllerGains, ErrorSweep, FirstSeconds, ReportError, SweptModel,
+    ComparedJoint, ControllerGains, ErrorSweep, FirstSeconds, ReportError, SweptFeedforward,
     TrackedModel, TrackingComparison, WallTiming,
 };
 use robot::PdGain;
@@ -142,7 +142,7 @@ fn sweep(swept: &GainSweep) -> ErrorSweep {
         duration_s: swept.duration_s,
         scales: swept.scales.clone(),
         models: models
-            .map(|model| SweptModel {
+            .map(|model| SweptFeedforward {
                 name: model.kind.name().to_owned(),
                 rmse_rad: model.rmse.clone(),
             })

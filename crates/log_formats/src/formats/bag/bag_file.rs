@@ -11,7 +11,7 @@ use crate::{
         sha256::sha256_of_files,
         table::{Needed, Table},
     },
-    format::{Format, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::bag::{
         folder_files::files_of,
         joint_state::{JointState, TYPE},
@@ -70,7 +70,7 @@ impl Opened for Bag {
     }
 }
 
-impl Format for Storage {
+impl FileFormat for Storage {
     fn name(&self) -> &'static str {
         self.name
     }

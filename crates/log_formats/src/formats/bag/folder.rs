@@ -1,9 +1,9 @@
 use std::path::Path;
 
 use crate::{
-    common::{damage::Damage, error::FormatError, strangers::NOT_A_BAG},
+    common::{damage::Damage, error::FormatError, unread_kinds::NOT_A_BAG},
     content::{Formats, Kind},
-    format::{Opened, Request},
+    file_format::{Opened, Request},
     formats::bag::{bag_file::Bag, folder_files::files_of, storage::STORAGES},
 };
 

@@ -3,7 +3,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::common::{error::FormatError, strangers::NO_BAG_FILE};
+use crate::common::{error::FormatError, unread_kinds::NO_BAG_FILE};
 
 /// What stands in a folder that is a bag.
 const DESCRIPTION: &str = "metadata.yaml";

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use crate::{
-    common::table::{Cell, Needed, Rows, Table},
+    common::table::{Needed, Rows, Table, TableCell},
     formats::bag::joint_state::JointState,
 };
 
@@ -109,13 +109,13 @@ impl JointStates {
     pub(crate) fn load(&self, needed: &Needed) -> Result<Table, (usize, usize)> {
         let mut rows = Rows::new(&self.names, needed);
         let start_ns = self.messages.first().map_or(0, |(stamp_ns, _)| *stamp_ns);
-        let mut cells = vec![Cell::Empty; self.names.len()];
+        let mut cells = vec![TableCell::Empty; self.names.len()];
         let mut values = self.values.iter();
         for (index, (stamp_ns, layout)) in self.messages.iter().enumerate() {
-            cells.fill(Cell::Empty);
-            cells[0] = Cell::Number((stamp_ns - start_ns) as f64 / 1e9);
+            cells.fill(TableCell::Empty);
+            cells[0] = TableCell::Number((stamp_ns - start_ns) as f64 / 1e9);
             for (&column, &value) in self.filled[*layout].iter().zip(&mut values) {
-                cells[column] = Cell::Number(value);
+                cells[column] = TableCell::Number(value);
             }
             rows.push(index + 1, &cells).map_err(|column| (index + 1, column))?;
         }

@@ -2,7 +2,7 @@ use std::{fs::File, path::Path};
 
 use crate::{
     common::{damage::Damage, error::FormatError},
-    format::Magic,
+    file_format::Magic,
     formats::bag::{mcap::mcap_file, sqlite::sqlite_file, topic::MessageSink},
 };
 

@@ -9,10 +9,10 @@ use crate::{
         damage::Damage,
         error::FormatError,
         sha256::sha256_of_files,
-        strangers::PROSE,
-        table::{Cell, Needed, Rows, Table},
+        table::{Needed, Rows, Table, TableCell},
+        unread_kinds::PROSE,
     },
-    format::{Format, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::csv::dialect::{Dialect, Header, Numerals},
 };
 
@@ -24,7 +24,7 @@ const TAIL: u64 = 1 << 22;
 /// What text is that is of no other kind.
 pub(crate) struct Csv;
 
-impl Format for Csv {
+impl FileFormat for Csv {
     fn name(&self) -> &'static str {
         "CSV"
     }
@@ -109,10 +109,10 @@ impl CsvFile {
         row: usize,
         column: usize,
         record: &csv::ByteRecord,
-        cells: &[Cell],
+        cells: &[TableCell],
     ) -> FormatError {
         let (path, name) = (self.path.clone(), self.names[column].clone());
-        if cells[column] == Cell::Empty {
+        if cells[column] == TableCell::Empty {
             return FormatError::MissingValue { path, row, column: name };
         }
         let found = self.dialect.fields(record).nth(column).unwrap_or_default();

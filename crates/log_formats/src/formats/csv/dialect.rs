@@ -1,4 +1,4 @@
-use crate::common::table::Cell;
+use crate::common::table::TableCell;
 
 /// How the rows of a text are written: what parts the fields, and where the rows begin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,7 +128,7 @@ fn separator(text: &[u8]) -> u8 {
 }
 
 fn is_number(field: &[u8], separator: u8) -> bool {
-    matches!(Numerals::between(separator).cell(field), Cell::Number(_))
+    matches!(Numerals::between(separator).cell(field), TableCell::Number(_))
 }
 
 /// How the numbers of a column are written.
@@ -148,11 +148,11 @@ impl Numerals {
 
     /// What a field holds. A comma stands before the fraction, never between thousands; a column
     /// that has points has no commas.
-    pub(crate) fn cell(&mut self, field: &[u8]) -> Cell {
+    pub(crate) fn cell(&mut self, field: &[u8]) -> TableCell {
         if field.is_empty() {
-            return Cell::Empty;
+            return TableCell::Empty;
         }
-        let Ok(text) = std::str::from_utf8(field) else { return Cell::Text };
+        let Ok(text) = std::str::from_utf8(field) else { return TableCell::Text };
         let (has_comma, has_point) = (text.contains(','), text.contains('.'));
         let number: Option<f64> = match (has_comma, has_point) {
             (false, _) => text.parse().ok(),
@@ -161,12 +161,14 @@ impl Numerals {
         };
         let mark = if has_comma { Some(b',') } else { has_point.then_some(b'.') };
         match number {
-            Some(_) if mark.is_some() && self.mark.is_some() && mark != self.mark => Cell::Text,
+            Some(_) if mark.is_some() && self.mark.is_some() && mark != self.mark => {
+                TableCell::Text
+            }
             Some(number) => {
                 self.mark = self.mark.or(mark);
-                Cell::Number(number)
+                TableCell::Number(number)
             }
-            None => Cell::Text,
+            None => TableCell::Text,
         }
     }
 }
@@ -214,12 +216,12 @@ mod tests {
     #[test]
     fn a_comma_stands_before_the_fraction_where_it_parts_no_fields() {
         let mut column = Numerals::between(b';');
-        assert_eq!(column.cell(b"3"), Cell::Number(3.0));
-        assert_eq!(column.cell(b"-0,5e-1"), Cell::Number(-0.05));
-        assert_eq!(column.cell(b"0.5"), Cell::Text, "points beside commas");
-        assert_eq!(column.cell(b"1.234,5"), Cell::Text);
-        assert_eq!(column.cell(b"1,234,5"), Cell::Text);
-        assert_eq!(column.cell(b""), Cell::Empty);
-        assert_eq!(Numerals::between(b',').cell(b"0,5"), Cell::Text);
+        assert_eq!(column.cell(b"3"), TableCell::Number(3.0));
+        assert_eq!(column.cell(b"-0,5e-1"), TableCell::Number(-0.05));
+        assert_eq!(column.cell(b"0.5"), TableCell::Text, "points beside commas");
+        assert_eq!(column.cell(b"1.234,5"), TableCell::Text);
+        assert_eq!(column.cell(b"1,234,5"), TableCell::Text);
+        assert_eq!(column.cell(b""), TableCell::Empty);
+        assert_eq!(Numerals::between(b',').cell(b"0,5"), TableCell::Text);
     }
 }

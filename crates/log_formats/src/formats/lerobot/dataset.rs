@@ -7,9 +7,9 @@ use std::{
 };
 
 use crate::{
-    common::{error::FormatError, strangers::NOT_PARQUET},
+    common::{error::FormatError, unread_kinds::NOT_PARQUET},
     content::{Formats, Kind},
-    format::Format,
+    file_format::FileFormat,
     formats::parquet::parquet_file::{Parquet, ParquetFile},
 };
 
@@ -22,7 +22,7 @@ const EPISODE: &str = "episode_index";
 
 /// A dataset of LeRobot: which rows of its files each episode is.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Dataset {
+pub struct LerobotDataset {
     pub(crate) folder: PathBuf,
     pub(crate) files: Vec<Arc<DataFile>>,
 }
@@ -42,7 +42,7 @@ pub(crate) fn is_dataset(path: &Path) -> bool {
     path.join(DESCRIPTION).is_file()
 }
 
-impl Dataset {
+impl LerobotDataset {
     /// The dataset in a folder; `None` where a path is none.
     pub(crate) fn of_folder(path: &Path, formats: &Formats) -> Result<Option<Self>, FormatError> {
         if !is_dataset(path) {

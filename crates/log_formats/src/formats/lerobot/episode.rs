@@ -11,9 +11,9 @@ use crate::{
         table::{Needed, Table},
     },
     content::Formats,
-    format::Opened,
+    file_format::Opened,
     formats::{
-        lerobot::dataset::{DESCRIPTION, DataFile, Dataset, open},
+        lerobot::dataset::{DESCRIPTION, DataFile, LerobotDataset, open},
         parquet::{list_column::part_name, parquet_file::ParquetFile},
     },
 };
@@ -50,13 +50,15 @@ impl Episode {
     pub(crate) fn open(
         path: &Path,
         episode: Option<u64>,
-        dataset: Option<&Dataset>,
+        dataset: Option<&LerobotDataset>,
         formats: &Formats,
     ) -> Result<Self, FormatError> {
         let known = dataset.filter(|dataset| dataset.folder == path).cloned();
-        let dataset =
-            known.map_or_else(|| Dataset::of_folder(path, formats), |dataset| Ok(Some(dataset)))?;
-        let found = dataset.as_ref().map(Dataset::episodes).unwrap_or_default();
+        let dataset = known.map_or_else(
+            || LerobotDataset::of_folder(path, formats),
+            |dataset| Ok(Some(dataset)),
+        )?;
+        let found = dataset.as_ref().map(LerobotDataset::episodes).unwrap_or_default();
         let wanted = match (episode, found.as_slice()) {
             (Some(episode), found) if found.contains(&episode) => episode,
             (None, [only]) => *only,

@@ -13,7 +13,7 @@ use crate::{
         hdf5_tree::{Layout, read_arrays},
     },
     common::{allowance::Allowance, damage::Damage, error::FormatError},
-    format::{Format, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::matlab::element::{Elements, Order},
 };
 
@@ -28,7 +28,7 @@ pub(crate) struct Matlab5;
 /// Arrays in HDF5 behind a header of MATLAB (save -v7.3). Fields of a structure are `log.q`.
 pub(crate) struct Matlab73;
 
-impl Format for Matlab5 {
+impl FileFormat for Matlab5 {
     fn name(&self) -> &'static str {
         NAME
     }
@@ -48,7 +48,7 @@ impl Format for Matlab5 {
     }
 }
 
-impl Format for Matlab73 {
+impl FileFormat for Matlab73 {
     fn name(&self) -> &'static str {
         NAME
     }

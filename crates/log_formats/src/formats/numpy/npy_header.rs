@@ -6,7 +6,7 @@ use crate::{common::numeral::Item, formats::numpy::literal::Literal};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct NpyHeader {
     pub shape: Vec<u64>,
-    pub order: Order,
+    pub order: IndexOrder,
     /// What an item is made of; none where that is no row of simple things.
     pub item: Option<Vec<Field>>,
     /// Whether the fields have names.
@@ -17,7 +17,7 @@ pub(crate) struct NpyHeader {
 
 /// Which index runs fastest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Order {
+pub(crate) enum IndexOrder {
     /// The last one.
     C,
     /// The first one.
@@ -73,8 +73,8 @@ impl NpyHeader {
     fn parse(text: &str, length: u64) -> Option<Self> {
         let header = Literal::parse(text)?;
         let order = match header.get("fortran_order")? {
-            Literal::Truth(true) => Order::Fortran,
-            Literal::Truth(false) => Order::C,
+            Literal::Truth(true) => IndexOrder::Fortran,
+            Literal::Truth(false) => IndexOrder::C,
             _ => return None,
         };
         let shape = shape(header.get("shape")?)?;

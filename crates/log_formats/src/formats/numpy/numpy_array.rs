@@ -2,7 +2,7 @@ use std::io::{self, BufReader, Read};
 
 use crate::{
     common::numeral::Numeral,
-    formats::numpy::npy_header::{NpyHeader, Order},
+    formats::numpy::npy_header::{IndexOrder, NpyHeader},
 };
 
 /// The columns of an array of NumPy, and where their numbers lie.
@@ -56,7 +56,7 @@ impl NumpyArray {
             [first, second] => {
                 let is_turned = Some(first) != samples && Some(second) == samples;
                 let layout = match (header.order, is_turned) {
-                    (Order::C, false) | (Order::Fortran, true) => Layout::RowByRow,
+                    (IndexOrder::C, false) | (IndexOrder::Fortran, true) => Layout::RowByRow,
                     _ => Layout::ColumnByColumn,
                 };
                 let (samples, width) = if is_turned { (second, first) } else { (first, second) };

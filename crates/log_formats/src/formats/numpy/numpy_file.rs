@@ -13,10 +13,10 @@ use crate::{
         error::FormatError,
         guard::guard,
         sha256::sha256_of_files,
-        strangers::{NO_TABLE, of_archive},
         table::{Needed, Table},
+        unread_kinds::{NO_TABLE, of_archive},
     },
-    format::{Format, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::numpy::{
         npy_header::{MAGIC, NpyHeader},
         numpy_array::NumpyArray,
@@ -33,7 +33,7 @@ const PER_HEADER_BYTE: u64 = 32;
 /// An array of NumPy.
 pub(crate) struct Npy;
 
-impl Format for Npy {
+impl FileFormat for Npy {
     fn name(&self) -> &'static str {
         NAME
     }
@@ -56,7 +56,7 @@ impl Format for Npy {
 /// A zip archive, in which arrays of NumPy are looked for.
 pub(crate) struct Npz;
 
-impl Format for Npz {
+impl FileFormat for Npz {
     fn name(&self) -> &'static str {
         NAME
     }

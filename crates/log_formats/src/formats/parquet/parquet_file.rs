@@ -22,7 +22,7 @@ use crate::{
         sha256::sha256_of_files,
         table::{Needed, Table},
     },
-    format::{Format, Magic, Opened, Request},
+    file_format::{FileFormat, Magic, Opened, Request},
     formats::parquet::{
         array_numbers::{append, is_number},
         growing_columns::GrowingColumns,
@@ -39,7 +39,7 @@ const NAME: &str = "Parquet";
 /// Tables of Parquet.
 pub(crate) struct Parquet;
 
-impl Format for Parquet {
+impl FileFormat for Parquet {
     fn name(&self) -> &'static str {
         NAME
     }

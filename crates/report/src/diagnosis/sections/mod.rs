@@ -22,9 +22,9 @@ pub(crate) const OPENING: &[Draw] = &[
 
 /// What the page of a run shows as well.
 pub(crate) const FOUND: &[Draw] = &[
-    |report| draw::<findings::Findings>(report),
+    |report| draw::<findings::FoundEffects>(report),
     |report| draw::<negligible::NegligibleEffects>(report),
-    |report| draw::<unexplained::Unexplained>(report),
+    |report| draw::<unexplained::UnexplainedStructure>(report),
     |report| draw::<joints::Joints>(report),
     |report| draw::<descriptions::Descriptions>(report),
     |report| draw::<ruled_out::RuledOutEffects>(report),

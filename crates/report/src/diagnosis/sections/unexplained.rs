@@ -4,19 +4,19 @@ use pages::{ReportError, join_names, percent, significant};
 
 use crate::diagnosis::places::JointUnits;
 use crate::diagnosis::report::Report;
-use crate::diagnosis::residual::{ResidualJoint, ResidualModel};
+use crate::diagnosis::residual::{ResidualJointRow, ResidualModel};
 use crate::diagnosis::sections::section::Section;
 
 /// What the findings leave without a name.
 #[derive(Template)]
 #[template(path = "diagnosis/sections/unexplained.html")]
-pub(crate) struct Unexplained<'a> {
+pub(crate) struct UnexplainedStructure<'a> {
     rows: Vec<UnexplainedRow>,
     residual: Option<&'a ResidualModel>,
     residual_rows: Vec<ResidualRow>,
 }
 
-impl<'a> Section<'a> for Unexplained<'a> {
+impl<'a> Section<'a> for UnexplainedStructure<'a> {
     fn new(report: &Report<'a>) -> Result<Option<Self>, ReportError> {
         Ok(Some(Self {
             rows: unexplained_rows(report.diagnosis),
@@ -67,7 +67,7 @@ struct ResidualRow {
 
 fn residual_rows(report: &Report) -> Vec<ResidualRow> {
     let Some(residual) = report.residual else { return Vec::new() };
-    let row = |joint: &ResidualJoint| ResidualRow {
+    let row = |joint: &ResidualJointRow| ResidualRow {
         name: joint.name.clone(),
         unit: JointUnits::of(report.robot, &joint.name).effort,
         extended: significant(joint.extended_rms_nm, 3),

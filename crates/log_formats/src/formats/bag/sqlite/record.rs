@@ -2,7 +2,7 @@ use crate::formats::bag::sqlite::pages::varint;
 
 /// A value of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Value<'r> {
+pub(crate) enum SqliteValue<'r> {
     Null,
     Integer(i64),
     Text(&'r str),
@@ -16,7 +16,7 @@ pub(crate) enum Value<'r> {
 /// ```text
 /// record = bytes of the header, one type a column, one value a column
 /// ```
-pub(crate) fn value(record: &[u8], column: usize) -> Option<Value<'_>> {
+pub(crate) fn value(record: &[u8], column: usize) -> Option<SqliteValue<'_>> {
     let (header, types) = varint(record)?;
     let header = usize::try_from(header).ok()?;
     let types = types.get(..header.checked_sub(record.len() - types.len())?)?;
@@ -29,12 +29,12 @@ pub(crate) fn value(record: &[u8], column: usize) -> Option<Value<'_>> {
     let (kind, _) = varint(rest)?;
     let bytes = values.get(..size(kind)?)?;
     Some(match kind {
-        0 => Value::Null,
-        1..=6 => Value::Integer(integer(bytes)),
-        8 | 9 => Value::Integer(kind - 8),
-        12.. if kind % 2 == 0 => Value::Blob(bytes),
-        13.. => Value::Text(std::str::from_utf8(bytes).ok()?),
-        _ => Value::Real,
+        0 => SqliteValue::Null,
+        1..=6 => SqliteValue::Integer(integer(bytes)),
+        8 | 9 => SqliteValue::Integer(kind - 8),
+        12.. if kind % 2 == 0 => SqliteValue::Blob(bytes),
+        13.. => SqliteValue::Text(std::str::from_utf8(bytes).ok()?),
+        _ => SqliteValue::Real,
     })
 }
 
@@ -66,12 +66,12 @@ mod tests {
         let mut record = vec![7, 0, 9, 2, 17, 14, 7, 0xff, 0xfe, b'a', b'b', 0xff];
         record.extend(3.5_f64.to_be_bytes());
         let expected = [
-            Value::Null,
-            Value::Integer(1),
-            Value::Integer(-2),
-            Value::Text("ab"),
-            Value::Blob(&[0xff]),
-            Value::Real,
+            SqliteValue::Null,
+            SqliteValue::Integer(1),
+            SqliteValue::Integer(-2),
+            SqliteValue::Text("ab"),
+            SqliteValue::Blob(&[0xff]),
+            SqliteValue::Real,
         ];
         for (column, expected) in expected.into_iter().enumerate() {
             assert_eq!(value(&record, column), Some(expected));

@@ -7,12 +7,12 @@ use crate::{
         damage::Damage,
         error::FormatError,
         guard::guard,
-        strangers::{NO_BAG, UNFINISHED},
+        unread_kinds::{NO_BAG, UNFINISHED},
     },
     formats::bag::{
         sqlite::{
             pages::Pages,
-            record::{Value, value},
+            record::{SqliteValue, value},
             table::{Row, rows},
         },
         topic::{MessageSink, Topic},
@@ -101,11 +101,11 @@ impl Bag<'_> {
         rows(&mut self.pages, TABLES, |pages, row| -> Result<(), Trouble> {
             let record = row.record(pages)?;
             let text = |column| match value(&record, column) {
-                Some(Value::Text(text)) => Some(text),
+                Some(SqliteValue::Text(text)) => Some(text),
                 _ => None,
             };
             let (Some("table"), Some(name)) = (text(0), text(1)) else { return Ok(()) };
-            if let (Some(Value::Integer(root)), Some(sql), "topics" | "messages") =
+            if let (Some(SqliteValue::Integer(root)), Some(sql), "topics" | "messages") =
                 (value(&record, 3), text(4), name)
             {
                 let root = u32::try_from(root).map_err(|_| format!("there is no page {root}"))?;
@@ -125,7 +125,7 @@ impl Bag<'_> {
         rows(&mut self.pages, table.root, |pages, row| -> Result<(), Trouble> {
             let record = row.record(pages)?;
             let text = |column| match value(&record, column) {
-                Some(Value::Text(text)) => Ok(text.to_owned()),
+                Some(SqliteValue::Text(text)) => Ok(text.to_owned()),
                 _ => Err(format!("topic {} has no text in column {}", row.id, column + 1)),
             };
             let topic = Topic { name: text(name)?, kind: text(kind)?, encoding: text(encoding)? };
@@ -144,7 +144,7 @@ impl Bag<'_> {
         let Self { pages, sink, .. } = self;
         rows(pages, table.root, |pages, row: &Row| -> Result<(), Trouble> {
             let number = match value(row.beginning(), of_topic) {
-                Some(Value::Integer(number)) => number,
+                Some(SqliteValue::Integer(number)) => number,
                 _ => return Err(format!("message {} has no topic", row.id).into()),
             };
             let topic = topics
@@ -154,7 +154,7 @@ impl Bag<'_> {
                 return Ok(());
             }
             match value(&row.record(pages)?, of_data) {
-                Some(Value::Blob(message)) => {
+                Some(SqliteValue::Blob(message)) => {
                     sink.add_message(topic, message).map_err(Trouble::Refused)
                 }
                 _ => Err(format!("message {} has no data", row.id).into()),

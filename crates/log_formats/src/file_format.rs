@@ -23,7 +23,7 @@ pub struct Request<'a> {
 }
 
 /// A kind of file.
-pub(crate) trait Format: Sync {
+pub(crate) trait FileFormat: Sync {
     /// What a file of the kind is called in an error.
     fn name(&self) -> &'static str;
 

@@ -1,6 +1,6 @@
 use logs::{LowPass, Run};
 
-use crate::pieces::Piece;
+use crate::pieces::RunPiece;
 use crate::scale::scale_s;
 use crate::thresholds::InspectionThresholds;
 
@@ -8,7 +8,7 @@ use crate::thresholds::InspectionThresholds;
 ///
 /// All are row-major, `rows x joints`; units are those of the log.
 #[derive(Debug, Clone)]
-pub(crate) struct Samples {
+pub(crate) struct MotionSamples {
     /// Number of joints.
     pub joints: usize,
     /// Position, velocity and acceleration.
@@ -52,7 +52,7 @@ impl Thinned {
     ///
     /// The low-pass is that of the motion: `cutoff = rate / (2 scale)` with the scale of the piece in samples. Rows
     /// are those in which some joint moves.
-    pub fn of(runs: &[Run], pieces: &[Piece], t: &InspectionThresholds) -> Option<Self> {
+    pub fn of(runs: &[Run], pieces: &[RunPiece], t: &InspectionThresholds) -> Option<Self> {
         let joints = runs.first()?.joints.len();
         let scale_s = scale_s(pieces, t)?;
         let pieces: Vec<Smooth> = pieces.iter().filter_map(|p| Smooth::of(p, scale_s)).collect();
@@ -74,7 +74,7 @@ impl Thinned {
     /// The samples, with the efforts of `later` rows behind those of the motion.
     ///
     /// Rows that have none within `reach` either way are left out.
-    pub fn samples(&self, reach: usize, later: isize) -> Samples {
+    pub fn samples(&self, reach: usize, later: isize) -> MotionSamples {
         let inside = |r: &&Row| r.k >= reach && r.k + reach < self.pieces[r.piece].len();
         let rows: Vec<Row> = self.rows.iter().filter(inside).copied().collect();
         let read = |channel: usize, later: isize| -> Vec<f64> {
@@ -84,7 +84,7 @@ impl Thinned {
             };
             rows.iter().flat_map(of).collect()
         };
-        Samples {
+        MotionSamples {
             joints: self.joints,
             motion: [read(0, 0), read(1, 0), read(2, 0)],
             effort: read(3, later),
@@ -102,7 +102,7 @@ impl Thinned {
     }
 }
 
-impl Samples {
+impl MotionSamples {
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.effort.len() / self.joints.max(1)
@@ -148,7 +148,7 @@ fn mean(v: &[f64], k: usize, near: usize) -> f64 {
 }
 
 impl Smooth {
-    fn of(piece: &Piece, scale_s: f64) -> Option<Self> {
+    fn of(piece: &RunPiece, scale_s: f64) -> Option<Self> {
         let scale = ((scale_s / piece.step_s).round() as usize).max(1);
         let cutoff = 0.5 / scale as f64;
         let filter = LowPass::new(4, cutoff.min(0.45), 1.0).ok();

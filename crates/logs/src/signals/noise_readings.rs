@@ -3,7 +3,7 @@
 use crate::{
     runs::run::{Channels, Run, range},
     signals::{
-        fourier::Fourier,
+        fourier_transform::FourierTransform,
         lattice,
         noise::{ChannelNoise, JointNoise, NoiseSource},
         origin::{Origin, Sources},
@@ -21,7 +21,7 @@ const ABOVE: f64 = 2.0;
 const HIGHEST_SHARE: f64 = 0.125;
 
 /// What the noise of the channels is read from.
-pub(crate) struct Readings<'a> {
+pub(crate) struct NoiseReadings<'a> {
     /// The runs as they were read: resampling takes their steps away.
     pub runs: &'a [Run],
     /// The same on uniform clocks.
@@ -30,7 +30,7 @@ pub(crate) struct Readings<'a> {
     pub moving: &'a [Vec<bool>],
 }
 
-impl Readings<'_> {
+impl NoiseReadings<'_> {
     /// The noise of a joint whose `position` has its own: the mean over the pieces in which it moves, or over all of one that
     /// never moves, by their length. It is the mean, not the worst, since what is made of a log
     /// weighs all of its samples.
@@ -130,7 +130,7 @@ fn together(each: Vec<(usize, Sum)>) -> ChannelNoise {
 }
 
 fn density(x: &[f64], piece: &UniformRun) -> Density {
-    Density::of(x, piece.rate_hz, &mut Fourier::default())
+    Density::of(x, piece.rate_hz, &mut FourierTransform::default())
 }
 
 /// Rounding of a signal to steps.

@@ -9,14 +9,14 @@ pub(crate) const EVALUATION_RATE: f64 = 16.0;
 /// Positions, velocities and accelerations of all joints on a uniform clock, recorded or
 /// planned, each `[joint][sample]`.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Record {
+pub(crate) struct MotionRecord {
     /// Position, velocity, acceleration.
     pub state: [Vec<Vec<f64>>; 3],
     /// Time between samples (s).
     pub period_s: f64,
 }
 
-impl Record {
+impl MotionRecord {
     /// A run, every `stride`-th sample.
     pub fn of_run(run: &PreparedRun, stride: usize) -> Self {
         let every = |x: &Vec<f64>| x.iter().step_by(stride).copied().collect::<Vec<f64>>();

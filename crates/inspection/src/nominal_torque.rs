@@ -2,17 +2,17 @@ use dynamics::{Dynamics, Workspace};
 use nalgebra::Vector3;
 use robot::Robot;
 
-use crate::samples::Samples;
+use crate::motion_samples::MotionSamples;
 
 /// Nominal torque along samples, `rows x joints`: rigid bodies alone.
-pub(crate) struct Torque {
+pub(crate) struct NominalTorque {
     whole: Dynamics,
     still: Dynamics,
     unit: [Dynamics; 3],
     workspace: Workspace,
 }
 
-impl Torque {
+impl NominalTorque {
     pub fn new(robot: &Robot) -> Self {
         let torque_under = |g: Vector3<f64>| Dynamics::new(&robot.clone().with_gravity(g));
         let whole = Dynamics::new(robot);
@@ -30,12 +30,12 @@ impl Torque {
     }
 
     /// `M qdd + C qd` along a motion.
-    pub fn inertial(&mut self, samples: &Samples) -> Vec<f64> {
+    pub fn inertial(&mut self, samples: &MotionSamples) -> Vec<f64> {
         along(&self.still, &mut self.workspace, samples.joints, &samples.motion)
     }
 
     /// Torque of gravity per unit of its three components in the base frame.
-    pub fn gravity(&mut self, samples: &Samples) -> [Vec<f64>; 3] {
+    pub fn gravity(&mut self, samples: &MotionSamples) -> [Vec<f64>; 3] {
         let [q, qd, _] = &samples.motion;
         let rest = vec![0.0; qd.len()];
         let still = [q.clone(), rest.clone(), rest];

@@ -2,12 +2,12 @@ use std::time::Duration;
 
 /// How long trials have taken so far.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Pace {
+pub struct TrialPace {
     made: u32,
     took: Duration,
 }
 
-impl Pace {
+impl TrialPace {
     /// One more is made.
     pub fn add(&mut self, took: Duration) {
         self.made += 1;
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn what_is_left_takes_as_long_as_what_is_made() {
-        let mut pace = Pace::default();
+        let mut pace = TrialPace::default();
         assert_eq!(pace.left(10, 2), None);
         pace.add(Duration::from_secs(10));
         assert_eq!((pace.left(10, 2), pace.left(10, 1)), (None, Some(Duration::from_secs(100))));

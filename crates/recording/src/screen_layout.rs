@@ -13,7 +13,7 @@ use rerun::external::re_sdk_types::blueprint::datatypes::{
 use rerun::external::re_sdk_types::datatypes::{TimeRange, TimeRangeBoundary, VisibleTimeRange};
 use rerun::{EntityPath, RecordingStream};
 
-use crate::bounds::Bounds;
+use crate::bounding_box::BoundingBox;
 use crate::entities::{DOCUMENT, EVENTS, TIMELINE};
 use crate::error::RecordingError;
 use crate::plots::Plots;
@@ -41,11 +41,11 @@ const BELOW: f64 = 0.05;
 
 /// What the screen shows: the arm left, a tab a joint in the middle, the verdict right.
 #[derive(Debug, Clone)]
-pub(crate) struct Layout {
+pub(crate) struct ScreenLayout {
     pub title: String,
     pub reach_m: f64,
     /// Where the arms were.
-    pub seen: Bounds,
+    pub seen: BoundingBox,
     pub plots: Plots,
     /// The bar charts, which are not known before they come.
     pub bars: Vec<Bars>,
@@ -65,7 +65,7 @@ pub(crate) struct Bars {
     pub names: Vec<String>,
 }
 
-impl Layout {
+impl ScreenLayout {
     /// Writes the layout; the one written last is shown.
     pub fn send(&self, stream: &RecordingStream) -> Result<(), RecordingError> {
         let mut properties = Properties::default();

@@ -2,12 +2,12 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use crate::motion_samples::MotionSamples;
 use crate::observation::{ObservationKind, Rival};
-use crate::samples::Samples;
 
 /// A way to read logs other than as they stand.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Reading {
+pub(crate) enum LogReading {
     /// As they stand.
     AsIs,
     /// The effort of a joint, or of all of them, has the other sign.
@@ -32,9 +32,9 @@ pub(crate) enum Reading {
     Time(f64),
 }
 
-impl Reading {
+impl LogReading {
     /// The samples as this reading has them; the torque of gravity is no part of samples.
-    pub fn apply(&self, samples: &Samples) -> Samples {
+    pub fn apply(&self, samples: &MotionSamples) -> MotionSamples {
         let mut read = samples.clone();
         let n = read.joints;
         let scale = |signal: &mut [f64], joint: Option<usize>, by: f64| match joint {

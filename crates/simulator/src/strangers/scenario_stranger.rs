@@ -12,7 +12,7 @@ use crate::strangers::truth::StrangerTruth;
 const LARGEST_RING: f64 = 100.0;
 
 /// An effect of no catalogue as a scenario states it.
-pub trait Stranger: Sized {
+pub trait ScenarioStranger: Sized {
     /// Its name.
     const KIND: StrangerKind;
 

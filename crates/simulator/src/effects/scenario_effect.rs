@@ -8,7 +8,7 @@ use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
 
 /// An effect as a scenario states it.
-pub trait Effect: Sized {
+pub trait ScenarioEffect: Sized {
     /// Its name.
     const KIND: EffectKind;
 

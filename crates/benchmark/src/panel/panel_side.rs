@@ -11,7 +11,7 @@ const COARSE: f64 = 0.0005;
 
 /// Trials of a population that are alike in one thing.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Side {
+pub struct PanelSide {
     /// Place of the thing, and of this kind of it, among the rows of a table.
     order: [usize; 2],
     /// What they are alike in; nothing for all trials.
@@ -20,7 +20,7 @@ pub struct Side {
     kind: String,
 }
 
-impl Side {
+impl PanelSide {
     /// Judgements by side: all of them, then by each thing in turn. A trial is in one side of each.
     pub(crate) fn by_side(judgements: &[Judgement]) -> Vec<(Self, Vec<&Judgement>)> {
         let mut sides: BTreeMap<Self, Vec<&Judgement>> = BTreeMap::new();
@@ -79,7 +79,7 @@ fn place(name: &str, known: &[&str]) -> (usize, String) {
     (rank.unwrap_or(known.len()), name.to_owned())
 }
 
-impl fmt::Display for Side {
+impl fmt::Display for PanelSide {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let space = if self.thing.is_empty() { "" } else { " " };
         write!(f, "{}{space}{}", self.thing, self.kind.replace('_', " "))
@@ -87,7 +87,7 @@ impl fmt::Display for Side {
 }
 
 /// As it is written.
-impl Serialize for Side {
+impl Serialize for PanelSide {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }

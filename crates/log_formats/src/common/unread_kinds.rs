@@ -2,7 +2,7 @@
 
 /// A kind of file that is not read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Stranger {
+pub(crate) struct UnreadKind {
     /// What it is, as the end of `this is ...`.
     pub found: &'static str,
     /// What to do about it.
@@ -10,15 +10,15 @@ pub(crate) struct Stranger {
 }
 
 /// What a file with these first bytes is, where it is a known kind that is not read.
-pub(crate) fn stranger(first: &[u8]) -> Option<Stranger> {
+pub(crate) fn unread_kind(first: &[u8]) -> Option<UnreadKind> {
     let holds =
         |at: usize, magic: &[u8]| first.get(at..).is_some_and(|rest| rest.starts_with(magic));
-    let found = STRANGERS.iter().find(|(at, magic, ..)| holds(*at, magic))?;
-    Some(Stranger { found: found.2, advice: found.3 })
+    let found = UNREAD_KINDS.iter().find(|(at, magic, ..)| holds(*at, magic))?;
+    Some(UnreadKind { found: found.2, advice: found.3 })
 }
 
 /// A binary file of an unknown kind.
-pub(crate) const UNKNOWN: Stranger = Stranger {
+pub(crate) const UNKNOWN: UnreadKind = UnreadKind {
     found: "a binary file of no kind that is known here",
     advice: "write the log as CSV or Parquet",
 };
@@ -35,7 +35,7 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 
 /// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
 #[rustfmt::skip]
-const STRANGERS: [(usize, &[u8], &str, &str); 21] = [
+const UNREAD_KINDS: [(usize, &[u8], &str, &str); 21] = [
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
     (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
     (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
@@ -60,45 +60,45 @@ const STRANGERS: [(usize, &[u8], &str, &str); 21] = [
 ];
 
 /// A text that holds no table.
-pub(crate) const PROSE: Stranger =
-    Stranger { found: "text without a row of numbers in its first lines", advice: NOT_A_TABLE };
+pub(crate) const PROSE: UnreadKind =
+    UnreadKind { found: "text without a row of numbers in its first lines", advice: NOT_A_TABLE };
 
 /// A packed file in a packed file.
-pub(crate) const TWICE: Stranger = Stranger { found: "packed twice", advice: PACKED };
+pub(crate) const TWICE: UnreadKind = UnreadKind { found: "packed twice", advice: PACKED };
 
 /// A bag without messages.
-pub(crate) const NO_BAG_FILE: Stranger =
-    Stranger { found: "a bag without a file of messages", advice: BAG_FILE };
+pub(crate) const NO_BAG_FILE: UnreadKind =
+    UnreadKind { found: "a bag without a file of messages", advice: BAG_FILE };
 
 /// A database that is no bag.
-pub(crate) const NO_BAG: Stranger = Stranger { found: "a SQLite database", advice: BAG };
+pub(crate) const NO_BAG: UnreadKind = UnreadKind { found: "a SQLite database", advice: BAG };
 
 /// A database whose last messages are in a file beside it.
-pub(crate) const UNFINISHED: Stranger = Stranger {
+pub(crate) const UNFINISHED: UnreadKind = UnreadKind {
     found: "a SQLite database whose last messages are in a file beside it (-wal or -journal)",
     advice: CLOSE,
 };
 
 /// What stands in a bag under the name of one of its files.
-pub(crate) const NOT_A_BAG: Stranger = Stranger {
+pub(crate) const NOT_A_BAG: UnreadKind = UnreadKind {
     found: "CSV or another kind of log",
     advice: "in a bag MCAP or SQLite was expected",
 };
 
 /// What stands in a dataset of LeRobot under the name of a Parquet file.
-pub(crate) const NOT_PARQUET: Stranger = Stranger {
+pub(crate) const NOT_PARQUET: UnreadKind = UnreadKind {
     found: "CSV or another kind of log",
     advice: "in a dataset of LeRobot Parquet was expected",
 };
 
 /// What a zip archive is that holds no array of NumPy, by the names of its entries.
-pub(crate) fn of_archive(names: &[String]) -> Stranger {
+pub(crate) fn of_archive(names: &[String]) -> UnreadKind {
     let known = |(ends, ..): &&(&str, &str, &str)| names.iter().any(|name| name.ends_with(ends));
     let (found, advice) = match ARCHIVES.iter().find(known) {
         Some(&(_, found, advice)) => (found, advice),
         None => ("a zip archive without an array of NumPy in it", PACKED),
     };
-    Stranger { found, advice }
+    UnreadKind { found, advice }
 }
 
 /// Zip archives by an entry that they hold: the end of its name, what it is, what to do.
@@ -111,7 +111,7 @@ const ARCHIVES: [(&str, &str, &str); 4] = [
 ];
 
 /// An array of NumPy that is no table.
-pub(crate) const NO_TABLE: Stranger = Stranger {
+pub(crate) const NO_TABLE: UnreadKind = UnreadKind {
     found: "an array of NumPy that is no table of numbers",
     advice: "an array of samples x columns was expected",
 };
@@ -127,13 +127,13 @@ mod tests {
 
     #[test]
     fn a_kind_that_is_not_read_is_known_by_its_bytes() {
-        let found = |bytes: &[u8]| stranger(bytes).unwrap().found;
-        assert_eq!(stranger(b"\x00\x01\x02"), None);
+        let found = |bytes: &[u8]| unread_kind(bytes).unwrap().found;
+        assert_eq!(unread_kind(b"\x00\x01\x02"), None);
         let of = |name: &str| of_archive(&["mimetype".to_owned(), name.to_owned()]).found;
         assert_eq!(of("xl/workbook.xml"), "an Excel workbook");
         assert_eq!(of("run.csv"), "a zip archive without an array of NumPy in it");
         assert_eq!(found(&[&[b'a'; 257][..], b"ustar\x0000"].concat()), "a tar archive");
-        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), STRANGERS[18].2);
+        assert_eq!(found(b"<?xml version=\"1.0\"?><robot"), UNREAD_KINDS[18].2);
     }
 
     #[test]
@@ -145,10 +145,10 @@ mod tests {
     }
 
     #[test]
-    fn every_stranger_is_found_behind_its_bytes_and_described_in_one_sentence() {
-        for (at, magic, found, advice) in STRANGERS {
+    fn every_unread_kind_is_found_behind_its_bytes_and_described_in_one_sentence() {
+        for (at, magic, found, advice) in UNREAD_KINDS {
             let bytes = [&vec![b'x'; at][..], magic].concat();
-            assert_eq!(stranger(&bytes), Some(Stranger { found, advice }));
+            assert_eq!(unread_kind(&bytes), Some(UnreadKind { found, advice }));
             assert!(!found.contains(". ") && !advice.ends_with('.'), "{found}: {advice}");
         }
     }

@@ -2,7 +2,7 @@ use nalgebra::Vector3;
 
 /// The smallest box that holds all points that were seen (m).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Bounds {
+pub(crate) struct BoundingBox {
     ends: Option<[Vector3<f64>; 2]>,
 }
 
@@ -13,7 +13,7 @@ const DISTANCE: f64 = 2.2;
 /// Where the eye stands seen from the middle.
 const DIRECTION: Vector3<f64> = Vector3::new(0.62, -0.68, 0.4);
 
-impl Bounds {
+impl BoundingBox {
     /// Takes the points of an arm.
     pub fn push(&mut self, points: &[Vector3<f64>]) {
         for point in points.iter().filter(|point| point.iter().all(|x| x.is_finite())) {
@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn every_point_is_within_the_view_of_the_eye() {
-        let mut seen = Bounds::default();
+        let mut seen = BoundingBox::default();
         assert!(seen.eye(0.1).is_none());
         let points: Vec<Vector3<f64>> = (0..50)
             .map(|k| f64::from(k) * 0.3)

@@ -4,23 +4,23 @@ use realfft::num_complex::Complex;
 /// Discrete Fourier transforms of real samples; every length is planned once.
 ///
 /// It is the only place that instantiates `realfft`: every package that does compiles all of it anew.
-pub struct Fourier {
+pub struct FourierTransform {
     planner: RealFftPlanner<f64>,
 }
 
-impl Default for Fourier {
+impl Default for FourierTransform {
     fn default() -> Self {
         Self { planner: RealFftPlanner::new() }
     }
 }
 
-impl std::fmt::Debug for Fourier {
+impl std::fmt::Debug for FourierTransform {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Fourier").finish_non_exhaustive()
+        f.debug_struct("FourierTransform").finish_non_exhaustive()
     }
 }
 
-impl Fourier {
+impl FourierTransform {
     /// The transform of `N` samples at frequencies from zero to half their rate; empty without samples. The samples
     /// are overwritten.
     ///
@@ -52,7 +52,7 @@ mod tests {
     fn the_transform_is_the_sum_that_defines_it_at_any_length() {
         for n in [0, 1, 2, 7, 16, 31, 60, 97] {
             let x: Vec<f64> = (0..n).map(|t| ((t * t) as f64).sin() + 0.3).collect();
-            let found = Fourier::default().of(&mut x.clone());
+            let found = FourierTransform::default().of(&mut x.clone());
             assert_eq!(found.len(), if n == 0 { 0 } else { n / 2 + 1 });
             for (k, value) in found.iter().enumerate() {
                 let turn = |t: usize| Complex::cis(-TAU * (k * t) as f64 / n as f64);
