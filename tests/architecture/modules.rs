@@ -214,7 +214,7 @@ impl Crate {
     }
 
     /// `path` as it is written in `module`, from the root; none for a path out of the crate.
-    fn from_root(&self, module: &str, path: &[String]) -> Option<Vec<String>> {
+    fn absolute(&self, module: &str, path: &[String]) -> Option<Vec<String>> {
         let mut at = segments(module);
         let mut rest = path;
         match rest.first()?.as_str() {
@@ -262,7 +262,7 @@ impl Crate {
                 let alias = aliases.get(&leaf.path[0]).filter(|_| !is_use);
                 let path = match alias {
                     Some(start) => Some([start, &leaf.path[1..]].concat()),
-                    None => self.from_root(module, &leaf.path),
+                    None => self.absolute(module, &leaf.path),
                 };
                 let Some(path) = path else { continue };
                 if is_use && self.is_module(&path) {

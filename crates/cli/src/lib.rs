@@ -23,6 +23,7 @@ mod loss;
 mod messages;
 mod output;
 mod progress;
+mod quiet;
 mod watch;
 
 use std::ffi::OsString;

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::error::CliError;
 use crate::messages::tell;
+use crate::quiet::Quiet;
 
 /// Prints text on the standard output, its colours only where they are wanted.
 ///
@@ -41,7 +42,7 @@ pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
 ///
 /// [`CliError::Output`].
 pub fn print_answer(
-    quiet: bool,
+    Quiet(quiet): Quiet,
     json: Option<&str>,
     text: impl FnOnce() -> String,
     closing: &str,

@@ -3,6 +3,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::messages::tell;
+use crate::quiet::Quiet;
 
 /// Work that is done sooner is not worth a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -37,7 +38,10 @@ impl Bar {
 }
 
 /// Does some work under a bar, or without one where nothing is to be printed.
-pub fn with_bar<T>(quiet: bool, work: impl FnOnce(&dyn diagnosis::DiagnosisProgress) -> T) -> T {
+pub fn with_bar<T>(
+    Quiet(quiet): Quiet,
+    work: impl FnOnce(&dyn diagnosis::DiagnosisProgress) -> T,
+) -> T {
     let bar = Bar::new();
     let done = work(if quiet { &diagnosis::Silent } else { &bar });
     bar.finish();

@@ -14,6 +14,7 @@ use crate::input_warnings::input_warnings;
 use crate::messages::warn;
 use crate::output::{display_path, keep_inputs, print, refuse_file};
 use crate::progress::with_bar;
+use crate::quiet::Quiet;
 
 /// Columns of the text.
 const WIDTH: usize = 100;
@@ -66,7 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     let settings = arguments.search.settings(&loaded);
     let sets = [runs[0].as_slice(), runs[1].as_slice()];
-    let comparison = with_bar(arguments.quiet, |progress| {
+    let comparison = with_bar(Quiet(arguments.quiet), |progress| {
         diagnosis::compare(&loaded.robot, sets, &settings, progress)
     })?;
     write(arguments, &loaded, &runs, &comparison)?;

@@ -20,6 +20,7 @@ use crate::input_warnings::input_warnings;
 use crate::messages::warn;
 use crate::output::{display_path, keep_inputs, print_answer, refuse_file};
 use crate::progress::{Line, with_bar};
+use crate::quiet::Quiet;
 
 /// Columns of a comment in `extended.toml`.
 const COMMENT_WIDTH: usize = 95;
@@ -92,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let inputs = given.chain(&arguments.logs).map(PathBuf::as_path);
     keep_inputs(&arguments.out, &FILES, inputs)?;
     let settings = arguments.search.settings(&loaded);
-    let outcome = with_bar(arguments.quiet, |progress| {
+    let outcome = with_bar(Quiet(arguments.quiet), |progress| {
         diagnosis::diagnose(&loaded.robot, &runs, &settings, progress)
     })?;
     let read = outcome.read.as_deref().unwrap_or(&runs);
@@ -141,7 +142,7 @@ fn forward(
     outcome: &diagnosis::DiagnosisRun,
 ) -> Option<ForwardGap> {
     let (robots, data) = ([&loaded.robot, &outcome.extended], &outcome.diagnosis.data);
-    let gap = with_bar(arguments.quiet, |progress| {
+    let gap = with_bar(Quiet(arguments.quiet), |progress| {
         experiment::forward_gap_of_logs(robots, runs, data.cutoff_hz, progress)
     });
     gap.inspect_err(|error| warn(error)).ok()
@@ -231,8 +232,9 @@ fn record(
         let _ = std::fs::remove_file(arguments.out.join(RECORDING));
         return Ok(None);
     }
-    let recorded =
-        with_bar(arguments.quiet, |progress| write_recording(&arguments.out, diagnosed, progress));
+    let recorded = with_bar(Quiet(arguments.quiet), |progress| {
+        write_recording(&arguments.out, diagnosed, progress)
+    });
     match recorded {
         Ok(path) => Ok(Some(path)),
         Err(error) => match *error {
@@ -330,5 +332,5 @@ fn say(
         display_path(&out.join("extended.toml"))
     );
     let json = arguments.json.then_some(json);
-    print_answer(arguments.quiet, json, || report::text(report), &closing)
+    print_answer(Quiet(arguments.quiet), json, || report::text(report), &closing)
 }

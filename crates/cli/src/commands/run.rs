@@ -19,6 +19,7 @@ use crate::progress::Line;
 use crate::watch::Watch;
 
 use self::stages::Stages;
+use crate::quiet::Quiet;
 
 /// Arguments of `run`.
 #[derive(Debug, clap::Args)]
@@ -64,7 +65,7 @@ impl Output {
     /// [`CliError::Output`].
     pub fn say(&self, json: &str, text: &str, closing: &str) -> Result<(), CliError> {
         let json = self.json.then_some(json);
-        print_answer(self.quiet, json, || text.to_owned(), closing)
+        print_answer(Quiet(self.quiet), json, || text.to_owned(), closing)
     }
 }
 

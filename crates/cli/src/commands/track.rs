@@ -13,6 +13,7 @@ use crate::progress::Line;
 use crate::watch::Watch;
 
 use self::tracking_result::{TrackingRequest, TrackingResult};
+use crate::quiet::Quiet;
 
 /// Arguments of `track`.
 #[derive(Debug, clap::Args)]
@@ -82,5 +83,5 @@ fn say(arguments: &Arguments, comparison: &TrackingComparison) -> Result<(), Cli
     };
     let closing = format!("report         {}\n{recordings}", of("report.html"));
     let json = arguments.json.then(|| comparison.json()).transpose()?;
-    print_answer(arguments.quiet, json.as_deref(), || comparison.text(), &closing)
+    print_answer(Quiet(arguments.quiet), json.as_deref(), || comparison.text(), &closing)
 }

@@ -16,6 +16,7 @@ use super::timing::median_query_us;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::output::{create_folder, display_path, print_answer};
+use crate::quiet::Quiet;
 use crate::watch::Watch;
 
 /// A file of the output folder, and what it holds.
@@ -190,5 +191,5 @@ fn say(arguments: &Arguments, out: &Path, comparison: &LearningComparison) -> Re
         display_path(&out.join("models"))
     );
     let json = arguments.json.then(|| comparison.json()).transpose()?;
-    print_answer(arguments.quiet, json.as_deref(), || comparison.text(), &closing)
+    print_answer(Quiet(arguments.quiet), json.as_deref(), || comparison.text(), &closing)
 }
