@@ -107,7 +107,7 @@ mod tests {
         );
     }
 
-    fn said(logged: &[f64]) -> Option<String> {
+    fn warning_of(logged: &[f64]) -> Option<String> {
         let lock = LockedJoint { joint: "grip".to_owned(), position: 0.2, mimics: None };
         let run = Run {
             name: "run_1".to_owned(),
@@ -124,15 +124,15 @@ mod tests {
 
     #[test]
     fn a_log_that_has_a_locked_joint_elsewhere_or_moving_is_told() {
-        assert_eq!(said(&[]), None);
-        assert_eq!(said(&[f64::NAN, 0.2001, 0.1999]), None);
+        assert_eq!(warning_of(&[]), None);
+        assert_eq!(warning_of(&[f64::NAN, 0.2001, 0.1999]), None);
         assert_eq!(
-            said(&[0.3, 0.302]).unwrap(),
+            warning_of(&[0.3, 0.302]).unwrap(),
             "run_1: joint grip is locked at 0.200, the log has it from 0.300 to 0.302: \
              locked = { grip = 0.301 } in a robot.toml locks it there"
         );
         assert_eq!(
-            said(&[0.2, 0.5]).unwrap(),
+            warning_of(&[0.2, 0.5]).unwrap(),
             "run_1: joint grip is locked at 0.200, the log has it from 0.200 to 0.500: \
              what its motion does to the torque of the others is left out"
         );

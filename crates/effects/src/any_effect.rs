@@ -149,7 +149,7 @@ impl<E: Effect> AnyEffect for E {
     }
 
     fn admissible(&self, place: Place, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
-        self.restricted().is_none_or(|restricted| {
+        self.restriction().is_none_or(|restricted| {
             E::At::of(place).is_some_and(|at| restricted.admissible(at, robot, weights, priors))
         })
     }

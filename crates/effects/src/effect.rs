@@ -97,7 +97,7 @@ pub trait Effect: Sync {
     }
 
     /// See [`IsRestricted`].
-    fn restricted(&self) -> Option<&dyn IsRestricted<Self::At>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<Self::At>> {
         None
     }
 

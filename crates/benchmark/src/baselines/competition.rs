@@ -68,7 +68,7 @@ impl<'a> Competition<'a> {
     pub fn standing(&self, j: usize, columns: Vec<usize>) -> Standing {
         let joint = self.joint(j);
         let fitted = fit(&joint.total, &columns, joint.target());
-        let left = joint.left(&columns, &fitted.weights);
+        let left = joint.residual_of(&columns, &fitted.weights);
         Standing {
             rank: fitted.rank,
             mean: self.mean(j, fitted.square),
@@ -127,7 +127,7 @@ impl<'a> Competition<'a> {
         // With every sample for itself it is at its largest: most candidates end here.
         let at_most = self.evidence(j, 1.0, means, 0.0);
         let memory = match possible && at_most > 1.0 {
-            true => memory(&joint.left(&columns, &fitted.weights), &self.dataset.runs),
+            true => memory(&joint.residual_of(&columns, &fitted.weights), &self.dataset.runs),
             false => 1.0,
         };
         Change { evidence: self.evidence(j, memory, means, more), possible, ..nothing }

@@ -131,7 +131,7 @@ impl Fitted<'_> {
     }
 
     /// Parameters in the units of the joint's scaled columns.
-    fn scaled(&self, j: usize) -> Vec<f64> {
+    fn scaled_parameters(&self, j: usize) -> Vec<f64> {
         let scales = &self.dataset.joints[j].scales;
         self.places(j).iter().zip(scales).map(|(&at, scale)| self.parameters[at] * scale).collect()
     }
@@ -140,7 +140,7 @@ impl Fitted<'_> {
     fn left_rms(&self, j: usize) -> f64 {
         let joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
-        let square = square_left(&joint.total, &own, &self.scaled(j), joint.target());
+        let square = square_left(&joint.total, &own, &self.scaled_parameters(j), joint.target());
         let mean = square / joint.samples.max(1) as f64;
         (mean + (FLOOR * joint.torque_rms).powi(2)).sqrt()
     }
@@ -155,7 +155,7 @@ impl Fitted<'_> {
     fn memory(&self, j: usize) -> f64 {
         let joint: &Joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
-        memory(&joint.left(&own, &self.scaled(j)), &self.dataset.runs)
+        memory(&joint.residual_of(&own, &self.scaled_parameters(j)), &self.dataset.runs)
     }
 
     fn names(&self) -> Vec<EffectAt> {

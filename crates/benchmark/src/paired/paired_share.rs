@@ -40,7 +40,7 @@ impl PairedShare {
     /// Pairs of a first and a second answer.
     pub fn new(measure: Measure, pairs: &[(bool, bool)]) -> Self {
         let count = |is: &dyn Fn(bool, bool) -> bool| pairs.iter().filter(|p| is(p.0, p.1)).count();
-        let wanted = measure.wanted();
+        let wanted = measure.is_yes_better();
         let wins = count(&|first, second| first != second && second == wanted);
         let losses = count(&|first, second| first != second && first == wanted);
         let (trials, differing) = (pairs.len(), (wins + losses) as f64);

@@ -24,7 +24,7 @@ impl Turned {
     pub(super) fn new(first: &Record, second: &Record) -> Option<Self> {
         let turned = |better: bool| {
             let is = |measure: &Measure| match (measure.of(first), measure.of(second)) {
-                (Some(a), Some(b)) => a != b && (b == measure.wanted()) == better,
+                (Some(a), Some(b)) => a != b && (b == measure.is_yes_better()) == better,
                 _ => false,
             };
             Measure::ALL.into_iter().filter(is).collect::<Vec<_>>()

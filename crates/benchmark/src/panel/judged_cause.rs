@@ -64,7 +64,7 @@ impl JudgedCause {
     }
 
     /// Whether it is a finding or a rival of one.
-    pub fn named(&self) -> bool {
+    pub fn is_named(&self) -> bool {
         self.one_of.is_some()
     }
 }

@@ -369,7 +369,7 @@ impl Joint<'_> {
         let even = tone.amplitude() > self.thresholds.same_phase * least;
         tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
         let Least { rms, share } = self.least;
-        let pays = tone.share * self.power_of(self.left) > rms.powi(2) * self.counted();
+        let pays = tone.share * self.power_of(self.left) > rms.powi(2) * self.sample_count();
         (even && pays && tone.share > share).then_some(tone)
     }
 
@@ -412,7 +412,7 @@ impl Joint<'_> {
     }
 
     /// Number of samples over all runs that count at any beat.
-    fn counted(&self) -> f64 {
+    fn sample_count(&self) -> f64 {
         self.highest.iter().flatten().filter(|highest| **highest > 0.0).count() as f64
     }
 

@@ -28,7 +28,7 @@ impl Inputs<'_> {
         let least = dataset.practical;
         let joint = |j: usize| self.joint(tested, &noise, least, j);
         let reports: Vec<(JointReport, Structure)> = (0..self.design.joints()).map(joint).collect();
-        let unexplained = reports.iter().filter_map(unexplained).collect();
+        let unexplained = reports.iter().filter_map(find_unexplained).collect();
         let joints: Vec<JointReport> = reports.into_iter().map(|(j, _)| j).collect();
         let hides = |((joint, unseen), inadequate): &((&JointReport, &f64), &Option<String>)| {
             joint.verdict == Verdict::DataInadequate
@@ -92,7 +92,7 @@ impl Inputs<'_> {
         };
         let spectra = spectra(noise.spectrum(j), &spectrum);
         let report = self.joint_report(&situation, (spectra, &rest), j);
-        (report, Structure { share: situation.unexplained(), ..structure })
+        (report, Structure { share: situation.unexplained_share(), ..structure })
     }
 
     fn joint_report(
@@ -238,7 +238,7 @@ fn spectra(noise: &[(f64, f64)], left: &Spectrum) -> NoiseSpectrum {
     NoiseSpectrum { left_nm2_per_hz: left.densities(&hz), hz, noise_nm2_per_hz }
 }
 
-fn unexplained((joint, structure): &(JointReport, Structure)) -> Option<Unexplained> {
+fn find_unexplained((joint, structure): &(JointReport, Structure)) -> Option<Unexplained> {
     let left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
     left.then(|| {
         let ratio = joint.remaining_rms_nm / joint.residual_rms_nm.max(f64::MIN_POSITIVE);

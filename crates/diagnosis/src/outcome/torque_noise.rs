@@ -72,7 +72,7 @@ impl TorqueNoise {
             }
         };
         let joints = (0..robot.joint_count()).map(sources).collect();
-        let repeats = noise_of_repeats(design.repeated(thresholds));
+        let repeats = noise_of_repeats(design.runs_to_compare(thresholds));
         Self { joints, repeats }
     }
 

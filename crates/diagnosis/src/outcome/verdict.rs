@@ -47,7 +47,7 @@ pub(crate) struct Situation<'a> {
 
 impl Situation<'_> {
     /// Share of the remaining residual's power that is beyond the noise.
-    pub fn unexplained(&self) -> f64 {
+    pub fn unexplained_share(&self) -> f64 {
         let noise = self.floor() / self.remaining_rms.max(f64::MIN_POSITIVE);
         (1.0 - noise.powi(2)).clamp(0.0, 1.0)
     }
@@ -82,7 +82,7 @@ impl Situation<'_> {
 
     /// Whether the residual beyond the noise is too small to matter.
     fn is_small(&self) -> bool {
-        self.unexplained().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
+        self.unexplained_share().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
     }
 
     /// The verdict and why.

@@ -193,7 +193,11 @@ impl Uncertainty {
 /// - it has one weight, and the 95 per cent interval of every parameter contains the described value,
 /// - it is a body, and the 95 per cent region of its ten parameters contains the described ones,
 /// - it is an asymmetry or an excess near rest, and its interval contains zero.
-pub(crate) fn undetermined(problem: &Problem, model: &Model, fitted: &LinearFit) -> Option<usize> {
+pub(crate) fn find_undetermined(
+    problem: &Problem,
+    model: &Model,
+    fitted: &LinearFit,
+) -> Option<usize> {
     let uncertainty = Uncertainty::of(fitted)?;
     let robot = fitted.robot();
     let share = uncertainty.thresholds.rounding;

@@ -88,7 +88,7 @@ impl Effect for GravityDirection {
         axes.iter().zip(parameters).map(quantity).collect()
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<AtBase>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<AtBase>> {
         Some(self)
     }
 }

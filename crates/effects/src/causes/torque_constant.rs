@@ -84,7 +84,7 @@ impl Effect for TorqueConstant {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.torque_gain)]
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<AtJoint>> {
         Some(self)
     }
 }

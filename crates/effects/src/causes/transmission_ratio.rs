@@ -101,7 +101,7 @@ impl Effect for TransmissionRatio {
         Some(self)
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<AtJoint>> {
         Some(self)
     }
 }

@@ -251,7 +251,7 @@ mod tests {
     const WEIGHT: f64 = 2.0 * 9.81 * 0.5;
 
     /// Everything at once.
-    fn worn(a: &mut Actuator) {
+    fn wear(a: &mut Actuator) {
         (a.rotor_inertia, a.viscous) = (0.1, 0.3);
         (a.coulomb_forward, a.coulomb_backward) = (0.6, 0.4);
         (a.spring_stiffness, a.spring_rest) = (0.5, 0.2);
@@ -329,7 +329,7 @@ mod tests {
 
     #[test]
     fn where_the_link_is_measured_nothing_leads_and_the_torque_stays() {
-        let motor = hinge("0 1 0", worn);
+        let motor = hinge("0 1 0", wear);
         let mut link = motor.clone();
         link.link_mut(0).unwrap().actuator.sensing = SensingSide::Link;
         let mut unknown = motor.clone();
@@ -344,7 +344,7 @@ mod tests {
     #[test]
     fn a_rigid_robot_gets_inverse_dynamics_and_the_law_of_its_drive() {
         let robot = hinge("0 1 0", |a| {
-            worn(a);
+            wear(a);
             (a.backlash, a.elasticity) = (0.0, None);
         });
         assert_eq!(Compensation::new(&robot, vec![REST]).states_needed(), 1);
@@ -444,7 +444,7 @@ mod tests {
     /// Ten times finer steps make the largest change ten times smaller: there is no jump.
     #[test]
     fn nothing_jumps_along_a_fast_sine() {
-        let robot = hinge("0 1 0", worn);
+        let robot = hinge("0 1 0", wear);
         // It passes the vertical, where gravity changes its side of the gap.
         let swing = |t: f64| {
             let [q, qd, qdd] = sine(1.0, 6.0)(t);

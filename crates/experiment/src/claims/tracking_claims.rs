@@ -61,7 +61,7 @@ mod tests {
     use super::*;
     use crate::claims::claim::Verdict;
 
-    fn tracked(model: &str, rms: [f64; 6]) -> TrackedError {
+    fn tracked_error(model: &str, rms: [f64; 6]) -> TrackedError {
         TrackedError {
             model: model.into(),
             rms: Some(rms.to_vec()),
@@ -76,12 +76,12 @@ mod tests {
 
     fn errors() -> Vec<TrackedError> {
         vec![
-            tracked("rbd", [50.0; 6]),
-            tracked("gp", [20.0; 6]),
-            tracked("gp-rbd", [4.0; 6]),
-            tracked("gp-rbd-prior", [4.0; 6]),
-            tracked("rbd-kernel", [8.0; 6]),
-            tracked("named", [1.0; 6]),
+            tracked_error("rbd", [50.0; 6]),
+            tracked_error("gp", [20.0; 6]),
+            tracked_error("gp-rbd", [4.0; 6]),
+            tracked_error("gp-rbd-prior", [4.0; 6]),
+            tracked_error("rbd-kernel", [8.0; 6]),
+            tracked_error("named", [1.0; 6]),
         ]
     }
 

@@ -27,7 +27,7 @@ impl Learned {
     }
 
     /// The robot extended by named effects, with the speeds below which its joints rest.
-    pub fn named(&self) -> Option<&RobotTorque> {
+    pub fn named_torque(&self) -> Option<&RobotTorque> {
         match &self.model(ModelKind::Named)?.mean {
             Mean::Robot(torque) => Some(torque),
             _ => None,
@@ -92,7 +92,7 @@ impl Learned {
         progress: &dyn Progress,
     ) -> Result<Self, ExperimentError> {
         let lesson = Lesson {
-            loaded: scenario.loaded(),
+            loaded: scenario.loaded_robot(),
             plant_file: scenario.plant_file(),
             learn: scenario.learn(),
             kinds: &kinds(scenario),
@@ -126,7 +126,7 @@ impl Learned {
         let data = Data::new(lesson, logs)?;
         let named = match named {
             None if kinds.iter().any(|kind| kind.needs_named()) => {
-                Some(extended(lesson, logs, progress)?)
+                Some(extend_by_diagnosis(lesson, logs, progress)?)
             }
             given => given.cloned(),
         };
@@ -176,7 +176,7 @@ impl Lesson<'_> {
     /// # Errors
     ///
     /// [`ExperimentError::Log`].
-    pub fn prepared(
+    pub fn prepare(
         &self,
         logs: &[Run],
         cutoff_hz: Option<f64>,
@@ -211,7 +211,7 @@ fn rigid_bodies(
 }
 
 /// The robot extended by what a diagnosis names in the logs.
-fn extended(
+fn extend_by_diagnosis(
     lesson: &Lesson,
     logs: &[Run],
     progress: &dyn Progress,
@@ -236,7 +236,7 @@ impl Data {
             let path = lesson.plant_file.to_owned();
             return Err(ExperimentError::NothingToLearnFrom { path, model });
         }
-        let prepared = lesson.prepared(logs, None)?;
+        let prepared = lesson.prepare(logs, None)?;
         let train = runs_named(&prepared, &learn.train);
         let regression = match learn.regression.as_slice() {
             [] => Samples::new(&train),

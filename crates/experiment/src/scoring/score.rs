@@ -102,13 +102,13 @@ impl Score {
     }
 
     /// Share of the nominal residual's power that the true findings explain.
-    pub fn explained(&self) -> f64 {
+    pub fn explained_share(&self) -> f64 {
         let own = self.injected.iter().filter_map(|p| p.finding);
         own.map(|finding| self.findings[finding].share_explained).sum()
     }
 
     /// Whether every injected effect is among the findings or their rivals.
-    pub fn found(&self) -> bool {
+    pub fn is_found(&self) -> bool {
         self.injected.iter().all(|p| p.one_of.is_some())
     }
 
@@ -116,7 +116,7 @@ impl Score {
     /// one is named in its place, and the diagnosis calls its size too small to be found.
     pub fn visible(&self) -> bool {
         let large = |p: &Injected| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
-        self.found() || !self.stray.is_empty() || self.injected.iter().all(large)
+        self.is_found() || !self.stray.is_empty() || self.injected.iter().all(large)
     }
 
     /// Whether the diagnosis leaves structure open and names no false effect: the right answer to

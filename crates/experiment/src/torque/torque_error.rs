@@ -45,7 +45,7 @@ pub fn torque_errors(
     test: &[Run],
 ) -> Result<Vec<TorqueError>, ExperimentError> {
     let mut prepared = prepare(test, &PrepareSettings::default())?;
-    centre_commands(scenario.robot(), &mut prepared.runs, scenario.loaded().control.rate_hz);
+    centre_commands(scenario.robot(), &mut prepared.runs, scenario.loaded_robot().control.rate_hz);
     let mut errors: Vec<TorqueError> = Vec::new();
     for kind in scenario.all_feedforward().into_iter().filter_map(|kind| kind.model()) {
         let is_new = errors.iter().all(|error| error.model != kind.name());

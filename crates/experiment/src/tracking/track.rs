@@ -75,7 +75,7 @@ pub(crate) fn controller(
 ) -> Result<Controller, ExperimentError> {
     let limits = scenario.robot().links().iter();
     let limits = limits.map(|link| link.joint.limits.effort.unwrap_or(f64::INFINITY)).collect();
-    let pairs = scenario.loaded().control.differentials.clone();
+    let pairs = scenario.loaded_robot().control.differentials.clone();
     let error_rate = match scenario.error_rate() {
         ErrorRateSpec::Reading => ErrorRate::Reading,
         ErrorRateSpec::FilteredDifference { cutoff_hz } => {
@@ -127,7 +127,7 @@ impl Parts<'_> {
         };
         let missing = || ExperimentError::NoModel { path: PathBuf::from(kind.name()), model: kind };
         if let (FeedforwardKind::Model(learner::ModelKind::Named), Some(named)) =
-            (self.kind, self.learned.named())
+            (self.kind, self.learned.named_torque())
         {
             let (robot, speeds) = (named.robot(), named.rest_speed());
             return Ok(Box::new(NamedFeedforward::new(robot, speeds, lead_s)?));

@@ -64,7 +64,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The columns that become signals.
-    pub(crate) fn needed(&self) -> Needed<'_> {
+    pub(crate) fn needed_columns(&self) -> Needed<'_> {
         let signals = self.joints.iter().flatten().map(|(_, source)| source.column.as_str());
         let excerpt = self.excerpt.map(|excerpt| {
             ExcerptFilter::new(excerpt, self.time.mapped.map(MappedColumn::time_scale))

@@ -134,7 +134,7 @@ fn read_opened(
     damage: &mut Damage,
 ) -> Result<Run, LogError> {
     let plan = Plan::new(path, file, robot, options)?;
-    let mut table = file.load(&plan.needed(), damage)?;
+    let mut table = file.load(&plan.needed_columns(), damage)?;
     plan.check_excerpt(&table)?;
     plan.check(&mut table, damage)?;
 

@@ -91,7 +91,7 @@ impl Sinusoids {
                     (room / reach).min(highest / speed)
                 }
             };
-            joints.push(Series { offset, ..unit.scaled(scale) });
+            joints.push(Series { offset, ..unit.times(scale) });
         }
         site.part(Curve::Harmonics(Harmonics { joints }), clock)
     }

@@ -315,7 +315,7 @@ impl Draft {
     /// The scenario with a path to the robot beside it, so that the folder can be moved.
     fn portable(&self, scenario: &Scenario) -> String {
         let file = self.truth_file.canonicalize().unwrap_or(self.truth_file.clone());
-        scenario.resolved().replace(&file.display().to_string(), "robot.toml")
+        scenario.self_contained_text().replace(&file.display().to_string(), "robot.toml")
     }
 
     fn corner(&self, runs: &[Run]) -> Corner {

@@ -106,8 +106,8 @@ fn colour(
     (column, columns): (usize, usize),
 ) -> String {
     match own {
-        Some(own) if own == column => colours.extended(),
-        _ if column + 1 == columns => colours.measured(),
+        Some(own) if own == column => colours.extended_model(),
+        _ if column + 1 == columns => colours.measurement(),
         None if injected == Group::Two => colours.soft.to_owned(),
         _ => colours.nominal(),
     }

@@ -23,7 +23,7 @@ pub fn comparison(
 ) -> Result<TrackingComparison, ReportError> {
     let robot = scenario.robot();
     let file = scenario.plant().robot_file();
-    let mut provenance = provenance(file, scenario.loaded(), None)?;
+    let mut provenance = provenance(file, scenario.loaded_robot(), None)?;
     provenance.files.push(hash("scenario", scenario_file)?);
     provenance.files.push(hash("plant", scenario.plant_file())?);
     Ok(TrackingComparison {
