@@ -34,14 +34,14 @@ mod tests {
 
     #[test]
     fn an_effect_that_is_none_is_told_in_one_line() {
-        let told = |name| find_effect(name).unwrap_err().to_string();
+        let error_of = |name| find_effect(name).unwrap_err().to_string();
         let expected = "effect FR99: it is not in the catalogue, \
                         a name such as coulomb_friction or a code such as FR02 was expected";
-        assert_eq!(told("FR99"), expected);
+        assert_eq!(error_of("FR99"), expected);
         assert!(
-            told("coulomb").ends_with("did you mean FR02 coulomb_friction?"),
+            error_of("coulomb").ends_with("did you mean FR02 coulomb_friction?"),
             "{}",
-            told("coulomb")
+            error_of("coulomb")
         );
     }
 }

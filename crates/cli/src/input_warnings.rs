@@ -39,8 +39,8 @@ pub fn correct_runs(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
 }
 
 /// Memory that a diagnosis of the runs takes (GB), in digits.
-pub fn needed_gb(runs: &[Run]) -> String {
-    short(needed_bytes(runs.iter().map(joint_samples).sum()) / GIGA)
+pub fn memory_need_gb(runs: &[Run]) -> String {
+    short(memory_need_bytes(runs.iter().map(joint_samples).sum()) / GIGA)
 }
 
 /// Samples of a run, counted for each joint.
@@ -49,17 +49,17 @@ fn joint_samples(run: &Run) -> usize {
 }
 
 /// Memory that a diagnosis of so many samples of single joints takes (bytes).
-fn needed_bytes(joint_samples: usize) -> f64 {
+fn memory_need_bytes(joint_samples: usize) -> f64 {
     BYTES_PER_SAMPLE * joint_samples as f64
 }
 
 /// Warns of samples that need more memory than is free (bytes).
 fn memory_warning(joint_samples: usize, free: f64) -> Option<String> {
-    let needed_bytes = needed_bytes(joint_samples);
-    let [needed_gb, free_gb] = [needed_bytes, free].map(|bytes| short(bytes / GIGA));
-    (needed_bytes > free).then(|| {
+    let memory_need_bytes = memory_need_bytes(joint_samples);
+    let [memory_need_gb, free_gb] = [memory_need_bytes, free].map(|bytes| short(bytes / GIGA));
+    (memory_need_bytes > free).then(|| {
         format!(
-            "the logs need about {needed_gb} GB of memory and {free_gb} GB are free: \
+            "the logs need about {memory_need_gb} GB of memory and {free_gb} GB are free: \
              read less of them with --from-s and --to-s, or give fewer logs, or logs of a lower rate"
         )
     })

@@ -115,7 +115,7 @@ fn no_toml(text: &str) -> Option<usize> {
 
 fn laid_over(below: Option<Node>, node: Node) -> Node {
     match below {
-        Some(below) => below.extended_by(node),
+        Some(below) => below.extend_by(node),
         None => node,
     }
 }

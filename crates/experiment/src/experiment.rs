@@ -59,7 +59,7 @@ impl Experiment {
         }
         let (plant, file) = plant_of(document)?;
         let plant = Scenario::from_document(&with_seed(plant, seed)?)?;
-        let document = &add_compared(document)?;
+        let document = &add_compared_models(document)?;
         let scenario = TrackingScenario::new(document, plant, file)?;
         let resolved = with_plant(document, scenario.spec(), PathBuf::from(PLANT));
         let experiment = Self { scenario, resolved, chooses_gains: false };
@@ -197,7 +197,7 @@ impl Experiment {
 }
 
 /// A tracking scenario that feeds forward [`COMPARED`] before what else it does.
-fn add_compared(document: &Document) -> Result<Document, ExperimentError> {
+fn add_compared_models(document: &Document) -> Result<Document, ExperimentError> {
     let spec: TrackingSpec = document.parse()?;
     let others = spec.feedforward.iter().filter(|kind| !COMPARED.contains(kind));
     let names: Vec<String> =

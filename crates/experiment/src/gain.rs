@@ -92,7 +92,7 @@ impl Gains {
     ) -> Self {
         let torque_of =
             |name: &str| torque.iter().find(|m| m.model == name)?.rms_nm.get(j).copied();
-        let tracked = |name: &str| {
+        let tracking_rms = |name: &str| {
             let run = tracking.iter().find(|run| run.model == name)?;
             run.rms.as_ref()?.get(j).copied()
         };
@@ -100,7 +100,7 @@ impl Gains {
         Self {
             torque: Gain::of(torque_of),
             drift: Gain::in_window(forward, Self::WINDOW_S, drift),
-            tracking: Gain::of(tracked),
+            tracking: Gain::of(tracking_rms),
         }
     }
 }

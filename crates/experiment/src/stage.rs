@@ -105,7 +105,7 @@ impl Stage {
         E: From<ExperimentError>,
     {
         let inputs = inputs.hash();
-        if let Some(Stored { files, value, .. }) = self.read_stored(&inputs) {
+        if let Some(Stored { files, value, .. }) = self.read_product(&inputs) {
             return Ok(Staged { value, files, is_kept: true });
         }
         self.begin()?;
@@ -124,7 +124,7 @@ impl Stage {
     }
 
     /// The stored product of these inputs, unless a file is missing or changed.
-    fn read_stored<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
+    fn read_product<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
         let text = std::fs::read_to_string(&self.file).ok()?;
         let stored: Stored<T> = serde_json::from_str(&text).ok()?;
         let is_whole = |(file, hash): (&PathBuf, &String)| {

@@ -42,7 +42,7 @@ impl NamedFeedforward {
         delays_s.dedup_by(|a, b| a.total_cmp(b).is_eq());
         Ok(Self {
             workspace: compensation.workspace(),
-            states: vec![State::default(); compensation.states_needed()],
+            states: vec![State::default(); compensation.state_count()],
             found: FeedforwardEfforts::zero(joints),
             compensation,
             delays_s,

@@ -73,7 +73,7 @@ impl<'a> Competition<'a> {
             rank: fitted.rank,
             mean: self.mean(j, fitted.square),
             memory: memory(&left, &self.dataset.runs),
-            held_out: self.held_out(j, &columns),
+            held_out: self.held_out_rms(j, &columns),
             columns,
         }
     }
@@ -87,7 +87,7 @@ impl<'a> Competition<'a> {
     }
 
     /// RMS of what columns leave of samples that their weights were not fitted to.
-    fn held_out(&self, j: usize, columns: &[usize]) -> f64 {
+    fn held_out_rms(&self, j: usize, columns: &[usize]) -> f64 {
         let joint = self.joint(j);
         let left = |[learned, held]: &[faer::Mat<f64>; 2]| {
             let weights = fit(learned, columns, joint.target()).weights;
@@ -138,7 +138,7 @@ impl<'a> Competition<'a> {
         let of = &candidate.parts[part];
         let (j, joint) = (of.0, self.joint(of.0));
         let columns = Self::union(&standing.columns, &self.places(of));
-        let (before, after) = (standing.held_out, self.held_out(j, &columns));
+        let (before, after) = (standing.held_out, self.held_out_rms(j, &columns));
         let least = (PRACTICAL * joint.torque_rms).max(LEAST_OF_ERROR * before);
         let gain = match before - after > least {
             true => {

@@ -58,7 +58,7 @@ pub fn least_squares(
     let mut fit = Fitted { robot, dataset, columns, deviations: Vec::new(), parameters: vec![] };
     fit.deviations = fit.dataset.joints.iter().map(|j| j.torque_rms).collect();
     fit.solve();
-    fit.deviations = (0..robot.joint_count()).map(|j| fit.left_rms(j)).collect();
+    fit.deviations = (0..robot.joint_count()).map(|j| fit.residual_rms(j)).collect();
     fit.solve();
     let weights = (0..robot.joint_count()).map(|j| fit.weights(j)).collect();
     Ok(Baseline::new(fit.names(), weights, (Nominal::Replaced, scales)))
@@ -137,7 +137,7 @@ impl Fitted<'_> {
     }
 
     /// RMS of what is left at joint `j`, with the floor.
-    fn left_rms(&self, j: usize) -> f64 {
+    fn residual_rms(&self, j: usize) -> f64 {
         let joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
         let square = square_left(&joint.total, &own, &self.scaled_parameters(j), joint.target());

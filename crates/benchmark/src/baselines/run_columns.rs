@@ -103,14 +103,14 @@ impl<'a> RunColumns<'a> {
             shapes.iter().map(|shape| self.simple(j, *shape)).collect()
         };
         let mut columns: Vec<Vec<Vec<f64>>> = shapes.iter().enumerate().map(simple).collect();
-        let wanted = |is: fn(&Shape) -> bool| shapes.iter().flatten().any(is);
-        if wanted(|s| matches!(s, Shape::Body { .. })) {
+        let has_shape = |is: fn(&Shape) -> bool| shapes.iter().flatten().any(is);
+        if has_shape(|s| matches!(s, Shape::Body { .. })) {
             self.fill_bodies(shapes, &mut columns);
         }
-        if wanted(|s| matches!(s, Shape::Tilt(_))) {
+        if has_shape(|s| matches!(s, Shape::Tilt(_))) {
             self.fill_tilts(shapes, &mut columns);
         }
-        if wanted(|s| matches!(s, Shape::Spring { .. })) {
+        if has_shape(|s| matches!(s, Shape::Spring { .. })) {
             self.fill_springs(shapes, &mut columns);
         }
         columns

@@ -378,12 +378,12 @@ impl Joint<'_> {
         let highest = self.highest.iter();
         let counts: Vec<Vec<bool>> =
             highest.map(|run| run.iter().map(|highest| *highest >= at).collect()).collect();
-        let counted = |r: usize| {
+        let beat_sum = |r: usize| {
             let samples = self.beat(r).iter().zip(&counts[r]).filter(|(_, counts)| **counts);
             samples.fold((0.0, 0), |(sum, n), (beat, _)| (sum + beat, n + 1))
         };
         let own = |(sum, n): (f64, usize)| sum / n.max(1) as f64;
-        let each: Vec<(f64, usize)> = (0..self.left.len()).map(counted).collect();
+        let each: Vec<(f64, usize)> = (0..self.left.len()).map(beat_sum).collect();
         let all = own(each.iter().fold((0.0, 0), |a, b| (a.0 + b.0, a.1 + b.1)));
         let sampled = |r: usize| Sampled {
             left: &self.left[r],

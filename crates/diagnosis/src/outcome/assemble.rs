@@ -45,7 +45,7 @@ impl Inputs<'_> {
             findings: self.all_findings(tested, least),
             negligible: self.negligible(tested, least),
             unexplained,
-            ruled_out: self.ruled_out(tested),
+            ruled_out: self.ruled_out_causes(tested),
             gain: Gain { inverse: tested.gain.inverse.clone() },
             data: self.data(dataset, tested),
             warnings: Vec::new(),
@@ -67,13 +67,13 @@ impl Inputs<'_> {
             (self.informative_part(&tested.gap[j], j), self.informative_part(left, j));
         let structure = self.structure(tested, left, j);
         let spectrum = Spectrum::of(left, self.design.rate_hz);
-        let lowered = || tested.found.iter().filter(|f| f.fall[j] > least[j].powi(2));
+        let effective_findings = || tested.found.iter().filter(|f| f.fall[j] > least[j].powi(2));
         let name = &self.robot.links()[j].joint.name;
         let is_own = |f: &&FindingWithFall| f.finding.at.joint.as_ref() == Some(name);
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
-            findings: lowered().count() + oscillations,
-            own: lowered().filter(is_own).count() + oscillations,
+            findings: effective_findings().count() + oscillations,
+            own: effective_findings().filter(is_own).count() + oscillations,
             between_encoders: tested.second_encoder.as_ref().map_or(0, |found| found.at(name)),
             unseen: tested.unseen_friction[j],
             torque_rms: self.torque_rms(j),
@@ -212,7 +212,7 @@ impl Inputs<'_> {
         tested.found.iter().filter(|f| !matters(f, least)).filter_map(negligible).collect()
     }
 
-    fn ruled_out(&self, tested: &TestedFindings) -> Vec<RuledOut> {
+    fn ruled_out_causes(&self, tested: &TestedFindings) -> Vec<RuledOut> {
         let between = tested.second_encoder.iter().flat_map(|of| &of.ruled_out);
         tested.ruled_out.iter().chain(between).cloned().collect()
     }

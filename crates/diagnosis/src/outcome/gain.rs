@@ -59,7 +59,7 @@ fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> Invers
         nmse_after: nmse(&rms_after),
         rms_before_nm: rms_before,
         rms_after_nm: rms_after,
-        held_out: held_out(whole),
+        held_out: describe_folds(whole),
         folds,
     }
 }
@@ -102,7 +102,7 @@ fn is_in_parts(whole: &Problem) -> bool {
     whole.folds.iter().any(is_torn)
 }
 
-fn held_out(whole: &Problem) -> String {
+fn describe_folds(whole: &Problem) -> String {
     let runs = whole.design.runs.len();
     let count = whole.folds.len();
     if is_in_parts(whole) {

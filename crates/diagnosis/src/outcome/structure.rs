@@ -194,10 +194,10 @@ impl<'a> Probe<'a> {
 }
 
 fn families(design: &Design, joint: usize) -> Vec<Family> {
-    let moved = || (0..design.joints()).filter(|&j| design.moved[j]);
+    let moving_joints = || (0..design.joints()).filter(|&j| design.moved[j]);
     let mut all: Vec<(Signal, Factor)> = Vec::new();
-    all.extend(moved().map(|j| (Signal::Position(j), Factor::One)));
-    all.extend(moved().map(|j| (Signal::Velocity(j), Factor::One)));
+    all.extend(moving_joints().map(|j| (Signal::Position(j), Factor::One)));
+    all.extend(moving_joints().map(|j| (Signal::Velocity(j), Factor::One)));
     all.push((Signal::Acceleration(joint), Factor::One));
     all.push((Signal::Load(joint), Factor::One));
     all.push((Signal::Position(joint), Factor::Direction));

@@ -70,7 +70,7 @@ impl Inputs<'_> {
     }
 
     /// The folds, each with the robot that was found without it.
-    pub fn held_out(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOutPart> {
+    pub fn held_out_parts(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOutPart> {
         let spans = |of: &[usize]| spans(self.design, dataset.blocks, of);
         let part = |(fold, fitted): (&Fold, &FittedModel)| HeldOutPart {
             test: spans(&fold.test),

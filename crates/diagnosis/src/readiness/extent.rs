@@ -25,7 +25,7 @@ pub(crate) fn inadequate(
 
 /// Leaves out runs in which the effort of a joint never changes while it moves, with a warning each, where
 /// these are less than half of the samples.
-pub(crate) fn without_unrecorded(
+pub(crate) fn drop_runs_without_effort(
     robot: &Robot,
     prepared: &mut Prepared,
     t: &ReadinessThresholds,
@@ -130,8 +130,11 @@ mod tests {
         let observe = |samples| {
             let runs = vec![run("a", 1000, 1.0, 2.0), run("b", samples, 1.0, 0.0)];
             let mut prepared = Prepared::exact(runs, 5.0);
-            let warnings =
-                without_unrecorded(&pendulum(), &mut prepared, &ReadinessThresholds::default());
+            let warnings = drop_runs_without_effort(
+                &pendulum(),
+                &mut prepared,
+                &ReadinessThresholds::default(),
+            );
             (
                 warnings,
                 prepared.runs.len(),

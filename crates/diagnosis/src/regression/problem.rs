@@ -119,7 +119,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Squared residuals of a model on the blocks that its weights have not seen.
-    pub fn held_out(&self, model: &Model) -> HeldOut {
+    pub fn hold_out(&self, model: &Model) -> HeldOut {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
         for (f, test) in self.tests.iter().enumerate() {
@@ -135,7 +135,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The weighted sum of squares of every block, where it is held out.
-    pub fn held_out_by_block(&self, model: &Model) -> Vec<f64> {
+    pub fn hold_out_by_block(&self, model: &Model) -> Vec<f64> {
         let mut deviance = vec![0.0; self.blocks.len()];
         for (f, fold) in self.folds.iter().enumerate() {
             let w = self.fold_weights(model, f);

@@ -43,7 +43,7 @@ impl Uncertainty {
     }
 
     /// The same with the covariance that effects without a name add to its columns.
-    pub fn with_unnamed(mut self, of: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
+    pub fn with_unnamed_effects(mut self, of: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
         self.unnamed = of(&self.columns);
         self
     }
@@ -261,12 +261,12 @@ fn slope(
     prior: f64,
 ) -> Vec<f64> {
     let step = 1e-4 * prior;
-    let moved = |sign: f64| {
+    let at_step = |sign: f64| {
         let mut w = weights.to_vec();
         w[k] += sign * step;
         at(&w)
     };
-    let (up, down) = (moved(1.0), moved(-1.0));
+    let (up, down) = (at_step(1.0), at_step(-1.0));
     let slope = |i: usize| (up[i].value - down[i].value) / (2.0 * step);
     (0..here.len()).map(slope).collect()
 }

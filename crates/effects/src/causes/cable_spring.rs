@@ -55,7 +55,7 @@ impl Effect for CableSpring {
         Ok("the torque of its spring at the position of the link, and the level of its loop")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

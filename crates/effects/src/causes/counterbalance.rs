@@ -48,7 +48,7 @@ impl Effect for Counterbalance {
         Ok("its torque at the position of the link")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

@@ -40,7 +40,7 @@ impl Effect for EncoderOffset {
         Ok("a reference that is off as the encoder is")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         (drive.encoder_offset.abs() > 0.0).then_some("encoder_offset_rad")
     }
 

@@ -41,7 +41,7 @@ impl Effect for GravityDirection {
         Ok(INVERSE_DYNAMICS)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

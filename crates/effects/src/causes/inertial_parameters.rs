@@ -44,7 +44,7 @@ impl Effect for InertialParameters {
         Ok(INVERSE_DYNAMICS)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

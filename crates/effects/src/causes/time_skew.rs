@@ -37,7 +37,7 @@ impl Effect for TimeSkew {
         Err("it is in the log, not in the arm")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         (drive.effort_skew_s.abs() > 0.0).then_some("effort_skew_ms")
     }
 

@@ -40,7 +40,7 @@ impl Effect for TorqueConstant {
         Ok("asking for as much more or less")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

@@ -37,7 +37,7 @@ impl Effect for TorqueOffset {
         Ok("asking for the offset as well")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

@@ -72,7 +72,7 @@ mod tests {
 
     fn feedforward_of(robot: &Robot) -> (FeedforwardEfforts, Vec<f64>) {
         let compensation = Compensation::new(robot, vec![0.02]);
-        let count = compensation.states_needed();
+        let count = compensation.state_count();
         let (qd, qdd): (f64, f64) = (0.7, -3.0);
         let at = |k: usize| {
             let t = Compensation::SPACING_S * (k as f64 - (count / 2) as f64);

@@ -223,7 +223,7 @@ impl RunMotion {
 
     /// Effort of joint `j` at the times at which the log has it.
     pub(crate) fn with_timing(&self, j: usize, effort: Vec<f64>) -> Vec<f64> {
-        Timing::of(&self.drives[j]).as_logged(effort, self.period_s)
+        Timing::of(&self.drives[j]).with_log_timing(effort, self.period_s)
     }
 
     /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.

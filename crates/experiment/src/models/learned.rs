@@ -125,13 +125,13 @@ impl Learned {
         }
         let data = Data::new(lesson, logs)?;
         let named = match named {
-            None if kinds.iter().any(|kind| kind.needs_named()) => {
+            None if kinds.iter().any(|kind| kind.needs_named_effects()) => {
                 Some(extend_by_diagnosis(lesson, logs, progress)?)
             }
             given => given.cloned(),
         };
-        let described = |kind: &ModelKind| matches!(kind, ModelKind::Cad | ModelKind::Named);
-        let fit = match kinds.iter().all(described) {
+        let needs_no_fit = |kind: &ModelKind| matches!(kind, ModelKind::Cad | ModelKind::Named);
+        let fit = match kinds.iter().all(needs_no_fit) {
             true => None,
             false => Some(rigid_bodies(lesson, &data.regression, progress)?),
         };
@@ -237,17 +237,17 @@ impl Data {
             return Err(ExperimentError::NothingToLearnFrom { path, model });
         }
         let prepared = lesson.prepare(logs, None)?;
-        let train = runs_named(&prepared, &learn.train);
+        let train = select_runs(&prepared, &learn.train);
         let regression = match learn.regression.as_slice() {
             [] => Samples::new(&train),
-            names => Samples::new(&runs_named(&prepared, names)),
+            names => Samples::new(&select_runs(&prepared, names)),
         };
         Ok(Self { rest_speeds: rest_speeds(&train), train: Samples::new(&train), regression })
     }
 }
 
 /// The prepared runs that are logs of these names or parts of them.
-pub(crate) fn runs_named(prepared: &Prepared, names: &[String]) -> Prepared {
+pub(crate) fn select_runs(prepared: &Prepared, names: &[String]) -> Prepared {
     let is_meant = |run: &&PreparedRun| names.iter().any(|name| is_part_of(&run.name, name));
     prepared.with_runs(prepared.runs.iter().filter(is_meant).cloned().collect())
 }

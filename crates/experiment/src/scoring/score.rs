@@ -80,14 +80,14 @@ impl Score {
             k => injected.iter().all(|p| of(p).is_some_and(|finding| finding < k)),
         };
         let is_true = |at: &EffectAt| injected.iter().any(|p| p.at == *at);
-        let excused = |finding: &Finding| {
+        let is_excused = |finding: &Finding| {
             let mut names = std::iter::once(&finding.at).chain(&finding.not_separable_from);
             let of_a_true_one = |f: &&&Finding| is_true(&f.at);
             let mut rivals =
                 findings.iter().filter(of_a_true_one).flat_map(|f| &f.not_separable_from);
             names.any(is_true) || rivals.any(|rival| *rival == finding.at)
         };
-        let stray = findings.iter().filter(|f| !excused(f)).map(|f| f.at.clone()).collect();
+        let stray = findings.iter().filter(|f| !is_excused(f)).map(|f| f.at.clone()).collect();
         Self {
             seed,
             looked_for: true,

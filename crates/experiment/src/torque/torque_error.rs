@@ -1,4 +1,4 @@
-use diagnosis::{LeftOver, left_over};
+use diagnosis::{LeftOver, unexplained_torque};
 use learner::{Mean, Model, Samples, TorqueModel};
 use logs::{
     LogError, LowPass, PrepareSettings, Prepared, PreparedRun, Run, centre_commands, prepare,
@@ -77,7 +77,8 @@ pub fn robot_error(
     let mut test = prepare(runs, &PrepareSettings::default())?;
     centre_commands(robot, &mut test.runs, control_rate_hz);
     let mut errors = TurningError::new(robot.joint_count());
-    for (run, rest) in test.runs.iter().zip(left_over(robot, &rest_speeds(&test), &test)?) {
+    for (run, rest) in test.runs.iter().zip(unexplained_torque(robot, &rest_speeds(&test), &test)?)
+    {
         errors.add(run, test.cutoff_hz, &rest.left)?;
     }
     Ok(errors.rms())
@@ -86,8 +87,10 @@ pub fn robot_error(
 impl TorqueError {
     fn of(model: &Model, test: &Prepared) -> Result<Self, LogError> {
         let left_over = match (&model.mean, &model.process) {
-            (Mean::Robot(torque), None) => left_over(torque.robot(), torque.rest_speed(), test)?,
-            _ => left_by(model, test)?,
+            (Mean::Robot(torque), None) => {
+                unexplained_torque(torque.robot(), torque.rest_speed(), test)?
+            }
+            _ => unexplained_by(model, test)?,
         };
         let mut sums = vec![Sums::default(); model.joints()];
         for run in left_over {
@@ -103,7 +106,7 @@ impl TorqueError {
 }
 
 /// What a learned model leaves of each run.
-fn left_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogError> {
+fn unexplained_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogError> {
     let of = |run: &PreparedRun| {
         let part = test.with_runs(vec![run.clone()]);
         let low_pass = LowPass::new(ORDER, test.cutoff_hz, run.rate_hz)?;

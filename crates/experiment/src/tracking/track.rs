@@ -31,12 +31,13 @@ pub fn simulated_logs(
     progress: &dyn Progress,
 ) -> Result<Vec<Run>, ExperimentError> {
     let learn = scenario.learn();
-    let wanted = |name: &str| learn.train.iter().chain(&learn.regression).any(|run| run == name);
-    let runs = scenario.plant().runs().iter().filter(|run| wanted(&run.name));
+    let is_learned =
+        |name: &str| learn.train.iter().chain(&learn.regression).any(|run| run == name);
+    let runs = scenario.plant().runs().iter().filter(|run| is_learned(&run.name));
     let seconds: f64 = runs.map(|run| run.motion.duration_s()).sum();
     progress.begin(&format!("simulating {seconds:.0} s of motion to learn from"));
     let second = || progress.second();
-    Ok(simulator::simulate_only(scenario.plant(), &wanted, &second)?.runs)
+    Ok(simulator::simulate_only(scenario.plant(), &is_learned, &second)?.runs)
 }
 
 /// Tracks the motion of a scenario with everything that it feeds forward: on the virtual clock
