@@ -10,9 +10,9 @@ use crate::error::CliError;
 pub fn find_effect(name: &str) -> Result<EffectKind, CliError> {
     let plain = name.to_lowercase().replace(['-', ' '], "_");
     plain.parse().map_err(|_| {
-        let named = |kind: &EffectKind| format!("{} {kind}", kind.code());
+        let name_with_code = |kind: &EffectKind| format!("{} {kind}", kind.code());
         let near = EffectKind::ALL.iter().filter(|kind| is_near(&plain, kind.name()));
-        let near: Vec<String> = near.map(named).collect();
+        let near: Vec<String> = near.map(name_with_code).collect();
         let hint = if near.is_empty() {
             "a name such as coulomb_friction or a code such as FR02 was expected".to_owned()
         } else {

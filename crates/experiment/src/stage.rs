@@ -110,9 +110,9 @@ impl Stage {
         }
         self.begin()?;
         let Product { value, files } = make()?;
-        let hashed = |file: PathBuf| Ok((file.clone(), sha256(&self.folder.join(&file))?));
+        let with_hash = |file: PathBuf| Ok((file.clone(), sha256(&self.folder.join(&file))?));
         let files: Result<BTreeMap<_, _>, ExperimentError> =
-            files.into_iter().map(hashed).collect();
+            files.into_iter().map(with_hash).collect();
         let stored = Stored { inputs, files: files?, value };
         let text = serde_json::to_string_pretty(&stored).map_err(|e| ExperimentError::Stage {
             path: self.file.clone(),

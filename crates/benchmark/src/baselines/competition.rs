@@ -89,11 +89,11 @@ impl<'a> Competition<'a> {
     /// RMS of what columns leave of samples that their weights were not fitted to.
     fn held_out_rms(&self, j: usize, columns: &[usize]) -> f64 {
         let joint = self.joint(j);
-        let left = |[learned, held]: &[faer::Mat<f64>; 2]| {
+        let residual_square = |[learned, held]: &[faer::Mat<f64>; 2]| {
             let weights = fit(learned, columns, joint.target()).weights;
             square_left(held, columns, &weights, joint.target())
         };
-        (joint.folds.iter().map(left).sum::<f64>() / joint.samples.max(1) as f64).sqrt()
+        (joint.folds.iter().map(residual_square).sum::<f64>() / joint.samples.max(1) as f64).sqrt()
     }
 
     /// Evidence for the columns of `with` beside those of `without`, for samples of which

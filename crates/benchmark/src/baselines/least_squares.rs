@@ -147,8 +147,8 @@ impl Fitted<'_> {
 
     fn weights(&self, j: usize) -> Vec<Weighted> {
         let shapes = self.dataset.joints[j].shapes.iter().zip(self.places(j));
-        let weighted = |(&shape, at)| Weighted { shape, weight: self.parameters[at] };
-        shapes.map(weighted).collect()
+        let with_weight = |(&shape, at)| Weighted { shape, weight: self.parameters[at] };
+        shapes.map(with_weight).collect()
     }
 
     /// Samples at joint `j` that tell as much as one.

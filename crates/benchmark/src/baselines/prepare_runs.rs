@@ -13,12 +13,12 @@ pub(super) fn prepare_runs(
         let found: Vec<&str> = run.joints.iter().map(|j| j.name.as_str()).collect();
         let expected: Vec<&str> = robot.joint_names().collect();
         if found != expected {
-            let owned = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
+            let to_owned_names = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
             return Err(LogError::JointsDiffer {
                 run: run.name.clone(),
-                found: owned(found),
+                found: to_owned_names(found),
                 first: robot.name().to_owned(),
-                expected: owned(expected),
+                expected: to_owned_names(expected),
             });
         }
     }

@@ -124,7 +124,8 @@ impl<'a> RunColumns<'a> {
             let rate = f64::from(k) * self.scales.phase_per_way[j];
             q.iter().map(move |q| wave(rate * q))
         };
-        let signed = |k: u8, f: fn(f64) -> f64| wave(k, f).zip(sign).map(|(w, s)| w * s).collect();
+        let signed_wave =
+            |k: u8, f: fn(f64) -> f64| wave(k, f).zip(sign).map(|(w, s)| w * s).collect();
         match shape {
             Shape::Velocity => qd.clone(),
             Shape::Sign => sign.clone(),
@@ -134,8 +135,8 @@ impl<'a> RunColumns<'a> {
             Shape::NominalRate => differentiate(nominal, self.rate_hz),
             Shape::Position => q.clone(),
             Shape::LoadSign => nominal.iter().zip(sign).map(|(n, s)| n.abs() * s).collect(),
-            Shape::SineSign(k) => signed(k, f64::sin),
-            Shape::CosineSign(k) => signed(k, f64::cos),
+            Shape::SineSign(k) => signed_wave(k, f64::sin),
+            Shape::CosineSign(k) => signed_wave(k, f64::cos),
             Shape::Sine(k) => wave(k, f64::sin).collect(),
             Shape::Cosine(k) => wave(k, f64::cos).collect(),
             Shape::Tilt(_) | Shape::Body { .. } | Shape::Spring { .. } => Vec::new(),

@@ -52,7 +52,7 @@ impl Judgement {
         let two_questions = BaselineClaim::all(&answers.two_questions, &causes);
         let least_squares = BaselineClaim::all(&answers.least_squares, &causes);
         let claims = [&two_questions[..], &least_squares[..]];
-        let judged = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
+        let judge = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
         let stranger = |other: &TrueStranger| TrueStranger {
             strength: finite(other.strength),
             ..other.clone()
@@ -63,7 +63,7 @@ impl Judgement {
             knowledge: sheet.knowledge,
             verdict: diagnosis.map_or(Verdict::DataInadequate, |diagnosis| diagnosis.verdict),
             refused: diagnosis.err().cloned(),
-            causes: sheet.causes.iter().map(judged).collect(),
+            causes: sheet.causes.iter().map(judge).collect(),
             findings: JudgedFinding::all(&findings, &causes),
             strangers: sheet.strangers.iter().map(stranger).collect(),
             prediction: Prediction::new(&answers.held_out, &sheet.torque_rms),
@@ -120,10 +120,10 @@ impl Judgement {
     /// visible cause has no name or an effect outside the catalogue is visible. None where an
     /// oracle sees no cause.
     pub fn false_assurance(&self) -> Option<bool> {
-        let missed = || self.visible().any(|cause| !cause.is_named()) || self.hides_strangers();
+        let misses = || self.visible().any(|cause| !cause.is_named()) || self.hides_strangers();
         self.hides().then(|| match self.verdict {
             Verdict::Consistent => true,
-            Verdict::Explained => missed(),
+            Verdict::Explained => misses(),
             _ => false,
         })
     }

@@ -41,11 +41,13 @@ pub(super) fn of_scenarios(records: &[Record]) -> Vec<Named> {
 
 /// What a table of trials of a population has besides.
 pub(super) fn of_panel(records: &[Record]) -> Vec<Named> {
-    let judged = || records.iter().map(Record::judgement);
-    let text = |of: fn(&Judgement) -> &str| texts(judged().map(|j| j.map(|j| of(j).to_owned())));
-    let count = |of: fn(&Judgement) -> usize| numbers(judged().map(|j| j.map(|j| of(j) as u64)));
-    let answer = |of: fn(&Judgement) -> Option<bool>| answers(judged().map(|j| j.and_then(of)));
-    let times = judged().map(|j| j.map(|j| j.costs.diagnosis_s));
+    let judgements = || records.iter().map(Record::judgement);
+    let text =
+        |of: fn(&Judgement) -> &str| texts(judgements().map(|j| j.map(|j| of(j).to_owned())));
+    let count =
+        |of: fn(&Judgement) -> usize| numbers(judgements().map(|j| j.map(|j| of(j) as u64)));
+    let answer = |of: fn(&Judgement) -> Option<bool>| answers(judgements().map(|j| j.and_then(of)));
+    let times = judgements().map(|j| j.map(|j| j.costs.diagnosis_s));
     vec![
         ("arm", text(|j| &j.corner.arm)),
         ("motion", text(|j| j.corner.motion.name())),

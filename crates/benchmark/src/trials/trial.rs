@@ -144,9 +144,11 @@ fn score_answer(
 /// Whether a folder holds all logs of this scenario: the truth is written last.
 fn holds(folder: &Path, scenario: &Scenario) -> bool {
     let spec = |document: Document| document.parse::<ScenarioSpec>().ok();
-    let said = |document| spec(document).map(|spec| ScenarioSpec { robot: PathBuf::new(), ..spec });
-    let there = Document::read(folder.join("scenario.toml")).ok().and_then(said);
-    let wanted =
-        Document::from_text("scenario.toml", scenario.self_contained_text()).ok().and_then(said);
+    let without_robot =
+        |document| spec(document).map(|spec| ScenarioSpec { robot: PathBuf::new(), ..spec });
+    let there = Document::read(folder.join("scenario.toml")).ok().and_then(without_robot);
+    let wanted = Document::from_text("scenario.toml", scenario.self_contained_text())
+        .ok()
+        .and_then(without_robot);
     folder.join(Blinded::FILE).is_file() && wanted.is_some() && there == wanted
 }

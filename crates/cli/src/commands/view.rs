@@ -57,12 +57,12 @@ struct Found {
 
 impl Found {
     fn in_folder(folder: &Path) -> Result<Self, CliError> {
-        let unlisted = |error: std::io::Error| CliError::Unlisted {
+        let to_unlisted = |error: std::io::Error| CliError::Unlisted {
             path: folder.to_owned(),
             reason: error.to_string(),
         };
-        let entries: Result<Vec<_>, _> = fs::read_dir(folder).map_err(unlisted)?.collect();
-        let entries = entries.map_err(unlisted)?;
+        let entries: Result<Vec<_>, _> = fs::read_dir(folder).map_err(to_unlisted)?.collect();
+        let entries = entries.map_err(to_unlisted)?;
         let mut files: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).collect();
         files.sort();
         let is_recording = |path: &PathBuf| {

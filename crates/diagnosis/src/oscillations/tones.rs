@@ -385,7 +385,7 @@ impl Joint<'_> {
         let own = |(sum, n): (f64, usize)| sum / n.max(1) as f64;
         let each: Vec<(f64, usize)> = (0..self.left.len()).map(beat_sum).collect();
         let all = own(each.iter().fold((0.0, 0), |a, b| (a.0 + b.0, a.1 + b.1)));
-        let sampled = |r: usize| Sampled {
+        let samples = |r: usize| Sampled {
             left: &self.left[r],
             counts: &counts[r],
             origin: match self.follows {
@@ -401,7 +401,7 @@ impl Joint<'_> {
             Follows::Position => Beat::Position(at),
             Follows::Clock => Beat::Clock(at / TAU),
         };
-        let sampled: Vec<Sampled> = (0..self.left.len()).map(sampled).collect();
+        let sampled: Vec<Sampled> = (0..self.left.len()).map(samples).collect();
         let wave =
             |r: usize, at: f64, origin: f64| self.runs[r].along.wave(self.index, beat(at), origin);
         let fit = ToneFit::new(&sampled, coherence, [at, step], wave)?;

@@ -31,10 +31,11 @@ fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> Invers
     let before =
         |blocks: &[usize]| -> Vec<f64> { (0..joints).map(|j| gap(dataset, blocks, j)).collect() };
     let rms = |(sum, n): (f64, usize)| (sum / n.max(1) as f64).sqrt();
-    let left = |(fold, fitted): (&Fold, &FittedModel)| -> Vec<(f64, usize)> {
+    let remaining_squares = |(fold, fitted): (&Fold, &FittedModel)| -> Vec<(f64, usize)> {
         (0..joints).map(|j| squares(whole, fold, fitted, j)).collect()
     };
-    let left: Vec<Vec<(f64, usize)>> = whole.folds.iter().zip(fitted).map(left).collect();
+    let left: Vec<Vec<(f64, usize)>> =
+        whole.folds.iter().zip(fitted).map(remaining_squares).collect();
     let fold = |(f, fold): (usize, &Fold)| FoldGain {
         name: name(whole, f),
         torque_rms_nm: (0..joints)

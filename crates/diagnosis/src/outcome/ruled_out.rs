@@ -184,9 +184,9 @@ mod tests {
         let (index, size) = parameter_of(kind, 0, found);
         assert_eq!(name(kind, (index, size)), "stiffness");
         assert!((size.unwrap() / 1e4 - 1.0).abs() < 1e-12);
-        let named = |kind| name(kind, parameter_of(kind, 0, found));
-        assert_eq!(named(EffectKind::StribeckFriction), "breakaway");
-        assert_eq!(named(EffectKind::PreslidingFriction), "level");
+        let parameter_name = |kind| name(kind, parameter_of(kind, 0, found));
+        assert_eq!(parameter_name(EffectKind::StribeckFriction), "breakaway");
+        assert_eq!(parameter_name(EffectKind::PreslidingFriction), "level");
         assert_eq!(parameter_of(EffectKind::Payload, 2, found), (2, found));
         assert_eq!(parameter_of(EffectKind::JointElasticity, 0, None), (0, None));
     }

@@ -291,10 +291,11 @@ mod tests {
 
     #[test]
     fn a_joint_whose_fit_failed_is_not_called_consistent() {
-        let failed = |noise| Situation { keeps_nominal: true, ..joint(0, 1.0, noise) }.verdict();
-        assert_eq!(failed(0.95).0, Verdict::DataInadequate);
-        assert!(failed(0.95).1.contains("predicts worse than the description"));
-        assert_eq!(failed(0.1).0, Verdict::Unexplained);
+        let verdict_at =
+            |noise| Situation { keeps_nominal: true, ..joint(0, 1.0, noise) }.verdict();
+        assert_eq!(verdict_at(0.95).0, Verdict::DataInadequate);
+        assert!(verdict_at(0.95).1.contains("predicts worse than the description"));
+        assert_eq!(verdict_at(0.1).0, Verdict::Unexplained);
     }
 
     #[test]

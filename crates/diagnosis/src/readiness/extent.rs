@@ -32,12 +32,12 @@ pub(crate) fn drop_runs_without_effort(
 ) -> Vec<String> {
     let joints: Vec<(&str, f64)> =
         robot.links().iter().map(|link| (link.joint.name.as_str(), least(link, t))).collect();
-    let unrecorded = |run: &PreparedRun| -> Vec<&str> {
+    let joints_without_effort = |run: &PreparedRun| -> Vec<&str> {
         let those =
             joints.iter().enumerate().filter(|(j, (_, least))| is_unrecorded(run, *j, *least));
         those.map(|(_, (name, _))| *name).collect()
     };
-    let found: Vec<Vec<&str>> = prepared.runs.iter().map(unrecorded).collect();
+    let found: Vec<Vec<&str>> = prepared.runs.iter().map(joints_without_effort).collect();
     let samples = |with: bool| -> usize {
         let those = prepared.runs.iter().zip(&found).filter(|(_, names)| names.is_empty() != with);
         those.map(|(run, _)| run.time.len()).sum()

@@ -213,8 +213,8 @@ impl<'a> Problem<'a> {
     pub fn noise(&self, model: &Model) -> Noise {
         let weights: Vec<Vec<f64>> =
             (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
-        let left = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
-        Noise::of(&self.informative_residuals(left))
+        let residual = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
+        Noise::of(&self.informative_residuals(residual))
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.

@@ -148,8 +148,8 @@ impl Uncertainty {
             columns.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
         let sd = |i: usize| self.likelihood[(place[i], place[i])].sqrt();
         let part = |all: &DMatrix<f64>| {
-            let scaled = |i, k| all[(place[i], place[k])] / (sd(i) * sd(k));
-            DMatrix::from_fn(place.len(), place.len(), scaled)
+            let over_sd = |i, k| all[(place[i], place[k])] / (sd(i) * sd(k));
+            DMatrix::from_fn(place.len(), place.len(), over_sd)
         };
         let (likelihood, count) = (part(&self.likelihood), place.len());
         if count != change.len() || likelihood.iter().any(|v| !v.is_finite()) {

@@ -105,14 +105,14 @@ fn contrasts(design: &Design, group: usize, size: &[f64]) -> Vec<Contrast> {
         let mut all: Vec<Contrast> = Vec::new();
         for (index, &with) in SIGNALS.iter().enumerate() {
             let (mean, sd) = spread(design, index, joint);
-            let varied = |(run, torque): (&RunDesign, &DVector<f64>)| {
+            let contrast_columns = |(run, torque): (&RunDesign, &DVector<f64>)| {
                 let values = signal(run, index, joint);
                 DMatrix::from_fn(torque.len(), FUNCTIONS, |t, k| {
                     let z = (values[t] - mean) / sd;
                     torque[t] * if k == 0 { z } else { z * z - 1.0 }
                 })
             };
-            let factors = design.runs.iter().zip(&torque).map(varied).collect();
+            let factors = design.runs.iter().zip(&torque).map(contrast_columns).collect();
             all.push(Contrast { joint, with: Some(with), factors });
         }
         if joints.len() > 1 {

@@ -73,8 +73,8 @@ impl Score {
     pub fn new(diagnosis: &Diagnosis, truth: &[Truth], seed: u64) -> Self {
         let mut findings: Vec<&Finding> = diagnosis.findings.iter().collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
-        let injected = |truth| Injected::new(truth, &findings, &diagnosis.ruled_out);
-        let injected: Vec<Injected> = truth.iter().map(injected).collect();
+        let find_injected = |truth| Injected::new(truth, &findings, &diagnosis.ruled_out);
+        let injected: Vec<Injected> = truth.iter().map(find_injected).collect();
         let among_first = |of: fn(&Injected) -> Option<usize>| match injected.len() {
             0 => findings.is_empty(),
             k => injected.iter().all(|p| of(p).is_some_and(|finding| finding < k)),

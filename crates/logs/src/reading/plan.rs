@@ -241,7 +241,7 @@ impl<'a> Plan<'a> {
         (time, table): (&[f64], &Table),
         channels: &Channels,
     ) -> Result<(), LogError> {
-        let unstated = |channel: Channel| {
+        let source_without_unit = |channel: Channel| {
             let found = sources.iter().find(|(c, _)| *c == channel).map(|(_, source)| source);
             found.filter(|s| s.mapped.is_none_or(|m| m.unit.is_none()))
         };
@@ -256,12 +256,12 @@ impl<'a> Plan<'a> {
                 expectation,
             }
         };
-        if let Some(source) = unstated(Channel::Position)
+        if let Some(source) = source_without_unit(Channel::Position)
             && let Some(expectation) = degrees::evidence(joint, time, channels)
         {
             return Err(looks(source, &channels.position, expectation));
         }
-        if let Some(source) = unstated(Channel::LinkPosition)
+        if let Some(source) = source_without_unit(Channel::LinkPosition)
             && let Some(link) = &channels.link_position
             && let Some(expectation) = degrees::link_evidence(joint, &channels.position, link)
         {

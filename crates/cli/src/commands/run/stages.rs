@@ -72,7 +72,8 @@ impl Stages<'_> {
         let forward = self.forward()?.value;
         let Staged { value: tracked, .. } = self.tracking()?;
         let experiment = self.experiment;
-        let owned = |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect();
+        let to_owned_names =
+            |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect();
         let robot = experiment.plant().robot();
         let joints: Vec<String> = robot.joint_names().map(str::to_owned).collect();
         let metrics = Metrics {
@@ -80,8 +81,8 @@ impl Stages<'_> {
             claims: tracking_claims(&tracked.errors, &joints),
             joints,
             score,
-            learned: owned(&mut experiment.learning_runs()),
-            test: owned(&mut experiment.test()),
+            learned: to_owned_names(&mut experiment.learning_runs()),
+            test: to_owned_names(&mut experiment.test()),
             torque,
             forward,
             gains: tracked.gains,
