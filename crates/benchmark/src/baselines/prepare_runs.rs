@@ -2,7 +2,7 @@ use logs::{LogError, PrepareSettings, Prepared, Run, centre_commands, prepare};
 use robot::{Robot, TorqueSource};
 
 /// Runs on a uniform clock, commands at the time of their samples and no larger than the joint's
-/// limit, as `diagnosis::left_over` reads them.
+/// limit, as `diagnosis::unexplained_torque` reads them.
 pub(super) fn prepare_runs(
     robot: &Robot,
     control_rate_hz: Option<f64>,

@@ -23,7 +23,7 @@ const ORDER: usize = 4;
 ///
 /// with `L` the low-pass of the diagnosis: what is faster is noise or vibration, which no model of
 /// the state predicts. A description of the robot predicts along the motion, with delays, springs
-/// and encoders that err ([`left_over`]), a learned model from the state at each instant.
+/// and encoders that err ([`unexplained_torque`]), a learned model from the state at each instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TorqueError {
     /// Name of the model.
@@ -57,7 +57,7 @@ pub fn torque_errors(
 }
 
 /// RMS by joint of what a described robot leaves of runs (N m or N) while the joint moves, in the band
-/// of their motion ([`left_over`]): the nominal one, one that a diagnosis has extended, any.
+/// of their motion ([`unexplained_torque`]): the nominal one, one that a diagnosis has extended, any.
 ///
 /// A joint slower than 5 mrad/s (or mm/s) for .2 s is held by dry friction of any size up to its level,
 /// which no model predicts; these samples count nothing, and a joint that only stands has no error.
