@@ -40,7 +40,7 @@ fn a_campaign_is_planned_made_and_merged() {
     }
     let records = Record::read(&path.join("a/trials.parquet")).unwrap();
     assert_eq!(records.iter().map(|record| record.task).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
-    let injected = records.iter().map(|record| record.scored().unwrap().injected.len());
+    let injected = records.iter().map(|record| record.scenario_score().unwrap().injected.len());
     assert_eq!(injected.collect::<Vec<_>>(), [0, 1, 2, 0, 1, 2]);
     let json: serde_json::Value = serde_json::from_slice(&files[1]).unwrap();
     assert_eq!(json["schema"], "plumbline.trials/1");

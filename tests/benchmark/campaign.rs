@@ -36,7 +36,7 @@ fn a_record_is_read_back_as_it_was_written() {
     estimate.ci95 = [f64::NEG_INFINITY, 1.0];
     Record::write(&path, &[record(0, Ok(endless.into()))]).unwrap();
     let read = Record::read(&path).unwrap().remove(0);
-    let read = read.scored().unwrap();
+    let read = read.scenario_score().unwrap();
     let [low, high] = read.injected[0].sizes[0].estimate.as_ref().unwrap().ci95;
     assert!(low.is_nan() && (high - 1.0).abs() < 1e-12);
 }
@@ -120,7 +120,7 @@ fn work_that_is_stopped_ends_after_the_trial_and_keeps_logs_where_they_are_wante
     assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [1]);
     let record = folder.manifest().unwrap().records.remove(&0).unwrap();
     assert_eq!((record.hidden, record.seed), folder.campaign().task(0));
-    let score = record.scored().unwrap();
+    let score = record.scenario_score().unwrap();
     assert!(score.exactly && score.seed == record.seed, "{}", score.words());
     let logs = root.path().join(format!("logs/clean/{}", record.seed));
     assert!(logs.join("a.parquet").is_file() && logs.join("b.parquet").is_file());

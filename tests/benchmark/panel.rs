@@ -336,7 +336,7 @@ fn a_judgement_is_read_back_as_it_was_written() {
     let records = [record(0, Ok(judgement.into())), record(1, Err("it ran away".to_owned()))];
     Record::write(&path, &records).unwrap();
     assert_eq!(Record::read(&path).unwrap(), records);
-    assert!(records[0].scored().is_none() && records[0].judged().is_some());
+    assert!(records[0].scenario_score().is_none() && records[0].judgement().is_some());
 }
 
 #[test]

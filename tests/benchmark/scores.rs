@@ -25,7 +25,7 @@ fn score(verdict: Verdict, findings: Vec<Finding>, truth: &[Truth]) -> Score {
 
 /// Whether it is named exactly, as one of the first, found at all, and how many are stray.
 fn answer(score: &Score) -> (bool, bool, bool, usize) {
-    (score.exactly, score.as_one_of, score.found(), score.stray.len())
+    (score.exactly, score.as_one_of, score.is_found(), score.stray.len())
 }
 
 fn coulomb() -> Truth {

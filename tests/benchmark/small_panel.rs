@@ -47,7 +47,7 @@ fn the_small_panel_is_judged_as_well_as_today() {
         records.values().filter_map(|record| record.score.as_ref().err()).collect();
     assert!(failed.is_empty(), "{failed:?}");
     let judged: Vec<Judgement> =
-        records.values().filter_map(|record| record.judged().cloned()).collect();
+        records.values().filter_map(|record| record.judgement().cloned()).collect();
     let tally = PanelTally::of(&judged);
     println!("{}", tally.text());
     let all = &tally.rows[0];

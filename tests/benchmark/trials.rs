@@ -58,7 +58,7 @@ fn an_effect_that_is_not_looked_for_is_not_named() {
     let names =
         score.findings.iter().flat_map(|f| std::iter::once(&f.at).chain(&f.not_separable_from));
     assert!(names.clone().all(|at| at.effect != EffectKind::CoulombFriction), "{}", score.words());
-    assert!(!score.exactly && !score.found());
+    assert!(!score.exactly && !score.is_found());
 }
 
 /// The last run takes no part in the diagnosis, and every error at the joint is less on it: of a
@@ -79,7 +79,7 @@ fn what_naming_an_effect_gains_is_measured_where_it_was_not_looked_for() {
         let trial = Trial { gains: true, ..moved(Hidden::One(kind), seed, highest_hz) };
         let folder = trial.folder(root.path());
         let score = trial.run(&folder).unwrap();
-        assert!(score.exactly && score.explained() > 0.5, "{}", score.words());
+        assert!(score.exactly && score.explained_share() > 0.5, "{}", score.words());
         let gains = score.gains.unwrap();
         println!("{}: {gains:?}", kind.name());
         let all = [gains.torque, gains.drift, gains.tracking];

@@ -301,6 +301,6 @@ fn hidden_nothing_is_called_consistent() {
 fn hidden_effects_without_a_name_get_no_wrong_one() {
     for (kind, seed) in [(E::TorqueRipple, 1), (E::ExternalDisturbance, 1)] {
         let found = score(Hidden::Unknown(kind), seed);
-        assert!(!found.found() && found.stray.is_empty(), "{}", found.words());
+        assert!(!found.is_found() && found.stray.is_empty(), "{}", found.words());
     }
 }

@@ -130,7 +130,12 @@ fn seen(robot: &Robot) -> RunMotion {
         Some([q.iter().map(|q| 0.97 * q + 0.01).collect(), scaled(qd), scaled(qdd)])
     };
     let links = (0..robot.joint_count()).map(link).collect();
-    RunMotion::seen(robot, &frame(robot), Encoders { reported, links, since_cold_s: 0.0 }, 0.05)
+    RunMotion::from_encoders(
+        robot,
+        &frame(robot),
+        Encoders { reported, links, since_cold_s: 0.0 },
+        0.05,
+    )
 }
 
 /// The WAM of [`worn`] with transmissions that give.

@@ -59,7 +59,7 @@ fn asked(compensation: &Compensation, time_s: f64) -> FeedforwardEfforts {
     let states = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| motion(time_s + k * h));
     let states: Vec<[&[f64]; 3]> =
         states.iter().map(|s| [0, 1, 2].map(|i| s[i].as_slice())).collect();
-    let needed = compensation.states_needed();
+    let needed = compensation.state_count();
     let mut out = FeedforwardEfforts::zero(7);
     let first = (Compensation::MOST_STATES - needed) / 2;
     compensation.fill(&mut compensation.workspace(), &states[first..first + needed], &mut out);

@@ -304,7 +304,7 @@ fn what_cannot_be_trained_is_refused_by_name() {
     let mut bare =
         Training::new(&robot, &samples, rest.clone(), &settings, &SilentTraining).unwrap();
     for kind in ModelKind::ALL {
-        if kind.needs_regression() || kind.needs_named() {
+        if kind.needs_regression() || kind.needs_named_effects() {
             let refused = bare.fit(kind).unwrap_err();
             assert!(matches!(refused, LearnerError::Missing { .. }), "{kind}: {refused}");
         }
@@ -326,7 +326,9 @@ fn what_cannot_be_trained_is_refused_by_name() {
 
 /// Every model that can be trained without a regression or named effects.
 fn bare_kinds() -> impl Iterator<Item = ModelKind> {
-    ModelKind::ALL.into_iter().filter(|kind| !kind.needs_regression() && !kind.needs_named())
+    ModelKind::ALL
+        .into_iter()
+        .filter(|kind| !kind.needs_regression() && !kind.needs_named_effects())
 }
 
 #[test]

@@ -10,7 +10,7 @@ use checks::synthetic::whole_run;
 use logs::{Channels, Run};
 use population::{
     AddedLaw, Knowledge, Origin, PointMass, PopulationError, RecordedTrial, Transplant, available,
-    draw_recorded, point_mass_torque,
+    draw_recorded_trial, point_mass_torque,
 };
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -21,7 +21,7 @@ use robot::Robot;
 const SEEDS: std::ops::Range<u64> = 0..80;
 
 fn trial(data: &Path, origin: Origin, seed: u64) -> RecordedTrial {
-    draw_recorded(data, origin, seed, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
+    draw_recorded_trial(data, origin, seed, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
 }
 
 fn rms<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
@@ -210,7 +210,7 @@ fn without_recorded_logs_no_trial_of_them_is_drawn() {
     let data = empty.path();
     assert!(available(data).is_empty());
     let mut random = ChaCha8Rng::seed_from_u64(1);
-    let mut drawn = |origin| draw_recorded(data, origin, 1, &mut random).unwrap_err();
+    let mut drawn = |origin| draw_recorded_trial(data, origin, 1, &mut random).unwrap_err();
     let missing = PopulationError::NoRecordedLogs { data: data.to_owned() };
     assert_eq!(drawn(Origin::Recorded), missing);
     assert_eq!(drawn(Origin::Transplant), missing);

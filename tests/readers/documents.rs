@@ -47,13 +47,14 @@ fn file(name: &str) -> Document {
 }
 
 fn scenarios(_: &Path) -> Vec<Vec<u8>> {
-    let resolved = |name: &str| Scenario::from_document(&file(name)).unwrap().resolved().into();
+    let resolved =
+        |name: &str| Scenario::from_document(&file(name)).unwrap().self_contained_text().into();
     ["demos/no_effects.toml", "demos/hidden_effects.toml", "demos/ur5e.toml"].map(resolved).to_vec()
 }
 
 fn trackings(_: &Path) -> Vec<Vec<u8>> {
     let tracking = TrackingScenario::from_document(&file("tracking/low_gains.toml")).unwrap();
-    vec![tracking.resolved().into()]
+    vec![tracking.self_contained_text().into()]
 }
 
 fn campaigns(folder: &Path) -> Vec<Vec<u8>> {

@@ -60,7 +60,7 @@ fn there_is_a_stranger_of_every_kind_and_its_truth_and_scenario_hold_it() {
         assert!(text.starts_with(kind.name()), "{kind}");
         assert!(kind.fits(scenario.robot(), 3));
         // Whoever reads the resolved text has the same arm.
-        let again = Document::from_text("resolved", scenario.resolved()).unwrap();
+        let again = Document::from_text("resolved", scenario.self_contained_text()).unwrap();
         assert_eq!(Scenario::from_document(&again).unwrap().strangers(), scenario.strangers());
         assert_eq!(draw_hidden_effects(&scenario).unwrap().strangers(), scenario.strangers());
         let truth = stranger.truth();

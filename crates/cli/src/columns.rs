@@ -11,7 +11,7 @@ use robot::Robot;
 
 use crate::error::CliError;
 use crate::input::seconds;
-use crate::input_warnings::needed_gb;
+use crate::input_warnings::memory_need_gb;
 use crate::messages::{tell, warn};
 
 /// How the columns of logs are called.
@@ -100,7 +100,7 @@ impl LogArguments {
         {
             tell(&format_args!(
                 "note: {taken}; that needs about {} GB of memory",
-                needed_gb(&runs)
+                memory_need_gb(&runs)
             ));
         }
         Ok(runs)

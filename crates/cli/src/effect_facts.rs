@@ -15,7 +15,7 @@ pub fn facts(entry: &EffectEntry) -> Vec<(&'static str, String)> {
         ("needs", entry.needs.to_owned()),
         ("confused with", rivals.join(", ")),
         ("told apart by", entry.told_apart_by.to_owned()),
-        ("diagnosed", diagnosed(entry)),
+        ("diagnosed", diagnosis_of(entry)),
         match effects::remedy(entry.kind) {
             Ok(how) => ("compensated by", how.to_owned()),
             Err(reason) => ("not compensated", reason.to_owned()),
@@ -40,7 +40,7 @@ pub fn meaning(parameter: &Parameter) -> String {
 }
 
 /// Whether the diagnosis can name the effect, with what, or why not.
-fn diagnosed(entry: &EffectEntry) -> String {
+fn diagnosis_of(entry: &EffectEntry) -> String {
     match diagnosis::how_found(entry.kind) {
         Ok(HowFound { how, parameters }) if parameters.len() == entry.parameters.len() => {
             format!("yes, {how}")
@@ -67,9 +67,9 @@ mod tests {
         let expected = "torque per unit of displacement (N·m/rad, or N/m): \
                         0.1 to 2 on an arm like the WAM";
         assert_eq!(spring.parameters.first().map(meaning).as_deref(), Some(expected));
-        assert_eq!(diagnosed(spring), "yes, by its columns in a regression");
+        assert_eq!(diagnosis_of(spring), "yes, by its columns in a regression");
         assert_eq!(
-            diagnosed(EffectKind::ExternalDisturbance.entry()),
+            diagnosis_of(EffectKind::ExternalDisturbance.entry()),
             "yes, as a line of the spectrum over time: amplitude and frequency and phase only"
         );
     }

@@ -10,9 +10,9 @@ use crate::error::CliError;
 pub fn find_effect(name: &str) -> Result<EffectKind, CliError> {
     let plain = name.to_lowercase().replace(['-', ' '], "_");
     plain.parse().map_err(|_| {
-        let named = |kind: &EffectKind| format!("{} {kind}", kind.code());
+        let name_with_code = |kind: &EffectKind| format!("{} {kind}", kind.code());
         let near = EffectKind::ALL.iter().filter(|kind| is_near(&plain, kind.name()));
-        let near: Vec<String> = near.map(named).collect();
+        let near: Vec<String> = near.map(name_with_code).collect();
         let hint = if near.is_empty() {
             "a name such as coulomb_friction or a code such as FR02 was expected".to_owned()
         } else {
@@ -34,14 +34,14 @@ mod tests {
 
     #[test]
     fn an_effect_that_is_none_is_told_in_one_line() {
-        let told = |name| find_effect(name).unwrap_err().to_string();
+        let error_of = |name| find_effect(name).unwrap_err().to_string();
         let expected = "effect FR99: it is not in the catalogue, \
                         a name such as coulomb_friction or a code such as FR02 was expected";
-        assert_eq!(told("FR99"), expected);
+        assert_eq!(error_of("FR99"), expected);
         assert!(
-            told("coulomb").ends_with("did you mean FR02 coulomb_friction?"),
+            error_of("coulomb").ends_with("did you mean FR02 coulomb_friction?"),
             "{}",
-            told("coulomb")
+            error_of("coulomb")
         );
     }
 }

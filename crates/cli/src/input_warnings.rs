@@ -39,8 +39,8 @@ pub fn correct_runs(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
 }
 
 /// Memory that a diagnosis of the runs takes (GB), in digits.
-pub fn needed_gb(runs: &[Run]) -> String {
-    short(needed_bytes(runs.iter().map(joint_samples).sum()) / GIGA)
+pub fn memory_need_gb(runs: &[Run]) -> String {
+    short(memory_need_bytes(runs.iter().map(joint_samples).sum()) / GIGA)
 }
 
 /// Samples of a run, counted for each joint.
@@ -49,17 +49,17 @@ fn joint_samples(run: &Run) -> usize {
 }
 
 /// Memory that a diagnosis of so many samples of single joints takes (bytes).
-fn needed_bytes(joint_samples: usize) -> f64 {
+fn memory_need_bytes(joint_samples: usize) -> f64 {
     BYTES_PER_SAMPLE * joint_samples as f64
 }
 
 /// Warns of samples that need more memory than is free (bytes).
 fn memory_warning(joint_samples: usize, free: f64) -> Option<String> {
-    let needed_bytes = needed_bytes(joint_samples);
-    let [needed_gb, free_gb] = [needed_bytes, free].map(|bytes| short(bytes / GIGA));
-    (needed_bytes > free).then(|| {
+    let memory_need_bytes = memory_need_bytes(joint_samples);
+    let [memory_need_gb, free_gb] = [memory_need_bytes, free].map(|bytes| short(bytes / GIGA));
+    (memory_need_bytes > free).then(|| {
         format!(
-            "the logs need about {needed_gb} GB of memory and {free_gb} GB are free: \
+            "the logs need about {memory_need_gb} GB of memory and {free_gb} GB are free: \
              read less of them with --from-s and --to-s, or give fewer logs, or logs of a lower rate"
         )
     })
@@ -107,7 +107,7 @@ mod tests {
         );
     }
 
-    fn said(logged: &[f64]) -> Option<String> {
+    fn warning_of(logged: &[f64]) -> Option<String> {
         let lock = LockedJoint { joint: "grip".to_owned(), position: 0.2, mimics: None };
         let run = Run {
             name: "run_1".to_owned(),
@@ -124,15 +124,15 @@ mod tests {
 
     #[test]
     fn a_log_that_has_a_locked_joint_elsewhere_or_moving_is_told() {
-        assert_eq!(said(&[]), None);
-        assert_eq!(said(&[f64::NAN, 0.2001, 0.1999]), None);
+        assert_eq!(warning_of(&[]), None);
+        assert_eq!(warning_of(&[f64::NAN, 0.2001, 0.1999]), None);
         assert_eq!(
-            said(&[0.3, 0.302]).unwrap(),
+            warning_of(&[0.3, 0.302]).unwrap(),
             "run_1: joint grip is locked at 0.200, the log has it from 0.300 to 0.302: \
              locked = { grip = 0.301 } in a robot.toml locks it there"
         );
         assert_eq!(
-            said(&[0.2, 0.5]).unwrap(),
+            warning_of(&[0.2, 0.5]).unwrap(),
             "run_1: joint grip is locked at 0.200, the log has it from 0.200 to 0.500: \
              what its motion does to the torque of the others is left out"
         );

@@ -72,11 +72,11 @@ pub fn compare(
     let is_named = |h: &Hypothesis| named.contains(&&effect_at(about, *h));
     let asked: Vec<Hypothesis> = hypotheses(about).into_iter().filter(is_named).collect();
     let first = sizes(&before, &asked, &settings)?;
-    let changed = |finding: &Finding| {
+    let is_changed = |finding: &Finding| {
         let same = first.iter().find(|size| size.at == finding.at);
         same.is_none_or(|size| differ(&finding.parameters, &size.parameters))
     };
-    let (changes, alike) = after.diagnosis.findings.into_iter().partition(changed);
+    let (changes, alike) = after.diagnosis.findings.into_iter().partition(is_changed);
     after.diagnosis.findings = changes;
     Ok(Comparison { before, after, first, alike })
 }

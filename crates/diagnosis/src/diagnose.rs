@@ -12,7 +12,7 @@ use crate::outcome::second_encoder::compare_encoders;
 use crate::outcome::traces::{RunTraces, traces};
 use crate::progress::DiagnosisProgress;
 use crate::readiness::at_limits::at_limits;
-use crate::readiness::extent::{inadequate, without_unrecorded};
+use crate::readiness::extent::{drop_runs_without_effort, inadequate};
 use crate::readiness::inspected_logs::inspect_logs;
 use crate::readiness::second_encoders::without_idle_encoders;
 use crate::result::{Diagnosis, RunSummary};
@@ -72,7 +72,7 @@ pub fn diagnose(
     let mut prepared = prepare(runs, &PrepareSettings { cutoff_hz: settings.cutoff_hz })?;
     centre_commands(robot, &mut prepared.runs, settings.control_rate_hz);
     warnings.extend(prepared.warnings.iter().map(ToString::to_string));
-    warnings.extend(without_unrecorded(robot, &mut prepared, &t.readiness));
+    warnings.extend(drop_runs_without_effort(robot, &mut prepared, &t.readiness));
     warnings.extend(without_idle_encoders(robot, &mut prepared, &t.readiness));
     warnings.extend(at_limits(robot, &prepared, &t.readiness));
     progress.step();
@@ -130,7 +130,7 @@ fn answer(inputs: &Inputs, progress: &dyn DiagnosisProgress) -> Result<Answer, D
         let tested = inputs.test_findings(dataset, progress)?;
         let diagnosis = inputs.assemble(dataset, &tested);
         let traces = traces(inputs, &tested)?;
-        let held_out = inputs.held_out(dataset, &tested);
+        let held_out = inputs.held_out_parts(dataset, &tested);
         Ok(Answer { diagnosis, traces, extended: tested.extended, held_out })
     })?
 }

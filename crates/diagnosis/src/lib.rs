@@ -44,7 +44,7 @@ pub use result::{
     Unexplained, Verdict,
 };
 pub use settings::Settings;
-pub use signals::left_over::{LeftOver, left_over};
+pub use signals::left_over::{LeftOver, unexplained_torque};
 pub use thresholds::Thresholds;
 pub use thresholds::blocks::BlockThresholds;
 pub use thresholds::limits::LimitThresholds;

@@ -30,7 +30,7 @@ impl<'de> Deserializer<'de> for &'de Node {
                 let value = visitor.visit_seq(&mut entries)?;
                 if entries.rest.len() > 0 {
                     let expected = format!("an array of {}", entries.index);
-                    return Err(Fault::expected(&expected, &self.describe()));
+                    return Err(Fault::mismatch(&expected, &self.describe()));
                 }
                 Ok(value)
             }
@@ -59,12 +59,12 @@ impl<'de> Deserializer<'de> for &'de Node {
         let table = match &self.value {
             Value::String(name) => return visitor.visit_enum(Variant { name, content: None }),
             Value::Table(table) => table,
-            _ => return Err(Fault::expected(&one_of(variants), &self.describe())),
+            _ => return Err(Fault::mismatch(&one_of(variants), &self.describe())),
         };
         let mut entries = table.iter();
         match (entries.next(), entries.next()) {
             (Some((name, node)), None) => visitor.visit_enum(Variant { name, content: Some(node) }),
-            (None, _) => Err(Fault::expected(&one_of(variants), "an empty table")),
+            (None, _) => Err(Fault::mismatch(&one_of(variants), "an empty table")),
             _ => Err(one_key_too_many(table)),
         }
     }
@@ -169,7 +169,7 @@ impl<'de> Variant<'de> {
     fn content(&self) -> Result<&'de Node, Fault> {
         let name = self.name;
         let form = format!("`{name} = ...`");
-        self.content.ok_or_else(|| Fault::expected(&form, "its name alone"))
+        self.content.ok_or_else(|| Fault::mismatch(&form, "its name alone"))
     }
 }
 
@@ -180,7 +180,7 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
         match self.content {
             Some(node) => {
                 let form = format!("\"{}\"", self.name);
-                Err(self.locate(Fault::expected(&form, &node.describe())))
+                Err(self.locate(Fault::mismatch(&form, &node.describe())))
             }
             None => Ok(()),
         }

@@ -52,7 +52,7 @@ impl Fault {
         DocumentError::at(place, path, &self.message, self.help)
     }
 
-    pub(crate) fn expected(expected: &str, found: &str) -> Self {
+    pub(crate) fn mismatch(expected: &str, found: &str) -> Self {
         Self::new(format!("expected {expected}, found {found}"), None)
     }
 }
@@ -63,15 +63,15 @@ impl de::Error for Fault {
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::expected(&in_words(expected), &describe(found))
+        Self::mismatch(&in_words(expected), &describe(found))
     }
 
     fn invalid_value(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::expected(&in_words(expected), &describe(found))
+        Self::mismatch(&in_words(expected), &describe(found))
     }
 
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
-        Self::expected(&in_words(expected), &format!("an array of {length}"))
+        Self::mismatch(&in_words(expected), &format!("an array of {length}"))
     }
 
     fn unknown_variant(found: &str, expected: &'static [&'static str]) -> Self {

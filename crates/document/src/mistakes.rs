@@ -50,7 +50,7 @@ fn mistake(text: &str) -> DocumentError {
     document.and_then(|document| document.parse::<Scenario>()).unwrap_err()
 }
 
-fn rendered(text: &str) -> String {
+fn render_mistake(text: &str) -> String {
     mistake(text).render(Coloring::Plain)
 }
 
@@ -58,7 +58,7 @@ fn rendered(text: &str) -> String {
 fn a_value_of_the_wrong_type_is_underlined_in_an_enumeration_in_an_array() {
     let text = "[[effect]]\npayload = { mass_kg = 1 }\n\n[[effect]]\n\
                 coulomb_friction = { joint = \"elbow\", level_nm = \"0.6\" }";
-    insta::assert_snapshot!(rendered(text), @r#"
+    insta::assert_snapshot!(render_mistake(text), @r#"
     error: expected a number, found the string "0.6"
      --> friction.toml:7:50
       |
@@ -70,7 +70,7 @@ fn a_value_of_the_wrong_type_is_underlined_in_an_enumeration_in_an_array() {
 #[test]
 fn an_unknown_key_is_underlined_and_the_known_ones_are_told() {
     let text = "[[effect]]\ncoulomb_friction = { joint = \"elbow\", level = 0.6 }";
-    insta::assert_snapshot!(rendered(text), @r#"
+    insta::assert_snapshot!(render_mistake(text), @r#"
     error: unknown key `level`, did you mean `level_nm`?
      --> friction.toml:4:39
       |
@@ -84,7 +84,7 @@ fn an_unknown_key_is_underlined_and_the_known_ones_are_told() {
 #[test]
 fn an_unknown_variant_is_underlined_and_the_known_ones_are_told() {
     let text = "[[effect]]\ncolumb_friction = { joint = \"elbow\", level_nm = 0.6 }";
-    insta::assert_snapshot!(rendered(text), @r#"
+    insta::assert_snapshot!(render_mistake(text), @r#"
     error: unknown name `columb_friction`, did you mean `coulomb_friction`?
      --> friction.toml:4:1
       |
@@ -98,7 +98,7 @@ fn an_unknown_variant_is_underlined_and_the_known_ones_are_told() {
 #[test]
 fn a_missing_key_is_told_at_the_header_of_its_table() {
     let text = "[[effect]]\n[effect.coulomb_friction]\nlevel_nm = 0.6";
-    insta::assert_snapshot!(rendered(text), @r"
+    insta::assert_snapshot!(render_mistake(text), @r"
     error: `joint` is missing
      --> friction.toml:4:1
       |
@@ -109,7 +109,7 @@ fn a_missing_key_is_told_at_the_header_of_its_table() {
 
 #[test]
 fn a_key_given_twice_is_underlined() {
-    insta::assert_snapshot!(rendered("seed = 1\nseed = 2"), @r"
+    insta::assert_snapshot!(render_mistake("seed = 1\nseed = 2"), @r"
     error: duplicate key
      --> friction.toml:4:1
       |
@@ -122,7 +122,7 @@ fn a_key_given_twice_is_underlined() {
 fn two_effects_in_one_table_are_told_with_their_places() {
     let text = "[[effect]]\npayload = { mass_kg = 1 }\n\
                 coulomb_friction = { joint = \"elbow\", level_nm = 0.6 }";
-    insta::assert_snapshot!(rendered(text), @r"
+    insta::assert_snapshot!(render_mistake(text), @r"
     error: expected a single key, found 2
      --> friction.toml:3:1
       |

@@ -57,12 +57,12 @@ impl Node {
     }
 
     /// This value with another laid over it: tables key by key, anything else replaced.
-    pub(crate) fn extended_by(self, over: Self) -> Self {
+    pub(crate) fn extend_by(self, over: Self) -> Self {
         match (self.value, over.value) {
             (Value::Table(mut table), Value::Table(entries)) => {
                 for (key, entry) in entries {
                     let merged = match table.remove(&key) {
-                        Some(below) => below.extended_by(entry),
+                        Some(below) => below.extend_by(entry),
                         None => entry,
                     };
                     table.insert(key, merged);

@@ -57,11 +57,11 @@ impl Reader {
         let mut below = None;
         for base in take_extends(&mut top).map_or(Ok(Vec::new()), bases)? {
             let file = source.folder().join(&base.name);
-            let text = self.open(&file).map_err(|reason| base.refused(&file, &reason))?;
+            let text = self.open(&file).map_err(|reason| base.refuse(&file, &reason))?;
             if let Some(line) = no_toml(&text) {
                 // Whatever it is, nothing of it is shown.
                 let reason = format!("line {line} is no TOML");
-                return Err(base.refused(&file, &reason));
+                return Err(base.refuse(&file, &reason));
             }
             below = Some(laid_over(below, self.layers(&file, text)?));
         }
@@ -115,7 +115,7 @@ fn no_toml(text: &str) -> Option<usize> {
 
 fn laid_over(below: Option<Node>, node: Node) -> Node {
     match below {
-        Some(below) => below.extended_by(node),
+        Some(below) => below.extend_by(node),
         None => node,
     }
 }
@@ -128,7 +128,7 @@ struct Base {
 }
 
 impl Base {
-    fn refused(&self, file: &Path, reason: &str) -> DocumentError {
+    fn refuse(&self, file: &Path, reason: &str) -> DocumentError {
         let message = format!("{} cannot be extended: {reason}", file.display());
         DocumentError::at(self.place.clone(), self.path.clone(), &message, None)
     }

@@ -72,7 +72,7 @@ impl Dynamics {
             let link = ws.in_base[i + 1];
             let by_qdd = link.inertia.apply(&link.s);
             let by_qd = {
-                let mut f = link.inertia.apply(&link.s_rate.scaled(2.0));
+                let mut f = link.inertia.apply(&link.s_rate.times(2.0));
                 f.add(&link.change.apply(&link.s));
                 f
             };
@@ -118,10 +118,10 @@ impl Dynamics {
             let s_rate = parent.v.cross(&s);
             let mut a_by_q = parent.a.cross(&s);
             a_by_q.add(&parent.v.cross(&s_rate));
-            let mut v = s.scaled(qd[i]);
+            let mut v = s.times(qd[i]);
             v.add(&parent.v);
-            let mut a = s.scaled(qdd[i]);
-            a.add(&s_rate.scaled(qd[i]));
+            let mut a = s.times(qdd[i]);
+            a.add(&s_rate.times(qd[i]));
             a.add(&parent.a);
             let inertia = pose.inertia_to_parent(&joint.inertia);
             let mut f = inertia.apply(&a);

@@ -65,7 +65,7 @@ impl SpatialMotion {
     }
 
     #[inline(always)]
-    pub fn scaled(&self, by: f64) -> Self {
+    pub fn times(&self, by: f64) -> Self {
         Self { angular: self.angular * by, linear: self.linear * by }
     }
 

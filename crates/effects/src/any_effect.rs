@@ -30,8 +30,8 @@ pub trait AnyEffect: Sync {
     /// The reason why the effect cannot be compensated.
     fn remedy(&self) -> Result<&'static str, &'static str>;
 
-    /// See [`Effect::left_out`].
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str>;
+    /// See [`Effect::omission`].
+    fn omission(&self, drive: &Actuator) -> Option<&'static str>;
 
     /// See [`Effect::parameters`].
     fn parameters(&self) -> &'static [Parameter];
@@ -105,8 +105,8 @@ impl<E: Effect> AnyEffect for E {
         Effect::remedy(self)
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
-        Effect::left_out(self, drive)
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
+        Effect::omission(self, drive)
     }
 
     fn parameters(&self) -> &'static [Parameter] {
@@ -149,7 +149,7 @@ impl<E: Effect> AnyEffect for E {
     }
 
     fn admissible(&self, place: Place, robot: &Robot, weights: &[f64], priors: &Priors) -> bool {
-        self.restricted().is_none_or(|restricted| {
+        self.restriction().is_none_or(|restricted| {
             E::At::of(place).is_some_and(|at| restricted.admissible(at, robot, weights, priors))
         })
     }

@@ -1,7 +1,7 @@
 //! Bounds of weights.
 
 /// Infinite bounds of `count` weights.
-pub(crate) fn unbounded(count: usize) -> Vec<(f64, f64)> {
+pub(crate) fn infinite_bounds(count: usize) -> Vec<(f64, f64)> {
     vec![(f64::NEG_INFINITY, f64::INFINITY); count]
 }
 

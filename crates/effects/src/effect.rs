@@ -44,7 +44,7 @@ pub trait Effect: Sync {
 
     /// Key of `robot.toml` that describes it in `drive`, where a torque of one state alone leaves it out: where it
     /// needs the past, the motion of the other side of a transmission, or other times.
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str>;
+    fn omission(&self, drive: &Actuator) -> Option<&'static str>;
 
     /// Those of its parameters that it finds.
     fn parameters(&self) -> &'static [Parameter] {
@@ -97,7 +97,7 @@ pub trait Effect: Sync {
     }
 
     /// See [`IsRestricted`].
-    fn restricted(&self) -> Option<&dyn IsRestricted<Self::At>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<Self::At>> {
         None
     }
 

@@ -32,7 +32,7 @@ pub use abilities::{
 pub use any_effect::AnyEffect;
 pub use column::{ColumnPart, EffectColumn};
 pub use compensation::feedforward::{Compensation, CompensationWorkspace, FeedforwardEfforts};
-pub use compensation::left_out::left_out;
+pub use compensation::left_out::omissions;
 pub use effect::Effect;
 pub use hypothesis::{Hypothesis, hypotheses};
 pub use model::{MODELLED, model, remedy};

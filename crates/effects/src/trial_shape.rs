@@ -23,7 +23,7 @@ pub struct TrialShape {
 /// Every trial shape of every effect that this robot could have.
 pub fn trial_shapes(robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<TrialShape> {
     let mut all = Vec::new();
-    for (kind, effect) in shaped() {
+    for (kind, effect) in effects_with_shape() {
         for joint in 0..robot.joint_count() {
             let hypothesis = Hypothesis { kind, place: Place::Joint(joint) };
             let shapes = effect.shapes(AtJoint(joint), robot, scale, priors).into_iter();
@@ -34,7 +34,7 @@ pub fn trial_shapes(robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<TrialS
 }
 
 /// The effects that have a shape.
-fn shaped() -> impl Iterator<Item = (EffectKind, &'static dyn HasShape)> {
+fn effects_with_shape() -> impl Iterator<Item = (EffectKind, &'static dyn HasShape)> {
     MODELLED.into_iter().filter_map(|kind| Some((kind, model(kind).ok()?.shape()?)))
 }
 
@@ -43,7 +43,7 @@ fn shaped() -> impl Iterator<Item = (EffectKind, &'static dyn HasShape)> {
 pub fn without_unused_shapes(mut robot: Robot, nominal: &Robot) -> Robot {
     for (j, link) in nominal.links().iter().enumerate() {
         let Some(changed) = robot.link_mut(j) else { continue };
-        for (_, effect) in shaped() {
+        for (_, effect) in effects_with_shape() {
             effect.drop_unused_shape(&mut changed.actuator, &link.actuator);
         }
     }

@@ -35,7 +35,7 @@ impl Fate {
     }
 
     /// Left out.
-    pub(crate) fn dropped(because: &str) -> Self {
+    pub(crate) fn omit(because: &str) -> Self {
         Self::Dropped { because: because.to_owned() }
     }
 

@@ -13,7 +13,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<QuantityFate> {
     if gravity != loaded.robot_in_urdf.gravity_in_base() {
         let [x, y, z] = [gravity.x, gravity.y, gravity.z].map(size);
         let fate = match format {
-            Format::Urdf => Fate::dropped("a URDF has no gravity: turn the base by as much"),
+            Format::Urdf => Fate::omit("a URDF has no gravity: turn the base by as much"),
             Format::Mjcf => Fate::exact("<option gravity>"),
             Format::Sdf => Fate::near("<pose> of the model; its length is the world's"),
             Format::Isaac => Fate::exact("gravityDirection, gravityMagnitude of a PhysicsScene"),
@@ -34,7 +34,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<QuantityFate> {
     }
     for lock in &loaded.locked {
         let fate = match format {
-            Format::Urdf => Fate::dropped("the joint moves in the file, as it did before"),
+            Format::Urdf => Fate::omit("the joint moves in the file, as it did before"),
             _ => Fate::exact("what it carries is part of the body it is fixed to"),
         };
         let what = format!("locked at {}", size(lock.position));

@@ -112,7 +112,7 @@ pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
         DriveQuantity::Spring if link.actuator.spring_stiffness > 0.0 => {
             Fate::exact("<spring_stiffness>, <spring_reference>")
         }
-        DriveQuantity::Spring => Fate::dropped("Gazebo takes no spring below 0"),
+        DriveQuantity::Spring => Fate::omit("Gazebo takes no spring below 0"),
         DriveQuantity::EncoderOffset => Fate::exact("<pose> of the link"),
         other => fate_of_unsupported(other),
     }

@@ -4,7 +4,7 @@ use crate::quantity::DriveQuantity;
 /// Why a format has no place for a quantity that only the models of this program know.
 pub(crate) fn fate_of_unsupported(quantity: DriveQuantity) -> Fate {
     use DriveQuantity as Q;
-    Fate::dropped(match quantity {
+    Fate::omit(match quantity {
         Q::Stribeck => "dry friction of the format has one level at all speeds",
         Q::LoadFriction => "dry friction of the format has one level at all loads",
         Q::Presliding => "dry friction of the format is there at once",

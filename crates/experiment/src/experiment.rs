@@ -59,7 +59,7 @@ impl Experiment {
         }
         let (plant, file) = plant_of(document)?;
         let plant = Scenario::from_document(&with_seed(plant, seed)?)?;
-        let document = &add_compared(document)?;
+        let document = &add_compared_models(document)?;
         let scenario = TrackingScenario::new(document, plant, file)?;
         let resolved = with_plant(document, scenario.spec(), PathBuf::from(PLANT));
         let experiment = Self { scenario, resolved, chooses_gains: false };
@@ -75,7 +75,8 @@ impl Experiment {
     fn of_arm(document: &Document) -> Result<Self, ExperimentError> {
         let plant = Scenario::from_document(document)?;
         // The motions of this text can be read from any folder.
-        let spec: ScenarioSpec = Document::from_text(PLANT, plant.resolved())?.parse()?;
+        let spec: ScenarioSpec =
+            Document::from_text(PLANT, plant.self_contained_text())?.parse()?;
         let (Some(test), [_, ..]) = (spec.run.last(), &spec.run[..spec.run.len() - 1]) else {
             let path = KeyPath::root().key("run");
             let message = "one run, two or more were expected: what is found in the others is \
@@ -105,7 +106,7 @@ impl Experiment {
         let said = Document::from_text("scenario.toml", &text)?;
         let file = plant.robot_file().to_owned();
         let scenario = TrackingScenario::new(&said, plant, file)?;
-        let scenario = scenario.held(&[scenario.robot()]);
+        let scenario = scenario.with_softest_gains(&[scenario.robot()]);
         let resolved = toml::to_string(scenario.spec()).unwrap_or_default();
         Ok(Self { scenario, resolved, chooses_gains: true })
     }
@@ -120,22 +121,26 @@ impl Experiment {
     /// # Errors
     ///
     /// [`ExperimentError::Simulator`] when no effect could be drawn.
-    pub fn drawn(&self) -> Result<TrackingScenario, ExperimentError> {
+    pub fn draw_scenario(&self) -> Result<TrackingScenario, ExperimentError> {
         Ok(self.scenario.of_arm(simulator::draw_hidden_effects(self.plant())?))
     }
 
     /// `drawn`, the scenario with the effects of its arm, as it is to be tracked: where no scenario
     /// says with which gains, with the softest that hold the extended robot too.
-    pub fn held(&self, drawn: &TrackingScenario, extended: &Robot) -> TrackingScenario {
+    pub fn with_softest_gains(
+        &self,
+        drawn: &TrackingScenario,
+        extended: &Robot,
+    ) -> TrackingScenario {
         match self.chooses_gains {
-            true => drawn.held(&[drawn.robot(), extended]),
+            true => drawn.with_softest_gains(&[drawn.robot(), extended]),
             false => drawn.clone(),
         }
     }
 
     /// The scenario as one text that extends nothing; its arm is that of
     /// [`plant`](Self::plant), in `logs/scenario.toml` beside it.
-    pub fn resolved(&self) -> &str {
+    pub fn self_contained_text(&self) -> &str {
         &self.resolved
     }
 
@@ -145,7 +150,7 @@ impl Experiment {
     }
 
     /// The runs that causes are found in and models learned from.
-    pub fn learned(&self) -> impl Iterator<Item = &str> {
+    pub fn learning_runs(&self) -> impl Iterator<Item = &str> {
         self.names().filter(|name| self.is_learned(name))
     }
 
@@ -172,7 +177,8 @@ impl Experiment {
         let prepared = prepare(test, &PrepareSettings::default())?;
         let robots = [self.plant().robot(), extended];
         let forward = forward_gap(robots, &prepared.runs, &diagnosis::Silent);
-        let runs = track_all(&self.held(drawn, extended), &models, None, &SilentTraining)?;
+        let runs =
+            track_all(&self.with_softest_gains(drawn, extended), &models, None, &SilentTraining)?;
         let tracking: Vec<TrackedError> = runs.iter().map(TrackedError::of).collect();
         Ok(match joint {
             Some(j) => Gains::at(j, &torque, &forward, &tracking),
@@ -191,7 +197,7 @@ impl Experiment {
 }
 
 /// A tracking scenario that feeds forward [`COMPARED`] before what else it does.
-fn add_compared(document: &Document) -> Result<Document, ExperimentError> {
+fn add_compared_models(document: &Document) -> Result<Document, ExperimentError> {
     let spec: TrackingSpec = document.parse()?;
     let others = spec.feedforward.iter().filter(|kind| !COMPARED.contains(kind));
     let names: Vec<String> =

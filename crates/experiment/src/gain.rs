@@ -92,7 +92,7 @@ impl Gains {
     ) -> Self {
         let torque_of =
             |name: &str| torque.iter().find(|m| m.model == name)?.rms_nm.get(j).copied();
-        let tracked = |name: &str| {
+        let tracking_rms = |name: &str| {
             let run = tracking.iter().find(|run| run.model == name)?;
             run.rms.as_ref()?.get(j).copied()
         };
@@ -100,7 +100,7 @@ impl Gains {
         Self {
             torque: PredictionGain::of(torque_of),
             drift: PredictionGain::in_window(forward, Self::WINDOW_S, drift),
-            tracking: PredictionGain::of(tracked),
+            tracking: PredictionGain::of(tracking_rms),
         }
     }
 }
@@ -117,7 +117,7 @@ mod tests {
             rms_nm: rms_nm.to_vec(),
             nmse: vec![None; 2],
         };
-        let tracked = |model: &str, rms: [f64; 2], tip: f64| TrackedError {
+        let tracking_error = |model: &str, rms: [f64; 2], tip: f64| TrackedError {
             model: model.to_owned(),
             rms: Some(rms.to_vec()),
             tip_rms_m: Some(tip),
@@ -135,7 +135,8 @@ mod tests {
             extended: drift([scale, 1.0], scale),
         };
         let torque = [torque("named", [3.0, 4.0]), torque("cad", [6.0, 20.0])];
-        let tracking = [tracked("cad", [2.0, 5.0], 5.0), tracked("named", [1.0, 1.0], 1.0)];
+        let tracking =
+            [tracking_error("cad", [2.0, 5.0], 5.0), tracking_error("named", [1.0, 1.0], 1.0)];
         let forward = ForwardGap { windows: vec![window(0.05, 7.0), window(Gains::WINDOW_S, 1.0)] };
         let times = |gains: Gains| {
             [gains.torque, gains.drift, gains.tracking].map(|gain| gain.unwrap().times())

@@ -105,14 +105,14 @@ impl Stage {
         E: From<ExperimentError>,
     {
         let inputs = inputs.hash();
-        if let Some(Stored { files, value, .. }) = self.read_stored(&inputs) {
+        if let Some(Stored { files, value, .. }) = self.read_product(&inputs) {
             return Ok(Staged { value, files, is_kept: true });
         }
         self.begin()?;
         let Product { value, files } = make()?;
-        let hashed = |file: PathBuf| Ok((file.clone(), sha256(&self.folder.join(&file))?));
+        let with_hash = |file: PathBuf| Ok((file.clone(), sha256(&self.folder.join(&file))?));
         let files: Result<BTreeMap<_, _>, ExperimentError> =
-            files.into_iter().map(hashed).collect();
+            files.into_iter().map(with_hash).collect();
         let stored = Stored { inputs, files: files?, value };
         let text = serde_json::to_string_pretty(&stored).map_err(|e| ExperimentError::Stage {
             path: self.file.clone(),
@@ -124,7 +124,7 @@ impl Stage {
     }
 
     /// The stored product of these inputs, unless a file is missing or changed.
-    fn read_stored<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
+    fn read_product<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
         let text = std::fs::read_to_string(&self.file).ok()?;
         let stored: Stored<T> = serde_json::from_str(&text).ok()?;
         let is_whole = |(file, hash): (&PathBuf, &String)| {
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     /// Makes a stage of `input`, counting how often.
-    fn made(folder: &Path, input: &str, count: &mut usize) -> Staged<usize> {
+    fn make_stage(folder: &Path, input: &str, count: &mut usize) -> Staged<usize> {
         let make = || {
             *count += 1;
             std::fs::write(folder.join("a.txt"), input).unwrap();
@@ -191,22 +191,22 @@ mod tests {
     fn a_stage_is_made_once_and_again_when_inputs_or_files_change() {
         let folder = tempfile::tempdir().unwrap();
         let (folder, mut count) = (folder.path(), 0);
-        let first = made(folder, "abc", &mut count);
+        let first = make_stage(folder, "abc", &mut count);
         assert!(!first.is_kept && first.value == 3);
         // FIPS 180-2, appendix B.1.
         let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
         assert_eq!(first.files[Path::new("a.txt")], abc);
-        let again = made(folder, "abc", &mut count);
+        let again = make_stage(folder, "abc", &mut count);
         assert_eq!((again.is_kept, again.value, count), (true, 3, 1));
         assert_eq!(again.files, first.files);
-        assert!(!made(folder, "abcd", &mut count).is_kept, "another input");
+        assert!(!make_stage(folder, "abcd", &mut count).is_kept, "another input");
         std::fs::write(folder.join("a.txt"), "damaged").unwrap();
-        assert!(!made(folder, "abcd", &mut count).is_kept, "a file that was changed");
+        assert!(!make_stage(folder, "abcd", &mut count).is_kept, "a file that was changed");
         std::fs::remove_file(folder.join("a.txt")).unwrap();
-        assert!(!made(folder, "abcd", &mut count).is_kept, "a file that is gone");
+        assert!(!make_stage(folder, "abcd", &mut count).is_kept, "a file that is gone");
         std::fs::write(folder.join("stages/first.json"), "{\"inputs\": ").unwrap();
-        assert!(!made(folder, "abcd", &mut count).is_kept, "a torn entry");
-        assert!(made(folder, "abcd", &mut count).is_kept);
+        assert!(!make_stage(folder, "abcd", &mut count).is_kept, "a torn entry");
+        assert!(make_stage(folder, "abcd", &mut count).is_kept);
         assert_eq!(count, 5);
     }
 
@@ -214,12 +214,12 @@ mod tests {
     fn a_stage_that_fails_is_not_taken_for_made_though_its_old_files_are_there() {
         let folder = tempfile::tempdir().unwrap();
         let (folder, mut count) = (folder.path(), 0);
-        made(folder, "abc", &mut count);
+        make_stage(folder, "abc", &mut count);
         let stage = Stage::new(folder, "first");
         let fails = || Err(ExperimentError::WriterDied { path: PathBuf::new() });
         let inputs = || StageInputs::of("1").and(b"other");
         assert!(stage.make::<usize, _>(inputs(), fails).is_err());
-        assert!(!made(folder, "abc", &mut count).is_kept);
+        assert!(!make_stage(folder, "abc", &mut count).is_kept);
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub(crate) fn frozen(
     let rows = |s: f64| if usual > 0.0 { ((s / usual) as usize).max(10) } else { usize::MAX };
     let mut spoilt = Vec::new();
     let mut observations = Vec::new();
-    for rows in held(run, rows(t.moments.held_s)) {
+    for rows in constant_rows(run, rows(t.moments.held_s)) {
         if (0..run.joints.len()).any(|j| breaks_off(run, j, &rows, t)) {
             let stretches = vec![RunStretch::of_rows(run, index, &rows)];
             observations.push(Observation {
@@ -60,7 +60,7 @@ fn still(x: &[f64], least: usize) -> Vec<Range<usize>> {
 }
 
 /// Rows in which all positions and efforts have exactly one value.
-fn held(run: &Run, least: usize) -> Vec<Range<usize>> {
+fn constant_rows(run: &Run, least: usize) -> Vec<Range<usize>> {
     same(run.time.len(), least, |k| {
         run.joints.iter().all(|joint| {
             joint.position[k].to_bits() == joint.position[k - 1].to_bits()

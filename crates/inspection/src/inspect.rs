@@ -33,7 +33,7 @@ pub fn inspect_with(
     }
     let mut moments = moments(robot, runs, thresholds);
     let mut observations = moments.found;
-    moments.corrected.iter_mut().for_each(|run| remove_described(robot, run));
+    moments.corrected.iter_mut().for_each(|run| remove_described_effects(robot, run));
     observations.extend(overlaps(runs, thresholds));
     observations.extend(at_limits(robot, runs, thresholds));
     let all = moments.corrected.iter().zip(&moments.left_out);
@@ -79,7 +79,7 @@ fn is_whole(robot: &Robot, run: &Run) -> bool {
 /// ```text
 /// q = ratio (q_log - offset),   qd = ratio qd_log,   tau = effort_log / (ratio gain)
 /// ```
-fn remove_described(robot: &Robot, run: &mut Run) {
+fn remove_described_effects(robot: &Robot, run: &mut Run) {
     for (link, joint) in robot.links().iter().zip(&mut run.joints) {
         let drive = &link.actuator;
         let (ratio, effort) =

@@ -46,7 +46,7 @@ fn best(judge: &mut Judge, as_is: &ReadingFit) -> Option<(ReadingFit, Vec<Readin
 
 /// Whether a reading improves the fit of a joint that the log as it stands contradicts.
 fn improves(judge: &Judge, read: &ReadingFit) -> bool {
-    let joint = most_improved(judge, read);
+    let joint = most_improved_joint(judge, read);
     let at = |x: &[f64]| x.get(joint).copied().unwrap_or(0.0);
     let t = judge.thresholds;
     let ratio = |j: usize| {
@@ -72,7 +72,7 @@ fn improves(judge: &Judge, read: &ReadingFit) -> bool {
     at(&read.before) >= least.max(4.0 * at(&judge.floors)) && at(&read.shares) <= t.mended
 }
 
-fn most_improved(judge: &Judge, read: &ReadingFit) -> usize {
+fn most_improved_joint(judge: &Judge, read: &ReadingFit) -> usize {
     let of = |j: usize| {
         let [before, after, floor] = [read.before[j], read.shares[j], judge.floors[j]];
         (before + floor) / (after + floor)
@@ -90,7 +90,7 @@ fn observation(
     let (joints, aligned) = (judge.samples.joints, judge.thresholds.aligned_gravity);
     let rival = |judged: &ReadingFit| judged.reading.rival(joints, nominal, aligned);
     let Rival { kind, joints } = rival(best)?;
-    let joint = most_improved(judge, best);
+    let joint = most_improved_joint(judge, best);
     let at = |x: &[f64]| x.get(joint).copied().unwrap_or(0.0);
     let evidence = ReadingEvidence {
         joint,

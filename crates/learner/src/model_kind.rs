@@ -96,7 +96,7 @@ impl ModelKind {
     }
 
     /// Whether it needs the robot with its named effects.
-    pub fn needs_named(self) -> bool {
+    pub fn needs_named_effects(self) -> bool {
         matches!(self, Self::Named | Self::NamedGp | Self::NamedGpInducing)
     }
 

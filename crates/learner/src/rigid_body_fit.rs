@@ -11,7 +11,7 @@ use crate::prior::GaussianPrior;
 use crate::regression::Regression;
 use crate::undetermined::{Direction, directions};
 use crate::weighting::{
-    FitNoise, LEAST_INFORMATION, LeastSquaresProblem, Solution, Weighting, scaled, to_base,
+    FitNoise, LEAST_INFORMATION, LeastSquaresProblem, Solution, Weighting, scale_columns, to_base,
 };
 
 /// Rigid-body parameters with their uncertainty: `tau = Y pi`.
@@ -123,8 +123,8 @@ fn covariance(
 
 /// `V diag(l) V'` of all directions.
 fn information(solution: &Solution) -> DMatrix<f64> {
-    let strong = scaled(&solution.determined, &solution.information.map(f64::sqrt));
-    let faint = scaled(&solution.undetermined, &solution.faint.map(f64::sqrt));
+    let strong = scale_columns(&solution.determined, &solution.information.map(f64::sqrt));
+    let faint = scale_columns(&solution.undetermined, &solution.faint.map(f64::sqrt));
     &strong * strong.transpose() + &faint * faint.transpose()
 }
 
@@ -191,7 +191,7 @@ fn determined_inverse(h: DMatrix<f64>) -> DMatrix<f64> {
     }
     let eigen = SymmetricEigen::new(h);
     let inverse = eigen.eigenvalues.map(|l| if l >= LEAST_INFORMATION { l.recip() } else { 0.0 });
-    scaled(&eigen.eigenvectors, &inverse) * eigen.eigenvectors.transpose()
+    scale_columns(&eigen.eigenvectors, &inverse) * eigen.eigenvectors.transpose()
 }
 
 #[cfg(test)]
@@ -206,11 +206,11 @@ mod tests {
 
     const THETA: [f64; 6] = [2.2, 3.1, 0.2, 0.6, 1.4, -0.1];
 
-    fn fitted(robot: &Robot, set: ColumnSet, record: &PlanarRecord) -> RigidBodyFit {
-        fitted_with(robot, set, record, None)
+    fn fit_set(robot: &Robot, set: ColumnSet, record: &PlanarRecord) -> RigidBodyFit {
+        fit_set_with(robot, set, record, None)
     }
 
-    fn fitted_with(
+    fn fit_set_with(
         robot: &Robot,
         set: ColumnSet,
         record: &PlanarRecord,
@@ -231,7 +231,7 @@ mod tests {
 
     #[test]
     fn parameters_of_an_arm_come_back_from_exact_torques() {
-        let fit = fitted(&arm(), ColumnSet::INERTIAL, &arm_record(2000, [0.0; 2], 0));
+        let fit = fit_set(&arm(), ColumnSet::INERTIAL, &arm_record(2000, [0.0; 2], 0));
         for (found, expected) in arm_theta(&fit.parameters).iter().zip(THETA) {
             assert!((found - expected).abs() < 1e-8, "{found} and {expected}");
         }
@@ -246,7 +246,7 @@ mod tests {
     fn joints_are_weighed_by_their_noise() {
         let sd = [0.5, 0.02];
         let record = arm_record(4000, sd, 1);
-        let fit = fitted(&arm(), ColumnSet::INERTIAL, &record);
+        let fit = fit_set(&arm(), ColumnSet::INERTIAL, &record);
         assert!(matches!(fit.weighting, Weighting::Converged { .. }));
         let (mut h, mut g) = (DMatrix::zeros(6, 6), DVector::zeros(6));
         for (joint, y) in record.arm_columns().iter().enumerate() {
@@ -277,7 +277,7 @@ mod tests {
             prior.mean[i] = mean;
             prior.standard_deviations[i] = sd;
         }
-        let fit = fitted_with(&pendulum(), ColumnSet::INERTIAL, &record, Some(&prior));
+        let fit = fit_set_with(&pendulum(), ColumnSet::INERTIAL, &record, Some(&prior));
         let noise = fit.noise[0];
         let weight = 1.0 / (noise.standard_deviation.powi(2) * noise.correlated_samples);
         let believed = DVector::from_vec(vec![1.0 / 0.02_f64.powi(2), 400.0, 1.0 / 0.0009]);
@@ -289,7 +289,7 @@ mod tests {
             assert!((found - expected).abs() < 1e-9, "{found} and {expected}");
         }
         // Negative control: without the prior the answer is another one.
-        let free = fitted(&pendulum(), ColumnSet::INERTIAL, &record);
+        let free = fit_set(&pendulum(), ColumnSet::INERTIAL, &record);
         assert!((free.parameters[6] - posterior[0]).abs() > 1e-3);
         prior.standard_deviations[2] = 0.0;
         let mut regression = Regression::new(&pendulum(), ColumnSet::INERTIAL);
@@ -326,7 +326,7 @@ mod tests {
             };
             let noise: Vec<f64> = (0..samples).map(|_| step()).collect();
             let record = motion.clone().with(std::slice::from_ref(&columns), &truth, &noise);
-            let fit = fitted(&pendulum(), set, &record);
+            let fit = fit_set(&pendulum(), set, &record);
             let (found, errors) = (with_offset(&fit.parameters), with_offset(&fit.standard_errors));
             // Quantile 0.975 of Student's t, to 0.5 % from 7 degrees of freedom on.
             let nu = (fit.groups - 1) as f64;
@@ -360,7 +360,7 @@ mod tests {
             let noise: Vec<f64> = motion.q.iter().map(|_| 0.1 * normal(&mut rng)).collect();
             let columns = motion.pendulum_columns();
             let record = motion.clone().with(&[columns], &[0.8, 1.1, -0.1], &noise);
-            let fit = fitted(&pendulum(), ColumnSet::INERTIAL, &record);
+            let fit = fit_set(&pendulum(), ColumnSet::INERTIAL, &record);
             fit.noise[0].standard_deviation.powi(2) / 400.0
         });
         // Three of 16 samples pay: the squares alone would give 0.0081.
@@ -381,7 +381,7 @@ mod tests {
         let noise: Vec<f64> = motion.q.iter().map(|_| 0.1 * normal(&mut rng)).collect();
         let columns = motion.arm_columns();
         let record = motion.with(&columns, &THETA, &noise);
-        let fit = fitted(&arm(), ColumnSet::INERTIAL, &record);
+        let fit = fit_set(&arm(), ColumnSet::INERTIAL, &record);
         let words: Vec<String> = fit.undetermined.iter().map(ToString::to_string).collect();
         assert_eq!(words, ["mz1", "Iyy1"]);
         assert_eq!(fit.rank, 4);
@@ -405,7 +405,7 @@ mod tests {
                 qdd: full.qdd[..2 * samples].to_vec(),
                 tau: full.tau[..2 * samples].to_vec(),
             };
-            let fit = fitted(&arm(), ColumnSet::ALL, &few);
+            let fit = fit_set(&arm(), ColumnSet::ALL, &few);
             assert!(fit.parameters.iter().chain(&fit.standard_errors).all(|v| v.is_finite()));
             assert!(fit.rank < fit.base.rank() && !fit.undetermined.is_empty());
             let off = fit.parameters.iter().zip(&described).map(|(a, b)| (a - b).abs());
@@ -414,7 +414,7 @@ mod tests {
         let zeros = vec![0.0; 200];
         let still =
             PlanarRecord { q: zeros.clone(), qd: zeros.clone(), qdd: zeros.clone(), tau: zeros };
-        let fit = fitted(&arm(), ColumnSet::ALL, &still);
+        let fit = fit_set(&arm(), ColumnSet::ALL, &still);
         assert!(fit.parameters.iter().chain(&fit.standard_errors).all(|v| v.is_finite()));
         assert!(fit.rank <= 2, "{}", fit.rank);
     }
@@ -423,7 +423,7 @@ mod tests {
     fn a_joint_that_reports_no_torque_has_no_part_in_the_fit() {
         let mut record = arm_record(4000, [0.1; 2], 7);
         record.tau.iter_mut().skip(1).step_by(2).for_each(|tau| *tau = 0.0);
-        let fit = fitted(&arm(), ColumnSet::INERTIAL, &record);
+        let fit = fit_set(&arm(), ColumnSet::INERTIAL, &record);
         assert!(fit.noise[1].standard_deviation <= 0.0);
         let [first, _] = record.arm_columns();
         let h = first.tr_mul(&first).cholesky().unwrap();
@@ -435,7 +435,7 @@ mod tests {
 
     #[test]
     fn a_joint_without_noise_does_not_drown_the_others() {
-        let fit = fitted(&arm(), ColumnSet::INERTIAL, &arm_record(4000, [0.5, 0.0], 8));
+        let fit = fit_set(&arm(), ColumnSet::INERTIAL, &arm_record(4000, [0.5, 0.0], 8));
         let [noisy, exact] = [0, 1].map(|joint| fit.noise[joint].standard_deviation);
         assert!((noisy / 0.5 - 1.0).abs() < 0.04 && (exact / noisy - 1e-3).abs() < 1e-9);
         assert!(fit.undetermined.is_empty());
@@ -459,7 +459,7 @@ mod tests {
         let record = motion.with(&[columns], &[0.05, 1.1, 0.0, 0.4, 0.7, 0.1], &noise);
         let set = ColumnSet { rotor: false, ..ColumnSet::ALL };
         let robot = pendulum();
-        let fit = fitted(&robot, set, &record);
+        let fit = fit_set(&robot, set, &record);
         let physical = |pi: &[f64]| {
             let link = Inertia::from_parameters(pi[..10].try_into().unwrap());
             link.pseudo_inertia().symmetric_eigenvalues().min()

@@ -40,9 +40,9 @@ impl Spread {
             Self::Exact { inverse, .. } => {
                 let n = inverse[k].len();
                 let count = k_star.len() / n;
-                let columns = transposed(k_star, n);
+                let columns = transpose(k_star, n);
                 let product = inverse[k].multiply_columns(&columns, count);
-                solved.copy_from_slice(&transposed(&product, count));
+                solved.copy_from_slice(&transpose(&product, count));
                 let rows = k_star.chunks_exact(n).zip(solved.chunks_exact(n));
                 rows.map(|(k, s)| k.iter().zip(s).map(|(k, s)| k * s).sum()).collect()
             }
@@ -61,6 +61,6 @@ impl Spread {
 }
 
 /// The transpose of a row-major matrix with rows of `width`, row-major.
-fn transposed(matrix: &[f64], width: usize) -> Vec<f64> {
+fn transpose(matrix: &[f64], width: usize) -> Vec<f64> {
     (0..width).flat_map(|j| matrix.iter().skip(j).step_by(width).copied()).collect()
 }

@@ -240,7 +240,8 @@ impl<'a> LeastSquaresProblem<'a> {
         let information = eigen.eigenvalues.select_rows(&known);
         let pulled = determined.tr_mul(&self.base_from_z.tr_mul(&g));
         let z = &determined * pulled.component_div(&information);
-        let root = &self.base_from_z * scaled(&determined, &information.map(|l| l.sqrt().recip()));
+        let root =
+            &self.base_from_z * scale_columns(&determined, &information.map(|l| l.sqrt().recip()));
         Solution {
             base: &self.centre_base + &self.base_from_z * &z,
             z,
@@ -261,7 +262,7 @@ impl<'a> LeastSquaresProblem<'a> {
     ///
     /// With fewer than eight blocks it is `H^-1`, and the number zero.
     pub fn sandwich(&self, solution: &Solution, noise: &[FitNoise]) -> (DMatrix<f64>, usize) {
-        let bread = scaled(&solution.determined, &solution.information.map(f64::recip));
+        let bread = scale_columns(&solution.determined, &solution.information.map(f64::recip));
         let blocks = self.regression.sums.blocks();
         if blocks.len() < FEWEST_GROUPS {
             return (&bread * solution.determined.transpose(), 0);
@@ -277,7 +278,7 @@ impl<'a> LeastSquaresProblem<'a> {
         let square =
             |s: &DVector<f64>| s.component_mul(s).component_div(&solution.information).sum();
         let Scores { groups, .. } = Scores::widest(blocks.iter().map(score).collect(), square);
-        let believed = scaled(&solution.determined.transpose(), &self.believed);
+        let believed = scale_columns(&solution.determined.transpose(), &self.believed);
         let mut meat = believed * &solution.determined;
         groups.iter().for_each(|s| meat.ger(factor(groups.len()), s, s, 1.0));
         (&bread * meat * bread.transpose(), groups.len())
@@ -295,7 +296,7 @@ pub(crate) fn to_base(base: &BaseParameters) -> DMatrix<f64> {
 }
 
 /// `a diag(scale)`.
-pub(crate) fn scaled(a: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
+pub(crate) fn scale_columns(a: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
     a * DMatrix::from_diagonal(scale)
 }
 

@@ -49,7 +49,7 @@ impl Harmonics {
 
 impl HarmonicSeries {
     /// The same with every amplitude multiplied.
-    pub(crate) fn scaled(mut self, factor: f64) -> Self {
+    pub(crate) fn times(mut self, factor: f64) -> Self {
         for term in &mut self.terms {
             term.sin *= factor;
             term.cos *= factor;

@@ -33,7 +33,7 @@ pub use recorded::arm::{RecordedArm, available};
 pub use recorded::law::AddedLaw;
 pub use recorded::point_mass::{PointMass, point_mass_torque};
 pub use recorded::transplant::Transplant;
-pub use recorded::trial::{RecordedTrial, draw_recorded};
+pub use recorded::trial::{RecordedTrial, draw_recorded_trial};
 pub use robot_files::RobotFiles;
 pub use sheet::{CauseRole, Knowledge, Strength, TrueCause, TrueStranger, TruthSheet};
 pub use spec::{FORMAT, PopulationSpec, RecordedSpec};

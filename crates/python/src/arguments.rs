@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::error::raised;
+use crate::error::exception;
 
 /// A positive number, or none.
 ///
@@ -24,5 +24,5 @@ pub fn positive(name: &str, value: Option<f64>) -> PyResult<Option<f64>> {
 ///
 /// [`crate::error::PlumblineError`] for a name that the catalogue lacks.
 pub fn effects(names: &[String]) -> PyResult<Vec<EffectKind>> {
-    names.iter().map(|name| cli::find_effect(name).map_err(raised)).collect()
+    names.iter().map(|name| cli::find_effect(name).map_err(exception)).collect()
 }

@@ -1,7 +1,7 @@
 use pyo3::prelude::*;
 
 use crate::diagnosis::{DiagnosisRequest, PyDiagnosis};
-use crate::error::raised;
+use crate::error::exception;
 use crate::log::PyLog;
 use crate::program::json_of;
 use crate::robot::PyRobot;
@@ -43,9 +43,9 @@ pub fn compare(
     let sets = [runs[0].as_slice(), runs[1].as_slice()];
     let compared =
         run(py, progress.as_ref(), |work| ::diagnosis::compare(about, sets, &settings, work))?;
-    let compared = compared.map_err(raised)?;
+    let compared = compared.map_err(exception)?;
     let alike = json_of(&compared.alike)?;
-    let extended = robot.extended(compared.before.extended.clone());
+    let extended = robot.with_robot(compared.before.extended.clone());
     let ([before, after], [origin, other]) = (runs, origins);
     let before = PyDiagnosis::new(py, robot, before, compared.before, None, origin)?;
     let after = PyDiagnosis::new(py, &extended, after, compared.after, None, other)?;

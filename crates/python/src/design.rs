@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::arguments::positive;
 use crate::diagnosis::PyDiagnosis;
-use crate::error::raised;
+use crate::error::exception;
 use crate::log::PyLog;
 use crate::robot::PyRobot;
 use crate::work::run;
@@ -48,7 +48,7 @@ pub fn design(
     };
     let read = |diagnosis: &PyDiagnosis| {
         let name = Path::new("diagnosis");
-        DiagnosisFile::parse(&diagnosis.json()?, name, &robot.loaded.robot).map_err(raised)
+        DiagnosisFile::parse(&diagnosis.json()?, name, &robot.loaded.robot).map_err(exception)
     };
     let file = diagnosis.map(read).transpose()?;
     let request = MotionRequest {
@@ -61,7 +61,7 @@ pub fn design(
         work.stage("searching a motion", 0);
         MotionDesign::new(&request).map_err(Box::new)
     })?;
-    let design = design.map_err(|error| raised(*error))?;
+    let design = design.map_err(|error| exception(*error))?;
     Ok(PyDesign { design, robot_file: robot.path.clone() })
 }
 
@@ -86,6 +86,6 @@ impl PyDesign {
 
     /// Writes motion.csv, motion.parquet and motion.toml; says where, and nothing where no motion helps.
     fn save(&self, folder: PathBuf) -> PyResult<Option<String>> {
-        self.design.write(&folder, &self.robot_file).map_err(raised)
+        self.design.write(&folder, &self.robot_file).map_err(exception)
     }
 }

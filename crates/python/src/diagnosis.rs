@@ -11,7 +11,7 @@ use pyo3::types::PyDict;
 use report::{Provenance, Report};
 
 use crate::arguments::{effects, positive};
-use crate::error::raised;
+use crate::error::exception;
 use crate::log::PyLog;
 use crate::robot::PyRobot;
 use crate::work::{Work, run};
@@ -60,7 +60,7 @@ impl DiagnosisRequest<'_> {
     pub fn provenance(&self, runs: &[Run]) -> PyResult<Provenance> {
         let loaded = &self.robot.loaded;
         let mut provenance =
-            provenance_of(self.command(runs), &self.robot.path, loaded, None).map_err(raised)?;
+            provenance_of(self.command(runs), &self.robot.path, loaded, None).map_err(exception)?;
         provenance.files.extend(hashes_of(runs));
         Ok(provenance)
     }
@@ -102,7 +102,7 @@ impl PyDiagnosis {
         provenance: Provenance,
     ) -> PyResult<Self> {
         let doubts = cli::input_warnings(&robot.loaded, &runs);
-        let extended = Py::new(py, robot.extended(outcome.extended.clone()))?;
+        let extended = Py::new(py, robot.with_robot(outcome.extended.clone()))?;
         let loaded = Arc::clone(&robot.loaded);
         Ok(Self { robot: loaded, extended, runs, outcome, forward, provenance, doubts })
     }
@@ -149,7 +149,7 @@ pub fn diagnose(
         let forward = experiment::forward_gap_of_logs(robots, read, cutoff_hz, work).ok();
         Ok::<_, ::diagnosis::DiagnosisError>((outcome, forward))
     })?;
-    let (outcome, forward) = found.map_err(raised)?;
+    let (outcome, forward) = found.map_err(exception)?;
     PyDiagnosis::new(py, robot, runs, outcome, forward, provenance)
 }
 
@@ -169,7 +169,7 @@ impl PyDiagnosis {
 
     /// `diagnosis.json`.
     pub fn json(&self) -> PyResult<String> {
-        report::json(&self.as_report()).map_err(raised)
+        report::json(&self.as_report()).map_err(exception)
     }
 
     /// What the program prints.
@@ -179,17 +179,17 @@ impl PyDiagnosis {
 
     /// `report.html`.
     fn html(&self) -> PyResult<String> {
-        report::html(&self.as_report()).map_err(raised)
+        report::html(&self.as_report()).map_err(exception)
     }
 
     /// The first screen of the report.
     fn notebook(&self) -> PyResult<String> {
-        report::notebook(&self.as_report()).map_err(raised)
+        report::notebook(&self.as_report()).map_err(exception)
     }
 
     /// `figure.svg`.
     fn figure(&self) -> PyResult<String> {
-        report::figure(&self.as_report()).map_err(raised)
+        report::figure(&self.as_report()).map_err(exception)
     }
 
     /// Writes the files of the program's output folder.
@@ -202,9 +202,9 @@ impl PyDiagnosis {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
         let report = self.as_report();
-        let json = report::json(&report).map_err(raised)?;
+        let json = report::json(&report).map_err(exception)?;
         cli::write_diagnosis(&folder, &self.robot, &self.outcome, &report, &json, None)
-            .map_err(raised)?;
+            .map_err(exception)?;
         if !recording {
             return Ok(());
         }
@@ -216,7 +216,7 @@ impl PyDiagnosis {
         };
         let recorded =
             run(py, progress.as_ref(), |work| cli::record_diagnosis(&folder, &diagnosed, work))?;
-        recorded.map(|_| ()).map_err(|error| raised(*error))
+        recorded.map(|_| ()).map_err(|error| exception(*error))
     }
 
     /// The signals behind the diagnosis: of every run its name, its times (s) and, by joint, position,

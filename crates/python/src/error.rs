@@ -11,7 +11,7 @@ create_exception!(
 );
 
 /// The exception that an error of the program becomes: its sentence, and what to do about it.
-pub fn raised(error: impl Into<CliError>) -> PyErr {
+pub fn exception(error: impl Into<CliError>) -> PyErr {
     let error = error.into();
     let words = error.words();
     // Errors of a place in a file begin as the program prints them.

@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::{SampleRows, TableColumns, rows_of, table, type_name, vector};
-use crate::error::raised;
+use crate::error::exception;
 
 /// One recorded run.
 #[pyclass(frozen, name = "Log", module = "plumbline")]
@@ -46,18 +46,18 @@ impl PyLog {
         let joints: Vec<&str> = robot.joint_names().collect();
         match &self.source {
             Source::File(columns, path) => {
-                let asked = columns.episodes_of(path).map_err(raised)?;
+                let asked = columns.episodes_of(path).map_err(exception)?;
                 let [episode] = asked.iter().collect::<Vec<_>>()[..] else {
                     let found = asked.iter().filter_map(|episode| episode.number).collect();
                     let path = path.clone();
-                    return Err(raised(LogError::from(FormatError::Episode {
+                    return Err(exception(LogError::from(FormatError::Episode {
                         path,
                         asked: None,
                         found,
                     })));
                 };
-                let reader = columns.reader().map_err(raised)?;
-                reader.read(path, episode, robot).map_err(raised)
+                let reader = columns.reader().map_err(exception)?;
+                reader.read(path, episode, robot).map_err(exception)
             }
             Source::Run(run) => {
                 if run.joints.iter().map(|c| c.name.as_str()).eq(joints.iter().copied()) {
@@ -91,7 +91,7 @@ impl PyLog {
     }
 
     fn read(&self, columns: BTreeMap<String, Vec<f64>>, robot: &robot::Robot) -> PyResult<Run> {
-        logs::run_of_columns(&self.name, columns, robot, &ReadOptions::default()).map_err(raised)
+        logs::run_of_columns(&self.name, columns, robot, &ReadOptions::default()).map_err(exception)
     }
 
     fn other_joints(&self, own: &[&str], expected: &[&str]) -> PyErr {
@@ -251,7 +251,7 @@ impl PyLog {
         until_damage: bool,
     ) -> PyResult<Self> {
         if !path.exists() {
-            return Err(raised(LogError::from(FormatError::Missing { path })));
+            return Err(exception(LogError::from(FormatError::Missing { path })));
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let (effort, excerpt) = (effort.to_owned(), ExcerptArguments::default());
@@ -305,8 +305,8 @@ impl PyLog {
     }
 
     /// What was put right while it was read, in sentences.
-    #[getter]
-    fn mended(&self) -> Vec<String> {
+    #[getter(mended)]
+    fn repairs(&self) -> Vec<String> {
         match &self.source {
             Source::Run(run) => run.mended.iter().map(ToString::to_string).collect(),
             _ => Vec::new(),

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 
 use crate::arguments::positive;
 use crate::arrays::{SampleRows, TableColumns, same_rows, table};
-use crate::error::raised;
+use crate::error::exception;
 use crate::log::PyLog;
 use crate::robot::PyRobot;
 use crate::work::run;
@@ -90,7 +90,7 @@ pub fn learn(
         };
         Ok::<_, LearnerError>(training.fit(kind)?.model)
     })?;
-    Ok(PyModel::new(learned.map_err(raised)?))
+    Ok(PyModel::new(learned.map_err(exception)?))
 }
 
 #[pymethods]
@@ -100,12 +100,13 @@ impl PyModel {
     fn load(py: Python<'_>, path: PathBuf, robot: &PyRobot) -> PyResult<Self> {
         let about = &robot.loaded.robot;
         let model = run(py, None, |_| learner::Model::load(&path, about)?.with_variance())?;
-        Ok(Self::new(model.map_err(raised)?))
+        Ok(Self::new(model.map_err(exception)?))
     }
 
     /// What the description of a robot expects, rotors, friction and all else that it says included.
     #[staticmethod]
-    fn described(robot: &PyRobot, rest_speed: f64) -> PyResult<Self> {
+    #[pyo3(name = "described")]
+    fn from_description(robot: &PyRobot, rest_speed: f64) -> PyResult<Self> {
         positive("rest_speed", Some(rest_speed))?;
         let about = robot.loaded.robot.clone();
         let n = about.joint_count();
@@ -117,7 +118,7 @@ impl PyModel {
 
     /// Writes the model as Parquet.
     fn save(&self, path: PathBuf) -> PyResult<()> {
-        self.model.save(&path).map_err(raised)
+        self.model.save(&path).map_err(exception)
     }
 
     /// Its kind, as `plumbline learn` names it.
@@ -169,7 +170,7 @@ impl PyModel {
             let prepared = prepare(&runs, &PrepareSettings { cutoff_hz })?;
             Ok::<_, logs::LogError>(TorqueScore::of(&self.model, &Samples::new(&prepared)))
         })?;
-        let score = score.map_err(raised)?;
+        let score = score.map_err(exception)?;
         table(py, score.rmse, self.joints.len(), true)
     }
 

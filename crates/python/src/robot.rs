@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::table;
-use crate::error::raised;
+use crate::error::exception;
 use crate::program::json_of;
 
 /// A robot as its files describe it.
@@ -27,7 +27,7 @@ pub struct PyRobot {
 
 impl PyRobot {
     /// The robot of files that were read, with another one in the place of what they describe.
-    pub fn extended(&self, robot: ::robot::Robot) -> Self {
+    pub fn with_robot(&self, robot: ::robot::Robot) -> Self {
         let loaded = Loaded { robot, ..(*self.loaded).clone() };
         Self::new(loaded, self.path.clone(), self.asked.clone())
     }
@@ -66,7 +66,7 @@ impl PyRobot {
             package: packages,
             allow_outside,
         };
-        Ok(Self::new(part.load(&path).map_err(raised)?, path, joints))
+        Ok(Self::new(part.load(&path).map_err(exception)?, path, joints))
     }
 
     /// Name of the robot.
@@ -94,8 +94,8 @@ impl PyRobot {
     }
 
     /// Joints that are locked, and where (rad or m).
-    #[getter]
-    fn locked(&self) -> Vec<(String, f64)> {
+    #[getter(locked)]
+    fn locked_joints(&self) -> Vec<(String, f64)> {
         self.loaded.locked.iter().map(|lock| (lock.joint.clone(), lock.position)).collect()
     }
 
@@ -126,7 +126,7 @@ impl PyRobot {
                 "format: found {format:?}, one of {all} was expected"
             )));
         };
-        let export = exchange::export(&self.loaded, &self.source()?, known).map_err(raised)?;
+        let export = exchange::export(&self.loaded, &self.source()?, known).map_err(exception)?;
         Ok((export.text, json_of(&export.fates)?))
     }
 
@@ -144,7 +144,7 @@ impl PyRobot {
         let path = &self.loaded.urdf_path;
         std::fs::read_to_string(path).map_err(|error| {
             let reason = error.to_string();
-            raised(RobotError::Unreadable { path: path.clone(), reason })
+            exception(RobotError::Unreadable { path: path.clone(), reason })
         })
     }
 }

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use simulator::LogFormat;
 use simulator::scenario::Scenario;
 
-use crate::error::raised;
+use crate::error::exception;
 use crate::log::PyLog;
 use crate::robot::PyRobot;
 use crate::work::run;
@@ -31,18 +31,18 @@ pub fn simulate(
     set: Vec<String>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PySimulation> {
-    let mut document = Document::read(&scenario).map_err(raised)?;
-    set.iter().try_for_each(|assignment| document.set(assignment)).map_err(raised)?;
+    let mut document = Document::read(&scenario).map_err(exception)?;
+    set.iter().try_for_each(|assignment| document.set(assignment)).map_err(exception)?;
     if let Some(seed) = seed {
-        document.set(&format!("seed={seed}")).map_err(raised)?;
+        document.set(&format!("seed={seed}")).map_err(exception)?;
     }
-    let scenario = Scenario::from_document(&document).map_err(raised)?;
+    let scenario = Scenario::from_document(&document).map_err(exception)?;
     let seconds: f64 = scenario.runs().iter().map(|run| run.motion.duration_s()).sum();
     let simulation = run(py, progress.as_ref(), |work| {
         work.stage("simulating (seconds of motion)", seconds as usize);
         simulator::simulate(&scenario, &|| work.step())
     })?;
-    Ok(PySimulation { scenario, simulation: simulation.map_err(raised)? })
+    Ok(PySimulation { scenario, simulation: simulation.map_err(exception)? })
 }
 
 #[pymethods]
@@ -64,6 +64,6 @@ impl PySimulation {
     fn save(&self, folder: PathBuf, csv: bool) -> PyResult<()> {
         std::fs::create_dir_all(&folder)?;
         let format = if csv { LogFormat::Csv } else { LogFormat::Parquet };
-        simulator::write(&folder, &self.scenario, &self.simulation, format).map_err(raised)
+        simulator::write(&folder, &self.scenario, &self.simulation, format).map_err(exception)
     }
 }

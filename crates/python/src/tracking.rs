@@ -5,7 +5,7 @@ use experiment::FeedforwardKind;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::error::raised;
+use crate::error::exception;
 use crate::work::run;
 
 /// A motion tracked by a simulated arm, with the torque of models fed forward.
@@ -52,9 +52,9 @@ pub fn track(
     };
     let result =
         run(py, progress.as_ref(), |work| TrackingResult::new(&request, work).map_err(Box::new))?;
-    let result = result.map_err(|error| raised(*error))?;
+    let result = result.map_err(|error| exception(*error))?;
     if let Some(out) = &out {
-        result.write(out).map_err(raised)?;
+        result.write(out).map_err(exception)?;
     }
     Ok(PyTracking { result, out })
 }
@@ -82,7 +82,7 @@ fn command(
 impl PyTracking {
     /// `tracking.json`.
     fn json(&self) -> PyResult<String> {
-        self.result.comparison().json().map_err(raised)
+        self.result.comparison().json().map_err(exception)
     }
 
     /// What the program prints.
@@ -92,7 +92,7 @@ impl PyTracking {
 
     /// `report.html`.
     fn html(&self) -> PyResult<String> {
-        self.result.comparison().page().map_err(raised)
+        self.result.comparison().page().map_err(exception)
     }
 
     /// The folder that was written, if one was.

@@ -70,7 +70,7 @@ impl ScreenLayout {
     pub fn send(&self, stream: &RecordingStream) -> Result<(), RecordingError> {
         let mut properties = Properties::default();
         let screen = Horizontal::new([
-            self.left(&mut properties),
+            self.left_side(&mut properties),
             self.joints(&mut properties),
             self.right(&mut properties),
         ]);
@@ -85,7 +85,7 @@ impl ScreenLayout {
         properties.send(&layout, stream)
     }
 
-    fn left(&self, properties: &mut Properties) -> ContainerLike {
+    fn left_side(&self, properties: &mut Properties) -> ContainerLike {
         let scene = self.scene(properties);
         let overview = [SignalQuantity::Error, SignalQuantity::Residual, SignalQuantity::Position]
             .into_iter()

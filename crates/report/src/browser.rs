@@ -137,11 +137,11 @@ fn look(browser: &Path, folder: &Path, scheme: &str) -> (Vec<Seen>, Vec<String>)
     let told = dom.split("id=\"seen\">").nth(1).and_then(|rest| rest.split('<').next());
     let told = told.filter(|told| !told.is_empty()).unwrap_or_else(|| panic!("{dom}{log}"));
     let console = log.lines().filter(|line| line.contains("CONSOLE")).map(str::to_owned);
-    (serde_json::from_str(&decoded(told)).unwrap(), console.collect())
+    (serde_json::from_str(&decode(told)).unwrap(), console.collect())
 }
 
 /// Text from its percent-encoding.
-fn decoded(text: &str) -> String {
+fn decode(text: &str) -> String {
     let mut pieces = text.split('%');
     let mut bytes = pieces.next().unwrap_or_default().as_bytes().to_vec();
     for piece in pieces {

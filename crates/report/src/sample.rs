@@ -147,7 +147,7 @@ fn diagnosis(names: &[&str]) -> Diagnosis {
             share: 0.29,
             depends_on: vec![Dependence { signal: "position of elbow".into(), share: 0.31 }],
         }],
-        ruled_out: vec![ruled_out(names[0], Some(0.02)), ruled_out(names[1], None)],
+        ruled_out: vec![rule_out(names[0], Some(0.02)), rule_out(names[1], None)],
         gain: Gain {
             inverse: InverseGain {
                 nmse_before: pair(0.2, 0.1),
@@ -240,7 +240,7 @@ fn estimate(name: &'static str, value: f64, ci95: [f64; 2], unit: &'static str) 
     Estimate { name, value, ci95, noise95: ci95, nominal: 0.0, unit, determined: true }
 }
 
-fn ruled_out(joint: &str, smallest: Option<f64>) -> RuledOut {
+fn rule_out(joint: &str, smallest: Option<f64>) -> RuledOut {
     RuledOut {
         at: EffectAt { effect: EffectKind::CableSpring, joint: Some(joint.into()), link: None },
         parameter: "stiffness",

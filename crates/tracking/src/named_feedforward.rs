@@ -42,7 +42,7 @@ impl NamedFeedforward {
         delays_s.dedup_by(|a, b| a.total_cmp(b).is_eq());
         Ok(Self {
             workspace: compensation.workspace(),
-            states: vec![State::default(); compensation.states_needed()],
+            states: vec![State::default(); compensation.state_count()],
             found: FeedforwardEfforts::zero(joints),
             compensation,
             delays_s,
@@ -135,7 +135,7 @@ mod tests {
         toml::from_str::<MotionSpec>(text).unwrap().build(robot, ".".as_ref()).unwrap()
     }
 
-    fn predicted(robot: &Robot, motion: &Motion, time_s: f64) -> TorquePrediction {
+    fn predict_torque(robot: &Robot, motion: &Motion, time_s: f64) -> TorquePrediction {
         let mut feedforward = NamedFeedforward::new(robot, &[0.01, 0.01], LEAD_S).unwrap();
         let mut prediction = TorquePrediction::zero(2);
         feedforward.predict(motion, time_s, &mut prediction);
@@ -147,7 +147,7 @@ mod tests {
         let mut robot = wheels();
         robot.link_mut(0).unwrap().actuator.delay_s = 0.02;
         let motion = swing(&robot);
-        let found = predicted(&robot, &motion, 4.0);
+        let found = predict_torque(&robot, &motion, 4.0);
         for (joint, ahead_s) in [(0, 0.02 + LEAD_S), (1, LEAD_S)] {
             let expected = INERTIA * motion.at(4.0 + ahead_s).qdd[joint];
             assert!((found.tau[joint] - expected).abs() < 1e-12, "joint {joint}");
@@ -161,7 +161,7 @@ mod tests {
         let actuator = &mut robot.link_mut(0).unwrap().actuator;
         (actuator.delay_s, actuator.elasticity) = (0.02, Some(50.0));
         let motion = swing(&robot);
-        let found = predicted(&robot, &motion, 4.0);
+        let found = predict_torque(&robot, &motion, 4.0);
         let twist = INERTIA * motion.at(4.0).qdd[0] / 50.0;
         assert!((found.q_lead[0] - twist).abs() < 1e-12, "{} and {twist}", found.q_lead[0]);
         assert!(found.q_lead[1].abs() < 1e-15);
@@ -174,7 +174,7 @@ mod tests {
         (actuator.delay_s, actuator.encoder_offset) = (0.02, 0.1);
         (actuator.transmission_ratio, actuator.lag_s) = (1.25, 0.005);
         let motion = swing(&robot);
-        let found = predicted(&robot, &motion, 4.0);
+        let found = predict_torque(&robot, &motion, 4.0);
         let now = motion.at(4.0);
         assert!((found.q_lead[0] - (0.1 - 0.2 * now.q[0])).abs() < 1e-12);
         assert!((found.qd_lead[0] + 0.2 * now.qd[0]).abs() < 1e-12);

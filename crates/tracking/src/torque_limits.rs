@@ -94,7 +94,7 @@ impl TorqueLimits {
 mod tests {
     use super::*;
 
-    fn limited(limits: &TorqueLimits, mut tau: Vec<f64>) -> (Vec<f64>, Vec<bool>) {
+    fn limit(limits: &TorqueLimits, mut tau: Vec<f64>) -> (Vec<f64>, Vec<bool>) {
         let mut limited = vec![false; tau.len()];
         limits.apply(&mut tau, &mut limited);
         (tau, limited)
@@ -103,22 +103,22 @@ mod tests {
     #[test]
     fn a_joint_alone_stays_between_its_limits() {
         let limits = TorqueLimits::new(vec![2.0, f64::INFINITY], vec![]).unwrap();
-        assert_eq!(limited(&limits, vec![-3.0, 1e9]), (vec![-2.0, 1e9], vec![true, false]));
-        assert_eq!(limited(&limits, vec![1.9, -1e9]), (vec![1.9, -1e9], vec![false, false]));
+        assert_eq!(limit(&limits, vec![-3.0, 1e9]), (vec![-2.0, 1e9], vec![true, false]));
+        assert_eq!(limit(&limits, vec![1.9, -1e9]), (vec![1.9, -1e9], vec![false, false]));
     }
 
     #[test]
     fn a_pair_stays_in_its_diamond() {
         let limits = TorqueLimits::new(vec![1.0, 10.0, 4.0], vec![[1, 2]]).unwrap();
         // Within: untouched. On one axis: the limit of that joint alone.
-        assert_eq!(limited(&limits, vec![0.1, 3.3, 2.2]).0, [0.1, 3.3, 2.2]);
-        assert_eq!(limited(&limits, vec![0.0, 30.0, 0.0]).0, [0.0, 10.0, 0.0]);
+        assert_eq!(limit(&limits, vec![0.1, 3.3, 2.2]).0, [0.1, 3.3, 2.2]);
+        assert_eq!(limit(&limits, vec![0.0, 30.0, 0.0]).0, [0.0, 10.0, 0.0]);
         // Both at their limits: m1 = 0 stays, m2 = 2 becomes 1; half of either is left.
-        let (tau, which) = limited(&limits, vec![0.0, 10.0, 4.0]);
+        let (tau, which) = limit(&limits, vec![0.0, 10.0, 4.0]);
         assert_eq!((tau, which), (vec![0.0, 5.0, 2.0], vec![false, true, true]));
         for i in 0..400 {
             let (x, y) = (f64::from(i % 20) - 9.5, f64::from(i / 20) - 9.5);
-            let (tau, _) = limited(&limits, vec![0.0, 3.0 * x, y]);
+            let (tau, _) = limit(&limits, vec![0.0, 3.0 * x, y]);
             assert!((tau[1] / 10.0).abs() + (tau[2] / 4.0).abs() <= 1.0 + 1e-15, "{x} {y}");
         }
     }

@@ -155,7 +155,7 @@ mod tests {
     }
 
     /// The torque used in every tick, and the events, when `arrives` says what comes in each.
-    fn used(arrives: impl Fn(usize) -> Option<Delivery>) -> (Vec<f64>, Vec<Event>) {
+    fn torque_and_events(arrives: impl Fn(usize) -> Option<Delivery>) -> (Vec<f64>, Vec<Event>) {
         let mut trust = Trust::new(&TrackingSettings::default(), PERIOD_S, 1);
         let mut events = Vec::from_iter(trust.begin(Some(&mut delivery(2.0))));
         let mut tick = |k: usize| {
@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_stall_fades_out_and_what_comes_after_it_fades_in() {
-        let (used, events) = used(|k| (k <= 10 || k >= 120).then(|| delivery(2.0)));
+        let (used, events) = torque_and_events(|k| (k <= 10 || k >= 120).then(|| delivery(2.0)));
         let told: Vec<_> = events.iter().map(|e| (tick_of(e), e.level)).collect();
         assert_eq!(told, [(21, Level::Warning), (120, Level::Info)]);
         assert_fades(&used[..21], 2.0, 0.0);
@@ -190,7 +190,8 @@ mod tests {
     #[test]
     fn a_death_fades_out_at_once_and_for_good() {
         let died = || Some(Delivery { died: Some("gone".to_owned()), ..delivery(5.0) });
-        let (used, events) = used(|k| if k == 30 { died() } else { Some(delivery(2.0)) });
+        let (used, events) =
+            torque_and_events(|k| if k == 30 { died() } else { Some(delivery(2.0)) });
         assert_eq!(events.len(), 1, "{events:?}");
         assert!(events[0].words.contains("died (gone)"), "{}", events[0].words);
         assert_fades(&used[30..], 2.0, -0.04);
@@ -199,7 +200,8 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_never_used_and_distrusted_for_the_time_of_a_stall() {
         let bad = |k| (50..60).contains(&k) && k % 2 == 0;
-        let (used, events) = used(|k| Some(delivery(if bad(k) { f64::NAN } else { 2.0 })));
+        let (used, events) =
+            torque_and_events(|k| Some(delivery(if bad(k) { f64::NAN } else { 2.0 })));
         assert!(used.iter().all(|used| (0.0..=2.0).contains(used)));
         let told: Vec<_> = events.iter().map(|e| (tick_of(e), e.level)).collect();
         assert_eq!(told, [(50, Level::Warning), (69, Level::Info)]);

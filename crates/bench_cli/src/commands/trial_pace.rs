@@ -21,7 +21,7 @@ impl TrialPace {
     /// ```
     ///
     /// none before as many are made as are made at a time: the first to end are the shortest.
-    pub fn left(&self, left: usize, jobs: usize) -> Option<Duration> {
+    pub fn time_left(&self, left: usize, jobs: usize) -> Option<Duration> {
         let known = self.made as usize >= jobs && self.made > 0;
         let rounds = u32::try_from(left.div_ceil(jobs.max(1))).ok()?;
         known.then(|| (self.took / self.made).saturating_mul(rounds))
@@ -44,13 +44,16 @@ mod tests {
     #[test]
     fn what_is_left_takes_as_long_as_what_is_made() {
         let mut pace = TrialPace::default();
-        assert_eq!(pace.left(10, 2), None);
+        assert_eq!(pace.time_left(10, 2), None);
         pace.add(Duration::from_secs(10));
-        assert_eq!((pace.left(10, 2), pace.left(10, 1)), (None, Some(Duration::from_secs(100))));
+        assert_eq!(
+            (pace.time_left(10, 2), pace.time_left(10, 1)),
+            (None, Some(Duration::from_secs(100)))
+        );
         pace.add(Duration::from_secs(20));
-        assert_eq!(pace.left(10, 2), Some(Duration::from_secs(75)));
-        assert_eq!(pace.left(1, 2), Some(Duration::from_secs(15)));
-        assert_eq!(pace.left(0, 2), Some(Duration::ZERO));
+        assert_eq!(pace.time_left(10, 2), Some(Duration::from_secs(75)));
+        assert_eq!(pace.time_left(1, 2), Some(Duration::from_secs(15)));
+        assert_eq!(pace.time_left(0, 2), Some(Duration::ZERO));
     }
 
     #[test]

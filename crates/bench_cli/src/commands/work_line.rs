@@ -61,7 +61,7 @@ impl WorkLine {
 
     fn say(&self, count: &Count) {
         let left = count.all.saturating_sub(count.made);
-        let time = count.pace.left(left, self.jobs).map(words);
+        let time = count.pace.time_left(left, self.jobs).map(words);
         let time = time.map_or(String::new(), |time| format!(", about {time} left"));
         self.watch.begin(&format!(
             "{} of {} trials made, {} failed{time}",

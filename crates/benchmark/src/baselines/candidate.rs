@@ -85,19 +85,19 @@ fn of_drive(robot: &Robot, j: usize) -> Vec<Candidate> {
 /// What shows in a joint's motion.
 fn of_motion(robot: &Robot, j: usize) -> Vec<Candidate> {
     let a = &robot.links()[j].actuator;
-    let bounded = |effect, shapes: &[Shape], nominal: f64| Candidate {
+    let candidate = |effect, shapes: &[Shape], nominal: f64| Candidate {
         least: Some((j, -(1.0 + SLACK) * nominal)),
         ..of_joint(robot, j, effect, shapes)
     };
     let coulomb = 0.5 * (a.coulomb_forward + a.coulomb_backward);
     let spring = [Shape::Position, Shape::One];
     let mut all = vec![
-        bounded(EffectKind::ViscousFriction, &[Shape::Velocity], a.viscous),
-        bounded(EffectKind::CoulombFriction, &[Shape::Sign], coulomb),
-        bounded(EffectKind::RotorInertia, &[Shape::Acceleration], a.rotor_inertia),
+        candidate(EffectKind::ViscousFriction, &[Shape::Velocity], a.viscous),
+        candidate(EffectKind::CoulombFriction, &[Shape::Sign], coulomb),
+        candidate(EffectKind::RotorInertia, &[Shape::Acceleration], a.rotor_inertia),
         of_joint(robot, j, EffectKind::AsymmetricFriction, &[Shape::Sign, Shape::One]),
-        bounded(EffectKind::CableSpring, &spring, a.spring_stiffness),
-        bounded(EffectKind::LoadDependentFriction, &[Shape::LoadSign], a.load_friction),
+        candidate(EffectKind::CableSpring, &spring, a.spring_stiffness),
+        candidate(EffectKind::LoadDependentFriction, &[Shape::LoadSign], a.load_friction),
     ];
     let k = FRICTION_PERIODS;
     let wave = [Shape::SineSign(k), Shape::CosineSign(k), Shape::Sign];

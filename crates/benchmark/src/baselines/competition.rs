@@ -68,12 +68,12 @@ impl<'a> Competition<'a> {
     pub fn standing(&self, j: usize, columns: Vec<usize>) -> Standing {
         let joint = self.joint(j);
         let fitted = fit(&joint.total, &columns, joint.target());
-        let left = joint.left(&columns, &fitted.weights);
+        let left = joint.residual_of(&columns, &fitted.weights);
         Standing {
             rank: fitted.rank,
             mean: self.mean(j, fitted.square),
             memory: memory(&left, &self.dataset.runs),
-            held_out: self.held_out(j, &columns),
+            held_out: self.held_out_rms(j, &columns),
             columns,
         }
     }
@@ -87,13 +87,13 @@ impl<'a> Competition<'a> {
     }
 
     /// RMS of what columns leave of samples that their weights were not fitted to.
-    fn held_out(&self, j: usize, columns: &[usize]) -> f64 {
+    fn held_out_rms(&self, j: usize, columns: &[usize]) -> f64 {
         let joint = self.joint(j);
-        let left = |[learned, held]: &[faer::Mat<f64>; 2]| {
+        let residual_square = |[learned, held]: &[faer::Mat<f64>; 2]| {
             let weights = fit(learned, columns, joint.target()).weights;
             square_left(held, columns, &weights, joint.target())
         };
-        (joint.folds.iter().map(left).sum::<f64>() / joint.samples.max(1) as f64).sqrt()
+        (joint.folds.iter().map(residual_square).sum::<f64>() / joint.samples.max(1) as f64).sqrt()
     }
 
     /// Evidence for the columns of `with` beside those of `without`, for samples of which
@@ -127,7 +127,7 @@ impl<'a> Competition<'a> {
         // With every sample for itself it is at its largest: most candidates end here.
         let at_most = self.evidence(j, 1.0, means, 0.0);
         let memory = match possible && at_most > 1.0 {
-            true => memory(&joint.left(&columns, &fitted.weights), &self.dataset.runs),
+            true => memory(&joint.residual_of(&columns, &fitted.weights), &self.dataset.runs),
             false => 1.0,
         };
         Change { evidence: self.evidence(j, memory, means, more), possible, ..nothing }
@@ -138,7 +138,7 @@ impl<'a> Competition<'a> {
         let of = &candidate.parts[part];
         let (j, joint) = (of.0, self.joint(of.0));
         let columns = Self::union(&standing.columns, &self.places(of));
-        let (before, after) = (standing.held_out, self.held_out(j, &columns));
+        let (before, after) = (standing.held_out, self.held_out_rms(j, &columns));
         let least = (PRACTICAL * joint.torque_rms).max(LEAST_OF_ERROR * before);
         let gain = match before - after > least {
             true => {

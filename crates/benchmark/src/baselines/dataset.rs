@@ -158,7 +158,7 @@ impl Joint {
     }
 
     /// The target less columns times weights.
-    pub fn left(&self, columns: &[usize], weights: &[f64]) -> Vec<f64> {
+    pub fn residual_of(&self, columns: &[usize], weights: &[f64]) -> Vec<f64> {
         let mut left = self.column(self.target()).to_vec();
         for (&column, weight) in columns.iter().zip(weights) {
             left.iter_mut().zip(self.column(column)).for_each(|(left, x)| *left -= weight * x);

@@ -26,9 +26,12 @@ pub(super) fn fit(gram: &Mat<f64>, columns: &[usize], target: usize) -> Fit {
     let (mut square, mut order) = (gram[(target, target)], Vec::with_capacity(m));
     let mut open: Vec<usize> = (0..m).collect();
     loop {
-        let left = |p: usize| if whole[p] > 0.0 { a[p * m + p] / whole[p] } else { 0.0 };
-        let best = (0..open.len()).max_by(|x, y| left(open[*x]).total_cmp(&left(open[*y])));
-        let Some(best) = best.filter(|best| left(open[*best]) > DEPENDENT) else { break };
+        let remaining_share = |p: usize| if whole[p] > 0.0 { a[p * m + p] / whole[p] } else { 0.0 };
+        let best = (0..open.len())
+            .max_by(|x, y| remaining_share(open[*x]).total_cmp(&remaining_share(open[*y])));
+        let Some(best) = best.filter(|best| remaining_share(open[*best]) > DEPENDENT) else {
+            break;
+        };
         let p = open.swap_remove(best);
         let (pivot, row) = (a[p * m + p], a[p * m..(p + 1) * m].to_vec());
         square -= b[p] * b[p] / pivot;

@@ -58,7 +58,7 @@ pub fn least_squares(
     let mut fit = Fitted { robot, dataset, columns, deviations: Vec::new(), parameters: vec![] };
     fit.deviations = fit.dataset.joints.iter().map(|j| j.torque_rms).collect();
     fit.solve();
-    fit.deviations = (0..robot.joint_count()).map(|j| fit.left_rms(j)).collect();
+    fit.deviations = (0..robot.joint_count()).map(|j| fit.residual_rms(j)).collect();
     fit.solve();
     let weights = (0..robot.joint_count()).map(|j| fit.weights(j)).collect();
     Ok(Baseline::new(fit.names(), weights, (Nominal::Replaced, scales)))
@@ -131,31 +131,31 @@ impl Fitted<'_> {
     }
 
     /// Parameters in the units of the joint's scaled columns.
-    fn scaled(&self, j: usize) -> Vec<f64> {
+    fn scaled_parameters(&self, j: usize) -> Vec<f64> {
         let scales = &self.dataset.joints[j].scales;
         self.places(j).iter().zip(scales).map(|(&at, scale)| self.parameters[at] * scale).collect()
     }
 
     /// RMS of what is left at joint `j`, with the floor.
-    fn left_rms(&self, j: usize) -> f64 {
+    fn residual_rms(&self, j: usize) -> f64 {
         let joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
-        let square = square_left(&joint.total, &own, &self.scaled(j), joint.target());
+        let square = square_left(&joint.total, &own, &self.scaled_parameters(j), joint.target());
         let mean = square / joint.samples.max(1) as f64;
         (mean + (FLOOR * joint.torque_rms).powi(2)).sqrt()
     }
 
     fn weights(&self, j: usize) -> Vec<Weighted> {
         let shapes = self.dataset.joints[j].shapes.iter().zip(self.places(j));
-        let weighted = |(&shape, at)| Weighted { shape, weight: self.parameters[at] };
-        shapes.map(weighted).collect()
+        let with_weight = |(&shape, at)| Weighted { shape, weight: self.parameters[at] };
+        shapes.map(with_weight).collect()
     }
 
     /// Samples at joint `j` that tell as much as one.
     fn memory(&self, j: usize) -> f64 {
         let joint: &Joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
-        memory(&joint.left(&own, &self.scaled(j)), &self.dataset.runs)
+        memory(&joint.residual_of(&own, &self.scaled_parameters(j)), &self.dataset.runs)
     }
 
     fn names(&self) -> Vec<EffectAt> {

@@ -2,7 +2,7 @@ use logs::{LogError, PrepareSettings, Prepared, Run, centre_commands, prepare};
 use robot::{Robot, TorqueSource};
 
 /// Runs on a uniform clock, commands at the time of their samples and no larger than the joint's
-/// limit, as `diagnosis::left_over` reads them.
+/// limit, as `diagnosis::unexplained_torque` reads them.
 pub(super) fn prepare_runs(
     robot: &Robot,
     control_rate_hz: Option<f64>,
@@ -13,12 +13,12 @@ pub(super) fn prepare_runs(
         let found: Vec<&str> = run.joints.iter().map(|j| j.name.as_str()).collect();
         let expected: Vec<&str> = robot.joint_names().collect();
         if found != expected {
-            let owned = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
+            let to_owned_names = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
             return Err(LogError::JointsDiffer {
                 run: run.name.clone(),
-                found: owned(found),
+                found: to_owned_names(found),
                 first: robot.name().to_owned(),
-                expected: owned(expected),
+                expected: to_owned_names(expected),
             });
         }
     }

@@ -103,14 +103,14 @@ impl<'a> RunColumns<'a> {
             shapes.iter().map(|shape| self.simple(j, *shape)).collect()
         };
         let mut columns: Vec<Vec<Vec<f64>>> = shapes.iter().enumerate().map(simple).collect();
-        let wanted = |is: fn(&Shape) -> bool| shapes.iter().flatten().any(is);
-        if wanted(|s| matches!(s, Shape::Body { .. })) {
+        let has_shape = |is: fn(&Shape) -> bool| shapes.iter().flatten().any(is);
+        if has_shape(|s| matches!(s, Shape::Body { .. })) {
             self.fill_bodies(shapes, &mut columns);
         }
-        if wanted(|s| matches!(s, Shape::Tilt(_))) {
+        if has_shape(|s| matches!(s, Shape::Tilt(_))) {
             self.fill_tilts(shapes, &mut columns);
         }
-        if wanted(|s| matches!(s, Shape::Spring { .. })) {
+        if has_shape(|s| matches!(s, Shape::Spring { .. })) {
             self.fill_springs(shapes, &mut columns);
         }
         columns
@@ -124,7 +124,8 @@ impl<'a> RunColumns<'a> {
             let rate = f64::from(k) * self.scales.phase_per_way[j];
             q.iter().map(move |q| wave(rate * q))
         };
-        let signed = |k: u8, f: fn(f64) -> f64| wave(k, f).zip(sign).map(|(w, s)| w * s).collect();
+        let signed_wave =
+            |k: u8, f: fn(f64) -> f64| wave(k, f).zip(sign).map(|(w, s)| w * s).collect();
         match shape {
             Shape::Velocity => qd.clone(),
             Shape::Sign => sign.clone(),
@@ -134,8 +135,8 @@ impl<'a> RunColumns<'a> {
             Shape::NominalRate => differentiate(nominal, self.rate_hz),
             Shape::Position => q.clone(),
             Shape::LoadSign => nominal.iter().zip(sign).map(|(n, s)| n.abs() * s).collect(),
-            Shape::SineSign(k) => signed(k, f64::sin),
-            Shape::CosineSign(k) => signed(k, f64::cos),
+            Shape::SineSign(k) => signed_wave(k, f64::sin),
+            Shape::CosineSign(k) => signed_wave(k, f64::cos),
             Shape::Sine(k) => wave(k, f64::sin).collect(),
             Shape::Cosine(k) => wave(k, f64::cos).collect(),
             Shape::Tilt(_) | Shape::Body { .. } | Shape::Spring { .. } => Vec::new(),

@@ -90,11 +90,11 @@ fn shapes(joints: usize, candidates: &[Candidate]) -> Vec<Vec<Shape>> {
 fn weights(dataset: &Dataset, j: usize, search: &Search) -> Vec<Weighted> {
     let (joint, columns) = (&dataset.joints[j], &search.standings[j].columns);
     let fitted = fit(&joint.total, columns, joint.target()).weights;
-    let weighted = |(&column, weight): (&usize, f64)| Weighted {
+    let with_weight = |(&column, weight): (&usize, f64)| Weighted {
         shape: joint.shapes[column],
         weight: weight / joint.scales[column],
     };
-    columns.iter().zip(fitted).map(weighted).collect()
+    columns.iter().zip(fitted).map(with_weight).collect()
 }
 
 /// The names so far and what they leave.

@@ -73,12 +73,13 @@ impl PairedComparison {
                 |[first, second]: &[&Record; 2]| Some((quantity.of(first)?, quantity.of(second)?));
             PairedMean::new(quantity, &pairs.iter().filter_map(both).collect::<Vec<_>>())
         };
-        let failed = |side: usize| pairs.iter().filter(|pair| pair[side].score.is_err()).count();
+        let count_failures =
+            |side: usize| pairs.iter().filter(|pair| pair[side].score.is_err()).count();
         Some(Self {
             campaign: pairs.first()?[0].campaign.clone(),
             pairs: pairs.len(),
             alone: [a.len() - pairs.len(), b.len() - pairs.len()],
-            failed: [failed(0), failed(1)],
+            failed: [count_failures(0), count_failures(1)],
             shares: Measure::ALL.map(share).into_iter().filter(|share| share.trials > 0).collect(),
             means: TrialQuantity::ALL.into_iter().filter_map(mean).collect(),
             turned: pairs.iter().filter_map(|[a, b]| Turned::new(a, b)).collect(),

@@ -43,7 +43,7 @@ impl Measure {
         [Self::Right, Self::FalseAssurance, Self::FalseAlarm, Self::WorsePrediction];
 
     /// Whether yes is the better answer.
-    pub fn wanted(self) -> bool {
+    pub fn is_yes_better(self) -> bool {
         self == Self::Right
     }
 
@@ -69,7 +69,7 @@ impl Measure {
     /// What is put into the arm of a scenario counts as visible, what is not looked for as a stranger.
     fn of_scenario(self, one: &Score) -> Option<bool> {
         let hides = !one.injected.is_empty();
-        let named = one.looked_for && one.found();
+        let named = one.looked_for && one.is_found();
         match self {
             Self::Right => Some(one.stray.is_empty() && (named || !one.looked_for)),
             Self::FalseAssurance => hides.then_some(match one.verdict {

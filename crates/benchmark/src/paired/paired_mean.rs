@@ -10,7 +10,7 @@ use crate::paired::measures::TrialQuantity;
 /// ```
 ///
 /// with `s` the standard deviation of `d` and `t` the 97.5th percentile of Student's distribution with
-/// `n - 1` degrees of freedom. Of errors and times the logarithms are taken, and all is told as factors.
+/// `n - 1` degrees of freedom. Of errors and times the logarithms are taken, and all is on_scale as factors.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PairedMean {
     /// Which number.
@@ -36,14 +36,14 @@ impl PairedMean {
         let squares: f64 = pairs.iter().map(|pair| (pair.1 - pair.0 - difference).powi(2)).sum();
         let t = StudentsT::new(0.0, 1.0, n - 1.0).ok().map(|t| t.inverse_cdf(0.975));
         let half = t.map(|t| t * (squares / (n - 1.0) / n).sqrt());
-        let told = |number: f64| if quantity.is_factor() { number.exp() } else { number };
+        let on_scale = |number: f64| if quantity.is_factor() { number.exp() } else { number };
         (!pairs.is_empty()).then(|| Self {
             quantity,
             trials: pairs.len(),
-            first: told(mean(&|pair| pair.0)),
-            second: told(mean(&|pair| pair.1)),
-            difference: told(difference),
-            interval: half.map(|half| [difference - half, difference + half].map(told)),
+            first: on_scale(mean(&|pair| pair.0)),
+            second: on_scale(mean(&|pair| pair.1)),
+            difference: on_scale(difference),
+            interval: half.map(|half| [difference - half, difference + half].map(on_scale)),
         })
     }
 }

@@ -40,7 +40,7 @@ impl PairedShare {
     /// Pairs of a first and a second answer.
     pub fn new(measure: Measure, pairs: &[(bool, bool)]) -> Self {
         let count = |is: &dyn Fn(bool, bool) -> bool| pairs.iter().filter(|p| is(p.0, p.1)).count();
-        let wanted = measure.wanted();
+        let wanted = measure.is_yes_better();
         let wins = count(&|first, second| first != second && second == wanted);
         let losses = count(&|first, second| first != second && first == wanted);
         let (trials, differing) = (pairs.len(), (wins + losses) as f64);
@@ -55,7 +55,7 @@ impl PairedShare {
             losses,
             difference: (trials > 0).then(|| (wins as f64 - losses as f64) / trials as f64),
             interval: interval.map(|ends| ends.map(|end| (2.0 * end - 1.0) * scale)),
-            p: two_sided(wins, losses),
+            p: two_sided_p_value(wins, losses),
         }
     }
 
@@ -78,7 +78,7 @@ fn clopper_pearson(wins: usize, losses: usize) -> Option<[f64; 2]> {
     Some([low?, high?])
 }
 
-fn two_sided(wins: usize, losses: usize) -> f64 {
+fn two_sided_p_value(wins: usize, losses: usize) -> f64 {
     let fewer = wins.min(losses) as u64;
     let half = Binomial::new(0.5, (wins + losses) as u64).map(|all| all.cdf(fewer));
     half.map_or(1.0, |half| (2.0 * half).min(1.0))

@@ -22,14 +22,14 @@ pub struct Turned {
 impl Turned {
     /// None where both say the same.
     pub(super) fn new(first: &Record, second: &Record) -> Option<Self> {
-        let turned = |better: bool| {
+        let measures_that_turn = |better: bool| {
             let is = |measure: &Measure| match (measure.of(first), measure.of(second)) {
-                (Some(a), Some(b)) => a != b && (b == measure.wanted()) == better,
+                (Some(a), Some(b)) => a != b && (b == measure.is_yes_better()) == better,
                 _ => false,
             };
             Measure::ALL.into_iter().filter(is).collect::<Vec<_>>()
         };
-        let (better, worse) = (turned(true), turned(false));
+        let (better, worse) = (measures_that_turn(true), measures_that_turn(false));
         let some = !better.is_empty() || !worse.is_empty();
         let (task, seed) = (first.task, first.seed);
         some.then(|| Self { task, seed, about: about([first, second]), better, worse })

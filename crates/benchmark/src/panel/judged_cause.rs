@@ -64,7 +64,7 @@ impl JudgedCause {
     }
 
     /// Whether it is a finding or a rival of one.
-    pub fn named(&self) -> bool {
+    pub fn is_named(&self) -> bool {
         self.one_of.is_some()
     }
 }
@@ -72,10 +72,10 @@ impl JudgedCause {
 /// A strength that JSON can hold: an infinite one, of a cause without noise, becomes the largest
 /// number; one that is not a number becomes zero.
 pub(super) fn finite(strength: Strength) -> Strength {
-    let held = |number: f64| if number.is_nan() { 0.0 } else { number.clamp(0.0, f64::MAX) };
+    let to_finite = |number: f64| if number.is_nan() { 0.0 } else { number.clamp(0.0, f64::MAX) };
     Strength {
-        sigmas: held(strength.sigmas),
-        share: held(strength.share),
-        torque: held(strength.torque),
+        sigmas: to_finite(strength.sigmas),
+        share: to_finite(strength.share),
+        torque: to_finite(strength.torque),
     }
 }

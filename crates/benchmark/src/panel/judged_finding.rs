@@ -44,13 +44,13 @@ impl JudgedFinding {
                 || f.not_separable_from.iter().any(|rival| causes.contains(rival))
                 || rivals.contains(&&f.at)
         };
-        let judged = |f: &&Finding| Self {
+        let judge = |f: &&Finding| Self {
             at: f.at.clone(),
             share_explained: f.share_explained,
             not_separable_from: f.not_separable_from.clone(),
             is_true: is_true(f),
         };
-        findings.iter().map(judged).collect()
+        findings.iter().map(judge).collect()
     }
 
     /// Its share as a weight: none below zero, and none that is no number.

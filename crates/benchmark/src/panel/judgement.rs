@@ -52,7 +52,7 @@ impl Judgement {
         let two_questions = BaselineClaim::all(&answers.two_questions, &causes);
         let least_squares = BaselineClaim::all(&answers.least_squares, &causes);
         let claims = [&two_questions[..], &least_squares[..]];
-        let judged = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
+        let judge = |cause| JudgedCause::new((cause, &sheet.causes), &findings, claims);
         let stranger = |other: &TrueStranger| TrueStranger {
             strength: finite(other.strength),
             ..other.clone()
@@ -63,7 +63,7 @@ impl Judgement {
             knowledge: sheet.knowledge,
             verdict: diagnosis.map_or(Verdict::DataInadequate, |diagnosis| diagnosis.verdict),
             refused: diagnosis.err().cloned(),
-            causes: sheet.causes.iter().map(judged).collect(),
+            causes: sheet.causes.iter().map(judge).collect(),
             findings: JudgedFinding::all(&findings, &causes),
             strangers: sheet.strangers.iter().map(stranger).collect(),
             prediction: Prediction::new(&answers.held_out, &sheet.torque_rms),
@@ -95,20 +95,20 @@ impl Judgement {
 
     /// Share of the visible causes that a finding or one of its rivals names.
     pub fn recall(&self) -> Fraction {
-        Fraction::of(self.visible().map(|cause| (cause.named(), 1.0)))
+        Fraction::of(self.visible().map(|cause| (cause.is_named(), 1.0)))
     }
 
     /// The same, each cause weighted by its torque, at most that of its joints: a nominal friction
     /// that is a hundred times too large weighs as much as the whole effort.
     pub fn recall_by_torque(&self) -> Fraction {
         let weight = |cause: &JudgedCause| cause.strength.torque.min(1.0);
-        Fraction::of(self.visible().map(|cause| (cause.named(), weight(cause))))
+        Fraction::of(self.visible().map(|cause| (cause.is_named(), weight(cause))))
     }
 
     /// Share of a baseline's names that are true; none where the data hold causes that nobody
     /// knows.
     pub(crate) fn precision_of(&self, claims: &[BaselineClaim]) -> Option<Fraction> {
-        self.known().then(|| Fraction::of(claims.iter().map(|claim| (claim.is_true, 1.0))))
+        self.is_all_known().then(|| Fraction::of(claims.iter().map(|claim| (claim.is_true, 1.0))))
     }
 
     /// Share of the visible causes that a baseline names.
@@ -120,10 +120,10 @@ impl Judgement {
     /// visible cause has no name or an effect outside the catalogue is visible. None where an
     /// oracle sees no cause.
     pub fn false_assurance(&self) -> Option<bool> {
-        let missed = || self.visible().any(|cause| !cause.named()) || self.hides_strangers();
+        let misses = || self.visible().any(|cause| !cause.is_named()) || self.hides_strangers();
         self.hides().then(|| match self.verdict {
             Verdict::Consistent => true,
-            Verdict::Explained => missed(),
+            Verdict::Explained => misses(),
             _ => false,
         })
     }
@@ -132,13 +132,13 @@ impl Judgement {
     /// cause. None where an oracle sees a cause, or where not all causes are known.
     pub fn false_alarm(&self) -> Option<bool> {
         let alarm = || self.names_falsely() || self.is_open();
-        (self.known() && !self.hides()).then(alarm)
+        (self.is_all_known() && !self.hides()).then(alarm)
     }
 
     /// Whether every visible cause is named and, where all causes are known, no false one. None for
     /// logs whose causes are unknown.
     pub fn right(&self) -> Option<bool> {
-        let right = || self.visible().all(JudgedCause::named);
+        let right = || self.visible().all(JudgedCause::is_named);
         match self.knowledge {
             Knowledge::Whole => Some(right() && !self.names_falsely()),
             Knowledge::Added => Some(right()),
@@ -153,11 +153,11 @@ impl Judgement {
 
     /// Whether a finding is false, where all causes are known.
     pub fn names_falsely(&self) -> bool {
-        self.known() && self.findings.iter().any(|finding| !finding.is_true)
+        self.is_all_known() && self.findings.iter().any(|finding| !finding.is_true)
     }
 
     /// Whether all that is in the data is known.
-    pub fn known(&self) -> bool {
+    pub fn is_all_known(&self) -> bool {
         self.knowledge == Knowledge::Whole
     }
 
@@ -171,6 +171,7 @@ impl Judgement {
     }
 
     fn of_findings(&self, weight: impl Fn(&JudgedFinding) -> f64) -> Option<Fraction> {
-        self.known().then(|| Fraction::of(self.findings.iter().map(|f| (f.is_true, weight(f)))))
+        self.is_all_known()
+            .then(|| Fraction::of(self.findings.iter().map(|f| (f.is_true, weight(f)))))
     }
 }

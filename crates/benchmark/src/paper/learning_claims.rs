@@ -153,13 +153,13 @@ mod tests {
 
     #[test]
     fn every_claim_is_held_or_not_by_the_number_that_it_is_about() {
-        let held = |errors: &LearningErrors| -> Vec<bool> {
+        let outcomes = |errors: &LearningErrors| -> Vec<bool> {
             learning_claims(errors)
                 .iter()
                 .map(|claim| claim.verdict == ClaimVerdict::Holds)
                 .collect()
         };
-        assert_eq!(held(&errors()), [true; 5]);
+        assert_eq!(outcomes(&errors()), [true; 5]);
         type Change = fn(&mut LearningErrors);
         let changes: [(Change, usize); 5] = [
             (|e| set(&mut e.simulated, "rbd", 0.0101), 0),
@@ -172,7 +172,7 @@ mod tests {
             let mut errors = errors();
             change(&mut errors);
             let expected: Vec<bool> = (0..5).map(|claim| claim != fails).collect();
-            assert_eq!(held(&errors), expected, "claim {fails}");
+            assert_eq!(outcomes(&errors), expected, "claim {fails}");
         }
     }
 

@@ -81,7 +81,7 @@ impl PaperPlant {
     }
 
     /// The robot as described.
-    pub fn loaded(&self) -> &Loaded {
+    pub fn loaded_robot(&self) -> &Loaded {
         &self.loaded
     }
 }
@@ -106,13 +106,13 @@ impl LearningFigure {
         let simulated = check.plant(PaperData::Simulated, &spec.simulated)?;
         let real = check.plant(PaperData::Real, &spec.real)?;
         check.same_joints(&simulated, &real)?;
-        let resolved = resolved(document, &spec);
+        let resolved = resolve(document, &spec);
         Ok(Self { spec: *spec, plants: [simulated, real], resolved })
     }
 
     /// The scenario as one text that extends nothing; its arms are those of
     /// [`plants`](Self::plants), in `logs/NAME/scenario.toml` beside it.
-    pub fn resolved(&self) -> &str {
+    pub fn self_contained_text(&self) -> &str {
         &self.resolved
     }
 
@@ -132,7 +132,7 @@ impl LearningFigure {
     }
 
     /// The runs that causes are found in and models learned from.
-    pub fn learned(&self) -> Vec<&str> {
+    pub fn learning_runs(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for name in self.spec.learn.train.iter().chain(&self.spec.learn.regression) {
             if !names.contains(&name.as_str()) {
@@ -206,8 +206,8 @@ impl LearningFigure {
         [learned, test]: [&[Run]; 2],
     ) -> Result<Vec<ModelErrors>, BenchmarkError> {
         let lesson = self.lesson(plant);
-        let cutoff_hz = lesson.prepared(learned, None)?.cutoff_hz;
-        let prepared = lesson.prepared(test, Some(cutoff_hz))?;
+        let cutoff_hz = lesson.prepare(learned, None)?.cutoff_hz;
+        let prepared = lesson.prepare(test, Some(cutoff_hz))?;
         Ok(ModelErrors::of(models, &prepared, self.spec.test_points))
     }
 
@@ -234,7 +234,7 @@ fn key(name: &str) -> KeyPath {
 }
 
 /// The scenario with its arms beside it.
-fn resolved(document: &Document, spec: &LearningFigureSpec) -> String {
+fn resolve(document: &Document, spec: &LearningFigureSpec) -> String {
     let beside = |data: PaperData| DataSpec { plant: data.scenario(), settings: Vec::new() };
     let mut spec = LearningFigureSpec {
         simulated: beside(PaperData::Simulated),
@@ -302,7 +302,8 @@ impl Checker<'_> {
         let loaded = Robot::load(whole.robot_file())?;
         // The motions of this text can be read from any folder.
         let scenario = data.scenario().display().to_string();
-        let mut arm: ScenarioSpec = Document::from_text(&scenario, whole.resolved())?.parse()?;
+        let mut arm: ScenarioSpec =
+            Document::from_text(&scenario, whole.self_contained_text())?.parse()?;
         arm.run.retain(|run| lists.iter().any(|(_, names)| names.contains(&run.name)));
         if data == PaperData::Real {
             arm.run.push(self.outside(&loaded.robot, &arm.run)?);

@@ -48,7 +48,7 @@ impl PredictionTimeFigure {
     }
 
     /// The scenario as one text that extends nothing and can be read from any folder.
-    pub fn resolved(&self) -> String {
+    pub fn self_contained_text(&self) -> String {
         let robot = self.file.canonicalize().unwrap_or_else(|_| self.file.clone());
         let spec = PredictionTimeFigureSpec { robot, ..self.spec.clone() };
         let scenario = FigureScenario { figure: FigureSpec::PredictionTime(spec) };
@@ -66,7 +66,7 @@ impl PredictionTimeFigure {
     }
 
     /// The robot as described.
-    pub fn loaded(&self) -> &Loaded {
+    pub fn loaded_robot(&self) -> &Loaded {
         &self.loaded
     }
 

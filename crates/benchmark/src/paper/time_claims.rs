@@ -80,15 +80,15 @@ mod tests {
 
     #[test]
     fn every_claim_is_held_or_not_by_the_time_that_it_is_about() {
-        let held = |at_1000: [f64; 4]| -> Vec<bool> {
+        let outcomes = |at_1000: [f64; 4]| -> Vec<bool> {
             let claims = time_claims(&times(at_1000), "kernel");
             claims.iter().map(|claim| claim.verdict == ClaimVerdict::Holds).collect()
         };
-        assert_eq!(held([0.5, 20.0, 20.6, 100.0]), [true, true, true]);
-        assert_eq!(held([21.0, 20.0, 20.6, 100.0]), [false, true, true]);
-        assert_eq!(held([0.5, 20.0, 25.1, 100.0]), [true, false, true]);
-        assert_eq!(held([0.5, 26.0, 20.6, 100.0]), [true, true, true], "faster is no fault");
-        assert_eq!(held([0.5, 20.0, 20.6, 20.3]), [true, true, false]);
+        assert_eq!(outcomes([0.5, 20.0, 20.6, 100.0]), [true, true, true]);
+        assert_eq!(outcomes([21.0, 20.0, 20.6, 100.0]), [false, true, true]);
+        assert_eq!(outcomes([0.5, 20.0, 25.1, 100.0]), [true, false, true]);
+        assert_eq!(outcomes([0.5, 26.0, 20.6, 100.0]), [true, true, true], "faster is no fault");
+        assert_eq!(outcomes([0.5, 20.0, 20.6, 20.3]), [true, true, false]);
     }
 
     #[test]

@@ -87,7 +87,7 @@ impl Reduction {
         let all: Vec<f64> = measured.iter().filter_map(times).collect();
         let large: Vec<f64> = measured
             .iter()
-            .filter(|(score, _)| score.explained() > LARGE)
+            .filter(|(score, _)| score.explained_share() > LARGE)
             .filter_map(times)
             .collect();
         Self {

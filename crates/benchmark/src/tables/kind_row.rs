@@ -49,12 +49,12 @@ impl KindRow {
         let visible: Vec<&JudgedCause> = visible.filter(|cause| own(cause.at.effect)).collect();
         let sizes = visible.iter().flat_map(|cause| &cause.sizes);
         let estimates: Vec<&Estimated> = sizes.filter_map(|size| size.estimate.as_ref()).collect();
-        let known = judgements.iter().filter(|one| one.known());
+        let known = judgements.iter().filter(|one| one.is_all_known());
         let findings = known.flat_map(|one| &one.findings);
         Self {
             kind: kind.map_or("all".to_owned(), EffectKind::label),
             visible: visible.len(),
-            named: rate(JudgedCause::named),
+            named: rate(JudgedCause::is_named),
             two_questions: rate(|cause| cause.two_questions),
             least_squares: rate(|cause| cause.least_squares),
             false_findings: findings.filter(|f| !f.is_true && own(f.at.effect)).count(),

@@ -37,7 +37,7 @@ impl Merged {
     /// What has been made of a campaign, whoever made it and in whatever order.
     pub fn new(folder: &CampaignFolder, made: &Manifest) -> Self {
         let scores: Vec<Score> =
-            made.records.values().filter_map(|record| record.scored().cloned()).collect();
+            made.records.values().filter_map(|record| record.scenario_score().cloned()).collect();
         Self {
             schema: MERGED_SCHEMA,
             campaign: folder.hash().to_owned(),
@@ -54,7 +54,7 @@ impl Merged {
         let counts = KindCount::table(&self.counts[self.counts.len().saturating_sub(1)..]);
         let mut text =
             format!("{}\n{}\n{}", counts.text(1), self.tally.text(), self.powers().text(1));
-        if let Some(gained) = self.gained() {
+        if let Some(gained) = self.gain_table() {
             text.push_str(&format!("\n{}", gained.text(1)));
         }
         self.failures.iter().for_each(|failure| text.push_str(&failure.words()));
@@ -62,7 +62,7 @@ impl Merged {
     }
 
     /// What naming an effect gains, where that was measured.
-    pub fn gained(&self) -> Option<TextTable> {
+    pub fn gain_table(&self) -> Option<TextTable> {
         (!self.gained.is_empty()).then(|| Gained::table(&self.gained))
     }
 

@@ -28,7 +28,7 @@ pub struct MergedPanel {
 impl MergedPanel {
     /// What has been made of a campaign, whoever made it and in whatever order.
     pub fn new(folder: &CampaignFolder, made: &Manifest) -> Self {
-        let judged = made.records.values().filter_map(|record| record.judged().cloned());
+        let judged = made.records.values().filter_map(|record| record.judgement().cloned());
         Self {
             schema: PANEL_SCHEMA,
             campaign: folder.hash().to_owned(),

@@ -62,12 +62,12 @@ impl Power {
 /// The parameter that says how large an effect is; none of a body that is put in in whole.
 fn size_of(kind: EffectKind) -> Option<&'static Parameter> {
     let parameters = kind.entry().parameters;
-    let named = |name| parameters.iter().find(|parameter| parameter.name == name);
+    let parameter_named = |name| parameters.iter().find(|parameter| parameter.name == name);
     match kind {
         EffectKind::InertialParameters => None,
-        EffectKind::DifferentialCoupling => named("level_sum"),
-        EffectKind::PreslidingFriction => named("level"),
-        EffectKind::FrictionTemperatureDrift => named("share"),
+        EffectKind::DifferentialCoupling => parameter_named("level_sum"),
+        EffectKind::PreslidingFriction => parameter_named("level"),
+        EffectKind::FrictionTemperatureDrift => parameter_named("share"),
         _ => parameters.first(),
     }
 }

@@ -162,7 +162,7 @@ impl TallyRow {
             exactly: share(&|score| score.exactly),
             visibly: Share::of(&visible, |score| score.exactly),
             as_one_of: share(&|score| score.as_one_of),
-            found: Share::of(&hiding, |score| score.found()),
+            found: Share::of(&hiding, |score| score.is_found()),
             unknown: share(&Score::unknown),
             stray: share(&|score| !score.stray.is_empty()),
             named_first,

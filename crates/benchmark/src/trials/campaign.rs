@@ -62,9 +62,9 @@ impl Campaign {
 
     /// The campaign as one text; `scenario` is the name of the scenario file beside it, if it
     /// starts from one.
-    pub(super) fn resolved(&self, scenario: &str) -> String {
+    pub(super) fn self_contained_text(&self, scenario: &str) -> String {
         match self {
-            Self::Scenario(campaign) => campaign.resolved(scenario),
+            Self::Scenario(campaign) => campaign.self_contained_text(scenario),
             // What has come from TOML can be written as TOML.
             Self::Population(campaign) => toml::to_string(campaign).unwrap_or_default(),
         }

@@ -73,7 +73,7 @@ impl CampaignFolder {
         if let Some(scenario) = campaign.scenario() {
             write(&root.join(SCENARIO), scenario)?;
         }
-        write(&root.join(CAMPAIGN), &campaign.resolved(SCENARIO))?;
+        write(&root.join(CAMPAIGN), &campaign.self_contained_text(SCENARIO))?;
         Ok(folder)
     }
 

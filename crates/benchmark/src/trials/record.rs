@@ -21,7 +21,7 @@ pub struct Record {
 
 impl Record {
     /// The score of a trial of a scenario, if there is one.
-    pub fn scored(&self) -> Option<&Score> {
+    pub fn scenario_score(&self) -> Option<&Score> {
         match self.score.as_ref().ok()? {
             Scored::Scenario(score) => Some(score),
             Scored::Panel(_) => None,
@@ -29,7 +29,7 @@ impl Record {
     }
 
     /// The judgement of a trial of a population, if there is one.
-    pub fn judged(&self) -> Option<&Judgement> {
+    pub fn judgement(&self) -> Option<&Judgement> {
         match self.score.as_ref().ok()? {
             Scored::Scenario(_) => None,
             Scored::Panel(judgement) => Some(judgement),

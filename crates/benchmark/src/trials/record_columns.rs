@@ -27,7 +27,7 @@ pub(super) fn of_all(records: &[Record]) -> Result<Vec<Named>, serde_json::Error
 
 /// What a table of trials of scenarios has besides.
 pub(super) fn of_scenarios(records: &[Record]) -> Vec<Named> {
-    let scores = || records.iter().map(Record::scored);
+    let scores = || records.iter().map(Record::scenario_score);
     let answer = |of: fn(&Score) -> bool| answers(scores().map(|score| score.map(of)));
     let verdict = |score: &Score| score.verdict.words().to_owned();
     vec![
@@ -41,11 +41,13 @@ pub(super) fn of_scenarios(records: &[Record]) -> Vec<Named> {
 
 /// What a table of trials of a population has besides.
 pub(super) fn of_panel(records: &[Record]) -> Vec<Named> {
-    let judged = || records.iter().map(Record::judged);
-    let text = |of: fn(&Judgement) -> &str| texts(judged().map(|j| j.map(|j| of(j).to_owned())));
-    let count = |of: fn(&Judgement) -> usize| numbers(judged().map(|j| j.map(|j| of(j) as u64)));
-    let answer = |of: fn(&Judgement) -> Option<bool>| answers(judged().map(|j| j.and_then(of)));
-    let times = judged().map(|j| j.map(|j| j.costs.diagnosis_s));
+    let judgements = || records.iter().map(Record::judgement);
+    let text =
+        |of: fn(&Judgement) -> &str| texts(judgements().map(|j| j.map(|j| of(j).to_owned())));
+    let count =
+        |of: fn(&Judgement) -> usize| numbers(judgements().map(|j| j.map(|j| of(j) as u64)));
+    let answer = |of: fn(&Judgement) -> Option<bool>| answers(judgements().map(|j| j.and_then(of)));
+    let times = judgements().map(|j| j.map(|j| j.costs.diagnosis_s));
     vec![
         ("arm", text(|j| &j.corner.arm)),
         ("motion", text(|j| j.corner.motion.name())),
@@ -54,7 +56,7 @@ pub(super) fn of_panel(records: &[Record]) -> Vec<Named> {
         ("findings", count(|j| j.findings.len())),
         ("true_findings", count(|j| j.findings.iter().filter(|f| f.is_true).count())),
         ("visible", count(|j| j.visible().count())),
-        ("named", count(|j| j.visible().filter(|cause| cause.named()).count())),
+        ("named", count(|j| j.visible().filter(|cause| cause.is_named()).count())),
         ("false_assurance", answer(Judgement::false_assurance)),
         ("false_alarm", answer(Judgement::false_alarm)),
         ("worse", answer(|j| j.prediction.worse())),

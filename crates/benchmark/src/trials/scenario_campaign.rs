@@ -114,7 +114,7 @@ impl ScenarioCampaign {
     }
 
     /// The campaign as one text, beside a scenario that is called so.
-    pub(super) fn resolved(&self, scenario: &str) -> String {
+    pub(super) fn self_contained_text(&self, scenario: &str) -> String {
         let spec = CampaignSpec {
             scenario: PathBuf::from(scenario),
             hidden: self.kinds.iter().map(Hidden::to_string).collect(),
@@ -146,7 +146,7 @@ impl ScenarioCampaign {
     /// Identity of the campaign: SHA-256 of everything that its scores depend on, without this
     /// program. Files count by content, wherever they lie.
     pub fn hash(&self) -> String {
-        hexadecimal(&[IDENTITY, &self.resolved(""), "\n", &self.identity].concat())
+        hexadecimal(&[IDENTITY, &self.self_contained_text(""), "\n", &self.identity].concat())
     }
 
     /// The kind and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
@@ -236,7 +236,7 @@ fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, Benchmar
     for setting in &spec.settings {
         scenario.set(setting)?;
     }
-    Ok(Scenario::from_document(&scenario)?.resolved().to_owned())
+    Ok(Scenario::from_document(&scenario)?.self_contained_text().to_owned())
 }
 
 #[cfg(test)]

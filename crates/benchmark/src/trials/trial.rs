@@ -65,7 +65,7 @@ impl Trial {
         }
         let experiment = Experiment::from_document(&document, None)?;
         let runs = read_runs(folder, &robot.robot)?;
-        let is_learned = |run: &Run| experiment.learned().any(|name| name == run.name);
+        let is_learned = |run: &Run| experiment.learning_runs().any(|name| name == run.name);
         let (learned, test): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(is_learned);
         let answer = answer(&robot, &learned, &without)?;
         let score = score_answer(folder, &answer, &without)?;
@@ -75,7 +75,7 @@ impl Trial {
             }
             _ => None,
         };
-        let drawn = experiment.drawn()?;
+        let drawn = experiment.draw_scenario()?;
         let gains = experiment.gains(&drawn, [&learned, &test], &answer.extended, place)?;
         Ok(Score { gains: Some(gains), ..score })
     }
@@ -144,8 +144,11 @@ fn score_answer(
 /// Whether a folder holds all logs of this scenario: the truth is written last.
 fn holds(folder: &Path, scenario: &Scenario) -> bool {
     let spec = |document: Document| document.parse::<ScenarioSpec>().ok();
-    let said = |document| spec(document).map(|spec| ScenarioSpec { robot: PathBuf::new(), ..spec });
-    let there = Document::read(folder.join("scenario.toml")).ok().and_then(said);
-    let wanted = Document::from_text("scenario.toml", scenario.resolved()).ok().and_then(said);
+    let without_robot =
+        |document| spec(document).map(|spec| ScenarioSpec { robot: PathBuf::new(), ..spec });
+    let there = Document::read(folder.join("scenario.toml")).ok().and_then(without_robot);
+    let wanted = Document::from_text("scenario.toml", scenario.self_contained_text())
+        .ok()
+        .and_then(without_robot);
     folder.join(Blinded::FILE).is_file() && wanted.is_some() && there == wanted
 }

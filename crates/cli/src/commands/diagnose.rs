@@ -260,7 +260,7 @@ pub fn write_recording(
     let (path, begun) = (out.join(RECORDING), out.join(BEGUN));
     // One of an earlier diagnosis would show something else than the report beside it.
     let _ = std::fs::remove_file(&path);
-    let failed = |error: ExperimentError| {
+    let to_error = |error: ExperimentError| {
         let _ = std::fs::remove_file(&begun);
         Box::new(match error {
             ExperimentError::Recording(RecordingError::Unwritable { reason, .. }) => {
@@ -275,10 +275,10 @@ pub fn write_recording(
             other => other,
         })
     };
-    experiment::record_diagnosis(&begun, diagnosed, progress).map_err(failed)?;
+    experiment::record_diagnosis(&begun, diagnosed, progress).map_err(to_error)?;
     std::fs::rename(&begun, &path).map_err(|error| {
         let reason = error.to_string();
-        failed(RecordingError::Unwritable { path: path.clone(), reason }.into())
+        to_error(RecordingError::Unwritable { path: path.clone(), reason }.into())
     })?;
     logs::sync_folder(out);
     Ok(path)

@@ -40,9 +40,9 @@ struct Document {
 }
 
 fn text() -> String {
-    let said = |is: bool| if is { "yes" } else { "no" }.to_owned();
+    let yes_or_no = |is: bool| if is { "yes" } else { "no" }.to_owned();
     let cells = rows().into_iter().map(|row| {
-        let [diagnosed, compensated] = [row.diagnosed, row.compensated].map(said);
+        let [diagnosed, compensated] = [row.diagnosed, row.compensated].map(yes_or_no);
         vec![row.code.into(), row.name.into(), diagnosed, compensated, row.summary.into()]
     });
     let list = table(&["code", "effect", "diagnosed", "compensated", "what it is"], cells);

@@ -119,7 +119,7 @@ pub fn perform(
 /// This program and the files that the run was made from.
 fn origin(experiment: &Experiment, scenario: &Path) -> Result<Provenance, CliError> {
     let tracked = experiment.scenario();
-    let mut origin = provenance(experiment.plant().robot_file(), tracked.loaded(), None)?;
+    let mut origin = provenance(experiment.plant().robot_file(), tracked.loaded_robot(), None)?;
     origin.files.push(hash("scenario", scenario)?);
     origin.seed = Some(experiment.plant().seed());
     Ok(origin)
@@ -158,7 +158,7 @@ fn write(experiment: &Experiment, report: &RunReport, out: &Path) -> Result<(), 
     report::write_folder(
         out,
         &[
-            ("scenario.toml", experiment.resolved().as_bytes()),
+            ("scenario.toml", experiment.self_contained_text().as_bytes()),
             ("metrics.json", json.as_bytes()),
             ("report.html", page.as_bytes()),
         ],

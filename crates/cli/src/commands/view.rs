@@ -57,12 +57,12 @@ struct Found {
 
 impl Found {
     fn in_folder(folder: &Path) -> Result<Self, CliError> {
-        let unlisted = |error: std::io::Error| CliError::Unlisted {
+        let to_unlisted = |error: std::io::Error| CliError::Unlisted {
             path: folder.to_owned(),
             reason: error.to_string(),
         };
-        let entries: Result<Vec<_>, _> = fs::read_dir(folder).map_err(unlisted)?.collect();
-        let entries = entries.map_err(unlisted)?;
+        let entries: Result<Vec<_>, _> = fs::read_dir(folder).map_err(to_unlisted)?.collect();
+        let entries = entries.map_err(to_unlisted)?;
         let mut files: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).collect();
         files.sort();
         let is_recording = |path: &PathBuf| {
@@ -101,11 +101,11 @@ fn names(files: &[PathBuf]) -> String {
 
 /// Starts the viewer with all recordings and leaves it running.
 fn view(recordings: &[PathBuf]) -> Result<(), CliError> {
-    let failed = |error: std::io::Error| match error.kind() {
+    let to_error = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => CliError::NoViewer { recordings: names(recordings) },
         _ => CliError::NotOpened { path: VIEWER.into(), reason: error.to_string() },
     };
-    let answer = Command::new(VIEWER).arg("--version").output().map_err(failed)?;
+    let answer = Command::new(VIEWER).arg("--version").output().map_err(to_error)?;
     let answer = String::from_utf8_lossy(&answer.stdout).into_owned();
     if let Some(doubt) = doubt(&answer) {
         warn(&doubt);
@@ -115,7 +115,7 @@ fn view(recordings: &[PathBuf]) -> Result<(), CliError> {
     // Ctrl-C at the terminal is not for the viewer.
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut viewer, 0);
-    viewer.spawn().map_err(failed)?;
+    viewer.spawn().map_err(to_error)?;
     Ok(())
 }
 

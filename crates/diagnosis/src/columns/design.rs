@@ -88,7 +88,7 @@ impl Design {
         let thresholds = &log.thresholds.signals;
         let moves = |run: &RunDesign| run.moves(thresholds.moving_share);
         design.moves = design.runs.iter().map(moves).collect();
-        design.motion = motions(design.repeated(thresholds));
+        design.motion = motions(design.runs_to_compare(thresholds));
         Ok(design)
     }
 
@@ -189,7 +189,7 @@ impl Design {
     }
 
     /// The runs, for the comparison of their motions.
-    pub fn repeated<'a>(&'a self, thresholds: &'a SignalThresholds) -> Runs<'a> {
+    pub fn runs_to_compare<'a>(&'a self, thresholds: &'a SignalThresholds) -> Runs<'a> {
         Runs { runs: &self.runs, rate_hz: self.rate_hz, moved: &self.moved, thresholds }
     }
 

@@ -54,7 +54,7 @@ pub(crate) fn noise_of_repeats(design: Runs) -> Option<Vec<f64>> {
 /// The shift (samples) at which the second run repeats the first, if it does.
 fn repeat_shift(design: Runs, first: &RunDesign, second: &RunDesign) -> Option<isize> {
     let reach = (design.thresholds.repeat_shift_s * design.rate_hz).round() as isize;
-    let moved = || (0..design.moved.len()).filter(|&j| design.moved[j]);
+    let moving_joints = || (0..design.moved.len()).filter(|&j| design.moved[j]);
     let mismatch = |shift: isize| {
         let pairs = overlap(first.time.len(), second.time.len(), shift);
         if 2 * pairs.len() < first.time.len().max(second.time.len()) {
@@ -68,7 +68,7 @@ fn repeat_shift(design: Runs, first: &RunDesign, second: &RunDesign) -> Option<i
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
             (power / pairs.len() as f64).sqrt() / (high - low).max(f64::MIN_POSITIVE)
         };
-        moved().map(of_joint).fold(0.0, f64::max)
+        moving_joints().map(of_joint).fold(0.0, f64::max)
     };
     let best = (-reach..=reach).map(|s| (mismatch(s), s)).min_by(|a, b| a.0.total_cmp(&b.0))?;
     (best.0 < design.thresholds.repeat_difference).then_some(best.1)

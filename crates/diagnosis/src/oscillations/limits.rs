@@ -31,12 +31,12 @@ pub(crate) fn limits(robot: &Robot, log: &Log) -> Result<Vec<Limit>, LogError> {
     let design = Design::new(robot, log)?;
     let frame = Frame::of_logs(log.prepared);
     let runs = log.along(robot, &frame)?;
-    let commanded = |j: &usize| {
+    let is_commanded = |j: &usize| {
         let source = robot.links()[*j].actuator.torque_source;
         log.moved[*j] && source == TorqueSource::Commanded
     };
     let t = &log.thresholds.limits;
-    let joints = (0..design.joints()).into_par_iter().filter(commanded);
+    let joints = (0..design.joints()).into_par_iter().filter(is_commanded);
     let found: Vec<Option<Limit>> = joints
         .map(|j| LinearRest::new(&design, j).map_or(Ok(None), |left| at_joint(&runs, &left, j, t)))
         .collect::<Result<_, LogError>>()?;

@@ -369,7 +369,7 @@ impl Joint<'_> {
         let even = tone.amplitude() > self.thresholds.same_phase * least;
         tone.share = 1.0 - self.power_of(&self.without(&tone)) / self.power_of(self.left);
         let Least { rms, share } = self.least;
-        let pays = tone.share * self.power_of(self.left) > rms.powi(2) * self.counted();
+        let pays = tone.share * self.power_of(self.left) > rms.powi(2) * self.sample_count();
         (even && pays && tone.share > share).then_some(tone)
     }
 
@@ -378,14 +378,14 @@ impl Joint<'_> {
         let highest = self.highest.iter();
         let counts: Vec<Vec<bool>> =
             highest.map(|run| run.iter().map(|highest| *highest >= at).collect()).collect();
-        let counted = |r: usize| {
+        let beat_sum = |r: usize| {
             let samples = self.beat(r).iter().zip(&counts[r]).filter(|(_, counts)| **counts);
             samples.fold((0.0, 0), |(sum, n), (beat, _)| (sum + beat, n + 1))
         };
         let own = |(sum, n): (f64, usize)| sum / n.max(1) as f64;
-        let each: Vec<(f64, usize)> = (0..self.left.len()).map(counted).collect();
+        let each: Vec<(f64, usize)> = (0..self.left.len()).map(beat_sum).collect();
         let all = own(each.iter().fold((0.0, 0), |a, b| (a.0 + b.0, a.1 + b.1)));
-        let sampled = |r: usize| Sampled {
+        let samples = |r: usize| Sampled {
             left: &self.left[r],
             counts: &counts[r],
             origin: match self.follows {
@@ -401,7 +401,7 @@ impl Joint<'_> {
             Follows::Position => Beat::Position(at),
             Follows::Clock => Beat::Clock(at / TAU),
         };
-        let sampled: Vec<Sampled> = (0..self.left.len()).map(sampled).collect();
+        let sampled: Vec<Sampled> = (0..self.left.len()).map(samples).collect();
         let wave =
             |r: usize, at: f64, origin: f64| self.runs[r].along.wave(self.index, beat(at), origin);
         let fit = ToneFit::new(&sampled, coherence, [at, step], wave)?;
@@ -412,7 +412,7 @@ impl Joint<'_> {
     }
 
     /// Number of samples over all runs that count at any beat.
-    fn counted(&self) -> f64 {
+    fn sample_count(&self) -> f64 {
         self.highest.iter().flatten().filter(|highest| **highest > 0.0).count() as f64
     }
 

@@ -28,7 +28,7 @@ impl Inputs<'_> {
         let least = dataset.practical;
         let joint = |j: usize| self.joint(tested, &noise, least, j);
         let reports: Vec<(JointReport, Structure)> = (0..self.design.joints()).map(joint).collect();
-        let unexplained = reports.iter().filter_map(unexplained).collect();
+        let unexplained = reports.iter().filter_map(find_unexplained).collect();
         let joints: Vec<JointReport> = reports.into_iter().map(|(j, _)| j).collect();
         let hides = |((joint, unseen), inadequate): &((&JointReport, &f64), &Option<String>)| {
             joint.verdict == Verdict::DataInadequate
@@ -45,7 +45,7 @@ impl Inputs<'_> {
             findings: self.all_findings(tested, least),
             negligible: self.negligible(tested, least),
             unexplained,
-            ruled_out: self.ruled_out(tested),
+            ruled_out: self.ruled_out_causes(tested),
             gain: Gain { inverse: tested.gain.inverse.clone() },
             data: self.data(dataset, tested),
             warnings: Vec::new(),
@@ -67,13 +67,13 @@ impl Inputs<'_> {
             (self.informative_part(&tested.gap[j], j), self.informative_part(left, j));
         let structure = self.structure(tested, left, j);
         let spectrum = Spectrum::of(left, self.design.rate_hz);
-        let lowered = || tested.found.iter().filter(|f| f.fall[j] > least[j].powi(2));
+        let effective_findings = || tested.found.iter().filter(|f| f.fall[j] > least[j].powi(2));
         let name = &self.robot.links()[j].joint.name;
         let is_own = |f: &&FindingWithFall| f.finding.at.joint.as_ref() == Some(name);
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
-            findings: lowered().count() + oscillations,
-            own: lowered().filter(is_own).count() + oscillations,
+            findings: effective_findings().count() + oscillations,
+            own: effective_findings().filter(is_own).count() + oscillations,
             between_encoders: tested.second_encoder.as_ref().map_or(0, |found| found.at(name)),
             unseen: tested.unseen_friction[j],
             torque_rms: self.torque_rms(j),
@@ -92,7 +92,7 @@ impl Inputs<'_> {
         };
         let spectra = spectra(noise.spectrum(j), &spectrum);
         let report = self.joint_report(&situation, (spectra, &rest), j);
-        (report, Structure { share: situation.unexplained(), ..structure })
+        (report, Structure { share: situation.unexplained_share(), ..structure })
     }
 
     fn joint_report(
@@ -212,7 +212,7 @@ impl Inputs<'_> {
         tested.found.iter().filter(|f| !matters(f, least)).filter_map(negligible).collect()
     }
 
-    fn ruled_out(&self, tested: &TestedFindings) -> Vec<RuledOut> {
+    fn ruled_out_causes(&self, tested: &TestedFindings) -> Vec<RuledOut> {
         let between = tested.second_encoder.iter().flat_map(|of| &of.ruled_out);
         tested.ruled_out.iter().chain(between).cloned().collect()
     }
@@ -238,7 +238,7 @@ fn spectra(noise: &[(f64, f64)], left: &Spectrum) -> NoiseSpectrum {
     NoiseSpectrum { left_nm2_per_hz: left.densities(&hz), hz, noise_nm2_per_hz }
 }
 
-fn unexplained((joint, structure): &(JointReport, Structure)) -> Option<Unexplained> {
+fn find_unexplained((joint, structure): &(JointReport, Structure)) -> Option<Unexplained> {
     let left = matches!(joint.verdict, Verdict::PartlyExplained | Verdict::Unexplained);
     left.then(|| {
         let ratio = joint.remaining_rms_nm / joint.residual_rms_nm.max(f64::MIN_POSITIVE);

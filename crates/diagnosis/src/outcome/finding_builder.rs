@@ -52,11 +52,11 @@ impl FindingBuilder<'_> {
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
         let unnamed = Unnamed::new(self.selection, self.model, &fit);
-        let uncertainty =
-            uncertainty.with_unnamed(|columns| unnamed.about(fitted.problem.design, columns));
-        let with = problem.held_out(self.model);
-        let last = self.only_tangent().map(|g| (g, fitted.problem.held_out(fitted.model)));
-        let nominal = problem.held_out(&HypothesisSet::new());
+        let uncertainty = uncertainty
+            .with_unnamed_effects(|columns| unnamed.about(fitted.problem.design, columns));
+        let with = problem.hold_out(self.model);
+        let last = self.only_tangent().map(|g| (g, fitted.problem.hold_out(fitted.model)));
+        let nominal = problem.hold_out(&HypothesisSet::new());
         let mut found: Vec<FindingWithFall> = self
             .model
             .iter()
@@ -66,7 +66,7 @@ impl FindingBuilder<'_> {
                 let mut without = self.model.clone();
                 without.remove(&g);
                 without.retain(|&level| self.modifier_of(level) != Some(g));
-                let bare = problem.held_out(&without);
+                let bare = problem.hold_out(&without);
                 let with = last.as_ref().filter(|(only, _)| *only == g).map_or(&with, |(_, l)| l);
                 let fall: Vec<f64> =
                     bare.mean_square.iter().zip(&with.mean_square).map(|(b, w)| b - w).collect();

@@ -20,6 +20,6 @@ impl Inputs<'_> {
         let builder = FindingBuilder { selection, model, separated, inconstant, kept_nominal };
         let found = builder.findings(&fitted.last_fit(self.first_fit(problem, model, fitted)));
         let unseen_friction = builder.unseen_friction();
-        Findings { found, ruled_out: builder.ruled_out(), unseen_friction }
+        Findings { found, ruled_out: builder.rule_out_others(), unseen_friction }
     }
 }

@@ -21,7 +21,7 @@ impl HeldOutGain {
     }
 
     /// Residuals in every fold of `whole` of the model found without it, `[joint][run][sample]` (N·m or N).
-    pub fn left(&self, whole: &Problem) -> Vec<Vec<Vec<f64>>> {
+    pub fn held_out_residuals(&self, whole: &Problem) -> Vec<Vec<Vec<f64>>> {
         whole.held_out_residuals(|f, run, j| self.folds[f].remaining(whole.design, run, j))
     }
 }
@@ -31,13 +31,16 @@ fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> Invers
     let before =
         |blocks: &[usize]| -> Vec<f64> { (0..joints).map(|j| gap(dataset, blocks, j)).collect() };
     let rms = |(sum, n): (f64, usize)| (sum / n.max(1) as f64).sqrt();
-    let left = |(fold, fitted): (&Fold, &FittedModel)| -> Vec<(f64, usize)> {
+    let remaining_squares = |(fold, fitted): (&Fold, &FittedModel)| -> Vec<(f64, usize)> {
         (0..joints).map(|j| squares(whole, fold, fitted, j)).collect()
     };
-    let left: Vec<Vec<(f64, usize)>> = whole.folds.iter().zip(fitted).map(left).collect();
+    let left: Vec<Vec<(f64, usize)>> =
+        whole.folds.iter().zip(fitted).map(remaining_squares).collect();
     let fold = |(f, fold): (usize, &Fold)| FoldGain {
         name: name(whole, f),
-        torque_rms_nm: (0..joints).map(|j| measured(dataset, &fold.test, j).0).collect(),
+        torque_rms_nm: (0..joints)
+            .map(|j| effort_rms_and_variance(dataset, &fold.test, j).0)
+            .collect(),
         rms_before_nm: before(&fold.test),
         rms_after_nm: left[f].iter().copied().map(rms).collect(),
     };
@@ -47,7 +50,7 @@ fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> Invers
     let rms_before = before(&whole.of);
     let nmse = |rms: &[f64]| {
         let of = |j: usize| {
-            let variance = measured(dataset, &whole.of, j).1;
+            let variance = effort_rms_and_variance(dataset, &whole.of, j).1;
             if variance > 0.0 { rms[j].powi(2) / variance } else { 0.0 }
         };
         (0..joints).map(of).collect()
@@ -57,7 +60,7 @@ fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> Invers
         nmse_after: nmse(&rms_after),
         rms_before_nm: rms_before,
         rms_after_nm: rms_after,
-        held_out: held_out(whole),
+        held_out: describe_folds(whole),
         folds,
     }
 }
@@ -100,7 +103,7 @@ fn is_in_parts(whole: &Problem) -> bool {
     whole.folds.iter().any(is_torn)
 }
 
-fn held_out(whole: &Problem) -> String {
+fn describe_folds(whole: &Problem) -> String {
     let runs = whole.design.runs.len();
     let count = whole.folds.len();
     if is_in_parts(whole) {
@@ -123,7 +126,7 @@ fn gap(dataset: &Dataset, blocks: &[usize], j: usize) -> f64 {
 }
 
 /// RMS and variance of the informative samples of the measured effort of joint `j` over some blocks.
-pub(crate) fn measured(dataset: &Dataset, blocks: &[usize], j: usize) -> (f64, f64) {
+pub(crate) fn effort_rms_and_variance(dataset: &Dataset, blocks: &[usize], j: usize) -> (f64, f64) {
     let efforts = informative(dataset, blocks, j, |joint| joint.measured.clone());
     let count = efforts.len().max(1) as f64;
     let mean = efforts.iter().sum::<f64>() / count;

@@ -11,7 +11,7 @@ use crate::search::constancy::Variation;
 
 impl FindingBuilder<'_> {
     /// Every hypothesis that is no finding, with the smallest size that would have been found.
-    pub fn ruled_out(&self) -> Vec<RuledOut> {
+    pub fn rule_out_others(&self) -> Vec<RuledOut> {
         let problem = self.selection.problem;
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let outside = (0..problem.design.groups.len()).filter(|g| !self.model.contains(g));
@@ -107,7 +107,7 @@ impl FindingBuilder<'_> {
             format!("it adds {gain:.1} to the log evidence, {least:.0} are needed")
         } else if !selection.is_possible(&larger, g) {
             "its best size is not physically possible".to_owned()
-        } else if !selection.pays(&problem.held_out(self.model), &larger, g) {
+        } else if !selection.pays(&problem.hold_out(self.model), &larger, g) {
             "it adds nothing on held-out data that counts".to_owned()
         } else {
             "the search ended with other causes that do its work".to_owned()
@@ -184,9 +184,9 @@ mod tests {
         let (index, size) = parameter_of(kind, 0, found);
         assert_eq!(name(kind, (index, size)), "stiffness");
         assert!((size.unwrap() / 1e4 - 1.0).abs() < 1e-12);
-        let named = |kind| name(kind, parameter_of(kind, 0, found));
-        assert_eq!(named(EffectKind::StribeckFriction), "breakaway");
-        assert_eq!(named(EffectKind::PreslidingFriction), "level");
+        let parameter_name = |kind| name(kind, parameter_of(kind, 0, found));
+        assert_eq!(parameter_name(EffectKind::StribeckFriction), "breakaway");
+        assert_eq!(parameter_name(EffectKind::PreslidingFriction), "level");
         assert_eq!(parameter_of(EffectKind::Payload, 2, found), (2, found));
         assert_eq!(parameter_of(EffectKind::JointElasticity, 0, None), (0, None));
     }

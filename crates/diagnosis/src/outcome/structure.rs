@@ -173,7 +173,7 @@ impl<'a> Probe<'a> {
         let x: Vec<_> = self.features.iter().map(|f| f.columns_range(columns.clone())).collect();
         let grams: Vec<(DMatrix<f64>, DVector<f64>)> =
             x.iter().zip(y).map(|(x, y)| (x.transpose() * x, x.tr_mul(y))).collect();
-        let left = |spread: f64| -> f64 {
+        let remaining_power = |spread: f64| -> f64 {
             // Variance of the noise over that of the prior; n samples count as n / time.
             let ridge = time / (spread * spread);
             let fold = |fold: &Fold| {
@@ -189,15 +189,15 @@ impl<'a> Probe<'a> {
             };
             self.folds.iter().map(fold).sum()
         };
-        SPREADS.iter().map(|&spread| 1.0 - left(spread) / power).fold(0.0, f64::max)
+        SPREADS.iter().map(|&spread| 1.0 - remaining_power(spread) / power).fold(0.0, f64::max)
     }
 }
 
 fn families(design: &Design, joint: usize) -> Vec<Family> {
-    let moved = || (0..design.joints()).filter(|&j| design.moved[j]);
+    let moving_joints = || (0..design.joints()).filter(|&j| design.moved[j]);
     let mut all: Vec<(Signal, Factor)> = Vec::new();
-    all.extend(moved().map(|j| (Signal::Position(j), Factor::One)));
-    all.extend(moved().map(|j| (Signal::Velocity(j), Factor::One)));
+    all.extend(moving_joints().map(|j| (Signal::Position(j), Factor::One)));
+    all.extend(moving_joints().map(|j| (Signal::Velocity(j), Factor::One)));
     all.push((Signal::Acceleration(joint), Factor::One));
     all.push((Signal::Load(joint), Factor::One));
     all.push((Signal::Position(joint), Factor::Direction));

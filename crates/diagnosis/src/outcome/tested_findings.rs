@@ -45,7 +45,7 @@ impl Inputs<'_> {
         let causes = self.find_causes(dataset, progress)?;
         let by_run = causes.problem.with_folding(Folding::ByRun);
         let (causes, gain) = self.keep_what_predicts(dataset, &by_run, causes, progress)?;
-        let left = gain.left(&by_run);
+        let left = gain.held_out_residuals(&by_run);
         let gap = by_run
             .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
         let Findings { found, ruled_out, unseen_friction } = self.findings(dataset, &causes);
@@ -70,7 +70,7 @@ impl Inputs<'_> {
     }
 
     /// The folds, each with the robot that was found without it.
-    pub fn held_out(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOutPart> {
+    pub fn held_out_parts(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOutPart> {
         let spans = |of: &[usize]| spans(self.design, dataset.blocks, of);
         let part = |(fold, fitted): (&Fold, &FittedModel)| HeldOutPart {
             test: spans(&fold.test),

@@ -63,8 +63,8 @@ impl TorqueNoise {
             let square = |(j, noise): (usize, &logs::JointNoise)| {
                 carried[(i, j)] * noise.acceleration_rms(cutoff_hz).powi(2)
             };
-            let passed = |hz: f64| (1.0 + (hz / cutoff_hz).powi(8)).powi(-2);
-            let point = |hz: f64| (hz, passed(hz) * (effort + encoders(hz)));
+            let filter_gain = |hz: f64| (1.0 + (hz / cutoff_hz).powi(8)).powi(-2);
+            let point = |hz: f64| (hz, filter_gain(hz) * (effort + encoders(hz)));
             Sources {
                 effort: (PASSED * cutoff_hz * effort).sqrt(),
                 encoders: prepared.noise.iter().enumerate().map(square).sum::<f64>().sqrt(),
@@ -72,7 +72,7 @@ impl TorqueNoise {
             }
         };
         let joints = (0..robot.joint_count()).map(sources).collect();
-        let repeats = noise_of_repeats(design.repeated(thresholds));
+        let repeats = noise_of_repeats(design.runs_to_compare(thresholds));
         Self { joints, repeats }
     }
 

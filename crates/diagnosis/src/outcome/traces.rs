@@ -38,17 +38,17 @@ pub struct JointTraces {
 /// extended = effort of the robot that was found without the part + tones + clipped effort
 /// ```
 pub(crate) fn traces(inputs: &Inputs, tested: &TestedFindings) -> Result<Vec<RunTraces>, LogError> {
-    let expected = |robot: &Robot| -> Result<Vec<Vec<Vec<f64>>>, LogError> {
+    let expected_efforts = |robot: &Robot| -> Result<Vec<Vec<Vec<f64>>>, LogError> {
         let along = inputs.log.along_all(robot, &inputs.design.frame)?;
         Ok(along.iter().map(Along::expected_effort).collect())
     };
     let about = inputs.log.along_all(inputs.robot, &inputs.design.frame)?;
-    let nominal = expected(inputs.log.described.unwrap_or(inputs.robot))?;
+    let nominal = expected_efforts(inputs.log.described.unwrap_or(inputs.robot))?;
     let found: Vec<Vec<Vec<Vec<f64>>>> = tested
         .gain
         .folds
         .par_iter()
-        .map(|fitted| expected(&fitted.robot))
+        .map(|fitted| expected_efforts(&fitted.robot))
         .collect::<Result<_, LogError>>()?;
     let run = |(r, along): (usize, &Along)| {
         let design = &inputs.design.runs[r];

@@ -50,7 +50,7 @@ impl<'a> Unnamed<'a> {
             let (z2, k) = (u.dot(&w), columns.len() as f64);
             let gain = if z2 > k { 0.5 * (z2 - k - k * (z2 / k).ln()) } else { 0.0 };
             let p = (1.0 + (selection.least_evidence(h) - gain).exp()).recip();
-            covariance += complement.taken(&(factor.inverse() + &w * w.transpose())) * p;
+            covariance += complement.propagate(&(factor.inverse() + &w * w.transpose())) * p;
         }
         Self { design, columns: fit.columns.clone(), covariance }
     }

@@ -47,7 +47,7 @@ pub(crate) struct Situation<'a> {
 
 impl Situation<'_> {
     /// Share of the remaining residual's power that is beyond the noise.
-    pub fn unexplained(&self) -> f64 {
+    pub fn unexplained_share(&self) -> f64 {
         let noise = self.floor() / self.remaining_rms.max(f64::MIN_POSITIVE);
         (1.0 - noise.powi(2)).clamp(0.0, 1.0)
     }
@@ -82,7 +82,7 @@ impl Situation<'_> {
 
     /// Whether the residual beyond the noise is too small to matter.
     fn is_small(&self) -> bool {
-        self.unexplained().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
+        self.unexplained_share().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
     }
 
     /// The verdict and why.
@@ -291,10 +291,11 @@ mod tests {
 
     #[test]
     fn a_joint_whose_fit_failed_is_not_called_consistent() {
-        let failed = |noise| Situation { keeps_nominal: true, ..joint(0, 1.0, noise) }.verdict();
-        assert_eq!(failed(0.95).0, Verdict::DataInadequate);
-        assert!(failed(0.95).1.contains("predicts worse than the description"));
-        assert_eq!(failed(0.1).0, Verdict::Unexplained);
+        let verdict_at =
+            |noise| Situation { keeps_nominal: true, ..joint(0, 1.0, noise) }.verdict();
+        assert_eq!(verdict_at(0.95).0, Verdict::DataInadequate);
+        assert!(verdict_at(0.95).1.contains("predicts worse than the description"));
+        assert_eq!(verdict_at(0.1).0, Verdict::Unexplained);
     }
 
     #[test]

@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     /// A drive of 2 N m, and 200 samples of which so many are near it, on either side of zero.
-    fn said(near: usize) -> Vec<String> {
+    fn warnings_for(near: usize) -> Vec<String> {
         let robot = Robot::from_urdf(
             r#"<robot name="r"><link name="base"/><link name="rim"/>
             <joint name="joint" type="revolute"><parent link="base"/><child link="rim"/>
@@ -63,7 +63,7 @@ mod tests {
     fn an_effort_at_its_limit_is_told_from_one_that_is_there_for_a_moment() {
         let expected = "joint: its effort is at the limit of 2 N·m in 40 % of the samples: the \
                         motion asks for more than the drive has";
-        assert_eq!(said(80), [expected]);
-        assert_eq!(said(1), Vec::<String>::new());
+        assert_eq!(warnings_for(80), [expected]);
+        assert_eq!(warnings_for(1), Vec::<String>::new());
     }
 }

@@ -25,19 +25,19 @@ pub(crate) fn inadequate(
 
 /// Leaves out runs in which the effort of a joint never changes while it moves, with a warning each, where
 /// these are less than half of the samples.
-pub(crate) fn without_unrecorded(
+pub(crate) fn drop_runs_without_effort(
     robot: &Robot,
     prepared: &mut Prepared,
     t: &ReadinessThresholds,
 ) -> Vec<String> {
     let joints: Vec<(&str, f64)> =
         robot.links().iter().map(|link| (link.joint.name.as_str(), least(link, t))).collect();
-    let unrecorded = |run: &PreparedRun| -> Vec<&str> {
+    let joints_without_effort = |run: &PreparedRun| -> Vec<&str> {
         let those =
             joints.iter().enumerate().filter(|(j, (_, least))| is_unrecorded(run, *j, *least));
         those.map(|(_, (name, _))| *name).collect()
     };
-    let found: Vec<Vec<&str>> = prepared.runs.iter().map(unrecorded).collect();
+    let found: Vec<Vec<&str>> = prepared.runs.iter().map(joints_without_effort).collect();
     let samples = |with: bool| -> usize {
         let those = prepared.runs.iter().zip(&found).filter(|(_, names)| names.is_empty() != with);
         those.map(|(run, _)| run.time.len()).sum()
@@ -130,8 +130,11 @@ mod tests {
         let observe = |samples| {
             let runs = vec![run("a", 1000, 1.0, 2.0), run("b", samples, 1.0, 0.0)];
             let mut prepared = Prepared::exact(runs, 5.0);
-            let warnings =
-                without_unrecorded(&pendulum(), &mut prepared, &ReadinessThresholds::default());
+            let warnings = drop_runs_without_effort(
+                &pendulum(),
+                &mut prepared,
+                &ReadinessThresholds::default(),
+            );
             (
                 warnings,
                 prepared.runs.len(),

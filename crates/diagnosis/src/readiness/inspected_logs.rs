@@ -25,18 +25,18 @@ pub(crate) fn inspect_logs(robot: &Robot, runs: &[Run], t: &Thresholds) -> Inspe
     let runs = read.as_deref().unwrap_or(runs);
     // A drive at its limit gives the torque of the limit; the effort beyond it is a cause.
     seen.retain(|o| !matches!(o.kind, ObservationKind::AtLimit { .. }));
-    let said = |o: &Observation| o.sentence(robot, runs);
+    let sentence = |o: &Observation| o.sentence(robot, runs);
     let reason = |j: usize| {
         let spoils = |o: &&Observation| match o.spoils {
             Spoils::Everything => true,
             Spoils::Joints => o.joints.contains(&j),
             Spoils::Stretches | Spoils::Nothing => false,
         };
-        seen.iter().find(spoils).map(said)
+        seen.iter().find(spoils).map(sentence)
     };
     let spoilt = (0..robot.joint_count()).map(reason).collect();
-    let put_right = |o: &Observation| format!("{} Until then the logs are read so.", said(o));
-    let warnings = mended.iter().map(put_right).chain(seen.iter().map(said)).collect();
+    let put_right = |o: &Observation| format!("{} Until then the logs are read so.", sentence(o));
+    let warnings = mended.iter().map(put_right).chain(seen.iter().map(sentence)).collect();
     let fewest = t.readiness.fewest_run_samples;
     InspectedLogs { without: without_spoilt_seconds(runs, &seen, fewest), read, spoilt, warnings }
 }

@@ -120,7 +120,7 @@ fn parts(design: &Design, blocks: &[Block], of: &[usize], t: &BlockThresholds) -
     let mut rounds = 1;
     loop {
         let folds = deal(&within, count, rounds);
-        let kept = samples.held_out(&folds);
+        let kept = samples.largest_held_out_shares(&folds);
         let most = kept.iter().copied().fold(0.0, f64::max);
         let beyond = kept.iter().map(|kept| (kept - t.most_held_out).max(0.0)).sum();
         if best.as_ref().is_none_or(|(least, _)| beyond < *least) {
@@ -184,7 +184,7 @@ impl InformativeSamples {
     }
 
     /// The largest share of each joint's informative samples in each direction that a fold keeps from its fit.
-    fn held_out(&self, folds: &[Fold]) -> Vec<f64> {
+    fn largest_held_out_shares(&self, folds: &[Fold]) -> Vec<f64> {
         let of = |(way, all): (&Vec<usize>, &usize)| {
             let share = |fold: &Fold| {
                 1.0 - fold.train.iter().map(|&b| way[b]).sum::<usize>() as f64 / *all as f64
@@ -232,8 +232,13 @@ mod tests {
             (0..60).map(|b| if (12..24).contains(&b) { 10 } else { 0 }).collect();
         let samples = InformativeSamples { all: vec![brief.iter().sum()], samples: vec![brief] };
         let within = vec![(0..60).collect::<Vec<usize>>()];
-        let kept = |rounds| samples.held_out(&deal(&within, 5, rounds))[0];
-        assert!((kept(1) - 1.0).abs() < 1e-12);
-        assert!(kept(2) > 0.5 && kept(4) <= 0.5, "{} {}", kept(2), kept(4));
+        let held_out_share = |rounds| samples.largest_held_out_shares(&deal(&within, 5, rounds))[0];
+        assert!((held_out_share(1) - 1.0).abs() < 1e-12);
+        assert!(
+            held_out_share(2) > 0.5 && held_out_share(4) <= 0.5,
+            "{} {}",
+            held_out_share(2),
+            held_out_share(4)
+        );
     }
 }

@@ -33,7 +33,7 @@ impl Fit {
         let mut held: Vec<(usize, f64)> = Vec::new();
         let mut answered = info.g.clone();
         loop {
-            let factor = Cholesky::new(regularised(info, &columns, prior.sd))?;
+            let factor = Cholesky::new(regularise(info, &columns, prior.sd))?;
             let weights = factor.solve(&pick(&answered, &columns));
             let outside = |(&k, &w): (&usize, &f64)| {
                 let (low, high) = prior.bounds[k];
@@ -70,7 +70,7 @@ impl Fit {
             info.h[(self.columns[i], others[k])]
         });
         let share = self.factor.solve(&cross);
-        let b = regularised(info, others, prior) - cross.transpose() * &share;
+        let b = regularise(info, others, prior) - cross.transpose() * &share;
         Complement { own: self.columns.clone(), others: others.to_vec(), share, b }
     }
 
@@ -107,7 +107,7 @@ pub(crate) struct Complement {
 
 impl Complement {
     /// Covariance that one of the others gives the fit's own weights: `share covariance share'`.
-    pub fn taken(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    pub fn propagate(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
         &self.share * covariance * self.share.transpose()
     }
 
@@ -139,7 +139,7 @@ fn evidence(
 
 /// Posterior covariance of the weights of `columns`, `A^-1`; infinite where there is none.
 pub(crate) fn covariance(info: &Information, columns: &[usize], prior: &[f64]) -> DMatrix<f64> {
-    Cholesky::new(regularised(info, columns, prior)).map_or_else(
+    Cholesky::new(regularise(info, columns, prior)).map_or_else(
         || DMatrix::from_element(columns.len(), columns.len(), f64::INFINITY),
         |factor| factor.inverse(),
     )
@@ -150,7 +150,7 @@ pub(crate) fn pick(all: &DVector<f64>, columns: &[usize]) -> DVector<f64> {
     DVector::from_iterator(columns.len(), columns.iter().map(|&k| all[k]))
 }
 
-fn regularised(info: &Information, columns: &[usize], prior: &[f64]) -> DMatrix<f64> {
+fn regularise(info: &Information, columns: &[usize], prior: &[f64]) -> DMatrix<f64> {
     DMatrix::from_fn(columns.len(), columns.len(), |i, k| {
         let ridge = if i == k { prior[columns[k]].powi(-2) } else { 0.0 };
         info.h[(columns[i], columns[k])] + ridge

@@ -55,7 +55,7 @@ impl Refit {
 
     /// The robot after a share of the remaining step.
     fn after_step(&self, share: f64) -> Robot {
-        extend_robot(&self.about, &self.design, &self.model, &scaled(&self.weights, share))
+        extend_robot(&self.about, &self.design, &self.model, &scale(&self.weights, share))
     }
 }
 
@@ -115,7 +115,7 @@ pub(crate) fn fit_model(
     for _ in 0..ROUNDS {
         let about = match &best {
             Some(best) => best.after_step(share),
-            None => extend_robot(robot, problem.design, model, &scaled(&first, share)),
+            None => extend_robot(robot, problem.design, model, &scale(&first, share)),
         };
         let fit = Refit::new(about, log, problem, &hypotheses)?;
         if fit.left > (1.0 + CONVERGED) * least {
@@ -146,6 +146,6 @@ pub(crate) fn fit_model(
     Ok(FittedModel { weights: first, robot, refit })
 }
 
-fn scaled(weights: &[f64], share: f64) -> Vec<f64> {
+fn scale(weights: &[f64], share: f64) -> Vec<f64> {
     weights.iter().map(|w| share * w).collect()
 }

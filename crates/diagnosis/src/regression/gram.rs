@@ -33,11 +33,11 @@ impl JointGram {
 
     /// Sum of squares left by the local weights `w`, each with its place: `yy - 2 w' xy + w' xx w`.
     pub fn remaining(&self, w: &[(usize, f64)]) -> f64 {
-        let explained = |&(i, wi): &(usize, f64)| {
+        let reduction = |&(i, wi): &(usize, f64)| {
             let column = self.xx.column(i);
             wi * (2.0 * self.xy[i] - w.iter().map(|&(k, wk)| column[k] * wk).sum::<f64>())
         };
-        (self.yy - w.iter().map(explained).sum::<f64>()).max(0.0)
+        (self.yy - w.iter().map(reduction).sum::<f64>()).max(0.0)
     }
 
     /// `X' (y - X w)`.

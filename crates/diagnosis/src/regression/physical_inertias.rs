@@ -140,9 +140,9 @@ fn largest_physical_part(nominal: &[f64], place: &[usize], change: &DVector<f64>
     let physical = |change: &DVector<f64>| {
         let mut all = nominal.to_vec();
         place.iter().zip(change.iter()).for_each(|(&k, c)| all[k] += c);
-        let touched = |link: usize| place.iter().any(|k| k / PARAMETERS_PER_LINK == link);
+        let is_changed = |link: usize| place.iter().any(|k| k / PARAMETERS_PER_LINK == link);
         all.as_chunks::<PARAMETERS_PER_LINK>().0.iter().enumerate().all(|(link, pi)| {
-            !touched(link) || Inertia::from_parameters(pi).pseudo_inertia().cholesky().is_some()
+            !is_changed(link) || Inertia::from_parameters(pi).pseudo_inertia().cholesky().is_some()
         })
     };
     let largest = (1..=10).rev().map(part).find(physical);

@@ -119,7 +119,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Squared residuals of a model on the blocks that its weights have not seen.
-    pub fn held_out(&self, model: &HypothesisSet) -> HeldOutResiduals {
+    pub fn hold_out(&self, model: &HypothesisSet) -> HeldOutResiduals {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
         for (f, test) in self.tests.iter().enumerate() {
@@ -135,7 +135,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The weighted sum of squares of every block, where it is held out.
-    pub fn held_out_by_block(&self, model: &HypothesisSet) -> Vec<f64> {
+    pub fn hold_out_by_block(&self, model: &HypothesisSet) -> Vec<f64> {
         let mut deviance = vec![0.0; self.blocks.len()];
         for (f, fold) in self.folds.iter().enumerate() {
             let w = self.fold_weights(model, f);
@@ -213,8 +213,8 @@ impl<'a> Problem<'a> {
     pub fn noise(&self, model: &HypothesisSet) -> Noise {
         let weights: Vec<Vec<f64>> =
             (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
-        let left = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
-        Noise::of(&self.informative_residuals(left))
+        let residual = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
+        Noise::of(&self.informative_residuals(residual))
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.

@@ -43,7 +43,7 @@ impl Uncertainty {
     }
 
     /// The same with the covariance that effects without a name add to its columns.
-    pub fn with_unnamed(mut self, of: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
+    pub fn with_unnamed_effects(mut self, of: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
         self.unnamed = of(&self.columns);
         self
     }
@@ -148,8 +148,8 @@ impl Uncertainty {
             columns.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
         let sd = |i: usize| self.likelihood[(place[i], place[i])].sqrt();
         let part = |all: &DMatrix<f64>| {
-            let scaled = |i, k| all[(place[i], place[k])] / (sd(i) * sd(k));
-            DMatrix::from_fn(place.len(), place.len(), scaled)
+            let over_sd = |i, k| all[(place[i], place[k])] / (sd(i) * sd(k));
+            DMatrix::from_fn(place.len(), place.len(), over_sd)
         };
         let (likelihood, count) = (part(&self.likelihood), place.len());
         if count != change.len() || likelihood.iter().any(|v| !v.is_finite()) {
@@ -193,7 +193,7 @@ impl Uncertainty {
 /// - it has one weight, and the 95 per cent interval of every parameter contains the described value,
 /// - it is a body, and the 95 per cent region of its ten parameters contains the described ones,
 /// - it is an asymmetry or an excess near rest, and its interval contains zero.
-pub(crate) fn undetermined(
+pub(crate) fn find_undetermined(
     problem: &Problem,
     model: &HypothesisSet,
     fitted: &LinearFit,
@@ -261,12 +261,12 @@ fn slope(
     prior: f64,
 ) -> Vec<f64> {
     let step = 1e-4 * prior;
-    let moved = |sign: f64| {
+    let at_step = |sign: f64| {
         let mut w = weights.to_vec();
         w[k] += sign * step;
         at(&w)
     };
-    let (up, down) = (moved(1.0), moved(-1.0));
+    let (up, down) = (at_step(1.0), at_step(-1.0));
     let slope = |i: usize| (up[i].value - down[i].value) / (2.0 * step);
     (0..here.len()).map(slope).collect()
 }

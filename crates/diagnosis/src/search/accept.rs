@@ -5,7 +5,7 @@ use logs::LogError;
 use crate::error::DiagnosisError;
 use crate::regression::fitted_model::{FittedModel, fit_model};
 use crate::regression::problem::{HypothesisSet, Problem};
-use crate::regression::uncertainty::undetermined;
+use crate::regression::uncertainty::find_undetermined;
 use crate::search::constancy::{Variation, size_variation};
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
@@ -72,7 +72,7 @@ impl Inputs<'_> {
         }
         loop {
             let first = self.first_fit(problem, &model, &fitted);
-            let unknown = undetermined(problem, &model, &fitted.last_fit(first));
+            let unknown = find_undetermined(problem, &model, &fitted.last_fit(first));
             if let Some(g) = unknown {
                 model = selection.without(&model, g);
                 fitted = fit(&model)?;

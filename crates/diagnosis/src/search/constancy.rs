@@ -62,13 +62,13 @@ pub(crate) fn size_variation(fitted: &LinearFit, group: usize, size: &[f64]) -> 
     let t = &problem.thresholds.search;
     let columns = problem.columns(model);
     let alone = power_alone(problem, &columns, group, size)?;
-    let base = held_out(problem, &columns, None)?;
+    let base = held_out_square(problem, &columns, None)?;
     let traits = problem.design.groups[group].hypothesis.traits();
     let is_rough = traits.is_some_and(|n| n.law == Law::Approximate);
     let most = if is_rough { t.variation_of_rough } else { t.variation };
     let mut largest: Option<(f64, Contrast)> = None;
     for contrast in contrasts(problem.design, group, size) {
-        let fall = base - held_out(problem, &columns, Some(&contrast))?;
+        let fall = base - held_out_square(problem, &columns, Some(&contrast))?;
         let is_largest = largest.as_ref().is_none_or(|(least, _)| fall > *least);
         if is_largest && fall > 2.0 * t.variation_evidence && fall > most * most * alone {
             largest = Some((fall, contrast));
@@ -105,14 +105,14 @@ fn contrasts(design: &Design, group: usize, size: &[f64]) -> Vec<Contrast> {
         let mut all: Vec<Contrast> = Vec::new();
         for (index, &with) in SIGNALS.iter().enumerate() {
             let (mean, sd) = spread(design, index, joint);
-            let varied = |(run, torque): (&RunDesign, &DVector<f64>)| {
+            let contrast_columns = |(run, torque): (&RunDesign, &DVector<f64>)| {
                 let values = signal(run, index, joint);
                 DMatrix::from_fn(torque.len(), FUNCTIONS, |t, k| {
                     let z = (values[t] - mean) / sd;
                     torque[t] * if k == 0 { z } else { z * z - 1.0 }
                 })
             };
-            let factors = design.runs.iter().zip(&torque).map(varied).collect();
+            let factors = design.runs.iter().zip(&torque).map(contrast_columns).collect();
             all.push(Contrast { joint, with: Some(with), factors });
         }
         if joints.len() > 1 {
@@ -158,7 +158,11 @@ fn spread(design: &Design, index: usize, joint: usize) -> (f64, f64) {
 }
 
 /// Weighted sum of squares that a model, with a contrast, leaves of blocks that it was not fitted to.
-fn held_out(problem: &Problem, columns: &[usize], contrast: Option<&Contrast>) -> Option<f64> {
+fn held_out_square(
+    problem: &Problem,
+    columns: &[usize],
+    contrast: Option<&Contrast>,
+) -> Option<f64> {
     let mut left = 0.0;
     for (fold, training) in problem.folds.iter().zip(&problem.training) {
         let mut train = equations(problem, (training, &fold.train), columns, contrast);

@@ -6,9 +6,9 @@ use crate::search::select::Selection;
 pub(crate) fn rivals(selection: &Selection, model: &HypothesisSet, group: usize) -> Vec<usize> {
     let problem = selection.problem;
     let errors = problem.thresholds.search.rival_errors;
-    let with = problem.held_out_by_block(model);
+    let with = problem.hold_out_by_block(model);
     let is_as_good = |rival: &HypothesisSet| {
-        let rival = problem.held_out_by_block(rival);
+        let rival = problem.hold_out_by_block(rival);
         !PairedDifference::new(problem.of.iter().map(|&b| (with[b], rival[b]))).exceeds(errors)
     };
     let contenders = contenders(selection, model, group, |_| true).into_iter();
@@ -36,11 +36,11 @@ pub(crate) fn contenders(
     if candidates.is_empty() {
         return Vec::new();
     }
-    let bare = problem.held_out(&without).deviance;
-    let much = problem.thresholds.search.rival_gain * (bare - problem.held_out(model).deviance);
+    let bare = problem.hold_out(&without).deviance;
+    let much = problem.thresholds.search.rival_gain * (bare - problem.hold_out(model).deviance);
     let recovers = |h: usize| {
         let replaced = with_rival(problem, &without, group, h);
-        let left = selection.is_possible(&replaced, h).then(|| problem.held_out(&replaced))?;
+        let left = selection.is_possible(&replaced, h).then(|| problem.hold_out(&replaced))?;
         (bare - left.deviance > much).then_some((h, replaced))
     };
     candidates.into_iter().filter_map(recovers).collect()

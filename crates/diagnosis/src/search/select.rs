@@ -103,7 +103,7 @@ impl Selection<'_> {
     pub fn without(&self, model: &HypothesisSet, g: usize) -> HypothesisSet {
         let mut smaller = model_without(model, g);
         let Some(fit) = self.problem.fit(&smaller) else { return smaller };
-        let held_out = self.problem.held_out(&smaller);
+        let held_out = self.problem.hold_out(&smaller);
         let special_cases = self.special_cases_of(g);
         let entrant = self.rank(&smaller, &fit).into_iter().find(|h| {
             let larger = self.with(&smaller, *h);
@@ -144,7 +144,7 @@ impl Selection<'_> {
     /// Adds hypotheses, the most evident first, until none qualifies.
     fn add(&self, model: &mut HypothesisSet) {
         while let Some(fit) = self.problem.fit(model) {
-            let held_out = self.problem.held_out(model);
+            let held_out = self.problem.hold_out(model);
             let entrant = self.rank(model, &fit).into_iter().find(|&g| {
                 let larger = self.with(model, g);
                 self.is_possible(&larger, g) && self.pays(&held_out, &larger, g)
@@ -201,8 +201,8 @@ impl Selection<'_> {
                 && is_possible(g)
                 && is_possible(h)
                 && self.pays(before, two, g)
-                && self.pays(&self.problem.held_out(&one), two, h)
-                && self.pays(&self.problem.held_out(&other), two, g)
+                && self.pays(&self.problem.hold_out(&one), two, h)
+                && self.pays(&self.problem.hold_out(&other), two, g)
         };
         let partners =
             self.rank(&one, &fit).into_iter().filter(is_near).take(self.thresholds().partners);
@@ -335,7 +335,7 @@ impl Selection<'_> {
     /// Whether `larger`, which has `g`, lowers the error of held-out blocks by enough: by the practical share, or by half of
     /// what was left (RMS).
     pub fn pays(&self, before: &HeldOutResiduals, larger: &HypothesisSet, g: usize) -> bool {
-        let after = self.problem.held_out(larger);
+        let after = self.problem.hold_out(larger);
         let share = self.thresholds().remaining_share;
         let enough = |&j: &usize| {
             let fall = before.mean_square[j] - after.mean_square[j];
@@ -348,7 +348,7 @@ impl Selection<'_> {
     fn exchange(&self, model: &mut HypothesisSet) {
         for g in model.clone() {
             let Some(fit) = self.problem.fit(model) else { return };
-            let held_out = self.problem.held_out(model).deviance;
+            let held_out = self.problem.hold_out(model).deviance;
             let mut best: Option<(f64, HypothesisSet)> = None;
             for h in self.neighbours(g) {
                 let mut other = model.clone();
@@ -366,7 +366,7 @@ impl Selection<'_> {
                     .map_or(fit.evidence + self.thresholds().exchange_evidence, |(e, _)| *e);
                 if evidence > bar
                     && self.is_possible(&other, h)
-                    && self.problem.held_out(&other).deviance < held_out
+                    && self.problem.hold_out(&other).deviance < held_out
                 {
                     best = Some((evidence, other));
                 }
@@ -411,7 +411,7 @@ impl Selection<'_> {
                     f64::NEG_INFINITY
                 };
                 let is_spare = loss < self.least_evidence(g)
-                    || !self.pays(&self.problem.held_out(&smaller), model, g);
+                    || !self.pays(&self.problem.hold_out(&smaller), model, g);
                 if is_spare && worst.is_none_or(|(least, _)| loss < least) {
                     worst = Some((loss, g));
                 }

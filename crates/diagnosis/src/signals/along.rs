@@ -80,7 +80,7 @@ impl<'a> Along<'a> {
             links: run.joints.iter().map(link).collect(),
             since_cold_s: run.time.first().map_or(0.0, |first| first - run.session_start_s),
         };
-        let motion = RunMotion::seen(robot, frame, encoders, rate.recip());
+        let motion = RunMotion::from_encoders(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
         let (counts, tone_basis) = (Vec::new(), vec![Vec::new(); run.joints.len()]);

@@ -33,7 +33,7 @@ pub struct LeftOver {
 /// # Panics
 ///
 /// When robot, `rest_speed` and logs differ in their number of joints.
-pub fn left_over(
+pub fn unexplained_torque(
     robot: &Robot,
     rest_speed: &[f64],
     logs: &Prepared,
@@ -117,7 +117,7 @@ mod tests {
 
     /// The largest of the middle of what is left, and of the effort there.
     fn largest(robot: &Robot, log: &Prepared) -> [f64; 2] {
-        let of = &left_over(robot, &[0.01], log).unwrap()[0];
+        let of = &unexplained_torque(robot, &[0.01], log).unwrap()[0];
         [&of.left[0], &of.measured[0]].map(|x| {
             let middle = &x[x.len() / 4..3 * x.len() / 4];
             middle.iter().fold(0.0, |most: f64, x| most.max(x.abs()))

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::abilities::{HasPlainer, IsRestricted};
-use crate::bounds::{down_to_zero, unbounded};
+use crate::bounds::{down_to_zero, infinite_bounds};
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
@@ -43,7 +43,7 @@ impl Effect for AsymmetricFriction {
         Ok(EASED_LEVEL)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -63,7 +63,7 @@ impl Effect for AsymmetricFriction {
 
     fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let a = &robot.links()[j].actuator;
-        [down_to_zero(a.coulomb_forward.min(a.coulomb_backward)), unbounded(1)].concat()
+        [down_to_zero(a.coulomb_forward.min(a.coulomb_backward)), infinite_bounds(1)].concat()
     }
 
     fn extend(
@@ -94,7 +94,7 @@ impl Effect for AsymmetricFriction {
         ]
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<AtJoint>> {
         Some(self)
     }
 

@@ -54,7 +54,7 @@ impl Effect for Backlash {
         Ok("half the gap on the side of the load, eased where the load changes sign")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         (drive.backlash > 0.0).then_some("backlash_rad")
     }
 

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::abilities::CanBeUnsound;
-use crate::bounds::{down_to_zero, unbounded};
+use crate::bounds::{down_to_zero, infinite_bounds};
 use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::cable_loop::Loop;
@@ -55,7 +55,7 @@ impl Effect for CableSpring {
         Ok("the torque of its spring at the position of the link, and the level of its loop")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -126,7 +126,7 @@ impl Effect for CableSpring {
             down_to_zero(drive.spring_stiffness),
             down_to_zero(drive.spring_cubic.max(0.0)),
             vec![dragged],
-            unbounded(1),
+            infinite_bounds(1),
         ]
         .concat()
     }

@@ -37,7 +37,7 @@ impl Effect for CoulombFriction {
         Ok(EASED_LEVEL)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

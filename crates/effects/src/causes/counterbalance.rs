@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use nalgebra::Complex;
 use robot::{Actuator, CounterbalanceTerm, Robot};
 
-use crate::bounds::unbounded;
+use crate::bounds::infinite_bounds;
 use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
@@ -48,7 +48,7 @@ impl Effect for Counterbalance {
         Ok("its torque at the position of the link")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -72,7 +72,7 @@ impl Effect for Counterbalance {
     }
 
     fn bounds(&self, _: AtJoint, _: &Robot, _: &Priors) -> Vec<(f64, f64)> {
-        unbounded(2)
+        infinite_bounds(2)
     }
 
     fn extend(

@@ -89,7 +89,7 @@ impl Effect for DifferentialCoupling {
         Ok("the friction of the shared motors at their speeds, eased through rest")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         drive.coupling.map(|_| "coupling")
     }
 

@@ -2,7 +2,7 @@ use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
 use crate::abilities::BetweenEncoders;
-use crate::bounds::unbounded;
+use crate::bounds::infinite_bounds;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
@@ -40,7 +40,7 @@ impl Effect for EncoderOffset {
         Ok("a reference that is off as the encoder is")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         (drive.encoder_offset.abs() > 0.0).then_some("encoder_offset_rad")
     }
 
@@ -59,7 +59,7 @@ impl Effect for EncoderOffset {
     }
 
     fn bounds(&self, _: AtJoint, _: &Robot, _: &Priors) -> Vec<(f64, f64)> {
-        unbounded(1)
+        infinite_bounds(1)
     }
 
     fn extend(

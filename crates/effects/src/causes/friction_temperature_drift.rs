@@ -73,7 +73,7 @@ impl Effect for FrictionTemperatureDrift {
         Err("the temperature of a drive is not known")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

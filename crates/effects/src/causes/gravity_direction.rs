@@ -41,7 +41,7 @@ impl Effect for GravityDirection {
         Ok(INVERSE_DYNAMICS)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -88,7 +88,7 @@ impl Effect for GravityDirection {
         axes.iter().zip(parameters).map(quantity).collect()
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<AtBase>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<AtBase>> {
         Some(self)
     }
 }

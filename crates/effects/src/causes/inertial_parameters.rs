@@ -3,7 +3,7 @@ use dynamics::PARAMETERS_PER_LINK;
 use robot::{Actuator, Inertia, Robot};
 
 use crate::abilities::HasCadError;
-use crate::bounds::{down_to_zero, unbounded};
+use crate::bounds::{down_to_zero, infinite_bounds};
 use crate::column::EffectColumn;
 use crate::effect::{Effect, INVERSE_DYNAMICS};
 use crate::motion::frame::Frame;
@@ -44,7 +44,7 @@ impl Effect for InertialParameters {
         Ok(INVERSE_DYNAMICS)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -85,7 +85,7 @@ impl Effect for InertialParameters {
     /// robot.
     fn bounds(&self, InLink(link): InLink, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let mut bounds = down_to_zero(robot.links()[link].inertia.mass);
-        bounds.extend(unbounded(PARAMETERS_PER_LINK - 1));
+        bounds.extend(infinite_bounds(PARAMETERS_PER_LINK - 1));
         bounds
     }
 

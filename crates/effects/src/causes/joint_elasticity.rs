@@ -69,7 +69,7 @@ impl Effect for JointElasticity {
         Ok("the twist under the load, and what it asks of the rotor")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         drive.elasticity.map(|_| "elasticity_nm_per_rad")
     }
 

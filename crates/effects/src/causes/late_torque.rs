@@ -68,7 +68,7 @@ impl Effect for LateTorque {
         })
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         let key = match self {
             Self::Delay => "actuator_delay_ms",
             Self::Lag => "actuator_lag_ms",

@@ -38,7 +38,7 @@ impl Effect for LoadDependentFriction {
         Ok(EASED_LEVEL)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

@@ -43,7 +43,7 @@ impl Effect for Payload {
         Ok(INVERSE_DYNAMICS)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -89,7 +89,7 @@ impl Effect for Payload {
         quantities(self.kind(), [0.0; 4], mass_and_com(&Inertia::from_parameters(&body)))
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<InLink>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<InLink>> {
         Some(self)
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::Complex;
 use robot::{Actuator, FrictionWave, Robot};
 
 use crate::abilities::{CanBeUnsound, CanHide, HasShape};
-use crate::bounds::unbounded;
+use crate::bounds::infinite_bounds;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
 use crate::motion::frame::Frame;
@@ -61,7 +61,7 @@ impl Effect for PositionDependentFriction {
         Ok(EASED_LEVEL)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -108,7 +108,7 @@ impl Effect for PositionDependentFriction {
     fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
         let Some((wave, known)) = amplitude(&robot.links()[j].actuator) else { return Vec::new() };
         let periods = (wave.norm() > 0.0).then_some((-0.5 * known.periods, f64::INFINITY));
-        unbounded(2).into_iter().chain(periods).collect()
+        infinite_bounds(2).into_iter().chain(periods).collect()
     }
 
     /// The wave of a joint without a Coulomb level stays zero.

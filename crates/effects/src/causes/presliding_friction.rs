@@ -60,7 +60,7 @@ impl Effect for PreslidingFriction {
         Ok("its level as that of Coulomb friction, not the way over which it builds up")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         drive.presliding.map(|_| "presliding_rad")
     }
 

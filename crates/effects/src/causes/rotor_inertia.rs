@@ -38,7 +38,7 @@ impl Effect for RotorInertia {
         Ok("its torque at the acceleration of the motor")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

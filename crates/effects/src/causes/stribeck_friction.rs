@@ -57,7 +57,7 @@ impl Effect for StribeckFriction {
         Ok(EASED_LEVEL)
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

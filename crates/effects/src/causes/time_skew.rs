@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
-use crate::bounds::unbounded;
+use crate::bounds::infinite_bounds;
 use crate::column::EffectColumn;
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
@@ -37,7 +37,7 @@ impl Effect for TimeSkew {
         Err("it is in the log, not in the arm")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         (drive.effort_skew_s.abs() > 0.0).then_some("effort_skew_ms")
     }
 
@@ -57,7 +57,7 @@ impl Effect for TimeSkew {
     }
 
     fn bounds(&self, _: AtBase, _: &Robot, _: &Priors) -> Vec<(f64, f64)> {
-        unbounded(1)
+        infinite_bounds(1)
     }
 
     fn extend(&self, _: AtBase, robot: &mut Robot, weights: &[f64], _: &Frame, _: &Priors) {

@@ -40,7 +40,7 @@ impl Effect for TorqueConstant {
         Ok("asking for as much more or less")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -84,7 +84,7 @@ impl Effect for TorqueConstant {
         vec![actuator_quantity(self.kind(), 0, j, [nominal, extended], |a| a.torque_gain)]
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<AtJoint>> {
         Some(self)
     }
 }

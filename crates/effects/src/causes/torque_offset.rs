@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
-use crate::bounds::unbounded;
+use crate::bounds::infinite_bounds;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
 use crate::motion::frame::Frame;
@@ -37,7 +37,7 @@ impl Effect for TorqueOffset {
         Ok("asking for the offset as well")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 
@@ -55,7 +55,7 @@ impl Effect for TorqueOffset {
     }
 
     fn bounds(&self, _: AtJoint, _: &Robot, _: &Priors) -> Vec<(f64, f64)> {
-        unbounded(1)
+        infinite_bounds(1)
     }
 
     fn extend(

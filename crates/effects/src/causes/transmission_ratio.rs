@@ -39,7 +39,7 @@ impl Effect for TransmissionRatio {
         Ok("reference and torque in the units that the drive believes in")
     }
 
-    fn left_out(&self, drive: &Actuator) -> Option<&'static str> {
+    fn omission(&self, drive: &Actuator) -> Option<&'static str> {
         drive.transmission_ratio.total_cmp(&1.0).is_ne().then_some("transmission_ratio")
     }
 
@@ -101,7 +101,7 @@ impl Effect for TransmissionRatio {
         Some(self)
     }
 
-    fn restricted(&self) -> Option<&dyn IsRestricted<AtJoint>> {
+    fn restriction(&self) -> Option<&dyn IsRestricted<AtJoint>> {
         Some(self)
     }
 }

@@ -37,7 +37,7 @@ impl Effect for ViscousFriction {
         Ok("its torque at the velocity of the motor")
     }
 
-    fn left_out(&self, _: &Actuator) -> Option<&'static str> {
+    fn omission(&self, _: &Actuator) -> Option<&'static str> {
         None
     }
 

@@ -104,7 +104,7 @@ impl Compensation {
 
     /// Number of states that [`fill`](Self::fill) takes: the instant alone, and one more to each
     /// side of it for transmissions that give way and for torques that lag.
-    pub fn states_needed(&self) -> usize {
+    pub fn state_count(&self) -> usize {
         let some = |has: fn(&Actuator) -> bool| 2 * usize::from(self.drives.iter().any(has));
         1 + some(|drive| !is_rigid(drive)) + some(|drive| drive.lag_s > 0.0)
     }
@@ -127,7 +127,7 @@ impl Compensation {
         let n = self.drives.len();
         CompensationWorkspace {
             dynamics: self.dynamics.workspace(),
-            tau_link: vec![vec![0.0; n]; self.states_needed()],
+            tau_link: vec![vec![0.0; n]; self.state_count()],
             mass_matrix: vec![0.0; n * n],
             shared: vec![0.0; n],
         }
@@ -136,7 +136,7 @@ impl Compensation {
     /// Computes the efforts of one instant; allocates nothing.
     ///
     /// `states` are `[q, qd, qdd]` (rad, rad/s, rad/s² or m, m/s, m/s²) of the motion that the
-    /// links should follow: as many as [`states_needed`](Self::states_needed) says,
+    /// links should follow: as many as [`state_count`](Self::state_count) says,
     /// [`SPACING_S`](Self::SPACING_S) apart, with the instant in their middle.
     ///
     /// # Panics
@@ -148,7 +148,7 @@ impl Compensation {
         states: &[[&[f64]; 3]],
         out: &mut FeedforwardEfforts,
     ) {
-        assert_eq!(states.len(), self.states_needed(), "states of the motion");
+        assert_eq!(states.len(), self.state_count(), "states of the motion");
         let now = states.len() / 2;
         let [q_now, qd_now, _] = states[now];
         let (dynamics, n) = (&mut ws.dynamics, self.drives.len());
@@ -251,7 +251,7 @@ mod tests {
     const WEIGHT: f64 = 2.0 * 9.81 * 0.5;
 
     /// Everything at once.
-    fn worn(a: &mut Actuator) {
+    fn wear(a: &mut Actuator) {
         (a.rotor_inertia, a.viscous) = (0.1, 0.3);
         (a.coulomb_forward, a.coulomb_backward) = (0.6, 0.4);
         (a.spring_stiffness, a.spring_rest) = (0.5, 0.2);
@@ -263,7 +263,7 @@ mod tests {
     fn along(robot: &Robot, motion: impl Fn(f64) -> [f64; 3], time_s: f64) -> [f64; 3] {
         let compensation = Compensation::new(robot, vec![REST]);
         let mut out = FeedforwardEfforts::zero(1);
-        let side = i32::try_from(compensation.states_needed() / 2).unwrap();
+        let side = i32::try_from(compensation.state_count() / 2).unwrap();
         let at = |k: i32| motion(time_s + f64::from(k) * H);
         let states: Vec<[f64; 3]> = (-side..=side).map(at).collect();
         let states: Vec<[&[f64]; 3]> =
@@ -329,7 +329,7 @@ mod tests {
 
     #[test]
     fn where_the_link_is_measured_nothing_leads_and_the_torque_stays() {
-        let motor = hinge("0 1 0", worn);
+        let motor = hinge("0 1 0", wear);
         let mut link = motor.clone();
         link.link_mut(0).unwrap().actuator.sensing = SensingSide::Link;
         let mut unknown = motor.clone();
@@ -344,10 +344,10 @@ mod tests {
     #[test]
     fn a_rigid_robot_gets_inverse_dynamics_and_the_law_of_its_drive() {
         let robot = hinge("0 1 0", |a| {
-            worn(a);
+            wear(a);
             (a.backlash, a.elasticity) = (0.0, None);
         });
-        assert_eq!(Compensation::new(&robot, vec![REST]).states_needed(), 1);
+        assert_eq!(Compensation::new(&robot, vec![REST]).state_count(), 1);
         for t in [0.0, 0.1, 0.196, 0.3, 0.7] {
             let [q, qd, qdd] = sine(0.4, 8.0)(t);
             let rigid_body = INERTIA * qdd - WEIGHT * q.cos();
@@ -401,7 +401,7 @@ mod tests {
                 (a.lag_s, a.rotor_inertia, a.elasticity) = (lag, rotor, elasticity);
             });
             let needed = if elasticity.is_none() { 3 } else { 5 };
-            assert_eq!(Compensation::new(&wheel, vec![REST]).states_needed(), needed);
+            assert_eq!(Compensation::new(&wheel, vec![REST]).state_count(), needed);
             for omega in [1.0, 10.0, 30.0] {
                 let motor = 1.0 - elasticity.map_or(0.0, |k| INERTIA * omega * omega / k);
                 let peak = -omega * omega * amplitude * (INERTIA + rotor * motor);
@@ -444,7 +444,7 @@ mod tests {
     /// Ten times finer steps make the largest change ten times smaller: there is no jump.
     #[test]
     fn nothing_jumps_along_a_fast_sine() {
-        let robot = hinge("0 1 0", worn);
+        let robot = hinge("0 1 0", wear);
         // It passes the vertical, where gravity changes its side of the gap.
         let swing = |t: f64| {
             let [q, qd, qdd] = sine(1.0, 6.0)(t);

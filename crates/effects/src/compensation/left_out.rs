@@ -21,7 +21,7 @@ const FIRST: [EffectKind; 9] = [
 ///
 /// Their share in the effort counts as if the robot did not describe them. A measured effort contains delay and lag
 /// already.
-pub fn left_out(robot: &Robot) -> Vec<String> {
+pub fn omissions(robot: &Robot) -> Vec<String> {
     let sentence = |(name, drive): (&str, &Actuator)| {
         let keys = keys(drive).join(" and ");
         (!keys.is_empty()).then(|| {
@@ -39,7 +39,7 @@ pub fn left_out(robot: &Robot) -> Vec<String> {
 fn keys(drive: &Actuator) -> Vec<&'static str> {
     let others = MODELLED.into_iter().filter(|kind| !FIRST.contains(kind));
     let kinds = FIRST.into_iter().chain(others);
-    kinds.filter_map(|kind| model(kind).ok()?.left_out(drive)).collect()
+    kinds.filter_map(|kind| model(kind).ok()?.omission(drive)).collect()
 }
 
 #[cfg(test)]
@@ -60,17 +60,17 @@ mod tests {
         let joints = joint("shoulder", "base", "upper") + &joint("elbow", "upper", "lower");
         let urdf = format!(r#"<robot name="arm"><link name="base"/>{joints}</robot>"#);
         let mut robot = Robot::from_urdf(&urdf).unwrap();
-        assert_eq!(left_out(&robot), [""; 0]);
+        assert_eq!(omissions(&robot), [""; 0]);
         let drive = &mut robot.link_mut(1).unwrap().actuator;
         (drive.backlash, drive.delay_s) = (0.001, 0.002);
         let expected = "elbow: the expected effort leaves out backlash_rad and actuator_delay_ms \
                         of the robot; what this does to the log is treated as if the robot did \
                         not say it";
-        assert_eq!(left_out(&robot), [expected]);
+        assert_eq!(omissions(&robot), [expected]);
         robot.link_mut(1).unwrap().actuator.torque_source = TorqueSource::Measured;
-        assert_eq!(left_out(&robot), [expected.replace(" and actuator_delay_ms", "")]);
+        assert_eq!(omissions(&robot), [expected.replace(" and actuator_delay_ms", "")]);
         robot.link_mut(0).unwrap().actuator.elasticity = Some(100.0);
-        assert_eq!(left_out(&robot).len(), 2);
+        assert_eq!(omissions(&robot).len(), 2);
     }
 
     #[test]
@@ -95,7 +95,7 @@ mod tests {
             let mut robot = Robot::from_urdf(urdf).unwrap();
             describe(&mut robot.link_mut(0).unwrap().actuator);
             let start = format!("j: the expected effort leaves out {key} of the robot;");
-            assert!(left_out(&robot)[0].starts_with(&start), "{key}");
+            assert!(omissions(&robot)[0].starts_with(&start), "{key}");
         }
     }
 }

@@ -70,9 +70,9 @@ mod tests {
         Some(robot)
     }
 
-    fn asked(robot: &Robot) -> (FeedforwardEfforts, Vec<f64>) {
+    fn feedforward_of(robot: &Robot) -> (FeedforwardEfforts, Vec<f64>) {
         let compensation = Compensation::new(robot, vec![0.02]);
-        let count = compensation.states_needed();
+        let count = compensation.state_count();
         let (qd, qdd): (f64, f64) = (0.7, -3.0);
         let at = |k: usize| {
             let t = Compensation::SPACING_S * (k as f64 - (count / 2) as f64);
@@ -89,9 +89,9 @@ mod tests {
     /// What the table promises changes what is asked for; what it does not has no key.
     #[test]
     fn the_table_holds_for_every_effect_of_the_catalogue() {
-        let ideal = asked(&pendulum());
+        let ideal = feedforward_of(&pendulum());
         for kind in EffectKind::ALL {
-            let undone = with(kind).is_some_and(|robot| asked(&robot) != ideal);
+            let undone = with(kind).is_some_and(|robot| feedforward_of(&robot) != ideal);
             assert_eq!(undone, remedy(kind).is_ok(), "{kind}");
         }
     }

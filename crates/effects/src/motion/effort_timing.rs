@@ -26,7 +26,7 @@ impl EffortTiming {
     }
 
     /// The torque, sampled every `period_s`, with the timing of the log.
-    pub fn as_logged(self, mut torque: Vec<f64>, period_s: f64) -> Vec<f64> {
+    pub fn with_log_timing(self, mut torque: Vec<f64>, period_s: f64) -> Vec<f64> {
         if self.lag_s > 0.0 {
             let rate = differentiate(&torque, period_s.recip());
             torque.iter_mut().zip(rate).for_each(|(x, r)| *x += self.lag_s * r);
@@ -77,11 +77,15 @@ mod tests {
     fn a_command_is_ahead_of_its_torque_by_the_delay_and_a_skew_takes_it_back() {
         // Ten samples a second, 0.1 rad a sample.
         let drive = Actuator { delay_s: 0.25, ..Actuator::default() };
-        assert_close(&EffortTiming::of(&drive).as_logged(sine(0.0), 0.1), &sine(0.25), 1e-4);
+        assert_close(&EffortTiming::of(&drive).with_log_timing(sine(0.0), 0.1), &sine(0.25), 1e-4);
         let skewed = Actuator { effort_skew_s: 0.3, ..drive.clone() };
-        assert_close(&EffortTiming::of(&skewed).as_logged(sine(0.0), 0.1), &sine(-0.05), 1e-4);
+        assert_close(
+            &EffortTiming::of(&skewed).with_log_timing(sine(0.0), 0.1),
+            &sine(-0.05),
+            1e-4,
+        );
         let measured = Actuator { torque_source: TorqueSource::Measured, ..drive };
-        assert_eq!(EffortTiming::of(&measured).as_logged(sine(0.0), 0.1), sine(0.0));
+        assert_eq!(EffortTiming::of(&measured).with_log_timing(sine(0.0), 0.1), sine(0.0));
     }
 
     /// A command `u` with `lag d(tau)/dt + tau = u` and `tau = sin(t)` is `sin(t) + lag cos(t)`.
@@ -93,14 +97,14 @@ mod tests {
             .zip(sine(std::f64::consts::FRAC_PI_2))
             .map(|(s, c)| s + 0.2 * c)
             .collect();
-        assert_close(&EffortTiming::of(&drive).as_logged(sine(0.0), 0.1), &expected, 2e-6);
+        assert_close(&EffortTiming::of(&drive).with_log_timing(sine(0.0), 0.1), &expected, 2e-6);
     }
 
     #[test]
     fn a_time_longer_than_the_log_holds_its_ends() {
         let drive = Actuator { delay_s: 1e300, ..Actuator::default() };
-        let late = EffortTiming::of(&drive).as_logged(sine(0.0), 0.1);
+        let late = EffortTiming::of(&drive).with_log_timing(sine(0.0), 0.1);
         assert!(late.iter().all(|x| (x - sine(0.0)[199]).abs() < 1e-12));
-        assert!(EffortTiming::of(&drive).as_logged(vec![], 0.1).is_empty());
+        assert!(EffortTiming::of(&drive).with_log_timing(vec![], 0.1).is_empty());
     }
 }

@@ -84,7 +84,7 @@ impl RunMotion {
     pub fn new(robot: &Robot, frame: &Frame, reading: [Vec<Vec<f64>>; 3], period_s: f64) -> Self {
         let links = vec![None; robot.joint_count()];
         let encoders = Encoders { reported: reading, links, since_cold_s: 0.0 };
-        Self::seen(robot, frame, encoders, period_s)
+        Self::from_encoders(robot, frame, encoders, period_s)
     }
 
     /// The same for runs in which some links have an encoder of their own. There the twist is the measured one, and
@@ -93,7 +93,7 @@ impl RunMotion {
     /// # Panics
     ///
     /// As [`RunMotion::new`].
-    pub fn seen(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
+    pub fn from_encoders(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
         let Encoders { reported, links, since_cold_s } = encoders;
@@ -223,7 +223,7 @@ impl RunMotion {
 
     /// Effort of joint `j` at the times at which the log has it.
     pub(crate) fn with_timing(&self, j: usize, effort: Vec<f64>) -> Vec<f64> {
-        EffortTiming::of(&self.drives[j]).as_logged(effort, self.period_s)
+        EffortTiming::of(&self.drives[j]).with_log_timing(effort, self.period_s)
     }
 
     /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.

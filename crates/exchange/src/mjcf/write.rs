@@ -171,7 +171,7 @@ pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
         Q::Asymmetry => match springs(link) {
             Some(_) if a.spring_stiffness > 0.0 => Fate::exact("springref, moved by as much"),
             Some(_) => Fate::near("a long soft spring, 0.03 % off in half a turn"),
-            None => Fate::dropped("the spring is cubic: no other constant torque has a place"),
+            None => Fate::omit("the spring is cubic: no other constant torque has a place"),
         },
         Q::Spring => Fate::exact("stiffness, springref"),
         Q::SpringCubic => Fate::exact("third number of stiffness (MuJoCo 4)"),
@@ -185,8 +185,8 @@ pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
         Q::Backlash if gives(link) && a.elasticity.is_none() => {
             Fate::near("limits of a second joint, NAME_give; its stops are the solver's")
         }
-        Q::Backlash if gives(link) => Fate::dropped("the transmission gives way already"),
-        Q::Backlash | Q::Elasticity => Fate::dropped(
+        Q::Backlash if gives(link) => Fate::omit("the transmission gives way already"),
+        Q::Backlash | Q::Elasticity => Fate::omit(
             "a second joint needs a rotor inertia between the two: give rotor_inertia_kg_m2",
         ),
         other => fate_of_unsupported(other),

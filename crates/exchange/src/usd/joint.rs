@@ -94,13 +94,13 @@ pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
     match quantity {
         DriveQuantity::Rotor => Fate::exact("armature of PhysxJointAxisAPI and NewtonJointAPI"),
         DriveQuantity::Viscous if link.actuator.viscous < 0.0 => {
-            Fate::dropped("PhysX and Newton take no viscous friction below 0")
+            Fate::omit("PhysX and Newton take no viscous friction below 0")
         }
         DriveQuantity::Viscous => Fate::exact(
             "viscousFrictionCoefficient of PhysxJointAxisAPI, damping of NewtonJointAPI",
         ),
         DriveQuantity::Coulomb if levels(&link.actuator).0 < 0.0 => {
-            Fate::dropped("PhysX and Newton take no friction below 0")
+            Fate::omit("PhysX and Newton take no friction below 0")
         }
         DriveQuantity::Coulomb => {
             Fate::exact("dynamicFrictionEffort of PhysxJointAxisAPI, friction of NewtonJointAPI")

@@ -61,7 +61,7 @@ mod tests {
     use super::*;
     use crate::claims::claim::ClaimVerdict;
 
-    fn tracked(model: &str, rms: [f64; 6]) -> TrackedError {
+    fn tracked_error(model: &str, rms: [f64; 6]) -> TrackedError {
         TrackedError {
             model: model.into(),
             rms: Some(rms.to_vec()),
@@ -76,26 +76,26 @@ mod tests {
 
     fn errors() -> Vec<TrackedError> {
         vec![
-            tracked("rbd", [50.0; 6]),
-            tracked("gp", [20.0; 6]),
-            tracked("gp-rbd", [4.0; 6]),
-            tracked("gp-rbd-prior", [4.0; 6]),
-            tracked("rbd-kernel", [8.0; 6]),
-            tracked("named", [1.0; 6]),
+            tracked_error("rbd", [50.0; 6]),
+            tracked_error("gp", [20.0; 6]),
+            tracked_error("gp-rbd", [4.0; 6]),
+            tracked_error("gp-rbd-prior", [4.0; 6]),
+            tracked_error("rbd-kernel", [8.0; 6]),
+            tracked_error("named", [1.0; 6]),
         ]
     }
 
     #[test]
     fn every_claim_is_held_or_not_by_the_run_that_it_is_about() {
-        let held = |errors: &[TrackedError]| -> Vec<bool> {
+        let outcomes = |errors: &[TrackedError]| -> Vec<bool> {
             let claims = tracking_claims(errors, &joints());
             claims.iter().map(|claim| claim.verdict == ClaimVerdict::Holds).collect()
         };
-        assert_eq!(held(&errors()), [true; 4]);
+        assert_eq!(outcomes(&errors()), [true; 4]);
         let with = |model: usize, rms: [f64; 6]| {
             let mut errors = errors();
             errors[model].rms = Some(rms.to_vec());
-            held(&errors)
+            outcomes(&errors)
         };
         // Joint 1 is neither elbow nor wrist.
         assert_eq!(with(2, [51.0, 4.0, 4.0, 4.0, 4.0, 4.0]), [false, true, true, true]);
@@ -104,7 +104,7 @@ mod tests {
         assert_eq!(with(5, [4.1, 1.0, 1.0, 1.0, 1.0, 1.0]), [true, true, true, false]);
         let mut stopped = errors();
         stopped[2].rms = None;
-        assert_eq!(held(&stopped), [false, true, false, false], "a run without an end");
+        assert_eq!(outcomes(&stopped), [false, true, false, false], "a run without an end");
     }
 
     #[test]

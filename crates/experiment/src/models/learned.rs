@@ -27,7 +27,7 @@ impl Learned {
     }
 
     /// The robot extended by named effects, with the speeds below which its joints rest.
-    pub fn named(&self) -> Option<&RobotTorque> {
+    pub fn named_torque(&self) -> Option<&RobotTorque> {
         match &self.model(ModelKind::Named)?.mean {
             Mean::Robot(torque) => Some(torque),
             _ => None,
@@ -92,7 +92,7 @@ impl Learned {
         progress: &dyn Progress,
     ) -> Result<Self, ExperimentError> {
         let lesson = Lesson {
-            loaded: scenario.loaded(),
+            loaded: scenario.loaded_robot(),
             plant_file: scenario.plant_file(),
             learn: scenario.learn(),
             kinds: &kinds(scenario),
@@ -125,13 +125,13 @@ impl Learned {
         }
         let data = Data::new(lesson, logs)?;
         let named = match named {
-            None if kinds.iter().any(|kind| kind.needs_named()) => {
-                Some(extended(lesson, logs, progress)?)
+            None if kinds.iter().any(|kind| kind.needs_named_effects()) => {
+                Some(extend_by_diagnosis(lesson, logs, progress)?)
             }
             given => given.cloned(),
         };
-        let described = |kind: &ModelKind| matches!(kind, ModelKind::Cad | ModelKind::Named);
-        let fit = match kinds.iter().all(described) {
+        let needs_no_fit = |kind: &ModelKind| matches!(kind, ModelKind::Cad | ModelKind::Named);
+        let fit = match kinds.iter().all(needs_no_fit) {
             true => None,
             false => Some(rigid_bodies(lesson, &data.regression, progress)?),
         };
@@ -176,7 +176,7 @@ impl Lesson<'_> {
     /// # Errors
     ///
     /// [`ExperimentError::Log`].
-    pub fn prepared(
+    pub fn prepare(
         &self,
         logs: &[Run],
         cutoff_hz: Option<f64>,
@@ -211,7 +211,7 @@ fn rigid_bodies(
 }
 
 /// The robot extended by what a diagnosis names in the logs.
-fn extended(
+fn extend_by_diagnosis(
     lesson: &Lesson,
     logs: &[Run],
     progress: &dyn Progress,
@@ -236,18 +236,18 @@ impl Data {
             let path = lesson.plant_file.to_owned();
             return Err(ExperimentError::NothingToLearnFrom { path, model });
         }
-        let prepared = lesson.prepared(logs, None)?;
-        let train = runs_named(&prepared, &learn.train);
+        let prepared = lesson.prepare(logs, None)?;
+        let train = select_runs(&prepared, &learn.train);
         let regression = match learn.regression.as_slice() {
             [] => Samples::new(&train),
-            names => Samples::new(&runs_named(&prepared, names)),
+            names => Samples::new(&select_runs(&prepared, names)),
         };
         Ok(Self { rest_speeds: rest_speeds(&train), train: Samples::new(&train), regression })
     }
 }
 
 /// The prepared runs that are logs of these names or parts of them.
-pub(crate) fn runs_named(prepared: &Prepared, names: &[String]) -> Prepared {
+pub(crate) fn select_runs(prepared: &Prepared, names: &[String]) -> Prepared {
     let is_meant = |run: &&PreparedRun| names.iter().any(|name| is_part_of(&run.name, name));
     prepared.with_runs(prepared.runs.iter().filter(is_meant).cloned().collect())
 }

@@ -36,8 +36,8 @@ pub(crate) fn relevance(
     all.retain(|(_, share)| *share < 1.0);
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     all.truncate(LISTED);
-    let named = |(d, share_of_range)| Relevance { signal: words(d, robot), share_of_range };
-    all.into_iter().map(named).collect()
+    let relevance = |(d, share_of_range)| Relevance { signal: words(d, robot), share_of_range };
+    all.into_iter().map(relevance).collect()
 }
 
 /// Input `d` of a process: positions, then velocities, then accelerations.

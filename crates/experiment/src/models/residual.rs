@@ -82,7 +82,7 @@ pub fn learn_residual(
     let tested: Vec<[Vec<Vec<f64>>; 2]> = outcome
         .held_out
         .par_iter()
-        .map(|part| logs.tested(part, progress))
+        .map(|part| logs.residuals_on(part, progress))
         .collect::<Result<_, _>>()?;
     let mut errors = vec![Errors::default(); robot.joint_count()];
     for [before, after] in &tested {
@@ -129,18 +129,18 @@ impl Logs<'_> {
 
     /// Residuals on a held-out part: of the extended robot, and of the robot with a process that
     /// was learned on the other parts.
-    fn tested(
+    fn residuals_on(
         &self,
         part: &HeldOutPart,
         progress: &dyn Progress,
     ) -> Result<[Vec<Vec<f64>>; 2], ExperimentError> {
         let fitted = self.fit(&part.extended, &self.samples(&part.train), progress)?;
-        let alone = self.named(&part.extended);
-        Ok([self.left(&alone, &part.test)?, self.left(&fitted.model, &part.test)?])
+        let alone = self.model_of(&part.extended);
+        Ok([self.residual_of(&alone, &part.test)?, self.residual_of(&fitted.model, &part.test)?])
     }
 
     /// An extended robot as a model.
-    fn named(&self, extended: &Robot) -> Model {
+    fn model_of(&self, extended: &Robot) -> Model {
         let torque = RobotTorque::new(extended.clone(), self.rest.clone());
         let noise = vec![0.0; self.robot.joint_count()];
         Model::new(ModelKind::Named, self.robot, Mean::Robot(Box::new(torque)), noise)
@@ -148,7 +148,8 @@ impl Logs<'_> {
 
     /// Mean square of what an extended robot leaves of every joint's torque.
     fn mean_squares(&self, extended: &Robot, samples: &Samples) -> Vec<f64> {
-        let (expected, joints) = (self.named(extended).torque(samples), self.robot.joint_count());
+        let (expected, joints) =
+            (self.model_of(extended).torque(samples), self.robot.joint_count());
         let mut sums = vec![0.0; joints];
         for (i, expected) in expected.chunks_exact(joints).enumerate() {
             let errors = samples.tau(i).iter().zip(expected).map(|(tau, e)| tau - e);
@@ -158,7 +159,7 @@ impl Logs<'_> {
     }
 
     /// Residual of a model in some stretches, low-passed, one row a joint.
-    fn left(&self, model: &Model, spans: &[Span]) -> Result<Vec<Vec<f64>>, LogError> {
+    fn residual_of(&self, model: &Model, spans: &[Span]) -> Result<Vec<Vec<f64>>, LogError> {
         let joints = self.robot.joint_count();
         let mut all = vec![Vec::new(); joints];
         for span in spans {

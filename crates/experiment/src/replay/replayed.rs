@@ -66,10 +66,10 @@ impl Replayed {
             (window_s, nominal) = (shorter_s, roll(robots[0], shorter_s, "nominal"));
         }
         let extended = roll(robots[1], window_s, "extended");
-        let simulated = |replays: Vec<_>| -> Vec<Simulated> {
+        let simulate_all = |replays: Vec<_>| -> Vec<Simulated> {
             records.iter().zip(replays).map(|(r, replay)| Simulated::new(r, replay)).collect()
         };
-        let (nominal, extended) = (simulated(nominal), simulated(extended));
+        let (nominal, extended) = (simulate_all(nominal), simulate_all(extended));
         Self { window_s, simulated_s, nominal, extended }
     }
 }

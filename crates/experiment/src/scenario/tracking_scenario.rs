@@ -52,7 +52,7 @@ impl TrackingScenario {
         check.learn()?;
         let swept_gains = check.sweep()?;
         let motion = check.motion()?;
-        let resolved = resolved(document, &spec);
+        let resolved = resolve(document, &spec);
         Ok(Self { spec, plant, plant_file, loaded, motion, gains, swept_gains, resolved })
     }
 
@@ -63,7 +63,7 @@ impl TrackingScenario {
 
     /// The same with the softest gains of `robot.toml` that hold all these robots against gravity
     /// along the motion ([`tracking::holds`]), the stiffest where none do.
-    pub(crate) fn held(&self, robots: &[&Robot]) -> Self {
+    pub(crate) fn with_softest_gains(&self, robots: &[&Robot]) -> Self {
         let mut sets: Vec<(&String, &Vec<PdGain>)> = self.loaded.control.gain_sets.iter().collect();
         let stiffness = |gains: &[PdGain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
         sets.sort_by(|a, b| stiffness(a.1).total_cmp(&stiffness(b.1)));
@@ -92,7 +92,7 @@ impl TrackingScenario {
     }
 
     /// The scenario as one text that extends nothing and can be read from any folder.
-    pub fn resolved(&self) -> &str {
+    pub fn self_contained_text(&self) -> &str {
         &self.resolved
     }
 
@@ -107,7 +107,7 @@ impl TrackingScenario {
     }
 
     /// The robot as described, with its looks and gains.
-    pub fn loaded(&self) -> &Loaded {
+    pub fn loaded_robot(&self) -> &Loaded {
         &self.loaded
     }
 
@@ -232,7 +232,7 @@ pub fn motion_at(
 }
 
 /// The file of the plant, from any folder.
-fn resolved(document: &Document, spec: &TrackingSpec) -> String {
+fn resolve(document: &Document, spec: &TrackingSpec) -> String {
     let folder = document.directory_of(&KeyPath::root().key("plant"));
     let plant = folder.join(&spec.plant);
     with_plant(document, spec, plant.canonicalize().unwrap_or(plant))

@@ -73,21 +73,21 @@ impl Score {
     pub fn new(diagnosis: &Diagnosis, truth: &[Truth], seed: u64) -> Self {
         let mut findings: Vec<&Finding> = diagnosis.findings.iter().collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
-        let injected = |truth| Injected::new(truth, &findings, &diagnosis.ruled_out);
-        let injected: Vec<Injected> = truth.iter().map(injected).collect();
+        let find_injected = |truth| Injected::new(truth, &findings, &diagnosis.ruled_out);
+        let injected: Vec<Injected> = truth.iter().map(find_injected).collect();
         let among_first = |of: fn(&Injected) -> Option<usize>| match injected.len() {
             0 => findings.is_empty(),
             k => injected.iter().all(|p| of(p).is_some_and(|finding| finding < k)),
         };
         let is_true = |at: &EffectAt| injected.iter().any(|p| p.at == *at);
-        let excused = |finding: &Finding| {
+        let is_excused = |finding: &Finding| {
             let mut names = std::iter::once(&finding.at).chain(&finding.not_separable_from);
             let of_a_true_one = |f: &&&Finding| is_true(&f.at);
             let mut rivals =
                 findings.iter().filter(of_a_true_one).flat_map(|f| &f.not_separable_from);
             names.any(is_true) || rivals.any(|rival| *rival == finding.at)
         };
-        let stray = findings.iter().filter(|f| !excused(f)).map(|f| f.at.clone()).collect();
+        let stray = findings.iter().filter(|f| !is_excused(f)).map(|f| f.at.clone()).collect();
         Self {
             seed,
             looked_for: true,
@@ -102,13 +102,13 @@ impl Score {
     }
 
     /// Share of the nominal residual's power that the true findings explain.
-    pub fn explained(&self) -> f64 {
+    pub fn explained_share(&self) -> f64 {
         let own = self.injected.iter().filter_map(|p| p.finding);
         own.map(|finding| self.findings[finding].share_explained).sum()
     }
 
     /// Whether every injected effect is among the findings or their rivals.
-    pub fn found(&self) -> bool {
+    pub fn is_found(&self) -> bool {
         self.injected.iter().all(|p| p.one_of.is_some())
     }
 
@@ -116,7 +116,7 @@ impl Score {
     /// one is named in its place, and the diagnosis calls its size too small to be found.
     pub fn visible(&self) -> bool {
         let large = |p: &Injected| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
-        self.found() || !self.stray.is_empty() || self.injected.iter().all(large)
+        self.is_found() || !self.stray.is_empty() || self.injected.iter().all(large)
     }
 
     /// Whether the diagnosis leaves structure open and names no false effect: the right answer to

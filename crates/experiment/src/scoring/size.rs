@@ -53,7 +53,7 @@ impl Size {
 }
 
 fn on_truth_scale(truth: &Truth, value: f64, estimate: &Estimate) -> Estimated {
-    let injected = |number: f64| match statement_of(truth.effect, estimate.name) {
+    let to_injected_scale = |number: f64| match statement_of(truth.effect, estimate.name) {
         Stated::Added => number - estimate.nominal,
         Stated::Factor => number / estimate.nominal,
         Stated::Whole => number,
@@ -61,9 +61,9 @@ fn on_truth_scale(truth: &Truth, value: f64, estimate: &Estimate) -> Estimated {
     // The turn in which a phase lies means nothing.
     let turns = |number: f64| TAU * ((value - number) / TAU).round();
     let shift = if estimate.name == "phase" { turns(estimate.value) } else { 0.0 };
-    let on_its_scale = |interval: [f64; 2]| interval.map(|end| injected(end) + shift);
+    let on_its_scale = |interval: [f64; 2]| interval.map(|end| to_injected_scale(end) + shift);
     let [low, high] = on_its_scale(estimate.ci95);
-    let best = injected(estimate.value) + shift;
+    let best = to_injected_scale(estimate.value) + shift;
     let size = magnitude(truth, estimate.name);
     Estimated {
         value: best,

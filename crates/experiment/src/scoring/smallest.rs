@@ -52,7 +52,7 @@ mod tests {
         EffectAt { effect, joint: Some("elbow".to_owned()), link: None }
     }
 
-    fn ruled_out(effect: EffectKind, smallest: Option<f64>) -> RuledOut {
+    fn rule_out(effect: EffectKind, smallest: Option<f64>) -> RuledOut {
         RuledOut {
             at: at(effect),
             parameter: effect.entry().parameters[0].name,
@@ -67,18 +67,18 @@ mod tests {
         let kind = EffectKind::CoulombFriction;
         let truth = Truth::at_joint(kind, "elbow", &[("level", 0.5)]);
         let of = |ruled_out: &[RuledOut]| of_smallest(&truth, (&at(kind), &[]), ruled_out);
-        assert_eq!(of(&[ruled_out(kind, Some(0.25))]), Some(2.0));
-        assert_eq!(of(&[ruled_out(kind, None)]), Some(0.0));
-        assert_eq!(of(&[ruled_out(EffectKind::Backlash, Some(0.25))]), None);
+        assert_eq!(of(&[rule_out(kind, Some(0.25))]), Some(2.0));
+        assert_eq!(of(&[rule_out(kind, None)]), Some(0.0));
+        assert_eq!(of(&[rule_out(EffectKind::Backlash, Some(0.25))]), None);
 
         let kind = EffectKind::JointElasticity;
         let truth = Truth::at_joint(kind, "elbow", &[("stiffness", 50.0)]);
-        let of = |size| of_smallest(&truth, (&at(kind), &[]), &[ruled_out(kind, Some(size))]);
+        let of = |size| of_smallest(&truth, (&at(kind), &[]), &[rule_out(kind, Some(size))]);
         assert_eq!((of(100.0), of(25.0)), (Some(2.0), Some(0.5)));
 
         let kind = EffectKind::TorqueConstant;
         let truth = Truth::at_joint(kind, "elbow", &[("gain", 0.9)]);
-        let ratio = of_smallest(&truth, (&at(kind), &[]), &[ruled_out(kind, Some(0.05))]);
+        let ratio = of_smallest(&truth, (&at(kind), &[]), &[rule_out(kind, Some(0.05))]);
         assert!((ratio.unwrap() - 2.0).abs() < 1e-9, "a tenth from 1");
     }
 
@@ -107,6 +107,6 @@ mod tests {
     fn the_body_of_a_link_has_no_size_of_its_own() {
         let kind = EffectKind::InertialParameters;
         let truth = Truth::at_joint(kind, "elbow", &[("mass", 0.5)]);
-        assert_eq!(of_smallest(&truth, (&at(kind), &[]), &[ruled_out(kind, Some(0.1))]), None);
+        assert_eq!(of_smallest(&truth, (&at(kind), &[]), &[rule_out(kind, Some(0.1))]), None);
     }
 }

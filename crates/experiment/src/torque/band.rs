@@ -15,7 +15,7 @@ const GUARD: f64 = 4.0;
 /// The band in which models are compared: a zero-phase low-pass, and the two steps in which the
 /// rate of a log comes down to 2.5 cut-off frequencies.
 ///
-/// Rates and filters are those of `diagnosis::left_over`, so that errors of all models are of the
+/// Rates and filters are those of `diagnosis::unexplained_torque`, so that errors of all models are of the
 /// same samples.
 pub struct Band {
     /// Samples of a log to one of a column.

@@ -1,4 +1,4 @@
-use diagnosis::{LeftOver, left_over};
+use diagnosis::{LeftOver, unexplained_torque};
 use learner::{Mean, Model, Samples, TorqueModel};
 use logs::{
     LogError, LowPass, PrepareSettings, Prepared, PreparedRun, Run, centre_commands, prepare,
@@ -23,7 +23,7 @@ const ORDER: usize = 4;
 ///
 /// with `L` the low-pass of the diagnosis: what is faster is noise or vibration, which no model of
 /// the state predicts. A description of the robot predicts along the motion, with delays, springs
-/// and encoders that err ([`left_over`]), a learned model from the state at each instant.
+/// and encoders that err ([`unexplained_torque`]), a learned model from the state at each instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TorqueError {
     /// Name of the model.
@@ -45,7 +45,7 @@ pub fn torque_errors(
     test: &[Run],
 ) -> Result<Vec<TorqueError>, ExperimentError> {
     let mut prepared = prepare(test, &PrepareSettings::default())?;
-    centre_commands(scenario.robot(), &mut prepared.runs, scenario.loaded().control.rate_hz);
+    centre_commands(scenario.robot(), &mut prepared.runs, scenario.loaded_robot().control.rate_hz);
     let mut errors: Vec<TorqueError> = Vec::new();
     for kind in scenario.all_feedforward().into_iter().filter_map(|kind| kind.model()) {
         let is_new = errors.iter().all(|error| error.model != kind.name());
@@ -57,7 +57,7 @@ pub fn torque_errors(
 }
 
 /// RMS by joint of what a described robot leaves of runs (N m or N) while the joint moves, in the band
-/// of their motion ([`left_over`]): the nominal one, one that a diagnosis has extended, any.
+/// of their motion ([`unexplained_torque`]): the nominal one, one that a diagnosis has extended, any.
 ///
 /// A joint slower than 5 mrad/s (or mm/s) for .2 s is held by dry friction of any size up to its level,
 /// which no model predicts; these samples count nothing, and a joint that only stands has no error.
@@ -77,7 +77,8 @@ pub fn robot_error(
     let mut test = prepare(runs, &PrepareSettings::default())?;
     centre_commands(robot, &mut test.runs, control_rate_hz);
     let mut errors = TurningError::new(robot.joint_count());
-    for (run, rest) in test.runs.iter().zip(left_over(robot, &rest_speeds(&test), &test)?) {
+    for (run, rest) in test.runs.iter().zip(unexplained_torque(robot, &rest_speeds(&test), &test)?)
+    {
         errors.add(run, test.cutoff_hz, &rest.left)?;
     }
     Ok(errors.rms())
@@ -86,8 +87,10 @@ pub fn robot_error(
 impl TorqueError {
     fn of(model: &Model, test: &Prepared) -> Result<Self, LogError> {
         let left_over = match (&model.mean, &model.process) {
-            (Mean::Robot(torque), None) => left_over(torque.robot(), torque.rest_speed(), test)?,
-            _ => left_by(model, test)?,
+            (Mean::Robot(torque), None) => {
+                unexplained_torque(torque.robot(), torque.rest_speed(), test)?
+            }
+            _ => unexplained_by(model, test)?,
         };
         let mut sums = vec![Sums::default(); model.joints()];
         for run in left_over {
@@ -103,7 +106,7 @@ impl TorqueError {
 }
 
 /// What a learned model leaves of each run.
-fn left_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogError> {
+fn unexplained_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogError> {
     let of = |run: &PreparedRun| {
         let part = test.with_runs(vec![run.clone()]);
         let low_pass = LowPass::new(ORDER, test.cutoff_hz, run.rate_hz)?;

@@ -171,7 +171,7 @@ impl Writing {
         let scene = Scene {
             title: &title,
             robot,
-            looks: &scenario.loaded().looks,
+            looks: &scenario.loaded_robot().looks,
             arms: vec![
                 Arm { name: "measured", role: SceneRole::Actual },
                 Arm { name: "desired", role: SceneRole::Desired },

@@ -31,12 +31,13 @@ pub fn simulated_logs(
     progress: &dyn Progress,
 ) -> Result<Vec<Run>, ExperimentError> {
     let learn = scenario.learn();
-    let wanted = |name: &str| learn.train.iter().chain(&learn.regression).any(|run| run == name);
-    let runs = scenario.plant().runs().iter().filter(|run| wanted(&run.name));
+    let is_learned =
+        |name: &str| learn.train.iter().chain(&learn.regression).any(|run| run == name);
+    let runs = scenario.plant().runs().iter().filter(|run| is_learned(&run.name));
     let seconds: f64 = runs.map(|run| run.motion.duration_s()).sum();
     progress.begin(&format!("simulating {seconds:.0} s of motion to learn from"));
     let second = || progress.second();
-    Ok(simulator::simulate_only(scenario.plant(), &wanted, &second)?.runs)
+    Ok(simulator::simulate_only(scenario.plant(), &is_learned, &second)?.runs)
 }
 
 /// Tracks the motion of a scenario with everything that it feeds forward: on the virtual clock
@@ -75,7 +76,7 @@ pub(crate) fn controller(
 ) -> Result<Controller, ExperimentError> {
     let limits = scenario.robot().links().iter();
     let limits = limits.map(|link| link.joint.limits.effort.unwrap_or(f64::INFINITY)).collect();
-    let pairs = scenario.loaded().control.differentials.clone();
+    let pairs = scenario.loaded_robot().control.differentials.clone();
     let error_rate = match scenario.error_rate() {
         ErrorRateSpec::Reading => ErrorRate::Reading,
         ErrorRateSpec::FilteredDifference { cutoff_hz } => {
@@ -127,7 +128,7 @@ impl Parts<'_> {
         };
         let missing = || ExperimentError::NoModel { path: PathBuf::from(kind.name()), model: kind };
         if let (FeedforwardKind::Model(learner::ModelKind::Named), Some(named)) =
-            (self.kind, self.learned.named())
+            (self.kind, self.learned.named_torque())
         {
             let (robot, speeds) = (named.robot(), named.rest_speed());
             return Ok(Box::new(NamedFeedforward::new(robot, speeds, lead_s)?));

@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     /// Whole numbers that look drawn: a linear congruence.
-    fn drawn() -> impl FnMut() -> f64 {
+    fn random_numbers() -> impl FnMut() -> f64 {
         let mut state = 1_u64;
         move || {
             state = state
@@ -75,15 +75,15 @@ mod tests {
         }
     }
 
-    fn sorted(mut time: Vec<f64>) -> Vec<f64> {
+    fn sort(mut time: Vec<f64>) -> Vec<f64> {
         time.sort_unstable_by(f64::total_cmp);
         time
     }
 
     #[test]
     fn stamps_that_are_late_by_more_than_a_step_are_put_on_an_even_clock() {
-        let mut number = drawn();
-        let late = sorted((0..5000).map(|k| 0.002 * f64::from(k) + 0.01 * number()).collect());
+        let mut number = random_numbers();
+        let late = sort((0..5000).map(|k| 0.002 * f64::from(k) + 0.01 * number()).collect());
         let even = even_clock(&late).unwrap();
         assert!((even.step_s / 0.002 - 1.0).abs() < 1e-3 && even.largest_s < 0.01, "{even:?}");
         // The mean delay stays.
@@ -94,11 +94,11 @@ mod tests {
 
     #[test]
     fn stamps_that_can_be_believed_stay() {
-        let mut number = drawn();
+        let mut number = random_numbers();
         let slightly: Vec<f64> =
             (0..5000).map(|k| 0.002 * f64::from(k) + 2e-4 * number()).collect();
         assert_eq!(even_clock(&slightly), None);
-        let mut gap = sorted((0..5000).map(|k| 0.002 * f64::from(k) + 0.01 * number()).collect());
+        let mut gap = sort((0..5000).map(|k| 0.002 * f64::from(k) + 0.01 * number()).collect());
         gap[2500..].iter_mut().for_each(|t| *t += 1.0);
         assert_eq!(even_clock(&gap), None);
         // Rows that come when they like.

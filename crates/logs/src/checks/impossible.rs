@@ -237,7 +237,7 @@ mod tests {
         (0..1000).map(|k| (0.01 * f64::from(k), (0.02 * f64::from(k)).sin())).unzip()
     }
 
-    fn found(q: &[f64]) -> Vec<usize> {
+    fn impossible_samples(q: &[f64]) -> Vec<usize> {
         let (time, _) = swing();
         of_position(&joint(), &time[..q.len()], q).iter().map(|i| i.sample).collect()
     }
@@ -245,13 +245,13 @@ mod tests {
     #[test]
     fn samples_out_of_reach_are_found_whatever_their_size_and_place() {
         let (_, clean) = swing();
-        assert_eq!(found(&clean), [0_usize; 0]);
+        assert_eq!(impossible_samples(&clean), [0_usize; 0]);
         // None of them a number of full turns from its neighbours.
         for size in [3.0, 103.0, 1002.0, 1e6, 4_294_967_296.0, 1e300] {
             for rows in [vec![500], vec![0], vec![999], vec![300, 301, 302], vec![20, 22]] {
                 let mut q = clean.clone();
                 rows.iter().for_each(|&k| q[k] = size);
-                assert_eq!(found(&q), rows, "{size}");
+                assert_eq!(impossible_samples(&q), rows, "{size}");
             }
         }
     }
@@ -261,19 +261,19 @@ mod tests {
     fn a_step_that_lasts_is_none() {
         let (_, mut q) = swing();
         q[500..].iter_mut().for_each(|q| *q += 1.5);
-        assert_eq!(found(&q), [0_usize; 0]);
+        assert_eq!(impossible_samples(&q), [0_usize; 0]);
         q[500..].iter_mut().for_each(|q| *q += 1e4);
-        assert_eq!(found(&q).len(), 500);
+        assert_eq!(impossible_samples(&q).len(), 500);
     }
 
     #[test]
     fn degrees_and_full_turns_are_none() {
         let (_, clean) = swing();
         let degrees: Vec<f64> = clean.iter().map(|q| q.to_degrees()).collect();
-        assert_eq!(found(&degrees), [0_usize; 0]);
+        assert_eq!(impossible_samples(&degrees), [0_usize; 0]);
         let mut wrapped = clean;
         wrapped[300..303].iter_mut().for_each(|q| *q -= std::f64::consts::TAU);
-        assert_eq!(found(&wrapped), [0_usize; 0]);
+        assert_eq!(impossible_samples(&wrapped), [0_usize; 0]);
     }
 
     #[test]

@@ -14,11 +14,11 @@ const APART: f64 = 0.5;
 ///
 /// A link position that is still apart from the motor after that is left unchanged: it is from another link.
 pub(crate) fn to_turn_of(position: &[f64], link: Vec<f64>) -> Vec<f64> {
-    let turned = |(q, link): (&f64, &f64)| {
+    let to_turn = |(q, link): (&f64, &f64)| {
         let turns = ((q - link) / TAU).round();
         if turns.abs() > 0.0 { link + TAU * turns } else { *link }
     };
-    let found: Vec<f64> = position.iter().zip(&link).map(turned).collect();
+    let found: Vec<f64> = position.iter().zip(&link).map(to_turn).collect();
     let keeps = found.iter().zip(position).all(|(link, q)| (link - q).abs() < APART);
     if keeps { found } else { link }
 }

@@ -79,7 +79,7 @@ impl<'a> Finder<'_, 'a> {
 
     fn absent(&self, joint: &str, channel: Channel, column: String, robot: &Robot) -> LogError {
         if self.is_unnamed {
-            return self.unnamed();
+            return self.no_names();
         }
         let prefix = format!("{joint}.");
         let own = |name: &&String| name.starts_with(&prefix);
@@ -115,13 +115,13 @@ impl<'a> Finder<'_, 'a> {
         }
     }
 
-    fn unnamed(&self) -> LogError {
+    fn no_names(&self) -> LogError {
         LogError::NoNames { path: self.path.to_owned(), columns: self.names.len() }
     }
 
     pub(crate) fn no_column(&self, column: &str, purpose: &str) -> LogError {
         if self.is_unnamed {
-            return self.unnamed();
+            return self.no_names();
         }
         FormatError::NoColumn {
             path: self.path.to_owned(),

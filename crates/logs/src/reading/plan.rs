@@ -64,7 +64,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The columns that become signals.
-    pub(crate) fn needed(&self) -> Needed<'_> {
+    pub(crate) fn needed_columns(&self) -> Needed<'_> {
         let signals = self.joints.iter().flatten().map(|(_, source)| source.column.as_str());
         let excerpt = self.excerpt.map(|excerpt| {
             ExcerptFilter::new(excerpt, self.time.mapped.map(MappedColumn::time_scale))
@@ -241,7 +241,7 @@ impl<'a> Plan<'a> {
         (time, table): (&[f64], &Table),
         channels: &Channels,
     ) -> Result<(), LogError> {
-        let unstated = |channel: Channel| {
+        let source_without_unit = |channel: Channel| {
             let found = sources.iter().find(|(c, _)| *c == channel).map(|(_, source)| source);
             found.filter(|s| s.mapped.is_none_or(|m| m.unit.is_none()))
         };
@@ -256,12 +256,12 @@ impl<'a> Plan<'a> {
                 expectation,
             }
         };
-        if let Some(source) = unstated(Channel::Position)
+        if let Some(source) = source_without_unit(Channel::Position)
             && let Some(expectation) = degrees::evidence(joint, time, channels)
         {
             return Err(looks(source, &channels.position, expectation));
         }
-        if let Some(source) = unstated(Channel::LinkPosition)
+        if let Some(source) = source_without_unit(Channel::LinkPosition)
             && let Some(link) = &channels.link_position
             && let Some(expectation) = degrees::link_evidence(joint, &channels.position, link)
         {

@@ -90,7 +90,7 @@ fn read(
     let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
     let options = &ReadOptions { map: map.as_ref(), ..*options };
     let file = open(path, &options.request(), options.dataset, damage)?;
-    read_opened((path, file.as_ref()), robot, options, damage)
+    read_open_log((path, file.as_ref()), robot, options, damage)
 }
 
 /// The run that columns in memory hold, read and checked as [`read_run`] does it with a file:
@@ -121,20 +121,20 @@ pub fn run_of_columns(
     let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
     let options = &ReadOptions { map: map.as_ref(), ..*options };
     let file = Columns(columns);
-    let run = read_opened((Path::new(name), &file), robot, options, &mut Damage::Refused)?;
+    let run = read_open_log((Path::new(name), &file), robot, options, &mut Damage::Refused)?;
     // A dot in the name begins no extension.
     Ok(Run { name: name.to_owned(), ..run })
 }
 
 /// Reads the run of an open log.
-fn read_opened(
+fn read_open_log(
     (path, file): (&Path, &dyn Opened),
     robot: &Robot,
     options: &ReadOptions,
     damage: &mut Damage,
 ) -> Result<Run, LogError> {
     let plan = Plan::new(path, file, robot, options)?;
-    let mut table = file.load(&plan.needed(), damage)?;
+    let mut table = file.load(&plan.needed_columns(), damage)?;
     plan.check_excerpt(&table)?;
     plan.check(&mut table, damage)?;
 

@@ -97,18 +97,18 @@ impl Agreement {
 
 /// Standard error of a lag (s), times the root of the number of independent samples.
 fn lag_std(m: &[f64], d: &[f64], rate_hz: f64, (reach, lag): (usize, usize), scale: f64) -> f64 {
-    let shifted = |k: usize| k + reach - lag;
+    let shift = |k: usize| k + reach - lag;
     let rows = reach + 1..m.len().min(d.len()) - reach - 1;
-    let of = |f: &dyn Fn(usize) -> f64| centred(rows.clone().map(f).collect());
-    let signal = of(&|k| d[shifted(k)]);
-    let rest = of(&|k| m[k] - scale * d[shifted(k)]);
-    let slope = of(&|k| 0.5 * rate_hz * (d[shifted(k) + 1] - d[shifted(k) - 1]));
+    let of = |f: &dyn Fn(usize) -> f64| centre(rows.clone().map(f).collect());
+    let signal = of(&|k| d[shift(k)]);
+    let rest = of(&|k| m[k] - scale * d[shift(k)]);
+    let slope = of(&|k| 0.5 * rate_hz * (d[shift(k) + 1] - d[shift(k) - 1]));
     let (ss, sd, dd) = (dot(&slope, &slope), dot(&slope, &signal), dot(&signal, &signal));
     let free = (ss - sd * sd / dd).max(f64::MIN_POSITIVE);
     (dot(&rest, &rest) / free).sqrt() / scale.abs()
 }
 
-fn centred(mut x: Vec<f64>) -> Vec<f64> {
+fn centre(mut x: Vec<f64>) -> Vec<f64> {
     let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
     x.iter_mut().for_each(|v| *v -= mean);
     x

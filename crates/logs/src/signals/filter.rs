@@ -93,10 +93,10 @@ impl LowPass {
         assert!(signals.iter().all(|x| x.len() == length), "signals differ in length");
         let Some(last) = length.checked_sub(1) else { return };
         let pad = self.padding.min(last);
-        let reflected = |end: usize, t: usize| signals.each_ref().map(|x| 2.0 * x[end] - x[t]);
-        let before = (1..=pad).rev().map(|k| reflected(0, k));
+        let reflect = |end: usize, t: usize| signals.each_ref().map(|x| 2.0 * x[end] - x[t]);
+        let before = (1..=pad).rev().map(|k| reflect(0, k));
         let inside = (0..length).map(|t| signals.each_ref().map(|x| x[t]));
-        let after = (1..=pad).map(|k| reflected(last, last - k));
+        let after = (1..=pad).map(|k| reflect(last, last - k));
         let mut padded: Vec<[f64; L]> = before.chain(inside).chain(after).collect();
         let (pairs, rest) = self.sections.as_chunks::<2>();
         for pair in pairs {

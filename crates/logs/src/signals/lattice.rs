@@ -89,7 +89,7 @@ mod tests {
         0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t + 1.0).cos()
     }
 
-    fn counted(step: f64, offset: f64) -> Vec<f64> {
+    fn quantise(step: f64, offset: f64) -> Vec<f64> {
         (0..8000).map(|k| step * (swing(k) / step).round() + offset).collect()
     }
 
@@ -102,13 +102,13 @@ mod tests {
     #[test]
     fn steps_are_found_whatever_their_offset_and_the_digits_of_the_file() {
         for h in [2.914e-3, 3.8e-4, 2.4e-5] {
-            close(&counted(h, 0.0), h);
-            close(&counted(h, 0.1234), h);
+            close(&quantise(h, 0.0), h);
+            close(&quantise(h, 0.1234), h);
             let as_f32: Vec<f64> =
-                counted(h, 0.1234).iter().map(|x| f64::from(*x as f32)).collect();
+                quantise(h, 0.1234).iter().map(|x| f64::from(*x as f32)).collect();
             close(&as_f32, h);
             let decimals =
-                counted(h, 0.0).iter().map(|x| (1e6 * x).round() / 1e6).collect::<Vec<_>>();
+                quantise(h, 0.0).iter().map(|x| (1e6 * x).round() / 1e6).collect::<Vec<_>>();
             close(&decimals, h);
         }
     }

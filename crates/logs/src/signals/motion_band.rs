@@ -72,7 +72,7 @@ impl BandInputs<'_> {
         for (k, (piece, moves)) in self.pieces.iter().zip(self.moving).enumerate() {
             for (j, joint) in piece.joints.iter().enumerate().filter(|(j, _)| moves[*j]) {
                 let velocity = velocity(joint, piece.rate_hz, &mut fourier);
-                let counted = counted(&velocity, &self.noise[j][k]);
+                let counted = motion_density(&velocity, &self.noise[j][k]);
                 sum.add(&counted);
                 accelerations[j].add(&counted, piece.duration_s());
             }
@@ -130,8 +130,8 @@ fn velocity(joint: &UniformJoint, rate_hz: f64, fourier: &mut FourierTransform) 
 }
 
 /// Density of a velocity where it counts as motion, zero elsewhere.
-fn counted(velocity: &Density, noise: &ChannelNoise) -> Density {
-    let q = velocity.integrated();
+fn motion_density(velocity: &Density, noise: &ChannelNoise) -> Density {
+    let q = velocity.integrate();
     let end = end_of_motion(&q, noise);
     let least = LEAST_DENSITY * velocity.bins.iter().copied().fold(0.0, f64::max);
     let counts = |k: usize, p: f64| {

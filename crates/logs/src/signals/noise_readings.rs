@@ -77,7 +77,7 @@ impl NoiseReadings<'_> {
             });
             flats.sum()
         };
-        let is_own = octaves(Density::integrated) <= octaves(Density::clone);
+        let is_own = octaves(Density::integrate) <= octaves(Density::clone);
         let own = self.of(joint, |r| r.velocity.as_deref(), |p| p.velocity.as_deref());
         (is_own && own.source != NoiseSource::Unknown).then_some(own)
     }

@@ -74,7 +74,7 @@ impl Density {
     }
 
     /// The same divided by `(2 pi f)^2`: that of the signal whose derivative this one is.
-    pub(crate) fn integrated(&self) -> Self {
+    pub(crate) fn integrate(&self) -> Self {
         let over = |(k, p): (usize, &f64)| match k {
             0 => 0.0,
             _ => p / (TAU * k as f64 * self.step_hz).powi(2),

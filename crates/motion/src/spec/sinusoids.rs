@@ -91,7 +91,7 @@ impl Sinusoids {
                     (room / reach).min(highest / speed)
                 }
             };
-            joints.push(HarmonicSeries { offset, ..unit.scaled(scale) });
+            joints.push(HarmonicSeries { offset, ..unit.times(scale) });
         }
         site.part(Curve::Harmonics(Harmonics { joints }), clock)
     }

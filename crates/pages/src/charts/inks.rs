@@ -69,12 +69,12 @@ impl Palette {
     }
 
     /// The colour of the model with the findings.
-    pub fn extended(&self) -> String {
+    pub fn extended_model(&self) -> String {
         self.of(Ink::Role(Role::Extended))
     }
 
     /// The colour of measured signals.
-    pub fn measured(&self) -> String {
+    pub fn measurement(&self) -> String {
         self.of(Ink::Role(Role::Measured))
     }
 }

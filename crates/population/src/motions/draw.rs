@@ -34,7 +34,7 @@ pub(crate) fn draw(
             MotionClass::PointToPoint => postures::point_to_point(&ground, place.length_s, random),
             MotionClass::PickAndPlace => postures::pick_and_place(&ground, place.length_s, random),
             MotionClass::Sweep => sweep(&ground, place.length_s, random),
-            MotionClass::LedByHand => postures::led_by_hand(&ground, place.length_s, random),
+            MotionClass::LedByHand => postures::lead_by_hand(&ground, place.length_s, random),
             MotionClass::SwingUp => by_joint::swing_up(&ground, place.length_s, random),
             MotionClass::Repeated => task(&ground, place.length_s, random),
         };

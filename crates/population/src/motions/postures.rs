@@ -136,7 +136,7 @@ pub(crate) fn pick_and_place(
 }
 
 /// A path as a hand leads it: slow, uneven, passed without a stop, with pauses.
-pub(crate) fn led_by_hand(
+pub(crate) fn lead_by_hand(
     ground: &Ground<'_>,
     length_s: f64,
     random: &mut ChaCha8Rng,

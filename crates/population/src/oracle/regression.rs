@@ -174,7 +174,11 @@ mod tests {
         TorqueColumn { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 }
     }
 
-    fn seen(runs: &[SeenRun], columns: &[TorqueColumn], noise: &[OracleNoise]) -> Vec<Strength> {
+    fn strengths_of(
+        runs: &[SeenRun],
+        columns: &[TorqueColumn],
+        noise: &[OracleNoise],
+    ) -> Vec<Strength> {
         let scale = effort_rms(runs, 0);
         strengths(runs, columns, 1, noise, &[scale])
     }
@@ -193,17 +197,21 @@ mod tests {
         let noises = [noise(0.5, 0.0, 1.0)];
         let expected = 2.0 * (ROWS as f64 / 2.0).sqrt() / 0.5;
         let cosine = itself(wave(|t| (TAU * t).cos()));
-        let [told] = seen(&runs, &[itself(sine(2.0)), cosine], &noises)[..] else { panic!() };
+        let [told] = strengths_of(&runs, &[itself(sine(2.0)), cosine], &noises)[..] else {
+            panic!()
+        };
         assert!((told.sigmas / expected - 1.0).abs() < 1e-3, "{} for {expected}", told.sigmas);
         assert!((told.share - 1.0).abs() < 1e-6 && (told.torque - 1.0).abs() < 1e-6);
         assert!(told.visible());
 
         let beside = itself(wave(|t| (TAU * t).sin() + (TAU * t).cos()));
-        let [told] = seen(&runs, &[itself(sine(2.0)), beside], &noises)[..] else { panic!() };
+        let [told] = strengths_of(&runs, &[itself(sine(2.0)), beside], &noises)[..] else {
+            panic!()
+        };
         assert!((told.sigmas / expected - 0.5_f64.sqrt()).abs() < 1e-3);
 
         let same = itself(sine(1.0));
-        let [told] = seen(&runs, &[itself(sine(2.0)), same], &noises)[..] else { panic!() };
+        let [told] = strengths_of(&runs, &[itself(sine(2.0)), same], &noises)[..] else { panic!() };
         assert!(told.sigmas < 1e-3 * expected && !told.visible());
     }
 
@@ -214,7 +222,7 @@ mod tests {
         let fast = |hz: f64| vec![itself(wave(move |t| (TAU * hz * t).sin()))];
         let sigmas = |hz, sigma_q| {
             let noises = [noise(1e-3, sigma_q, 2.0)];
-            seen(&runs, &fast(hz), &noises)[0].sigmas
+            strengths_of(&runs, &fast(hz), &noises)[0].sigmas
         };
         let carried = |hz: f64| 2.0 * (TAU * hz).powi(2) * 1e-3;
         for hz in [1.0, 10.0] {
@@ -232,7 +240,7 @@ mod tests {
         let noises = [noise(0.1, 0.0, 1.0)];
         let known = |deviation: f64| TorqueColumn { prior: deviation.powi(-2), ..itself(sine()) };
         let sigmas = |deviation| {
-            seen(&[run(sine())], &[itself(sine()), known(deviation)], &noises)[0].sigmas
+            strengths_of(&[run(sine())], &[itself(sine()), known(deviation)], &noises)[0].sigmas
         };
         // One Gaussian of deviation d on top of another of 1 / sigmas.
         let alone = (ROWS as f64 / 2.0).sqrt() / 0.1;

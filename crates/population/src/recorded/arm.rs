@@ -202,7 +202,7 @@ impl RecordedArm {
         self.entry.effort
     }
 
-    pub(super) fn held_out(&self) -> HeldOut {
+    pub(super) fn held_out_recordings(&self) -> HeldOut {
         self.entry.held_out
     }
 

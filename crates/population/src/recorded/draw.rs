@@ -41,7 +41,7 @@ pub(super) fn draw(robot: &Robot, runs: &[Run], random: &mut ChaCha8Rng) -> Opti
     let law = some_law(&measured, joint, random);
     let share = log_uniform(SHARES, random);
     let unit = Transplant { law, joint };
-    let of_unit = measured.share(&unit.added(robot, runs));
+    let of_unit = measured.share(&unit.added_torque(robot, runs));
     let factor = if of_unit > 0.0 { share / of_unit } else { 1.0 };
     Some(Transplant { law: within_bounds(law.times(factor)), joint })
 }

@@ -38,12 +38,12 @@ impl Transplant {
     /// velocity, its direction and the acceleration of the same joint may explain it instead, and noise is estimated
     /// from changes of the effort within 60 ms. Joints that move less than .1 rad or 1 cm do not count.
     pub fn strength(&self, robot: &Robot, runs: &[Run]) -> Strength {
-        Measured::new(robot, runs).strength(&self.added(robot, runs), self.own())
+        Measured::new(robot, runs).strength(&self.added_torque(robot, runs), self.own())
     }
 
     /// Its torque in runs. A skew acts on efforts averaged over 20 ms to either side, so that shifted noise does
     /// not count.
-    pub(super) fn added(&self, robot: &Robot, runs: &[Run]) -> Added {
+    pub(super) fn added_torque(&self, robot: &Robot, runs: &[Run]) -> Added {
         let added = |run: &Run| match self.law {
             AddedLaw::Late { .. } => self.law.torque(robot, &smooth(run), self.joint),
             _ => self.law.torque(robot, run, self.joint),

@@ -38,7 +38,7 @@ pub struct RecordedTrial {
 ///
 /// [`PopulationError::OriginSimulated`], [`PopulationError::NoRecordedLogs`], [`PopulationError::NothingMoves`], and
 /// errors of reading a robot or a log.
-pub fn draw_recorded(
+pub fn draw_recorded_trial(
     data: &Path,
     origin: Origin,
     seed: u64,
@@ -54,7 +54,7 @@ pub fn draw_recorded(
     let arm = &arms[random.random_range(0..arms.len())];
     let robot = arm.robot().load()?.robot;
     let (used, steps) = arm.read(&robot)?;
-    let split = split(arm.held_out(), &used, random.random_range(0..arm.splits()));
+    let split = split(arm.held_out_recordings(), &used, random.random_range(0..arm.splits()));
     let mut trial = plain_trial(arm, &robot, &steps, split);
     trial.sheet.seed = seed;
     if origin == Origin::Transplant {

@@ -5,7 +5,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use crate::corner::Origin;
 use crate::error::PopulationError;
-use crate::recorded::trial::draw_recorded;
+use crate::recorded::trial::draw_recorded_trial;
 use crate::spec::{PopulationSpec, RecordedSpec};
 use crate::trial::make::{make, write_runs};
 
@@ -14,7 +14,7 @@ use crate::trial::make::{make, write_runs};
 ///
 /// # Errors
 ///
-/// As [`make`] and [`draw_recorded`].
+/// As [`make`] and [`draw_recorded_trial`].
 pub fn make_any(
     spec: &PopulationSpec,
     origin: Origin,
@@ -24,18 +24,18 @@ pub fn make_any(
     std::fs::create_dir_all(folder).map_err(PopulationError::of_folder(folder))?;
     match (origin, &spec.recorded) {
         (Origin::Simulated, _) | (_, None) => make(spec, seed, folder).map(|_| ()),
-        (_, Some(recorded)) => take_recorded(recorded, origin, seed, folder),
+        (_, Some(recorded)) => make_recorded_trial(recorded, origin, seed, folder),
     }
 }
 
-fn take_recorded(
+fn make_recorded_trial(
     recorded: &RecordedSpec,
     origin: Origin,
     seed: u64,
     folder: &Path,
 ) -> Result<(), PopulationError> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let trial = draw_recorded(&recorded.data, origin, seed, &mut random)?;
+    let trial = draw_recorded_trial(&recorded.data, origin, seed, &mut random)?;
     let nominal = folder.join("nominal");
     std::fs::create_dir_all(&nominal).map_err(PopulationError::of_folder(&nominal))?;
     trial.robot.write(&nominal)?;

@@ -292,7 +292,7 @@ impl Draft {
         let scales = seen.scales(&self.truth.robot, &self.noise);
         if let Some(spoilt) = spoilt {
             let clean = silent(&scenario, &|name| name != HELD_OUT)?;
-            strangers.push(spoilt.as_unnamed(&self.truth.robot, &clean, &scales));
+            strangers.push(spoilt.to_true_stranger(&self.truth.robot, &clean, &scales));
             spoilt.spoil(&self.truth.robot, &mut noisy.runs);
         }
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
@@ -315,7 +315,7 @@ impl Draft {
     /// The scenario with a path to the robot beside it, so that the folder can be moved.
     fn portable(&self, scenario: &Scenario) -> String {
         let file = self.truth_file.canonicalize().unwrap_or(self.truth_file.clone());
-        scenario.resolved().replace(&file.display().to_string(), "robot.toml")
+        scenario.self_contained_text().replace(&file.display().to_string(), "robot.toml")
     }
 
     fn corner(&self, runs: &[Run]) -> Corner {

@@ -51,14 +51,14 @@ pub struct LengthScale {
 }
 
 impl ResidualModel {
-    fn used(&self) -> impl Iterator<Item = &ResidualJointRow> {
+    fn used_joints(&self) -> impl Iterator<Item = &ResidualJointRow> {
         self.joints.iter().filter(|joint| joint.is_used)
     }
 
     /// What it is worth, in a sentence.
     pub(crate) fn sentence(&self) -> String {
         let at = |j: &ResidualJointRow| format!("{} at {}", percent(j.share), j.name);
-        let shares: Vec<String> = self.used().map(at).collect();
+        let shares: Vec<String> = self.used_joints().map(at).collect();
         if shares.is_empty() {
             return "On held-out data a Gaussian process predicts nothing of what is left: \
                     the residual model is the extended model"
@@ -77,7 +77,7 @@ impl ResidualModel {
 
     /// The joint with this name, if the model is used there.
     pub(crate) fn used_at(&self, name: &str) -> Option<&ResidualJointRow> {
-        self.used().find(|joint| joint.name == name)
+        self.used_joints().find(|joint| joint.name == name)
     }
 }
 

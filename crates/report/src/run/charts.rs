@@ -71,7 +71,7 @@ impl RunReport<'_> {
     }
 
     /// The errors of the tracking with everything that was fed forward, as dots.
-    pub(crate) fn all_tracked(&self) -> Result<String, ReportError> {
+    pub(crate) fn tracking_dots(&self) -> Result<String, ReportError> {
         let error = |rms: &Option<Vec<f64>>, j: usize| {
             let rms = rms.as_ref().and_then(|rms| rms.get(j)).copied();
             1e3 * rms.unwrap_or(f64::NAN)

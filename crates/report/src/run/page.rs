@@ -67,7 +67,7 @@ impl RunReport<'_> {
             tables: self.tables()?,
             motion: self.motion,
             claims: claim_rows(&metrics.claims, self.tracked_unit()),
-            all_tracked: self.all_tracked()?,
+            all_tracked: self.tracking_dots()?,
             sections: &summary.sections,
             motions: &summary.motions,
             next: self.next,

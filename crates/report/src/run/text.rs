@@ -39,7 +39,7 @@ impl RunReport<'_> {
         let labels: Vec<String> = rows.iter().map(|row| row[0].clone()).collect();
         let column = |header: &str, of: usize| {
             let cells: Vec<String> = rows.iter().map(|row| row[of].clone()).collect();
-            left(header, cells)
+            left_column(header, cells)
         };
         if !rows.is_empty() {
             out.push_str(&text_grid("", &labels, &[column("put in", 1), column("found", 2)]));
@@ -102,7 +102,7 @@ impl RunReport<'_> {
 }
 
 /// A column whose cells stand to the left.
-fn left(header: &str, cells: Vec<String>) -> GridColumn {
+fn left_column(header: &str, cells: Vec<String>) -> GridColumn {
     let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
     let width = width.max(header.chars().count());
     let fill = |text: &str| format!("{text:<width$}");

@@ -87,7 +87,8 @@ impl TrackingComparison {
 
     /// The positions of one joint over the first ten seconds.
     fn motion_of(&self, joint: usize) -> Chart {
-        let desired = Series::of(Role::Desired, CurveShape::Line(self.desired(joint).to_vec()));
+        let desired =
+            Series::of(Role::Desired, CurveShape::Line(self.desired_positions(joint).to_vec()));
         let models = self.models.iter().zip(self.inks()).map(|(model, ink)| Series {
             name: model.name.clone(),
             ink,
@@ -117,7 +118,7 @@ impl TrackingComparison {
     }
 
     /// The desired positions of a joint, of the longest run.
-    fn desired(&self, joint: usize) -> &[[f64; 2]] {
+    fn desired_positions(&self, joint: usize) -> &[[f64; 2]] {
         let runs = self.models.iter().filter_map(|model| model.first_seconds.desired.get(joint));
         runs.max_by_key(|points| points.len()).map_or(&[], Vec::as_slice)
     }

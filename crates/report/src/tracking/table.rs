@@ -95,7 +95,7 @@ impl TrackingComparison {
             percent_range(&shares(&model.feedback_rms_nm, &model.effort_rms_nm)),
             percent(jumps.into_iter().reduce(f64::max).unwrap_or(f64::NAN)),
             significant(model.prediction_us, TABLE_DIGITS),
-            model.timing.as_ref().map_or("-".to_owned(), missed),
+            model.timing.as_ref().map_or("-".to_owned(), missed_deadlines),
         ];
         let shown = costs.into_iter().take(self.cost_labels().len());
         shown.map(|cost| Cell::plain(cost + " ")).collect()
@@ -150,7 +150,7 @@ fn shares(parts: &[f64], wholes: &[f64]) -> Vec<f64> {
 }
 
 /// Deadlines that a loop missed, as a share of all.
-fn missed(timing: &WallTiming) -> String {
+fn missed_deadlines(timing: &WallTiming) -> String {
     percent(timing.missed_deadlines as f64 / timing.ticks as f64)
 }
 

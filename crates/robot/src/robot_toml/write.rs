@@ -112,35 +112,35 @@ fn gravity(new: &Robot, old: &Robot) -> Option<[f64; 3]> {
 fn joint_entry(new: &Link, old: &Link, names: &[&str], gain: Option<PdGain>) -> JointEntry {
     let (a, b) = (&new.actuator, &old.actuator);
     let (forward, backward) = (
-        if_changed(a.coulomb_forward, b.coulomb_forward),
-        if_changed(a.coulomb_backward, b.coulomb_backward),
+        changed_number(a.coulomb_forward, b.coulomb_forward),
+        changed_number(a.coulomb_backward, b.coulomb_backward),
     );
-    let both = forward.filter(|f| backward.is_some_and(|b| if_changed(*f, b).is_none()));
+    let both = forward.filter(|f| backward.is_some_and(|b| changed_number(*f, b).is_none()));
     JointEntry {
-        rotor_inertia_kg_m2: if_changed(a.rotor_inertia, b.rotor_inertia),
-        viscous_nm_s_per_rad: if_changed(a.viscous, b.viscous),
+        rotor_inertia_kg_m2: changed_number(a.rotor_inertia, b.rotor_inertia),
+        viscous_nm_s_per_rad: changed_number(a.viscous, b.viscous),
         coulomb_nm: both,
         coulomb_forward_nm: forward.filter(|_| both.is_none()),
         coulomb_backward_nm: backward.filter(|_| both.is_none()),
-        spring_stiffness_nm_per_rad: if_changed(a.spring_stiffness, b.spring_stiffness),
-        spring_rest_rad: if_changed(a.spring_rest, b.spring_rest),
-        spring_cubic_nm_per_rad3: if_changed(a.spring_cubic, b.spring_cubic),
-        spring_hysteresis_nm: if_changed(a.spring_hysteresis, b.spring_hysteresis),
-        torque_gain: if_changed(a.torque_gain, b.torque_gain),
-        torque_offset_nm: if_changed(a.torque_offset, b.torque_offset),
-        backlash_rad: if_changed(a.backlash, b.backlash),
+        spring_stiffness_nm_per_rad: changed_number(a.spring_stiffness, b.spring_stiffness),
+        spring_rest_rad: changed_number(a.spring_rest, b.spring_rest),
+        spring_cubic_nm_per_rad3: changed_number(a.spring_cubic, b.spring_cubic),
+        spring_hysteresis_nm: changed_number(a.spring_hysteresis, b.spring_hysteresis),
+        torque_gain: changed_number(a.torque_gain, b.torque_gain),
+        torque_offset_nm: changed_number(a.torque_offset, b.torque_offset),
+        backlash_rad: changed_number(a.backlash, b.backlash),
         elasticity_nm_per_rad: a.elasticity,
-        actuator_delay_ms: if_changed(a.delay_s, b.delay_s).map(milliseconds),
+        actuator_delay_ms: changed_number(a.delay_s, b.delay_s).map(milliseconds),
         stribeck_excess_nm: a.stribeck.map(|s| s.excess),
         stribeck_velocity_rad_per_s: a.stribeck.map(|s| s.velocity),
-        load_friction: if_changed(a.load_friction, b.load_friction),
+        load_friction: changed_number(a.load_friction, b.load_friction),
         presliding_rad: a.presliding,
         presliding_damping_nm_s_per_rad: a.presliding_damping,
-        actuator_lag_ms: if_changed(a.lag_s, b.lag_s).map(milliseconds),
-        effort_skew_ms: if_changed(a.effort_skew_s, b.effort_skew_s).map(milliseconds),
-        encoder_offset_rad: if_changed(a.encoder_offset, b.encoder_offset),
-        transmission_ratio: if_changed(a.transmission_ratio, b.transmission_ratio),
-        torque_limit_nm: if_changed(
+        actuator_lag_ms: changed_number(a.lag_s, b.lag_s).map(milliseconds),
+        effort_skew_ms: changed_number(a.effort_skew_s, b.effort_skew_s).map(milliseconds),
+        encoder_offset_rad: changed_number(a.encoder_offset, b.encoder_offset),
+        transmission_ratio: changed_number(a.transmission_ratio, b.transmission_ratio),
+        torque_limit_nm: changed_number(
             new.joint.limits.effort.unwrap_or(f64::INFINITY),
             old.joint.limits.effort.unwrap_or(f64::INFINITY),
         ),
@@ -207,6 +207,6 @@ fn milliseconds(seconds: f64) -> f64 {
 }
 
 /// The new number, where it is not the old one to the last bit.
-fn if_changed(new: f64, old: f64) -> Option<f64> {
+fn changed_number(new: f64, old: f64) -> Option<f64> {
     new.total_cmp(&old).is_ne().then_some(new)
 }

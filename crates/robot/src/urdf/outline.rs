@@ -89,7 +89,7 @@ pub(super) fn outline(text: &str) -> Result<Outline, RobotError> {
             Ok(Event::End(_)) => scan.close(),
             Ok(Event::Eof) => return scan.finish(),
             Ok(_) => {}
-            Err(error) => return Err(scan.malformed(one_line(&error.to_string()))),
+            Err(error) => return Err(scan.refuse(one_line(&error.to_string()))),
         }
     }
 }
@@ -109,16 +109,16 @@ impl Scan {
         let depth = self.open.len();
         let name = String::from_utf8_lossy(tag.name().as_ref()).into_owned();
         if depth == MAX_DEPTH {
-            return Err(self.malformed(format!("elements are nested more than {MAX_DEPTH} deep")));
+            return Err(self.refuse(format!("elements are nested more than {MAX_DEPTH} deep")));
         }
         if tag.len() > LONGEST_TAG {
-            return Err(self.malformed(format!("a tag has more than {LONGEST_TAG} bytes")));
+            return Err(self.refuse(format!("a tag has more than {LONGEST_TAG} bytes")));
         }
         if name.starts_with("xacro:") {
             let reason = format!(
                 "<{name}> was found, expand the file with xacro first: xacro FILE > robot.urdf"
             );
-            return Err(self.malformed(reason));
+            return Err(self.refuse(reason));
         }
         let kept = self.skipped_from.is_none() && self.keep(depth, &name, tag)?;
         if !kept && self.skipped_from.is_none() {
@@ -167,10 +167,10 @@ impl Scan {
 
     fn keep_root(&mut self, name: &str, xml: String) -> Result<bool, RobotError> {
         if !self.outline.robot_tag.is_empty() {
-            return Err(self.malformed(format!("a second root <{name}>, one was expected")));
+            return Err(self.refuse(format!("a second root <{name}>, one was expected")));
         }
         if name != "robot" {
-            return Err(self.malformed(format!("the root is <{name}>, <robot> was expected")));
+            return Err(self.refuse(format!("the root is <{name}>, <robot> was expected")));
         }
         self.outline.robot_tag = xml;
         Ok(true)
@@ -197,15 +197,15 @@ impl Scan {
 
     fn finish(self) -> Result<Outline, RobotError> {
         match self.open.last() {
-            Some(name) => Err(self.malformed(format!("the file ends inside <{name}>"))),
+            Some(name) => Err(self.refuse(format!("the file ends inside <{name}>"))),
             None if self.outline.robot_tag.is_empty() => {
-                Err(self.malformed("no element was found, <robot> was expected".to_owned()))
+                Err(self.refuse("no element was found, <robot> was expected".to_owned()))
             }
             None => Ok(self.outline),
         }
     }
 
-    fn malformed(&self, reason: String) -> RobotError {
+    fn refuse(&self, reason: String) -> RobotError {
         RobotError::Malformed { line: self.line, reason }
     }
 }

@@ -27,7 +27,7 @@ impl Record {
     pub fn of(folder: &Path, name: &str) -> Result<Self, Unusable> {
         let written =
             Scenario::from_document(&Document::read(folder.join(format!("{name}.toml")))?)?;
-        let mut spec: ScenarioSpec = toml::from_str(written.resolved())?;
+        let mut spec: ScenarioSpec = toml::from_str(written.self_contained_text())?;
         spec.sensors = SensorSpec {
             effort: EffortSource::Motor,
             velocity: VelocitySource::Ideal,

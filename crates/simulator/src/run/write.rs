@@ -65,7 +65,7 @@ pub fn write(
         }
     }
     let scenario_file = folder.join("scenario.toml");
-    for (path, text) in [(&scenario_file, scenario.resolved()), (&truth_file, &truth)] {
+    for (path, text) in [(&scenario_file, scenario.self_contained_text()), (&truth_file, &truth)] {
         logs::replace_file(path, |file| Ok(file.write_all(text.as_bytes())?))?;
     }
     Ok(())

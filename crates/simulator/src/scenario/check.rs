@@ -85,7 +85,7 @@ impl Scenario {
     }
 
     /// The scenario as one self-contained text.
-    pub fn resolved(&self) -> &str {
+    pub fn self_contained_text(&self) -> &str {
         &self.resolved
     }
 

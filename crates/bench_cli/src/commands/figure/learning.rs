@@ -48,7 +48,7 @@ pub fn run(
     let (json, page) = (report.json()?, report.page()?);
     let figures = report.figures()?;
     let mut files = vec![
-        ("scenario.toml", figure.resolved().as_bytes()),
+        ("scenario.toml", figure.self_contained_text().as_bytes()),
         ("metrics.json", json.as_bytes()),
         ("report.html", page.as_bytes()),
     ];
@@ -82,7 +82,7 @@ fn outside_words(figure: &LearningFigure) -> String {
 /// This program and the files that the figure was made from.
 fn origin(figure: &LearningFigure, scenario: &Path) -> Result<Provenance, BenchError> {
     let [simulated, real] = figure.plants();
-    let mut origin = provenance(real.plant().robot_file(), real.loaded(), None)?;
+    let mut origin = provenance(real.plant().robot_file(), real.loaded_robot(), None)?;
     origin.files.push(hash("scenario", scenario)?);
     origin.files.push(hash("simulated", simulated.file())?);
     origin.files.push(hash("real", real.file())?);
@@ -121,7 +121,7 @@ impl Stages<'_> {
         let [logs, diagnosis, models] =
             ["logs", "diagnosis", "models"].map(|f| Path::new(f).join(name));
         let plant = arm.plant();
-        self.run.logs((&format!("{name}_logs"), &logs), plant, arm.loaded(), || Ok(plant))?;
+        self.run.logs((&format!("{name}_logs"), &logs), plant, arm.loaded_robot(), || Ok(plant))?;
         self.diagnosis(arm, [&logs, &diagnosis])?;
         self.models(arm, [&logs, &diagnosis, &models])?;
         self.test(arm, [&logs, &models])
@@ -129,17 +129,17 @@ impl Stages<'_> {
 
     /// Names the causes from the logs that models are learned from.
     fn diagnosis(&self, arm: &PaperPlant, [logs, folder]: [&Path; 2]) -> Result<(), BenchError> {
-        let names = self.figure.learned();
+        let names = self.figure.learning_runs();
         let file = arm.plant().robot_file();
-        let mut inputs = RunFolder::inputs(file, arm.loaded(), "")?;
+        let mut inputs = RunFolder::inputs(file, arm.loaded_robot(), "")?;
         for name in &names {
             inputs = inputs.and_file(&self.run.out.join(log_file(logs, name)))?;
         }
         let stage = format!("{}_diagnosis", arm.data().name());
         let words = format!("from {} of the logs alone", names.len());
         self.run.stage::<_, BenchError>(&stage, &words, inputs, || {
-            let runs = self.run.runs(logs, &names, &arm.loaded().robot)?;
-            self.run.diagnose(folder, (file, arm.loaded()), &runs)?;
+            let runs = self.run.runs(logs, &names, &arm.loaded_robot().robot)?;
+            self.run.diagnose(folder, (file, arm.loaded_robot()), &runs)?;
             Ok(Product { value: (), files: diagnosis_files(folder) })
         })?;
         Ok(())
@@ -154,16 +154,16 @@ impl Stages<'_> {
         let learn = &self.figure.spec().learn;
         let extended = self.run.out.join(diagnosis).join(EXTENDED);
         let said = format!("{learn:?} {PAPER_MODELS:?}");
-        let mut inputs = RunFolder::inputs(arm.plant().robot_file(), arm.loaded(), &said)?;
+        let mut inputs = RunFolder::inputs(arm.plant().robot_file(), arm.loaded_robot(), &said)?;
         inputs = inputs.and_file(&extended)?;
-        let names = self.figure.learned();
+        let names = self.figure.learning_runs();
         for name in &names {
             inputs = inputs.and_file(&self.run.out.join(log_file(logs, name)))?;
         }
         let stage = format!("{}_models", arm.data().name());
         let words = format!("{} models of {} points", PAPER_MODELS.len(), learn.points);
         self.run.stage::<_, BenchError>(&stage, &words, inputs, || {
-            let runs = self.run.runs(logs, &names, &arm.loaded().robot)?;
+            let runs = self.run.runs(logs, &names, &arm.loaded_robot().robot)?;
             let named = Robot::load(&extended)?.robot;
             let models = self.figure.learn(arm, &runs, &named, self.run.watch)?;
             create_folder(&self.run.out.join(folder))?;
@@ -175,13 +175,13 @@ impl Stages<'_> {
 
     /// Tests the models on the runs that took no part.
     fn test(&self, arm: &PaperPlant, [logs, folder]: [&Path; 2]) -> Result<Errors, BenchError> {
-        let (learned, test) = (self.figure.learned(), self.figure.test());
+        let (learned, test) = (self.figure.learning_runs(), self.figure.test());
         let outside: &[&str] = match arm.data() {
             PaperData::Simulated => &[],
             PaperData::Real => &[LearningFigure::OUTSIDE],
         };
         let points = self.figure.spec().test_points.to_string();
-        let mut inputs = RunFolder::inputs(arm.plant().robot_file(), arm.loaded(), &points)?;
+        let mut inputs = RunFolder::inputs(arm.plant().robot_file(), arm.loaded_robot(), &points)?;
         for name in learned.iter().chain(&test).chain(outside) {
             inputs = inputs.and_file(&self.run.out.join(log_file(logs, name)))?;
         }
@@ -192,7 +192,7 @@ impl Stages<'_> {
         let words = format!("{points} points of {}", [&test, outside].concat().join(" and of "));
         let made = self.run.stage::<_, BenchError>(&stage, &words, inputs, || {
             experiment::Progress::begin(self.run.watch, "test");
-            let robot = &arm.loaded().robot;
+            let robot = &arm.loaded_robot().robot;
             let models = self.figure.load(arm, &self.run.out.join(folder))?;
             let learned = self.run.runs(logs, &learned, robot)?;
             let errors = |names: &[&str]| -> Result<Vec<ModelErrors>, BenchError> {

@@ -26,7 +26,7 @@ pub fn run(
     let watch = Watch::of_all((!arguments.output.quiet).then(Line::new));
     let measured = measure(&figure, RunFolder { out, watch: &watch });
     watch.finish();
-    let loaded = figure.loaded();
+    let loaded = figure.loaded_robot();
     let mut provenance = provenance(figure.robot_file(), loaded, None)?;
     provenance.files.push(hash("scenario", &arguments.scenario)?);
     provenance.seed = Some(figure.seed());
@@ -42,7 +42,7 @@ pub fn run(
     let report = PredictionTimeFigureReport { times: &times, claims: &claims };
     let (json, page, svg) = (report.json()?, report.page()?, times.figure()?);
     let files = [
-        ("scenario.toml", figure.resolved()),
+        ("scenario.toml", figure.self_contained_text()),
         ("metrics.json", json.clone()),
         ("report.html", page),
         ("figure1.svg", svg),
@@ -62,10 +62,10 @@ pub fn run(
 fn measure(figure: &PredictionTimeFigure, run: RunFolder) -> Result<Vec<TimeCurve>, BenchError> {
     let (points, seed) = (figure.points(), figure.seed());
     let said = format!("{points:?} {seed} {}", machine());
-    let inputs = RunFolder::inputs(figure.robot_file(), figure.loaded(), &said)?;
+    let inputs = RunFolder::inputs(figure.robot_file(), figure.loaded_robot(), &said)?;
     let words = format!("one prediction, {} numbers of training points", points.len());
     let made = run.stage::<_, BenchError>("times", &words, inputs, || {
-        let curves = curves(&figure.loaded().robot, MadeUp { points, seed }, run.watch)?;
+        let curves = curves(&figure.loaded_robot().robot, MadeUp { points, seed }, run.watch)?;
         Ok(Product { value: curves, files: Vec::new() })
     })?;
     Ok(made.value)

@@ -17,7 +17,7 @@ impl JobNumber {
     /// # Errors
     ///
     /// [`SubmitError`] when there is no Slurm or it does not take the job.
-    pub fn of_submitted(script: &Path) -> Result<Self, SubmitError> {
+    pub fn submit(script: &Path) -> Result<Self, SubmitError> {
         let output = Command::new("sbatch")
             .arg("--parsable")
             .arg(script)

@@ -86,7 +86,7 @@ fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), BenchError> {
     if arguments.dry_run {
         return Ok(print(&format!("{said}. To submit them:\n  sbatch {job}\n"))?);
     }
-    let number = JobNumber::of_submitted(&path)?;
+    let number = JobNumber::submit(&path)?;
     Ok(print(&format!(
         "{said}, submitted as job {number}. To see how it goes on:\n  {}\n  \
          plumbline-bench status {folder}\nAt the end:\n  plumbline-bench merge {folder}\n",

@@ -62,7 +62,7 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
     let top = sheet.bottom() + NAMES + 14.0;
     let wide = (CELLS[1] - CELLS[0]) / confusion.named.len().max(1) as f64;
     let wide = wide.min(WIDEST);
-    let left = |column: usize| CELLS[0] + wide * column as f64;
+    let left_edge = |column: usize| CELLS[0] + wide * column as f64;
     let rows =
         confusion.injected.iter().enumerate().map(|(place, (injected, own, counts))| DrawnRow {
             y: top + ROW * place as f64,
@@ -71,7 +71,7 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
                 .iter()
                 .enumerate()
                 .map(|(column, &count)| DrawnCell {
-                    x: round_px(left(column)),
+                    x: round_px(left_edge(column)),
                     width: round_px(wide - BETWEEN),
                     colour: colour(&colours, *injected, *own, (column, confusion.named.len())),
                     opacity: round_px(
@@ -89,7 +89,9 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
     let rows: Vec<DrawnRow> = rows.collect();
     let names = confusion.named.iter().enumerate();
     let drawing = Drawing {
-        columns: names.map(|(i, name)| (round_px(left(i) + 0.5 * wide + 4.0), *name)).collect(),
+        columns: names
+            .map(|(i, name)| (round_px(left_edge(i) + 0.5 * wide + 4.0), *name))
+            .collect(),
         columns_y: top - 8.0,
         names_x: CELLS[0] - 10.0,
         sheet: sheet.down_to(top + ROW * rows.len() as f64 + 14.0),
@@ -106,8 +108,8 @@ fn colour(
     (column, columns): (usize, usize),
 ) -> String {
     match own {
-        Some(own) if own == column => colours.extended(),
-        _ if column + 1 == columns => colours.measured(),
+        Some(own) if own == column => colours.extended_model(),
+        _ if column + 1 == columns => colours.measurement(),
         None if injected == TrialGroup::Two => colours.soft.to_owned(),
         _ => colours.nominal(),
     }

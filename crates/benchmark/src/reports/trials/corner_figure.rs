@@ -87,8 +87,8 @@ fn marks(row: &PanelRow, y: f64, colours: &Palette) -> Vec<Mark> {
         Some((value, share.interval?, share.words()))
     };
     let shown = [
-        ("findings that are true", colours.extended(), of_rate(&row.named.precision)),
-        ("visible causes that are named", colours.measured(), of_rate(&row.named.recall)),
+        ("findings that are true", colours.extended_model(), of_rate(&row.named.precision)),
+        ("visible causes that are named", colours.measurement(), of_rate(&row.named.recall)),
         ("false assurance", colours.nominal(), of_share(&row.false_assurance)),
     ];
     let mark = |(place, (name, colour, share)): (usize, (&str, _, Option<_>))| {

@@ -50,7 +50,7 @@ pub fn trials_page(
         confusion: confusion_figure(&merged.tally.confusion())?,
         shares: table(shares)?,
         powers: table(merged.powers())?,
-        gained: merged.gained().map_or_else(|| Ok(String::new()), table)?,
+        gained: merged.gain_table().map_or_else(|| Ok(String::new()), table)?,
         sizes: table(sizes)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
@@ -107,7 +107,7 @@ mod tests {
         }
     }
 
-    fn merged() -> Merged {
+    fn example_results() -> Merged {
         let kind = TrialGroup::Kind;
         let count = |hidden: &str| KindCount {
             hidden: hidden.to_owned(),
@@ -140,11 +140,11 @@ mod tests {
                 unit: "rad",
                 classes: vec![class],
             }],
-            gained: vec![gained()],
+            gained: vec![example_gain()],
         }
     }
 
-    fn gained() -> Gained {
+    fn example_gain() -> Gained {
         let halved = Share::new(3, 4);
         let torque = Reduction { median: Some(11.7), least: Some(0.4), halved };
         let drift = Reduction { median: Some(2.0), ..torque.clone() };
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn the_page_is_self_contained_and_holds_figure_and_numbers() {
-        let page = page(&merged(), &["3 trials are left".to_owned()]);
+        let page = page(&example_results(), &["3 trials are left".to_owned()]);
         assert!(!page.contains("http://") && !page.contains("https://"));
         assert!(page.contains("default-src 'none'") && !page.contains("<script src"));
         assert_eq!(page.matches("<svg").count(), 1);
@@ -186,7 +186,8 @@ mod tests {
 
     #[test]
     fn no_trial_at_all_is_still_a_page() {
-        let nothing = Merged { tally: Tally { rows: Vec::new() }, power: Vec::new(), ..merged() };
+        let nothing =
+            Merged { tally: Tally { rows: Vec::new() }, power: Vec::new(), ..example_results() };
         assert!(page(&nothing, &[]).contains("No trial has a score"));
     }
 }

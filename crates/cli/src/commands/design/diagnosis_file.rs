@@ -211,8 +211,8 @@ mod tests {
     }
 
     fn read(path: &Path, robot: &Robot) -> Result<(), String> {
-        let told = |error: DesignError| error.to_string();
-        let file = DiagnosisFile::read(path, robot).map_err(told)?;
+        let sentence = |error: DesignError| error.to_string();
+        let file = DiagnosisFile::read(path, robot).map_err(sentence)?;
         // What is wrong with a cause is told of its name.
         let _ = (file.findings(robot).is_ok(), file.goals(robot).is_ok());
         let _ = (file.noise(), file.logs(), file.cutoff_hz(), file.knows("00"));

@@ -34,7 +34,7 @@ pub fn learn(
 
 fn model(outcome: &DiagnosisRun, residual: &Residual) -> ResidualModel {
     let joints = outcome.diagnosis.joints.iter().zip(&residual.joints);
-    let mut remarks = effects::left_out(&outcome.extended);
+    let mut remarks = effects::omissions(&outcome.extended);
     if residual.is_cut_short {
         remarks.push("Ctrl-C ended searches of it before they converged".to_owned());
     }

@@ -15,9 +15,9 @@ pub(super) fn page(rows: &[EffectRow]) -> String {
          | code | effect | diagnosed | compensated | what it is |\n|---|---|---|---|---|\n",
         rows.len()
     );
-    let said = |is: bool| if is { "yes" } else { "no" };
+    let yes_or_no = |is: bool| if is { "yes" } else { "no" };
     for row in rows {
-        let (diagnosed, compensated) = (said(row.diagnosed), said(row.compensated));
+        let (diagnosed, compensated) = (yes_or_no(row.diagnosed), yes_or_no(row.compensated));
         let (code, words) = (row.code, row.kind.entry().words);
         let anchor = anchor(row.kind);
         let summary = row.summary;

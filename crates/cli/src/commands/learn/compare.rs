@@ -1,7 +1,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use effects::left_out;
+use effects::omissions;
 use learner::{
     LearnerError, ModelKind, Regression, RigidBodyFit, Samples, TorqueScore, TrainSettings,
     Training,
@@ -25,7 +25,8 @@ type NamedFile = (String, Vec<u8>);
 /// Learns the models, compares them, and writes them with the comparison.
 pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<ExitStatus, CliError> {
     let robot = &loaded.robot;
-    let named = arguments.named.as_deref().map(|path| read_named(path, robot)).transpose()?;
+    let named =
+        arguments.named.as_deref().map(|path| read_extended_robot(path, robot)).transpose()?;
     settings(arguments, Vec::new()).check()?;
     let data = LearningData::read(arguments, loaded)?;
     let out = arguments.out.as_path();
@@ -34,7 +35,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Exit
     watch.finish();
     let (models, mut files) = learned?;
     let mut warnings = data.warnings.clone();
-    warnings.extend(left_out(named.as_ref().unwrap_or(robot)));
+    warnings.extend(omissions(named.as_ref().unwrap_or(robot)));
     let comparison = LearningComparison {
         robot: robot.name().to_owned(),
         joints: ComparedJoint::all(robot),
@@ -58,7 +59,7 @@ pub fn run(arguments: &Arguments, loaded: &Loaded, watch: &Watch) -> Result<Exit
 }
 
 /// The robot with named effects, which must be the same robot.
-fn read_named(path: &Path, robot: &Robot) -> Result<Robot, CliError> {
+fn read_extended_robot(path: &Path, robot: &Robot) -> Result<Robot, CliError> {
     let named = Robot::load(path)?.robot;
     if named.joint_names().eq(robot.joint_names()) {
         return Ok(named);

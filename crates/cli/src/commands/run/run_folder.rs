@@ -81,7 +81,7 @@ impl RunFolder<'_> {
         loaded: &Loaded,
         drawn: impl FnOnce() -> Result<&'s Scenario, CliError>,
     ) -> Result<Staged<()>, CliError> {
-        let mut inputs = Self::inputs(plant.robot_file(), loaded, plant.resolved())?;
+        let mut inputs = Self::inputs(plant.robot_file(), loaded, plant.self_contained_text())?;
         for run in plant.runs() {
             // A recorded motion may change where its name does not.
             for k in 0..=(100.0 * run.motion.duration_s()) as usize {

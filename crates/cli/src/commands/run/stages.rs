@@ -72,7 +72,8 @@ impl Stages<'_> {
         let forward = self.forward()?.value;
         let Staged { value: tracked, .. } = self.tracking()?;
         let experiment = self.experiment;
-        let owned = |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect();
+        let to_owned_names =
+            |names: &mut dyn Iterator<Item = &str>| names.map(str::to_owned).collect();
         let robot = experiment.plant().robot();
         let joints: Vec<String> = robot.joint_names().map(str::to_owned).collect();
         let metrics = Metrics {
@@ -80,8 +81,8 @@ impl Stages<'_> {
             claims: tracking_claims(&tracked.errors, &joints),
             joints,
             score,
-            learned: owned(&mut experiment.learned()),
-            test: owned(&mut experiment.test()),
+            learned: to_owned_names(&mut experiment.learning_runs()),
+            test: to_owned_names(&mut experiment.test()),
             torque,
             forward,
             gains: tracked.gains,
@@ -94,19 +95,19 @@ impl Stages<'_> {
     fn logs(&self) -> Result<Staged<()>, CliError> {
         let plant = self.experiment.plant();
         let place = ("simulation", Path::new(LOGS));
-        self.folder().logs(place, plant, self.loaded(), || Ok(self.drawn()?.plant()))
+        self.folder().logs(place, plant, self.loaded_robot(), || Ok(self.drawn_scenario()?.plant()))
     }
 
     /// Diagnoses the logs through their files, and when that is written opens the truth.
     fn diagnosis(&self) -> Result<Staged<Found>, CliError> {
-        let names: Vec<&str> = self.experiment.learned().collect();
+        let names: Vec<&str> = self.experiment.learning_runs().collect();
         let mut inputs = self.inputs("")?.and_file(&self.out.join(LOGS).join(Blinded::FILE))?;
         for name in &names {
             inputs = inputs.and(name.as_bytes()).and_file(&self.out.join(log_file(name)))?;
         }
         let words = format!("from {} of the logs alone", names.len());
         self.stage("diagnosis", &words, inputs, || {
-            let loaded = self.loaded();
+            let loaded = self.loaded_robot();
             let runs = self.runs(&names)?;
             let robot = (self.experiment.plant().robot_file(), loaded);
             let DiagnosedRuns { outcome, verdict, told } =
@@ -129,7 +130,7 @@ impl Stages<'_> {
     fn models(&self) -> Result<Staged<Vec<TorqueError>>, CliError> {
         let tracked = self.experiment.scenario();
         let test: Vec<&str> = self.experiment.test().collect();
-        let learned: Vec<&str> = self.experiment.learned().collect();
+        let learned: Vec<&str> = self.experiment.learning_runs().collect();
         let mut inputs = self.inputs(&format!("{:?}", tracked.learn()))?;
         inputs = inputs.and(format!("{:?}", tracked.all_feedforward()).as_bytes());
         inputs = inputs.and_file(&self.out.join(EXTENDED))?;
@@ -138,7 +139,7 @@ impl Stages<'_> {
         }
         let words = format!("torque of {} held out", test.join(", "));
         self.stage("models", &words, inputs, || {
-            let extended = self.extended()?;
+            let extended = self.extended_robot()?;
             let logs = self.runs(&learned)?;
             let models = Learned::learn(tracked, &logs, Some(&extended), self.watch)?;
             let folder = self.out.join(MODELS);
@@ -160,7 +161,7 @@ impl Stages<'_> {
         let words = format!("simulation under the torque of {}", test.join(", "));
         self.stage("replay", &words, inputs, || {
             let prepared = logs::prepare(&self.runs(&test)?, &PrepareSettings::default())?;
-            let robots = [self.experiment.plant().robot(), &self.extended()?];
+            let robots = [self.experiment.plant().robot(), &self.extended_robot()?];
             let gap = forward_gap(robots, &prepared.runs, self.watch);
             Ok(Product { value: gap, files: Vec::new() })
         })
@@ -169,8 +170,8 @@ impl Stages<'_> {
     /// Tracks the motion of the scenario with every model.
     fn tracking(&self) -> Result<Staged<Tracked>, CliError> {
         let tracked = self.experiment.scenario();
-        let mut inputs = self.inputs(self.experiment.resolved())?;
-        inputs = inputs.and(self.experiment.plant().resolved().as_bytes());
+        let mut inputs = self.inputs(self.experiment.self_contained_text())?;
+        inputs = inputs.and(self.experiment.plant().self_contained_text().as_bytes());
         let kinds = tracked.all_feedforward();
         for kind in kinds.iter().filter_map(|kind| kind.model()) {
             inputs = inputs.and_file(&self.out.join(MODELS).join(format!("{kind}.parquet")))?;
@@ -185,7 +186,8 @@ impl Stages<'_> {
             }
             let learned = Learned::load(tracked, &self.out.join(MODELS))?;
             let outputs = Outputs { logs, recordings, live: Live::Off };
-            let scenario = self.experiment.held(self.drawn()?, &self.extended()?);
+            let scenario =
+                self.experiment.with_softest_gains(self.drawn_scenario()?, &self.extended_robot()?);
             let runs = track_all(&scenario, &learned, Some(&outputs), self.watch)?;
             self.write_tracking(&scenario, &learned, &runs)
         })
@@ -232,32 +234,32 @@ impl Stages<'_> {
     }
 
     fn inputs(&self, said: &str) -> Result<StageInputs, CliError> {
-        RunFolder::inputs(self.experiment.plant().robot_file(), self.loaded(), said)
+        RunFolder::inputs(self.experiment.plant().robot_file(), self.loaded_robot(), said)
     }
 
-    fn drawn(&self) -> Result<&TrackingScenario, CliError> {
+    fn drawn_scenario(&self) -> Result<&TrackingScenario, CliError> {
         match self.drawn.get() {
             Some(drawn) => Ok(drawn),
             None => {
                 experiment::Progress::begin(self.watch, "drawing what is hidden");
-                let drawn = self.experiment.drawn()?;
+                let drawn = self.experiment.draw_scenario()?;
                 Ok(self.drawn.get_or_init(|| drawn))
             }
         }
     }
 
-    fn loaded(&self) -> &Loaded {
-        self.experiment.scenario().loaded()
+    fn loaded_robot(&self) -> &Loaded {
+        self.experiment.scenario().loaded_robot()
     }
 
     /// The robot with the findings, as it was written.
-    fn extended(&self) -> Result<Robot, CliError> {
+    fn extended_robot(&self) -> Result<Robot, CliError> {
         Ok(Robot::load(&self.out.join(EXTENDED))?.robot)
     }
 
     /// Logs, read from their files.
     fn runs(&self, names: &[&str]) -> Result<Vec<Run>, CliError> {
-        self.folder().runs(Path::new(LOGS), names, &self.loaded().robot)
+        self.folder().runs(Path::new(LOGS), names, &self.loaded_robot().robot)
     }
 }
 

@@ -23,7 +23,7 @@ pub fn comparison(
 ) -> Result<TrackingComparison, ReportError> {
     let robot = scenario.robot();
     let file = scenario.plant().robot_file();
-    let mut provenance = provenance(file, scenario.loaded(), None)?;
+    let mut provenance = provenance(file, scenario.loaded_robot(), None)?;
     provenance.files.push(hash("scenario", scenario_file)?);
     provenance.files.push(hash("plant", scenario.plant_file())?);
     Ok(TrackingComparison {
@@ -51,11 +51,11 @@ fn viewer_warning(runs: &[TrackedRun]) -> Option<String> {
     if listeners().any(|listener| listener == Listener::Nobody) {
         return Some("no viewer listened on 127.0.0.1:9876 (--live): start rerun first".into());
     }
-    let missed = |listener| match listener {
+    let messages_left_out = |listener| match listener {
         Listener::Viewer { left_out } => left_out,
         Listener::NotAsked | Listener::Nobody => 0,
     };
-    let left_out: u64 = listeners().map(missed).sum();
+    let left_out: u64 = listeners().map(messages_left_out).sum();
     (left_out > 0).then(|| {
         format!("the viewer was too slow for {left_out} messages, which the recordings hold")
     })

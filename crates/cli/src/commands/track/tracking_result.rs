@@ -120,7 +120,7 @@ pub fn write_comparison(
     comparison: &TrackingComparison,
 ) -> Result<(), ReportError> {
     let mut files = vec![
-        ("scenario.toml", scenario.resolved().to_owned()),
+        ("scenario.toml", scenario.self_contained_text().to_owned()),
         ("tracking.json", comparison.json()?),
         ("report.html", comparison.page()?),
         ("errors.svg", comparison.error_figure()?),

@@ -62,7 +62,7 @@ impl JointStates {
         let layout = match self.layouts.get(&key) {
             Some(&layout) => layout,
             None => {
-                let filled = self.filled_by(&key.0, has)?;
+                let filled = self.fill_by(&key.0, has)?;
                 self.named += key.0.len();
                 if self.named > MOST_NAMES {
                     return Err("its joints are in ever another order".to_owned());
@@ -77,7 +77,7 @@ impl JointStates {
     }
 
     /// The columns that a message of these joints fills, in the order of its values.
-    fn filled_by(&mut self, joints: &[String], has: [bool; 3]) -> Result<Vec<usize>, String> {
+    fn fill_by(&mut self, joints: &[String], has: [bool; 3]) -> Result<Vec<usize>, String> {
         let mut filled = Vec::new();
         for (channel, _) in
             ["position", "velocity", "effort"].iter().zip(has).filter(|(_, has)| *has)
