@@ -292,7 +292,7 @@ impl Draft {
         let scales = seen.scales(&self.truth.robot, &self.noise);
         if let Some(spoilt) = spoilt {
             let clean = silent(&scenario, &|name| name != HELD_OUT)?;
-            strangers.push(spoilt.to_true_stranger(&self.truth.robot, &clean, &scales));
+            strangers.push(spoilt.true_stranger(&self.truth.robot, &clean, &scales));
             spoilt.spoil(&self.truth.robot, &mut noisy.runs);
         }
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();

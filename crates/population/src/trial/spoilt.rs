@@ -167,7 +167,7 @@ impl Spoilt {
     ///
     /// with `r` the efforts beyond the bodies along the logged motion. `sigmas` assumes a noise of a hundredth of the
     /// torque in every sample.
-    pub fn to_true_stranger(&self, robot: &Robot, clean: &[Run], scales: &[f64]) -> TrueStranger {
+    pub fn true_stranger(&self, robot: &Robot, clean: &[Run], scales: &[f64]) -> TrueStranger {
         let mut spoilt = clean.to_vec();
         self.spoil(robot, &mut spoilt);
         let (mut sum, mut count) = (0.0, 0);
@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn a_turned_sign_weighs_twice_the_torque() {
         let fault = Spoilt { fault: LogFault::EffortSign, joints: [0, 1], from: 0.5 };
-        let told = fault.to_true_stranger(&pendulum(), &[still()], &[9.81 * 1.1, 1.0]);
+        let told = fault.true_stranger(&pendulum(), &[still()], &[9.81 * 1.1, 1.0]);
         assert!((told.strength.share - 2.0).abs() < 1e-9, "{}", told.strength.share);
         assert_eq!(told.joint.as_deref(), Some("one"));
         assert!(told.strength.visible());
