@@ -18,7 +18,7 @@ pub struct State {
 /// ```
 ///
 /// with `x` a closed form and `s` its clock, which starts and stops smoothly where the
-/// motion fades in and out. Made by [`crate::spec::MotionSpec::build`], so within the limits of
+/// motion fades in and out. Made by [`MotionSpec::build`](crate::MotionSpec::build), so within the limits of
 /// the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {

@@ -82,7 +82,7 @@ impl Baseline {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::Log`] for runs that cannot be prepared.
+    /// [`ExperimentError::Log`](experiment::ExperimentError::Log) for runs that cannot be prepared.
     ///
     /// # Panics
     ///

@@ -41,7 +41,7 @@ const FLOOR: f64 = 1e-4;
 ///
 /// # Errors
 ///
-/// [`BenchmarkError::Log`] for runs that cannot be prepared.
+/// [`ExperimentError::Log`](experiment::ExperimentError::Log) for runs that cannot be prepared.
 pub fn least_squares(
     robot: &Robot,
     control_rate_hz: Option<f64>,

@@ -53,7 +53,7 @@ const MOST_STEPS: usize = 60;
 ///
 /// # Errors
 ///
-/// [`BenchmarkError::Log`] for runs that cannot be prepared.
+/// [`ExperimentError::Log`](experiment::ExperimentError::Log) for runs that cannot be prepared.
 pub fn two_questions(
     robot: &Robot,
     control_rate_hz: Option<f64>,

@@ -81,7 +81,7 @@ impl FigureScenario {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::Document`] for a document that is no table.
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document) for a document that is no table.
     pub fn is_meant(document: &Document) -> Result<bool, BenchmarkError> {
         Ok(document.parse::<Kind>()?.figure.is_some())
     }

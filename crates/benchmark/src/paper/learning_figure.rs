@@ -94,7 +94,7 @@ impl LearningFigure {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::Document`], at the value at fault, and what the scenario of an arm is
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document), at the value at fault, and what the scenario of an arm is
     /// refused for.
     pub fn from_document(document: &Document, seed: Option<u64>) -> Result<Self, BenchmarkError> {
         let FigureScenario { figure: FigureSpec::Learning(spec) } = document.parse()? else {
@@ -198,7 +198,7 @@ impl LearningFigure {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::Log`] for logs that cannot be prepared.
+    /// [`ExperimentError::Log`](experiment::ExperimentError::Log) for logs that cannot be prepared.
     pub fn errors(
         &self,
         plant: &PaperPlant,

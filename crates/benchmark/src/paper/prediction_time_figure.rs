@@ -23,7 +23,7 @@ impl PredictionTimeFigure {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::Document`], at the value at fault.
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document), at the value at fault.
     pub fn from_document(document: &Document, seed: Option<u64>) -> Result<Self, BenchmarkError> {
         let FigureScenario { figure: FigureSpec::PredictionTime(spec) } = document.parse()? else {
             let message = "another figure, figure.prediction_time was expected";

@@ -49,7 +49,7 @@ impl Campaign {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::Document`] at the value at fault, and what a scenario is refused for.
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document) at the value at fault, and what a scenario is refused for.
     pub fn from_document(document: &Document) -> Result<Self, BenchmarkError> {
         if document.parse::<Form>()?.population.is_none() {
             return Ok(Self::Scenario(ScenarioCampaign::from_document(document)?));

@@ -94,7 +94,7 @@ impl CampaignFolder {
         Self { root: root.to_owned(), hash: campaign.hash(), campaign }
     }
 
-    /// Takes finished trials of the campaign, as [`finished`] reads them; those that have a shard here stay.
+    /// Takes finished trials of the campaign, as [`read_finished`] reads them; those that have a shard here stay.
     /// Says how many it took.
     ///
     /// # Errors
@@ -144,7 +144,7 @@ impl CampaignFolder {
     ///
     /// # Errors
     ///
-    /// As [`made`](Self::made).
+    /// As [`manifest`](Self::manifest).
     pub fn remaining(&self, part: Part) -> Result<Vec<usize>, BenchmarkError> {
         let made = self.manifest()?.records;
         let all = (0..self.campaign.trials()).filter(|task| part.holds(*task));

@@ -99,7 +99,7 @@ impl ScenarioCampaign {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::Document`] at the value at fault, and what the scenario is refused for.
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document) at the value at fault, and what the scenario is refused for.
     pub fn from_document(document: &Document) -> Result<Self, BenchmarkError> {
         let spec: CampaignSpec = document.parse()?;
         let kinds = kinds(document, &spec)?;
