@@ -1,6 +1,8 @@
 //! Names are the field's: verbs for work, nouns for data, `is_` for questions. What was once called otherwise
 //! does not come back.
 
+use std::collections::BTreeMap;
+
 use crate::assert_kept;
 use crate::modules::{tokens, without_tests};
 use crate::tree::{folders, rust_files, text};
@@ -93,4 +95,78 @@ fn a_function_called_by_a_participle_is_reported() {
     assert_eq!(participles(text), ["scaled", "drawn"]);
     assert_kept(&participles("// fn drawn() {}\nfn draw(drawn: f64) {}"));
     assert_kept(&participles("#[cfg(test)]\nmod tests { fn drawn() {} }"));
+}
+
+/// A type with and without a feature of cargo: one thing in two files.
+const ONE_THING: [&str; 1] = ["Recorder"];
+
+/// The types that a file declares for its crate or for all; a command's `Arguments` stand in every command.
+fn declared_types(text: &str) -> Vec<String> {
+    let (code, _) = without_tests(tokens(text));
+    let mut types = Vec::new();
+    for (i, _) in code.iter().enumerate().filter(|(_, word)| *word == "pub") {
+        // `pub(super)` is a room's own.
+        let scope = match code.get(i + 1..i + 3) {
+            Some([open, word]) if open == "(" && word == "crate" => 3,
+            _ => 0,
+        };
+        let [kind, name] = [1, 2].map(|k| code.get(i + scope + k).map_or("", String::as_str));
+        if ["struct", "enum", "trait", "type"].contains(&kind) && name != "Arguments" {
+            types.push(name.to_owned());
+        }
+    }
+    types
+}
+
+/// Whether all files are those of one effect on the two sides of the wall, where it has one name on purpose.
+fn is_one_effect(files: &[&str]) -> bool {
+    let stem = |file: &str| file.rsplit('/').next().unwrap_or_default().to_owned();
+    let sides = ["crates/effects/src/causes/", "crates/simulator/src/effects/"];
+    let at_side = |file: &&&str| sides.iter().any(|side| file.starts_with(side));
+    files.len() == 2
+        && files.iter().filter(at_side).count() == 2
+        && stem(files[0]) == stem(files[1])
+}
+
+/// The names of types that stand for more than one thing, in files with these texts.
+fn names_of_two(files: &[(&str, &str)]) -> Vec<String> {
+    let mut all: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for (file, text) in files {
+        for name in declared_types(text) {
+            all.entry(name).or_default().push(file);
+        }
+    }
+    let two = all.iter().filter(|(name, files)| {
+        files.len() > 1 && !is_one_effect(files) && !ONE_THING.contains(&name.as_str())
+    });
+    two.map(|(name, files)| format!("{name} stands for a thing each in {}", files.join(", ")))
+        .collect()
+}
+
+#[test]
+fn a_type_name_stands_for_one_thing() {
+    let sources = folders("crates").into_iter().map(|name| format!("crates/{name}/src"));
+    let files: Vec<String> = sources.flat_map(|folder| rust_files(&folder)).collect();
+    let texts: Vec<String> = files.iter().map(|file| text(file)).collect();
+    let read: Vec<(&str, &str)> =
+        files.iter().map(String::as_str).zip(texts.iter().map(String::as_str)).collect();
+    assert!(!read.is_empty());
+    assert_kept(&names_of_two(&read));
+}
+
+#[test]
+fn a_type_name_of_two_things_is_reported() {
+    let [a, b] = ["pub struct Row;", "pub(crate) enum Row { A }\nstruct Own;"];
+    assert_eq!(
+        names_of_two(&[("a.rs", a), ("b.rs", b)]),
+        ["Row stands for a thing each in a.rs, b.rs"]
+    );
+    let [cause, effect] =
+        ["crates/effects/src/causes/payload.rs", "crates/simulator/src/effects/payload.rs"];
+    assert_kept(&names_of_two(&[(cause, "pub struct Payload;"), (effect, "pub struct Payload;")]));
+    assert_eq!(names_of_two(&[(cause, a), ("b.rs", b)]).len(), 1);
+    assert_kept(&names_of_two(&[
+        ("a.rs", a),
+        ("b.rs", "struct Row;\n#[cfg(test)]\npub struct Row;"),
+    ]));
 }
