@@ -19,7 +19,7 @@ struct Preset {
     is_certain: bool,
 }
 
-/// Column maps of files that other programs write. Of two maps with one name the one with more columns is first.
+/// Column maps of files that other programs write. Of two maps with one name the more complete one is first.
 const PRESETS: [Preset; 11] = [
     Preset {
         name: "ur",

@@ -116,7 +116,6 @@ impl Piece {
     /// `m` is the slope of the parabola through a row and its two neighbours (Catmull-Rom on a
     /// non-uniform clock). A neighbour is at least about a step away. Beside a filled gap a nearer neighbour
     /// would turn one encoder count over one sample into a slope.
-    /// filled, one row away would make a slope of one count over one sample.
     pub(crate) fn resample(&self, time: &[f64], x: &[f64], clock: &[f64]) -> Vec<f64> {
         let (t, x) = (&time[self.rows.clone()], &x[self.rows.clone()]);
         if self.is_uniform || t.len() < 2 {

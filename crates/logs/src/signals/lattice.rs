@@ -27,8 +27,6 @@ const MOST_LOOKED_AT: usize = 5000;
 ///
 /// This does not depend on an offset of the lattice, and hardly on rounding in the file that is small
 /// compared with the step. A file with six decimals has the step 1e-6, its resolution.
-/// so that neither an offset of the lattice matters nor the rounding of a file that is small
-/// beside the step. The step of a file of six decimals is 1e-6: its resolution.
 pub(crate) fn step(x: &[f64]) -> Option<f64> {
     let size = x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     // Digits that arithmetic in f64 does not keep.

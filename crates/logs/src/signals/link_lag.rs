@@ -45,7 +45,6 @@ struct Lag {
 /// scale of either encoder. `e` is dry friction or play. A viscous friction of the link over the
 /// stiffness of the joint cannot be told from a lag and is corrected as one. The standard error is computed from
 /// blocks of five periods of the cut-off. Only joints that move show a lag.
-/// blocks of five periods of the cut-off. Only joints that move show a lag.
 pub(crate) fn remove_lags(
     pieces: &mut [UniformRun],
     first: &Run,
