@@ -12,7 +12,7 @@ use crate::{
     file_format::Opened,
 };
 
-/// Columns in memory, by name, all of one length: a log that was never a file.
+/// Columns in memory, by name and all of one length, for a log that is not a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns(pub BTreeMap<String, Vec<f64>>);
 
@@ -25,7 +25,7 @@ impl Opened for Columns {
         Ok(Table { columns: self.0.clone(), ..Table::default() }.excerpt(needed))
     }
 
-    /// That of the names and the numbers.
+    /// SHA-256 of the names and the numbers.
     fn sha256(&self) -> Result<String, FormatError> {
         let mut hasher = Sha256::new();
         for (name, samples) in &self.0 {

@@ -9,28 +9,28 @@ use crate::{
     packed::unpack::{Packing, unpack},
 };
 
-/// Bytes of a file that tell its kind.
+/// Number of first bytes that identify the kind of a file.
 const FIRST_BYTES: usize = 4096;
 
-/// The kinds of file that are read.
+/// The supported kinds of file.
 pub(crate) struct Formats {
-    /// Those that are told by their bytes.
+    /// Formats that their first bytes identify.
     pub by_magic: &'static [&'static dyn FileFormat],
-    /// What text is.
+    /// The format of text files.
     pub text: &'static dyn FileFormat,
 }
 
-/// What a file is.
+/// The kind of a file.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
-    /// One that is read.
+    /// A supported format.
     Read(&'static dyn FileFormat),
-    /// Any of those, packed.
+    /// A packed file of any supported format.
     Packed(Packing),
 }
 
 impl Formats {
-    /// The content of a file, unpacked where it is packed once.
+    /// The content of a file and its kind. A packed file is unpacked once.
     pub(crate) fn content(&self, path: &Path) -> Result<(Kind, File), FormatError> {
         let file = File::open(path).map_err(|e| FormatError::unreadable(path, &e))?;
         let mut first = Vec::new();
@@ -47,7 +47,7 @@ impl Formats {
         }
     }
 
-    /// The kind of a file with these first bytes, whatever its name.
+    /// The kind of a file with these first bytes, independent of its name.
     fn kind(&self, path: &Path, first: &[u8]) -> Result<Kind, FormatError> {
         if first.is_empty() {
             return Err(FormatError::Empty { path: path.to_owned() });
@@ -77,7 +77,7 @@ impl Formats {
     }
 }
 
-/// A file that is called as one of a format and does not begin as one.
+/// The error for a file with the extension of a format but other first bytes.
 fn not_begun(path: &Path, format: &dyn FileFormat) -> FormatError {
     let begin = format.magic().first().map_or(&[][..], |(_, bytes)| bytes);
     let reason = format!("it does not begin with {}", String::from_utf8_lossy(begin));

@@ -1,14 +1,14 @@
-//! Columns of numbers in the files that programs log to.
+//! Columns of numbers in the log files of many programs.
 //!
 //! ```text
 //! path -> open -> Opened -> column_names, load(Needed) -> Table
 //! ```
 //!
-//! [`open`] tells the kind of a file by its first bytes, whatever its name, and unpacks gzip and zstd. What a
-//! column means is not known here: the caller says which column is time and which ones it needs.
+//! [`open`] identifies the kind of a file by its first bytes, independent of its name, and unpacks gzip and zstd. This
+//! crate does not know the meaning of a column: the caller says which column is time and which columns it needs.
 //!
-//! A format is a folder in `src/formats`, with a type that implements `FileFormat` and one that implements [`Opened`],
-//! and a line in the list of `src/formats/mod.rs`.
+//! A format is a folder in `src/formats` and a line in the list of `src/formats/mod.rs`. Its folder has one type that
+//! implements `FileFormat` and one that implements [`Opened`].
 
 mod arrays;
 mod columns;

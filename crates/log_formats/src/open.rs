@@ -14,13 +14,13 @@ use crate::{
     },
 };
 
-/// Opens a file, or the folder of a bag or a dataset, whose kind the first bytes tell.
+/// Opens a file, or the folder of a bag or a dataset. The first bytes of a file identify its kind.
 ///
-/// `dataset` is the one that `path` is, where it was opened already: its column of episodes is not read again.
+/// `dataset` is the dataset at `path`, where it is open already. Its column of episodes is then not read again.
 ///
 /// # Errors
 ///
-/// Why there is no log that can be read; `damage` says what becomes of one that is damaged.
+/// The reason why the log cannot be read. `damage` says whether a damaged log is refused or cut off.
 pub fn open(
     path: &Path,
     request: &Request,
@@ -47,11 +47,11 @@ pub fn open(
     }
 }
 
-/// Names of the columns of the log at `path`, each one once.
+/// Names of the columns of the log at `path`, where each name must be unique.
 ///
 /// # Errors
 ///
-/// [`FormatError::DuplicateColumn`], and those of [`Opened::names`].
+/// [`FormatError::DuplicateColumn`], and the errors of [`Opened::names`].
 pub fn column_names(log: &dyn Opened, path: &Path) -> Result<Vec<String>, FormatError> {
     let names = log.names()?;
     let mut seen = BTreeSet::new();
@@ -64,11 +64,11 @@ pub fn column_names(log: &dyn Opened, path: &Path) -> Result<Vec<String>, Format
 }
 
 impl LerobotDataset {
-    /// The dataset in a folder; `None` where a path is none.
+    /// The dataset in a folder; `None` where the path is not a dataset.
     ///
     /// # Errors
     ///
-    /// Those of reading the column `episode_index` of its files.
+    /// The errors of reading the column `episode_index` of its files.
     pub fn open(path: &Path) -> Result<Option<Self>, FormatError> {
         Self::of_folder(path, &FORMATS)
     }

@@ -21,7 +21,7 @@ pub enum LogError {
         /// What the operating system or the encoder said.
         reason: String,
     },
-    /// The columns of a file have no names, and none were given to them.
+    /// The columns of a file have no names, and no column map gives them any.
     #[error("{}: its columns have no names; they are called column_1 to column_{columns}, \
         a column map that says which is which was expected", path.display())]
     NoNames {
@@ -42,9 +42,9 @@ pub enum LogError {
         column: Box<str>,
         /// The joints of the log.
         found: Box<[String]>,
-        /// The joints of the robot that the log has.
+        /// The robot's joints that are in the log.
         shared: Box<[String]>,
-        /// The joint of the log with the most similar name that the robot does not have.
+        /// The joint of the log with the most similar name, among those that are not in the robot.
         nearest: Option<String>,
     },
     /// There are too few rows.
@@ -57,19 +57,19 @@ pub enum LogError {
         /// Rows needed.
         expected: usize,
     },
-    /// There are too few rows in the seconds that were to be read.
+    /// There are too few rows in the excerpt.
     #[error("{}, {excerpt} after its first row: {found} rows of data, at least {expected} were expected", path.display())]
     ExcerptTooShort {
         /// The file.
         path: PathBuf,
-        /// What was to be read.
+        /// The excerpt.
         excerpt: Excerpt,
         /// Rows found.
         found: usize,
         /// Rows needed.
         expected: usize,
     },
-    /// A position is in degrees, by all that is known of the joint.
+    /// A position must be in degrees, judged by the limits and the speed of the joint.
     #[error("{}: column {column}, row {row}: found {found}, but joint {joint} {expectation}; \
         this looks like degrees where radians were expected: convert it, or give the column its unit in a column map", path.display())]
     LooksLikeDegrees {
@@ -86,7 +86,7 @@ pub enum LogError {
         /// What was expected, as the end of `joint j1 ...`.
         expectation: String,
     },
-    /// Many samples of a column are none that the joint can have.
+    /// Many samples of a column are impossible for the joint.
     #[error("{}: column {column}, row {row}: found {found}, but {expectation}; \
         {count} of {rows} rows are like it, up to {few} would have been left out", path.display())]
     Impossible {
@@ -94,23 +94,23 @@ pub enum LogError {
         path: PathBuf,
         /// The column.
         column: String,
-        /// The first such row.
+        /// The first row with an impossible sample.
         row: usize,
-        /// What it holds.
+        /// The value there.
         found: f64,
-        /// Why it cannot be, as the end of `but ...`.
+        /// Why it is impossible, as the end of `but ...`.
         expectation: String,
-        /// Such rows.
+        /// Number of rows with an impossible sample.
         count: usize,
-        /// All rows.
+        /// Number of all rows.
         rows: usize,
-        /// How many would have been left out.
+        /// Largest number of rows that are left out.
         few: usize,
     },
-    /// Something in a column map is not what was expected.
+    /// A column map has an error.
     #[error("{problem}")]
     Map {
-        /// What, and where it stands.
+        /// The error, and its place in the file.
         problem: Box<document::DocumentError>,
     },
     /// A column map names a joint that the robot does not have.
@@ -125,7 +125,7 @@ pub enum LogError {
         /// The joint of the robot with the most similar name.
         nearest: Option<String>,
     },
-    /// A column map gives a unit of another quantity.
+    /// A column map gives a unit of a wrong quantity.
     #[error("{}: {key}: found the unit {found:?}, a unit of {expected} was expected", path.display())]
     MapWrongUnit {
         /// The map file.
@@ -155,10 +155,10 @@ pub enum LogError {
         /// Half the sampling rate (Hz).
         nyquist_hz: f64,
     },
-    /// There is nothing to prepare.
+    /// No runs were given.
     #[error("no run was given, at least one was expected")]
     NoRuns,
-    /// Two runs are not of the same robot.
+    /// Two runs do not have the same joints.
     #[error(
         "{of_run}: its joints are {}, but those of {of_first} are {}",
         list(found),
@@ -173,7 +173,7 @@ pub enum LogError {
         /// The joints of the first run.
         expected: Vec<String>,
     },
-    /// A signal does not have one value per sample of time.
+    /// A signal has another number of samples than time.
     #[error("{of_run}: {column} has {found} samples, {expected} were expected as in time", of_run = of_run(run))]
     WrongLength {
         /// The run.

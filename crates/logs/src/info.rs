@@ -15,43 +15,43 @@ use crate::{
     },
 };
 
-/// Description of a run before it is used.
+/// Description of a run as it was read, before it is prepared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LogInfo {
     /// Name of the run.
     pub name: String,
-    /// Number of rows.
+    /// Number of samples.
     pub samples: usize,
-    /// Whether the file ended in the middle of a further row, which is left out.
+    /// Whether the file ended in the middle of a row. That row is left out.
     pub is_torn: bool,
-    /// Changes made while it was read.
+    /// Changes made while the run was read.
     pub mended: Vec<Repair>,
     /// Time from the first row to the last (s).
     pub duration_s: f64,
     /// One over the median step of time (Hz).
     pub rate_hz: f64,
-    /// Standard deviation of the steps of time, gaps left out (s).
+    /// Standard deviation of the time steps, without gaps (s).
     pub jitter_std_s: f64,
-    /// Largest difference of a step from the median step, gaps left out (s).
+    /// Largest difference of a time step from the median step, without gaps (s).
     pub jitter_max_s: f64,
-    /// Steps of more than one and a half times the median.
+    /// Gaps: time steps of more than one and a half times the median step.
     pub gaps: Vec<TimeGap>,
     /// Each joint, in the order of the robot.
     pub joints: Vec<JointInfo>,
     /// Joints of the log that the robot does not have.
     pub unknown_joints: Vec<String>,
-    /// Further columns.
+    /// Columns that belong to none of the robot's signals.
     pub extra: Vec<String>,
 }
 
-/// A step of time that is too long.
+/// A time step that is too long.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeGap {
-    /// Row after which it comes, counted from 1.
+    /// Row before the gap, counted from 1.
     pub row: usize,
-    /// Time at which it begins, as in the file (s).
+    /// Time of that row, as in the file (s).
     pub start_s: f64,
-    /// Its length (s).
+    /// Length of the gap (s).
     pub length_s: f64,
 }
 
@@ -64,31 +64,31 @@ pub struct JointInfo {
     pub missing: Vec<Channel>,
     /// Lowest and highest position (rad or m).
     pub position: (f64, f64),
-    /// Limits of the position in the robot's description (rad or m).
+    /// Position limits in the robot's description (rad or m).
     pub limits: Option<(f64, f64)>,
     /// Share of the samples outside those limits, 0 to 1.
     pub share_outside_limits: f64,
     /// Whether the position ranges over 0.05 rad or 5 mm.
     pub moves: bool,
-    /// Smallest step between positions that occurs again and again (rad or m); `None`
+    /// Smallest step between positions that occurs repeatedly (rad or m); `None`
     /// where positions are not quantised.
     pub quantisation_step: Option<f64>,
     /// Lowest and highest effort (N·m or N).
     pub effort: (f64, f64),
-    /// Largest effort in the robot's description (N·m or N).
+    /// Effort limit in the robot's description (N·m or N).
     pub effort_limit: Option<f64>,
-    /// Share of the samples at the lowest or the highest effort, 0 to 1.
+    /// Share of the samples at the lowest or the highest effort, without one of each, 0 to 1.
     pub effort_saturation: f64,
-    /// Whether the positions may be degrees. A log in which they must be degrees is refused by reading.
+    /// Whether the positions may be degrees. Reading refuses a log in which they must be degrees.
     pub suspected_degrees: bool,
-    /// The velocity column against the derivative of the position, both low-passed at
+    /// The velocity column compared with the derivative of the position, both low-passed at
     /// the cut-off of this run; `None` without the column or without motion.
     pub velocity_agreement: Option<Agreement>,
 }
 
-/// Describes a run before it is used.
+/// Describes a run as it was read, before it is prepared.
 ///
-/// Joints are taken in the order of the robot, which is that of [`crate::read_run`].
+/// Joints are taken in the order of the robot, as [`crate::read_run`] returns them.
 pub fn log_info(run: &Run, robot: &Robot) -> LogInfo {
     let steps: Vec<f64> = run.time.windows(2).map(|t| t[1] - t[0]).collect();
     let usual = median(&steps);
@@ -148,8 +148,8 @@ fn share(x: &[f64], test: impl Fn(f64) -> bool) -> f64 {
     x.iter().filter(|&&v| test(v)).count() as f64 / x.len().max(1) as f64
 }
 
-/// The smallest difference between neighbouring positions that one difference in a
-/// hundred has; `None` where more than half of the differences occur once only.
+/// The smallest difference between neighbouring positions that at least one difference in a
+/// hundred has; `None` where more than half of the differences occur only once.
 fn quantisation_step(position: &[f64]) -> Option<f64> {
     let (low, high) = range(position);
     let rounding = 8.0 * f64::EPSILON * low.abs().max(high.abs());

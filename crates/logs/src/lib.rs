@@ -4,16 +4,16 @@
 //! file -> read_run -> Run -> prepare -> q, qd, qdd, effort on a uniform clock
 //! ```
 //!
-//! A run is one file, a bag of ROS 2 or an episode of a dataset of LeRobot, with the columns `time` (s) and, per joint,
+//! A run is one file, one ROS 2 bag or one episode of a LeRobot dataset. Its columns are `time` (s) and, per joint,
 //! `<joint>.position`, `.velocity`, `.acceleration`, `.effort`, `.desired_position`,
 //! `.desired_velocity`, `.desired_acceleration`, `.commanded_effort` and, from a second
-//! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` have to
-//! be there. Columns are found by name, never by their place; a [`ColumnMap`] reads files that
-//! use other names or units. A log is written as a whole by [`write_csv`] and [`write_parquet`], or while it
-//! grows by a [`LogWriter`].
+//! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` are
+//! required. Columns are found by name, in any order; a [`ColumnMap`] reads files that
+//! use other names or units. [`write_csv`] and [`write_parquet`] write a whole log; a [`LogWriter`] writes one while it
+//! is recorded.
 //!
-//! After [`prepare`], `q`, `qd` and `qdd` have passed the same zero-phase [`LowPass`];
-//! the effort has not, so that one filter can be applied to it and to every regressor
+//! [`prepare`] applies the same zero-phase [`LowPass`] to `q`, `qd` and `qdd`. It does not filter
+//! the effort, so that one filter can be applied later to the effort and to every regressor
 //! column alike.
 
 mod checks;

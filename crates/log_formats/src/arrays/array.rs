@@ -1,16 +1,16 @@
-/// An array of numbers, column after column.
+/// An array of numbers, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Array {
-    /// Its name, behind those of the structures that hold it: `log.q`.
+    /// Name of the array, after the names of the structures that hold it: `log.q`.
     pub name: String,
     pub rows: u64,
     pub columns: u64,
     pub numbers: Vec<f64>,
 }
 
-/// What is wrong with a file that was made to be large.
+/// Reason for refusing a small file that unpacks to too many numbers.
 pub(crate) const TOO_LARGE: &str = "its numbers take more than is allowed of a file of this size";
-/// Most columns of an array; one that has more is a picture or a list of features.
+/// Most columns of an array. An array with more is a picture or a list of features.
 const MOST_COLUMNS: u64 = 10_000;
 
 impl Array {
@@ -19,7 +19,7 @@ impl Array {
         self.rows == 1 || self.columns == 1
     }
 
-    /// Its columns by name; none of an array that is no table. `samples` is the length of the column of time.
+    /// Columns of the array by name; empty if it has too many. `samples` is the length of the column of time.
     pub(crate) fn columns(&self, samples: Option<u64>) -> Vec<(String, Vec<f64>)> {
         let Self { name, rows, columns, numbers } = self;
         if self.is_vector() {

@@ -17,20 +17,21 @@ use crate::{
     file_format::Opened,
 };
 
-/// Taken for the name of a column (bytes).
+/// Bytes counted for the name of a column.
 const PER_NAME: u64 = 256;
 
-/// A log as arrays by name, read as a whole.
+/// A log of named arrays that is read as a whole.
 pub(crate) struct ArrayFile {
     path: PathBuf,
     columns: Vec<(String, Vec<f64>)>,
 }
 
 impl ArrayFile {
-    /// Reads the arrays of numbers with `decode`: vectors are columns by their name, `q` of samples x n is `q[0]`,
-    /// `q[1]` and so on, also where it lies as n x samples and only that is as long as the column `time`.
+    /// Reads the arrays of numbers with `decode`. A vector is a column with the name of the array. An array `q` of
+    /// samples x n is the columns `q[0]`, `q[1]` and so on. An array of n x samples is read the same way if only its
+    /// second dimension is as long as the column `time`.
     ///
-    /// `kind` is what a damaged file is called.
+    /// `kind` is the name of the format in errors.
     pub(crate) fn read(
         path: &Path,
         file: File,
@@ -60,7 +61,7 @@ impl Opened for ArrayFile {
         Ok(self.columns.iter().map(|(name, _)| name.clone()).collect())
     }
 
-    /// Columns by name: those that are needed, and of the rest those that are as long as time.
+    /// Columns by name: those that are needed, and any other column that is as long as time.
     fn load(&self, needed: &Needed, _: &mut Damage) -> Result<Table, FormatError> {
         let with_time = self.columns.iter().find(|(name, _)| name == needed.time);
         let samples = with_time.map_or(0, |(_, numbers)| numbers.len());

@@ -17,32 +17,32 @@ use crate::{
     common::allowance::Allowance,
 };
 
-/// Groups in groups that are looked into.
+/// Most levels of groups that are read.
 const DEEPEST: usize = 8;
-/// Most arrays, and most groups, that are looked at: a file may name one of them again and again.
+/// Most arrays, and most groups, that are read. A file may link to one of them repeatedly.
 const MOST: usize = 10_000;
-/// Kept of chunks that were unpacked (bytes).
+/// Size of the cache of unpacked chunks (bytes).
 const CACHE: usize = 1 << 22;
-/// Filters of HDF5 by their number: deflate, and two that are refused.
+/// Numbers of HDF5 filters: deflate, and two filters that are refused.
 const DEFLATE: u16 = 1;
 const REFUSED: [u16; 2] = [5, 6];
 
-/// How a program lays its arrays out in HDF5.
+/// The layout of arrays in HDF5 files of one program.
 pub(crate) trait Layout {
-    /// Bytes before the superblock: addresses in the file are counted from behind them.
+    /// Bytes before the superblock. Addresses in the file are counted from the superblock.
     fn header_bytes(&self) -> u64;
 
-    /// Whether the arrays of a group are read, by `group.array`.
+    /// Whether the arrays of a group are read, with names `group.array`.
     fn is_structure(&self, group: &Group) -> bool;
 
-    /// Rows and columns of the array that a dataset is; none of what holds no numbers or is no table.
+    /// Rows and columns of the array in a dataset; `None` where it has no numbers or is not a table.
     fn shape(&self, dataset: &Dataset) -> Option<[u64; 2]>;
 
-    /// The numbers of a dataset of such a shape, from its own order to one column after the other.
+    /// The numbers of a dataset of this shape, sorted column by column.
     fn sort_by_column(&self, numbers: Vec<f64>, shape: [u64; 2]) -> Vec<f64>;
 }
 
-/// The part of a file behind its header.
+/// The part of a file after its header.
 struct BehindHeader {
     file: Mutex<File>,
     header_bytes: u64,
@@ -68,11 +68,11 @@ impl Storage for BehindHeader {
     }
 }
 
-/// The arrays of numbers, those in groups by `group.array`.
+/// The arrays of numbers. An array in a group is named `group.array`.
 ///
 /// # Errors
 ///
-/// What is wrong with the file, or that it takes more than `allowance`.
+/// What is wrong with the file, or that it needs more than `allowance`.
 pub(crate) fn read_arrays(
     file: File,
     layout: &dyn Layout,
@@ -92,7 +92,7 @@ pub(crate) fn read_arrays(
     Ok(reading.arrays)
 }
 
-/// The filters of chunks. What deflate unpacks is taken from the allowance: that of the crate has no end.
+/// The filters of chunks. The output of deflate is counted against the allowance: the crate's own filter has no limit.
 fn filters(allowance: Allowance) -> FilterRegistry {
     let left = Mutex::new(allowance);
     let mut filters = FilterRegistry::new();
@@ -121,13 +121,13 @@ fn filters(allowance: Allowance) -> FilterRegistry {
 struct Reading<'a> {
     layout: &'a dyn Layout,
     allowance: &'a mut Allowance,
-    /// Groups so far.
+    /// Number of groups read so far.
     groups: usize,
     arrays: Vec<Array>,
 }
 
 impl Reading<'_> {
-    /// Reads the arrays of a group, and of groups in it.
+    /// Reads the arrays of a group and of its subgroups.
     fn group(&mut self, group: &Group, prefix: &str, deepest: usize) -> io::Result<()> {
         let (groups, datasets) = group.members().map_err(io::Error::other)?;
         for dataset in &datasets {
@@ -146,7 +146,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// The array of a dataset; none of what holds no numbers or is no table.
+    /// The array in a dataset; `None` where it has no numbers or is not a table.
     fn array(&mut self, dataset: &Dataset, name: String) -> io::Result<Option<Array>> {
         let Some(shape) = self.layout.shape(dataset) else { return Ok(None) };
         let [rows, columns] = shape;
@@ -159,7 +159,7 @@ impl Reading<'_> {
     }
 }
 
-/// The numbers of a dataset, in its order; none of another type.
+/// The numbers of a dataset, in its order; `None` for a dataset of another type.
 fn numbers(dataset: &Dataset) -> Result<Option<Vec<f64>>, Error> {
     fn of<T: H5Type + Copy>(
         dataset: &Dataset,

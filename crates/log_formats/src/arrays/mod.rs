@@ -1,4 +1,4 @@
-//! Logs that are arrays by name, as programs for numbers save their variables.
+//! Logs that are named arrays, as numerical programs save their variables.
 
 pub(crate) mod array;
 pub(crate) mod array_file;

@@ -1,19 +1,19 @@
-/// Bytes that a packed log may take when it is unpacked.
+/// Bytes that a packed log may still take when it is unpacked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Allowance {
     all: u64,
     left: u64,
 }
 
-/// Allowed whatever the size of the file (bytes).
+/// Bytes that are allowed for a file of any size.
 const ALWAYS: u64 = 1 << 26;
-/// Allowed for every byte of the file: numbers that are measured shrink to a fifth or so, and
-/// what shrinks to less than this was made to be large.
+/// Bytes that are allowed per byte of the file. Measured numbers shrink to about a fifth when they are packed. A file
+/// that shrinks to less than this share is refused as malicious.
 const PER_BYTE: u64 = 200;
-/// Never allowed (bytes).
+/// Most bytes that are ever allowed.
 const NEVER: u64 = 1 << 33;
 
-/// More than is allowed was asked for.
+/// More bytes were needed than are allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Exceeded {
     /// Bytes that are allowed.
@@ -21,13 +21,13 @@ pub(crate) struct Exceeded {
 }
 
 impl Allowance {
-    /// That of a file of this length (bytes).
+    /// The allowance for a file of this length (bytes).
     pub(crate) fn of(length: u64) -> Self {
         let all = length.saturating_mul(PER_BYTE).saturating_add(ALWAYS).min(NEVER);
         Self { all, left: all }
     }
 
-    /// Takes some bytes.
+    /// Counts some bytes against the allowance.
     pub(crate) fn take(&mut self, bytes: u64) -> Result<(), Exceeded> {
         let exceeded = Exceeded { allowed: self.all };
         self.left = self.left.checked_sub(bytes).ok_or(exceeded)?;

@@ -1,22 +1,21 @@
 use crate::common::error::FormatError;
 
-/// What to do with a damaged log.
+/// How a damaged log is treated.
 #[derive(Debug, Default)]
 pub enum Damage {
-    /// It is refused.
+    /// The log is refused.
     #[default]
     Refused,
-    /// It is read up to the damage; the error found there is kept.
+    /// The log is read up to the damage. The error found there is kept.
     CutOff(Option<Box<FormatError>>),
 }
 
 impl Damage {
-    /// Keeps an error that ends the log.
+    /// Keeps an error that ends the log. Of several errors the first is kept.
     ///
     /// # Errors
     ///
-    /// The error itself, where the log is to be refused or the error has no place in the log. Of several errors the
-    /// first is kept.
+    /// The error itself, where the log is to be refused or the error has no place in the log.
     pub fn take(&mut self, error: FormatError) -> Result<(), FormatError> {
         let is_at_a_place = matches!(
             error,

@@ -18,22 +18,22 @@ pub enum FormatError {
         /// The file.
         path: PathBuf,
     },
-    /// The path is a directory, or another thing that is not a file.
+    /// The path is a directory, or something else that is not a file.
     #[error("{}: this is {found}, the file of a log was expected", path.display())]
     NotAFile {
         /// The path.
         path: PathBuf,
-        /// What it is.
+        /// What the path is.
         found: &'static str,
     },
-    /// The file is of a kind that is not read, by its first bytes.
+    /// The first bytes of the file show a kind that is not supported.
     #[error("{}: this is {found}; {advice}", path.display())]
     OtherKind {
         /// The file.
         path: PathBuf,
-        /// What it is.
+        /// What the file is.
         found: &'static str,
-        /// What to do about it.
+        /// What to do with such a file.
         advice: &'static str,
     },
     /// The file has no bytes.
@@ -50,7 +50,7 @@ pub enum FormatError {
         /// What the operating system or the decoder said.
         reason: String,
     },
-    /// The file says that it is of a kind, but it is not whole.
+    /// The file begins like one of a kind but is incomplete.
     #[error("{}: not a whole {kind} file ({reason}); was it cut off while being copied?", path.display())]
     Broken {
         /// The file.
@@ -60,7 +60,7 @@ pub enum FormatError {
         /// What the decoder said.
         reason: String,
     },
-    /// A packed file holds more than one of its size can be expected to.
+    /// A packed file unpacks to more bytes than are allowed for its size.
     #[error("{}: unpacked it takes more than the {} MB that are allowed of a packed file of this size", path.display(), allowed >> 20)]
     TooLarge {
         /// The file.
@@ -68,18 +68,18 @@ pub enum FormatError {
         /// Bytes that are allowed.
         allowed: u64,
     },
-    /// A column is not as long as that of time.
+    /// A column does not have the length of the column of time.
     #[error("{}: column {column} has {found} values, {expected} were expected as in {time}", path.display())]
     ColumnLength {
         /// The file.
         path: PathBuf,
         /// The column.
         column: String,
-        /// Values found.
+        /// Number of values in the column.
         found: u64,
         /// The column of time.
         time: String,
-        /// Values of it.
+        /// Number of values in the column of time.
         expected: u64,
     },
     /// A bag has no joint states on a topic.
@@ -102,14 +102,14 @@ pub enum FormatError {
         /// The topics.
         found: Vec<String>,
     },
-    /// A dataset has another number of episodes than one, or none of the number that was asked for.
+    /// The episode is not in the dataset, or no episode was asked for and the dataset does not have exactly one.
     #[error("{}: {}, it has {}", path.display(), asked_episode(*asked), episodes(found))]
     Episode {
         /// The folder.
         path: PathBuf,
-        /// The episode that was asked for.
+        /// The episode that was asked for, if any.
         asked: Option<u64>,
-        /// The episodes that there are.
+        /// The episodes of the dataset.
         found: Vec<u64>,
     },
     /// A message of a bag cannot be read.
@@ -124,7 +124,7 @@ pub enum FormatError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A message of a bag holds some of the joints of the robot and not all.
+    /// A message of a bag holds only some of the robot's joints.
     #[error("{}: message {message} of {topic} holds joints of the robot, but no {column}", path.display())]
     NotInMessage {
         /// The file.
@@ -144,7 +144,7 @@ pub enum FormatError {
         /// The name.
         column: String,
     },
-    /// A column that is needed is not there.
+    /// A needed column is missing.
     #[error("{}: there is no column {column}, {purpose}{}", path.display(), suggestion(nearest.as_deref()))]
     NoColumn {
         /// The file.
@@ -168,7 +168,7 @@ pub enum FormatError {
         /// Fields of the header.
         expected: usize,
     },
-    /// A field that should be a number is not.
+    /// A field is not a number.
     #[error("{}: row {row}, column {column}: found {found:?}, a number was expected", path.display())]
     NotANumber {
         /// The file.
@@ -212,7 +212,7 @@ pub enum FormatError {
         /// The type found.
         found: String,
     },
-    /// Time stands still or goes backwards.
+    /// Time does not increase from one row to the next.
     #[error("{}: row {row}, column {column}: time is {} s after {} s, it must increase from row to row", path.display(), short(*found), short(*previous))]
     TimeNotIncreasing {
         /// The file.
@@ -255,7 +255,7 @@ fn asked_episode(asked: Option<u64>) -> String {
     }
 }
 
-/// Episodes in their order, in a few words.
+/// Episodes in their order, abbreviated.
 fn episodes(found: &[u64]) -> String {
     match found {
         [] => "none".to_owned(),
@@ -264,14 +264,14 @@ fn episodes(found: &[u64]) -> String {
     }
 }
 
-/// A number in at most some twenty characters.
+/// A number with at most about twenty characters.
 fn short(value: f64) -> String {
     let is_tiny = value.abs() > 0.0 && value.abs() < 1e-6;
     let is_plain = !is_tiny && value.abs() < 1e15;
     if is_plain { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// The first of them.
+/// The first few names.
 fn few(names: &[String]) -> String {
     const MOST: usize = 8;
     let more = names.len().saturating_sub(MOST);

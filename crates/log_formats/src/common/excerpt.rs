@@ -1,11 +1,11 @@
 use std::fmt;
 
-/// The seconds of a log that are read, counted from its first row: both ends belong to it.
+/// The seconds of a log that are read, counted from its first row. Both ends are included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Excerpt {
-    /// Its beginning (s).
+    /// Start of the excerpt (s).
     pub from_s: f64,
-    /// Its end (s); infinite for all that follows.
+    /// End of the excerpt (s); infinite for the whole rest of the log.
     pub to_s: f64,
 }
 
@@ -16,7 +16,7 @@ impl fmt::Display for Excerpt {
     }
 }
 
-/// How the column of time is written:
+/// Conversion of the column of time to seconds:
 ///
 /// ```text
 /// time (s) = factor * value + offset_s
@@ -29,24 +29,24 @@ pub struct TimeScale {
     pub offset_s: f64,
 }
 
-/// Picks the rows of an excerpt, in the order of a file.
+/// Selects the rows of an excerpt, in the order of the file.
 #[derive(Debug, Clone)]
 pub struct ExcerptFilter {
     excerpt: Excerpt,
-    /// Seconds where it is left out.
+    /// Conversion of time to seconds; `None` where time is in seconds.
     scale: Option<TimeScale>,
-    /// Time of the first row that has one (s).
+    /// Time of the first row with a time (s).
     first_s: Option<f64>,
 }
 
 impl ExcerptFilter {
-    /// Of a file whose time is in seconds, or on a `scale`.
+    /// A filter for a file whose time is in seconds, or is converted by `scale`.
     pub fn new(excerpt: Excerpt, scale: Option<TimeScale>) -> Self {
         Self { excerpt, scale, first_s: None }
     }
 
-    /// Whether the next row of the file belongs to the excerpt; `value` is its time as the file has it. A row
-    /// without a time belongs to it, so that it is found to be an error.
+    /// Whether the next row of the file belongs to the excerpt; `value` is its time as in the file. A row
+    /// without a time belongs to the excerpt, so that reading reports it as an error.
     pub(crate) fn takes(&mut self, value: f64) -> bool {
         let time_s = self.scale.map_or(value, |scale| scale.factor * value + scale.offset_s);
         if !time_s.is_finite() {

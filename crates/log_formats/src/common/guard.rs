@@ -5,7 +5,7 @@ use std::{
 
 use crate::common::error::FormatError;
 
-/// Runs a decoder of another crate and turns its panic into an error: some panic at a damaged file.
+/// Runs a decoder of another crate and turns its panic into an error. Some decoders panic at a damaged file.
 pub(crate) fn guard<T>(
     path: &Path,
     kind: &'static str,

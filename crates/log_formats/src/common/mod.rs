@@ -1,4 +1,4 @@
-//! What all formats share: limits, damage, errors, tables, numbers.
+//! Shared by all formats: limits, damage, errors, tables and numbers.
 
 pub(crate) mod allowance;
 pub(crate) mod damage;

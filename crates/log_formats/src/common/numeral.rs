@@ -1,8 +1,8 @@
-/// How a number lies in bytes, by a code of NumPy such as `<f8`.
+/// Layout of a number in bytes, by a NumPy type code such as `<f8`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Numeral {
     kind: Kind,
-    /// 1 to 8.
+    /// Number of bytes, 1 to 8.
     bytes: usize,
     order: Order,
 }
@@ -14,14 +14,14 @@ enum Kind {
     Float,
 }
 
-/// The end at which a number begins.
+/// Byte order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Order {
     Little,
     Big,
 }
 
-/// What lies under a code: how long it is, and the number where it is one.
+/// An item with a type code: its length, and its layout where it is a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Item {
     pub bytes: u64,
@@ -29,7 +29,7 @@ pub(crate) struct Item {
 }
 
 impl Item {
-    /// By its code; none for Python's objects and for what is no code.
+    /// The item of a type code; `None` for Python objects and for an invalid code.
     pub(crate) fn of(code: &str) -> Option<Self> {
         let mut characters = code.chars();
         let (order, kind) = (characters.next()?, characters.next()?);
@@ -54,12 +54,12 @@ impl Item {
 }
 
 impl Numeral {
-    /// Bytes of a number.
+    /// Number of bytes of a number.
     pub(crate) fn bytes(self) -> usize {
         self.bytes
     }
 
-    /// The number at the start of some bytes.
+    /// The number in the first bytes.
     pub(crate) fn read(self, bytes: &[u8]) -> f64 {
         let own = bytes.iter().take(self.bytes).map(|&byte| u64::from(byte));
         let raw = match self.order {

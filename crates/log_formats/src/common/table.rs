@@ -6,9 +6,9 @@ use crate::common::excerpt::ExcerptFilter;
 pub struct Needed<'a> {
     /// The column of time.
     pub time: &'a str,
-    /// The others.
+    /// The columns of the signals.
     pub signals: BTreeSet<&'a str>,
-    /// The rows that are read, where those are not all.
+    /// The rows that are read; `None` for all.
     pub excerpt: Option<ExcerptFilter>,
 }
 
@@ -23,12 +23,12 @@ impl Needed<'_> {
 pub struct Table {
     /// Columns by name, all of one length.
     pub columns: BTreeMap<String, Vec<f64>>,
-    /// The row of the file that each sample is from; empty where no row was left out.
+    /// The row of the file for each sample; empty where no row was left out.
     pub rows: Vec<usize>,
 }
 
 impl Table {
-    /// The table of the rows in the excerpt, of one that was read whole.
+    /// The rows of the excerpt, from a table that was read as a whole.
     pub(crate) fn excerpt(mut self, needed: &Needed) -> Self {
         let (Some(mut filter), Some(time)) =
             (needed.excerpt.clone(), self.columns.get(needed.time))
@@ -47,12 +47,12 @@ impl Table {
         self.rows.truncate(samples);
     }
 
-    /// The row of the file that a sample is from, counted from 1.
+    /// The row of the file for a sample, counted from 1.
     pub fn row(&self, sample: usize) -> usize {
         self.rows.get(sample).copied().unwrap_or(sample + 1)
     }
 
-    /// Leaves samples out, in rising order.
+    /// Removes the given samples, listed in rising order.
     pub fn leave_out(&mut self, samples: &[usize]) {
         let rows = self.columns.values().map(Vec::len).max().unwrap_or(0);
         let is_left = |k: &usize| samples.binary_search(k).is_err();
@@ -64,7 +64,7 @@ impl Table {
     }
 }
 
-/// What a row holds in a column.
+/// The content of one row in one column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum TableCell {
     Number(f64),
@@ -74,8 +74,8 @@ pub(crate) enum TableCell {
 
 /// A table that is filled row by row.
 ///
-/// A row without any signal is left out: it belongs to another topic that was written between the joints'. A column
-/// that is not needed stays where all other rows have a number in it.
+/// A row without any signal is left out: it belongs to another topic, recorded between the messages of the joints. A
+/// column that is not needed is kept only if it has a number in all other rows.
 pub(crate) struct Rows {
     excerpt: Option<ExcerptFilter>,
     columns: Vec<Column>,
@@ -96,7 +96,7 @@ enum Use {
 }
 
 impl Rows {
-    /// Of columns with these names; one without a name is left out.
+    /// A table with these columns. A column without a name is left out.
     pub(crate) fn new(names: &[String], needed: &Needed) -> Self {
         let column = |name: &String| Column {
             name: name.clone(),
@@ -111,7 +111,7 @@ impl Rows {
         Self { excerpt: needed.excerpt.clone(), columns, rows: Vec::new() }
     }
 
-    /// Adds a row of the file, counted from 1: one cell a column.
+    /// Adds a row of the file, counted from 1, with one cell per column.
     ///
     /// # Errors
     ///

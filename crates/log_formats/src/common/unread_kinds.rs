@@ -1,15 +1,15 @@
-//! Files that are not read, each with what it is and what to do.
+//! Kinds of file that are not supported, each with a description and advice.
 
-/// A kind of file that is not read.
+/// A kind of file that is not supported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct UnreadKind {
-    /// What it is, as the end of `this is ...`.
+    /// Description of the file, as the end of `this is ...`.
     pub found: &'static str,
-    /// What to do about it.
+    /// What to do with such a file.
     pub advice: &'static str,
 }
 
-/// What a file with these first bytes is, where it is a known kind that is not read.
+/// The unsupported kind of a file with these first bytes; `None` for any other file.
 pub(crate) fn unread_kind(first: &[u8]) -> Option<UnreadKind> {
     let holds =
         |at: usize, magic: &[u8]| first.get(at..).is_some_and(|rest| rest.starts_with(magic));
@@ -33,7 +33,7 @@ const ARROW: &str = "write the table as Parquet";
 const TEXT: &str = "save it as UTF-8";
 const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for every moment";
 
-/// Kinds that are told by their bytes and not read: where, which bytes, what it is, what to do.
+/// Unsupported kinds that their bytes identify: place of the bytes, bytes, description, advice.
 #[rustfmt::skip]
 const UNREAD_KINDS: [(usize, &[u8], &str, &str); 21] = [
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
@@ -59,39 +59,39 @@ const UNREAD_KINDS: [(usize, &[u8], &str, &str); 21] = [
     (0, b"%PDF-", "a PDF document", NOT_A_TABLE),
 ];
 
-/// A text that holds no table.
+/// A text without a table.
 pub(crate) const PROSE: UnreadKind =
     UnreadKind { found: "text without a row of numbers in its first lines", advice: NOT_A_TABLE };
 
-/// A packed file in a packed file.
+/// A packed file inside a packed file.
 pub(crate) const TWICE: UnreadKind = UnreadKind { found: "packed twice", advice: PACKED };
 
 /// A bag without messages.
 pub(crate) const NO_BAG_FILE: UnreadKind =
     UnreadKind { found: "a bag without a file of messages", advice: BAG_FILE };
 
-/// A database that is no bag.
+/// A database that is not a bag.
 pub(crate) const NO_BAG: UnreadKind = UnreadKind { found: "a SQLite database", advice: BAG };
 
-/// A database whose last messages are in a file beside it.
+/// A database whose last messages are in a separate file.
 pub(crate) const UNFINISHED: UnreadKind = UnreadKind {
     found: "a SQLite database whose last messages are in a file beside it (-wal or -journal)",
     advice: CLOSE,
 };
 
-/// What stands in a bag under the name of one of its files.
+/// Another kind of file, in a bag under the name of one of its files.
 pub(crate) const NOT_A_BAG: UnreadKind = UnreadKind {
     found: "CSV or another kind of log",
     advice: "in a bag MCAP or SQLite was expected",
 };
 
-/// What stands in a dataset of LeRobot under the name of a Parquet file.
+/// Another kind of file, in a LeRobot dataset under the name of a Parquet file.
 pub(crate) const NOT_PARQUET: UnreadKind = UnreadKind {
     found: "CSV or another kind of log",
     advice: "in a dataset of LeRobot Parquet was expected",
 };
 
-/// What a zip archive is that holds no array of NumPy, by the names of its entries.
+/// The kind of a zip archive without NumPy arrays, by the names of its entries.
 pub(crate) fn of_archive(names: &[String]) -> UnreadKind {
     let known = |(ends, ..): &&(&str, &str, &str)| names.iter().any(|name| name.ends_with(ends));
     let (found, advice) = match ARCHIVES.iter().find(known) {
@@ -101,7 +101,7 @@ pub(crate) fn of_archive(names: &[String]) -> UnreadKind {
     UnreadKind { found, advice }
 }
 
-/// Zip archives by an entry that they hold: the end of its name, what it is, what to do.
+/// Kinds of zip archive by one of their entries: end of its name, description, advice.
 #[rustfmt::skip]
 const ARCHIVES: [(&str, &str, &str); 4] = [
     ("xl/workbook.xml", "an Excel workbook", TABLE),
@@ -110,13 +110,13 @@ const ARCHIVES: [(&str, &str, &str); 4] = [
     ("data.pkl", "a file of PyTorch, which can run a program when it is opened", ARRAYS),
 ];
 
-/// An array of NumPy that is no table.
+/// A NumPy array that is not a table.
 pub(crate) const NO_TABLE: UnreadKind = UnreadKind {
     found: "an array of NumPy that is no table of numbers",
     advice: "an array of samples x columns was expected",
 };
 
-/// Whether the bytes hold no control characters but those of text.
+/// Whether the bytes have no control characters other than those of text.
 pub(crate) fn is_text(bytes: &[u8]) -> bool {
     bytes.iter().all(|byte| !matches!(byte, 0..=8 | 11 | 14..=26 | 28..=31 | 127))
 }

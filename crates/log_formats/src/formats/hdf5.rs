@@ -17,13 +17,13 @@ use crate::{
     file_format::{FileFormat, Magic, Opened, Request},
 };
 
-/// What a damaged file is called.
+/// Name of the format in errors.
 const NAME: &str = "HDF5";
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
-/// Bytes that a program may put before the signature.
+/// Size of the block that a program may put before the signature (bytes).
 const USER_BLOCK: usize = 512;
 
-/// Arrays in the groups of an HDF5 file; one in groups is `group.array`.
+/// Arrays in the groups of an HDF5 file. An array in a group is named `group.array`.
 pub(crate) struct Hdf5;
 
 impl FileFormat for Hdf5 {
@@ -49,7 +49,7 @@ impl FileFormat for Hdf5 {
     }
 }
 
-/// Bytes before the signature.
+/// Number of bytes before the signature.
 fn header_bytes(mut file: &File) -> io::Result<u64> {
     let mut first = [0; SIGNATURE.len()];
     file.rewind()?;
@@ -57,7 +57,7 @@ fn header_bytes(mut file: &File) -> io::Result<u64> {
     Ok(if first == SIGNATURE { 0 } else { USER_BLOCK as u64 })
 }
 
-/// Every dataset of numbers, one row after the other.
+/// The layout of datasets of numbers, stored row by row.
 struct RowByRow {
     header_bytes: u64,
 }

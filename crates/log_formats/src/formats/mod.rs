@@ -1,4 +1,4 @@
-//! A folder a format, and the list of them.
+//! The supported formats, one folder per format, and their list.
 
 pub(crate) mod bag;
 pub(crate) mod csv;
@@ -10,8 +10,8 @@ pub(crate) mod parquet;
 
 use crate::content::Formats;
 
-/// Every kind of file that is read. Those that bytes tell are looked for in this order; what is text and
-/// nothing else is CSV.
+/// All supported kinds of file. Those identified by their bytes are tried in this order. Any other
+/// text is CSV.
 pub(crate) const FORMATS: Formats = Formats {
     by_magic: &[
         &parquet::parquet_file::Parquet,

@@ -1,3 +1,3 @@
-//! Files that are packed with gzip or zstd around another kind.
+//! Files of another kind that are packed with gzip or zstd.
 
 pub(crate) mod unpack;

@@ -11,7 +11,7 @@ use crate::{
     file_format::Magic,
 };
 
-/// How a file is packed.
+/// Compression of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Packing {
     Gzip,
@@ -21,7 +21,7 @@ pub(crate) enum Packing {
 impl Packing {
     pub(crate) const ALL: [Self; 2] = [Self::Gzip, Self::Zstd];
 
-    /// The first bytes of a file.
+    /// The first bytes of a file with this compression.
     pub(crate) fn magic(self) -> Magic {
         match self {
             Self::Gzip => (0, b"\x1f\x8b"),
@@ -29,7 +29,7 @@ impl Packing {
         }
     }
 
-    /// What a damaged file is called.
+    /// Name of the compression in errors.
     fn name(self) -> &'static str {
         match self {
             Self::Gzip => "gzip",
@@ -38,8 +38,8 @@ impl Packing {
     }
 }
 
-/// Unpacks a file into a temporary one without a name. `look` sees the first bytes of the content and may refuse
-/// it before the rest is unpacked.
+/// Unpacks a file into an unnamed temporary file. `look` receives the first bytes of the content and may refuse
+/// the file before the rest is unpacked.
 pub(crate) fn unpack<T>(
     path: &Path,
     mut file: File,
@@ -70,7 +70,7 @@ pub(crate) fn unpack<T>(
     })
 }
 
-/// Reads until the piece is full or the source ends; gives the bytes read.
+/// Reads until `piece` is full or the source ends, and returns the number of bytes read.
 fn fill(source: &mut dyn Read, piece: &mut [u8]) -> io::Result<usize> {
     let mut length = 0;
     while length < piece.len() {

@@ -9,7 +9,7 @@ use crate::runs::run::{Channels, range};
 /// Radians per degree.
 const DEGREE: f64 = PI / 180.0;
 
-/// How near to full turns a jump between two samples is (rad).
+/// Largest distance of a jump between two samples from a whole number of turns (rad).
 const NEAR_A_TURN: f64 = 0.5;
 
 /// Why the positions of a rotation must be degrees, as the end of `joint j1 ...`;
@@ -18,9 +18,9 @@ const NEAR_A_TURN: f64 = 0.5;
 /// One of three observations is enough:
 ///
 /// ```text
-/// limits    |q| > 2 pi, and q is beyond twice the limits, which it keeps in degrees
-///           (a revolute joint without limits counts as one of two turns either way),
-///           unless the position jumps by full turns, as a counter does that wraps
+/// limits    |q| > 2 pi, and q exceeds twice the limits in radians but keeps them in degrees
+///           (a revolute joint without limits counts as limited to two turns either way);
+///           not used where the position jumps by full turns, as a wrapping counter does
 /// velocity  the velocity column is pi/180 times the derivative of the position
 /// speed     |q| > 4 pi, and most of the motion is above 3 times the highest speed,
 ///           which it keeps in degrees
@@ -45,8 +45,8 @@ pub(crate) fn evidence(joint: &Joint, time: &[f64], channels: &Channels) -> Opti
     if found > 2.0 * TAU { beyond_speed(joint, &rate) } else { None }
 }
 
-/// Whether a position in radians goes beyond twice the limits of a rotation, and keeps
-/// them when read as degrees.
+/// Whether a position exceeds twice the limits of a rotation when read as radians, and keeps
+/// the limits when read as degrees.
 pub(crate) fn beyond_limits(joint: &Joint, position: &[f64]) -> Option<String> {
     let (lower, upper) = match (joint.limits.position, joint.kind) {
         (Some(limits), _) => limits,
@@ -101,7 +101,7 @@ fn beyond_speed(joint: &Joint, rate: &[f64]) -> Option<String> {
         .then(|| format!("is limited to {limit} rad/s and would mostly be above {middle:.1} rad/s"))
 }
 
-/// The same for the position of the link of a rotation, beside a position in radians.
+/// Why the position of a rotation's link must be degrees, where that of its motor is in radians.
 pub(crate) fn link_evidence(joint: &Joint, position: &[f64], link: &[f64]) -> Option<String> {
     let middle = |x: &[f64]| x.iter().sum::<f64>() / x.len().max(1) as f64;
     let (a, b) = (middle(position), middle(link));

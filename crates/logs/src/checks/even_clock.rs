@@ -1,21 +1,21 @@
 /// Rows of a log long enough for its clock to be judged.
 const FEWEST: usize = 256;
 
-/// Share of steps far from the mean step above which stamps are those of arrival.
+/// Share of steps far from the mean step above which stamps count as times of arrival.
 const IRREGULAR: f64 = 1.0 / 3.0;
 
-/// An even clock that replaces stamps of arrival.
+/// An even clock that replaces time stamps of arrival.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct EvenClock {
     /// Time of every row (s).
     pub time: Vec<f64>,
     /// Its step (s).
     pub step_s: f64,
-    /// How far a stamp is off it at most (s).
+    /// Largest distance of a time stamp from the even clock (s).
     pub largest_s: f64,
 }
 
-/// The even clock behind stamps that scatter by more than a step. `None` where the stamps are good, or where the
+/// The even clock behind time stamps that scatter by more than a step. `None` where the stamps are good, or where the
 /// rows were not recorded at an even rate.
 ///
 /// ```text
@@ -23,7 +23,7 @@ pub(crate) struct EvenClock {
 /// sd(t[k+m] - t[k]) < sqrt(m) / 2 sd(t[k+1] - t[k]),   m = n / 8
 /// ```
 ///
-/// By the second condition delays do not add up from row to row. Rows at random times and lost rows fail it.
+/// The second condition holds where delays do not add up from row to row. Rows at random times and lost rows fail it.
 pub(crate) fn even_clock(time: &[f64]) -> Option<EvenClock> {
     let n = time.len();
     if n < FEWEST {
@@ -53,7 +53,7 @@ pub(crate) fn even_clock(time: &[f64]) -> Option<EvenClock> {
     rises.then_some(EvenClock { time: even, step_s, largest_s })
 }
 
-/// Standard deviation of the time that `m` steps take (s), about `m` mean steps.
+/// Standard deviation of the time that `m` steps take (s). The mean is `m` mean steps.
 fn spread(time: &[f64], m: usize, step_s: f64) -> f64 {
     let count = time.len().saturating_sub(m).max(1) as f64;
     let off = |(a, b): (&f64, &f64)| (b - a - m as f64 * step_s).powi(2);

@@ -1,4 +1,4 @@
-//! Samples that no robot can have: beyond what a joint reaches from one row to the next.
+//! Impossible samples: positions out of reach from the row before, and signals of a size that no joint has.
 
 use std::ops::Range;
 
@@ -9,24 +9,23 @@ use crate::{
     runs::run::{Channel, Channels, median},
 };
 
-/// A step is beyond reach where it is so many usual steps, the largest of all but one in fifty.
+/// A step is out of reach above this many usual steps. The usual step is the largest of all but one in fifty.
 const USUAL_STEPS: f64 = 20.0;
 const USUAL_SHARE: f64 = 0.98;
 
-/// Least such step (rad, and m at a sliding joint): coarse encoders and short motions stay below it.
+/// Least step that is out of reach (rad, and m at a sliding joint): coarse encoders and short motions stay below it.
 const LEAST: [f64; 2] = [0.5, 0.1];
 
-/// Speeds that no joint has (per s): 30 rad/s and 10 m/s, each in the smallest unit that logs have it
-/// in, degrees and mm.
+/// Speeds that no joint has (per s): 30 rad/s and 10 m/s, each in the smallest unit found in logs, degrees and mm.
 const FASTEST: [f64; 2] = [30.0 * 180.0 / std::f64::consts::PI, 10.0 * 1e3];
 
-/// Position that a joint without limits does not have after such a step (rad or m).
+/// A joint without limits is not at a position beyond this (rad or m) after a step out of reach.
 const FARTHEST: f64 = 1e4;
 
-/// Position that no joint has (rad or m): beyond it the digits of a file say little of a motion.
+/// Position that no joint has (rad or m). Beyond it the digits of a file resolve little of a motion.
 const NOWHERE: f64 = 1e6;
 
-/// Fewest rows that show what is usual.
+/// Fewest rows from which the usual step is known.
 const FEWEST: usize = 20;
 
 /// How many rows may be left out: one in a hundred, and three of a short log.
@@ -37,9 +36,9 @@ pub(crate) fn most_left_out(rows: usize) -> usize {
 /// A sample that the joint cannot have.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Impossible {
-    /// Its index.
+    /// Index of the sample.
     pub sample: usize,
-    /// Why, as the end of `but ...`.
+    /// Why it is impossible, as the end of `but ...`.
     pub expectation: String,
 }
 
@@ -71,9 +70,9 @@ pub(crate) fn find_impossible(
 /// reach  = max(1/2 rad, min(20 usual steps, what no joint does in a row))
 /// ```
 ///
-/// parts a run into stretches. From the longest one on, in both directions, a stretch belongs to the motion
-/// where it is within reach of what came before; another one holds samples that cannot be when it is short,
-/// or lies outside of the limits by their span.
+/// Steps out of reach cut a run into stretches. The longest one belongs to the motion. From it on, in both directions,
+/// a stretch belongs to the motion where it is within reach of the motion so far. A stretch out of reach is impossible
+/// when it is short, or when it lies outside the limits by more than their span.
 fn of_position(joint: &Joint, time: &[f64], q: &[f64]) -> Vec<Impossible> {
     let turns = joint.kind.is_rotation().then(|| unwrap_turns(time, q)).flatten();
     let q = turns.as_ref().map_or(q, |turns| &turns.position);
@@ -132,7 +131,7 @@ fn limits(joint: &Joint) -> String {
     joint.limits.position.map(of).unwrap_or_default()
 }
 
-/// Whether a position is outside of the limits by their span; without limits whether it is far from everything.
+/// Whether a position is outside the limits by more than their span, or without limits beyond `FARTHEST`.
 fn is_outside(joint: &Joint, q: f64) -> bool {
     match joint.limits.position {
         Some((lower, upper)) => {
@@ -147,12 +146,12 @@ fn is_outside(joint: &Joint, q: f64) -> bool {
 struct Reach {
     /// Usual step of time (s).
     usual_s: f64,
-    /// Largest step of a row (rad or m).
+    /// Largest step from one row to the next (rad or m).
     step: f64,
 }
 
 impl Reach {
-    /// `None` for fewer rows than say what is usual.
+    /// `None` for too few rows to know the usual step.
     fn of(joint: &Joint, time: &[f64], q: &[f64]) -> Option<Self> {
         if q.len() < FEWEST || time.len() != q.len() {
             return None;
@@ -168,13 +167,13 @@ impl Reach {
         Some(reach)
     }
 
-    /// Rows of the usual clock from one row to a later one, at least one.
+    /// Number of rows of the usual clock between two rows, at least one.
     fn rows(&self, time: &[f64], from: usize, to: usize) -> f64 {
         let rows = (time[to] - time[from]) / self.usual_s;
         if rows.is_finite() { rows.round().max(1.0) } else { 1.0 }
     }
 
-    /// Whether a joint gets from one row to a later one.
+    /// Whether the joint can move from one row to a later one.
     fn holds(&self, time: &[f64], q: &[f64], from: usize, to: usize) -> bool {
         (q[to] - q[from]).abs() <= self.step * self.rows(time, from, to)
     }
@@ -192,8 +191,8 @@ impl Reach {
     }
 }
 
-/// Sizes of velocities, accelerations and efforts that are a hundred times all but one in fifty, and that no
-/// joint has.
+/// Velocities, accelerations and efforts that are more than a hundred times the usual size, and larger than any joint
+/// has. The usual size is the largest of all but one in fifty.
 fn of_size(joint: &Joint, channel: Channel, x: &[f64]) -> Vec<Impossible> {
     const USUAL: f64 = 100.0;
     if x.len() < FEWEST {
@@ -213,7 +212,7 @@ fn of_size(joint: &Joint, channel: Channel, x: &[f64]) -> Vec<Impossible> {
     all.map(|(sample, _)| Impossible { sample, expectation: expectation.clone() }).collect()
 }
 
-/// The value that a share of all values does not exceed; 0 for none.
+/// The value that a share of all values does not exceed; 0 without values.
 fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     let at = (share * values.len().saturating_sub(1) as f64) as usize;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(at, f64::total_cmp).1 }

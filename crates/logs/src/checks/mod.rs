@@ -1,4 +1,4 @@
-//! Samples that no joint can have, and clocks and turns that are put right.
+//! Impossible samples, positions in degrees, and the repair of clocks and full turns.
 
 pub(crate) mod degrees;
 pub(crate) mod even_clock;

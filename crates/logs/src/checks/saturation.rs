@@ -1,7 +1,7 @@
 use crate::runs::run::range;
 
-/// Share of the samples at the lowest or highest value, beyond the two that any signal
-/// has; 0 for a constant one.
+/// Share of the samples at the lowest or highest value, without the two samples that any signal
+/// has there; 0 for a constant signal.
 pub(crate) fn saturation(x: &[f64]) -> f64 {
     let (low, high) = range(x);
     let near = 1e-9 * low.abs().max(high.abs());

@@ -5,14 +5,14 @@ use crate::runs::run::median;
 /// Largest distance of a link from its motor (rad), far more than any transmission deflects.
 const APART: f64 = 0.5;
 
-/// Moves the position of a rotation's link (rad) to the turn of its motor's `position`: a single-turn encoder starts
-/// anew after each turn.
+/// Adds full turns to the position of a rotation's link (rad), so that it is on the turn of its motor's `position`.
+/// A single-turn encoder starts again at zero after each turn.
 ///
 /// ```text
 /// link + 2 pi round((position - link) / 2 pi)
 /// ```
 ///
-/// A link position that is still apart from the motor after that is left unchanged: it is from another link.
+/// A link position that is still far from the motor's after that is left unchanged: it belongs to another link.
 pub(crate) fn to_turn_of(position: &[f64], link: Vec<f64>) -> Vec<f64> {
     let to_turn = |(q, link): (&f64, &f64)| {
         let turns = ((q - link) / TAU).round();
@@ -23,7 +23,7 @@ pub(crate) fn to_turn_of(position: &[f64], link: Vec<f64>) -> Vec<f64> {
     if keeps { found } else { link }
 }
 
-/// A position without the full turns by which it jumps.
+/// A position after removal of the full turns by which it jumped.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Unwrapped {
     /// The position (rad).
@@ -32,19 +32,19 @@ pub(crate) struct Unwrapped {
     pub jumps: Vec<usize>,
 }
 
-/// Takes out of a rotation's position (rad) the full turns that a counter jumps by; `None` where there are none.
+/// Removes from a rotation's position (rad) the full turns by which a counter jumps; `None` without such jumps.
 ///
 /// ```text
 /// n = round(step / 2 pi) /= 0,   |n| <= 4096,   |step - 2 pi n| < 10 usual steps,   |step| > 10 usual steps
 /// ```
 ///
-/// with the usual step the largest of all but one in fifty, so that what is left of a jump is a step of the
-/// motion. Steps count by rows of the usual clock.
+/// The usual step is the largest of all but one in fifty. The rest of a jump, without its turns, is thus a step of the
+/// motion. Steps are counted in rows of the usual clock.
 pub(crate) fn unwrap_turns(time: &[f64], position: &[f64]) -> Option<Unwrapped> {
     const USUAL_STEPS: f64 = 10.0;
-    /// Turns that an encoder of many turns counts, 12 bits of them: what jumps by more is no counter.
+    /// Most turns that a multi-turn encoder counts, with 12 bits. A larger jump is not one of a counter.
     const MOST_TURNS: f64 = 4096.0;
-    /// Bounds of what may be left of a jump (rad).
+    /// Bounds of the rest of a jump after removal of its turns (rad).
     const LEFT: [f64; 2] = [0.02, 0.5];
     if position.len() < 3 || time.len() != position.len() {
         return None;

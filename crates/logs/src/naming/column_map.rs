@@ -18,11 +18,11 @@ use crate::{
     runs::run::Channel,
 };
 
-/// Names and units of the columns of a file that has its own.
+/// Maps the names and units of a file's columns to the signals of a robot.
 ///
 /// ```toml
 /// time = { column = "t_ns", unit = "ns" }
-/// joints = ["shoulder", "elbow"]               # the robot's where it is left out
+/// joints = ["shoulder", "elbow"]               # by default the joints of the robot
 /// position = "q_{i}"
 /// velocity = ["dq_a", "dq_b"]
 /// effort = { column = "i[0:2]", unit = "raw", scale = [0.12, 0.08] }   # N m per ampere
@@ -31,8 +31,8 @@ use crate::{
 /// position = { column = "q0", unit = "deg" }
 /// ```
 ///
-/// An entry of a joint counts more than a pattern. Channels without either are looked for under
-/// their usual name.
+/// The entry of a joint takes precedence over the pattern for all joints. A channel without an entry or a pattern is
+/// read from the column with its usual name.
 #[derive(Debug, Clone)]
 pub struct ColumnMap {
     path: PathBuf,
@@ -43,7 +43,7 @@ pub struct ColumnMap {
     joint: BTreeMap<String, BTreeMap<Channel, MappedColumn>>,
 }
 
-/// Two maps are equal when they say the same.
+/// Two maps are equal when their entries are equal.
 impl PartialEq for ColumnMap {
     fn eq(&self, other: &Self) -> bool {
         (&self.path, &self.time, &self.joints, &self.patterns, &self.joint)
@@ -83,7 +83,7 @@ struct JointMap {
     link_position: Option<MappedColumn>,
 }
 
-/// The entries that are there, by channel.
+/// The entries that are present, by channel.
 macro_rules! by_channel {
     ($file:expr) => {
         [
@@ -116,7 +116,7 @@ impl ColumnMap {
         Self::new(path, Document::read(path).map_err(LogError::map)?)
     }
 
-    /// A column map of the program's own, which `name` stands for in mistakes.
+    /// A column map that is built in; errors give its place as `name`.
     pub(crate) fn from_text(name: &str, text: &str) -> Result<Self, LogError> {
         Self::new(Path::new(name), Document::from_text(name, text).map_err(LogError::map)?)
     }
@@ -136,7 +136,7 @@ impl ColumnMap {
         Ok(map)
     }
 
-    /// Refuses numbers that no signal comes from.
+    /// Refuses a scale or an offset that cannot give a signal.
     fn usable(&self, path: &KeyPath, column: &MappedColumn) -> Result<(), LogError> {
         let MappedColumn { scale, offset, .. } = column;
         if scale.is_finite() && scale.abs() > 0.0 && offset.is_finite() {
@@ -148,12 +148,12 @@ impl ColumnMap {
         Err(LogError::map(self.document.mistake(path, message, None)))
     }
 
-    /// The map with an entry a joint for every pattern, checked against the joints of this robot.
+    /// The map with every pattern expanded to one entry per joint, checked against the joints of this robot.
     ///
     /// # Errors
     ///
     /// [`LogError::MapUnknownJoint`], [`LogError::MapWrongUnit`], and [`LogError::Map`] for a
-    /// pattern that has not one column a joint.
+    /// pattern without exactly one column per joint.
     pub fn for_robot(&self, robot: &Robot) -> Result<Self, LogError> {
         let mut map = self.clone();
         let joints = match &self.joints {
@@ -183,14 +183,14 @@ impl ColumnMap {
         self.joint.get(joint)?.get(&channel)
     }
 
-    /// The map without a pattern, as of a velocity that was not recorded.
+    /// The map without the pattern of one channel, such as a velocity that was not recorded.
     pub(crate) fn without(&self, channel: Channel) -> Self {
         let mut map = self.clone();
         map.patterns.retain(|(own, _)| *own != channel);
         map
     }
 
-    /// Checks that the map speaks of the joints of this robot, in units that fit them.
+    /// Checks that every joint in the map is a joint of this robot, and that every unit fits its signal.
     ///
     /// # Errors
     ///
@@ -245,7 +245,7 @@ impl ColumnMap {
 }
 
 impl LogError {
-    /// A mistake in a column map.
+    /// An error in a column map.
     pub(crate) fn map(problem: DocumentError) -> Self {
         Self::Map { problem: Box::new(problem) }
     }

@@ -10,7 +10,7 @@ use log_formats::TimeScale;
 
 use crate::naming::unit::Unit;
 
-/// Where a signal is found in a file, and how it is converted:
+/// The column of a signal in a file, and its conversion:
 ///
 /// ```text
 /// signal = scale * factor(unit) * value + offset
@@ -19,35 +19,35 @@ use crate::naming::unit::Unit;
 pub struct MappedColumn {
     /// Name of the column.
     pub column: String,
-    /// Unit of the values in the file; SI and radians where it is left out.
+    /// Unit of the values in the file; by default the SI unit, and radians for angles.
     pub unit: Option<Unit>,
     /// Factor, such as a torque constant or the sign of an axis.
     pub scale: f64,
-    /// Added last, in SI units and radians.
+    /// Offset that is added last, in SI units and radians.
     pub offset: f64,
 }
 
 impl MappedColumn {
-    /// A value of the file as a signal (SI units, radians).
+    /// Converts a value of the file to the signal (SI units, radians).
     pub fn convert(&self, value: f64) -> f64 {
         self.scale * self.unit.map_or(1.0, Unit::factor) * value + self.offset
     }
 
-    /// The same conversion of a column of time.
+    /// The same conversion for a column of time.
     pub(crate) fn time_scale(&self) -> TimeScale {
         let factor = self.scale * self.unit.map_or(1.0, Unit::factor);
         TimeScale { factor, offset_s: self.offset }
     }
 }
 
-/// Where a signal of all joints is found: a pattern of names, or a name a joint.
+/// The columns of one signal for all joints: a pattern of names, or one name per joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pattern {
     pub column: Names,
     pub unit: Option<Unit>,
-    /// Factors, one for all joints or one a joint.
+    /// Factors, one for all joints or one per joint.
     pub scale: Numbers,
-    /// Likewise.
+    /// Offsets, one for all joints or one per joint.
     pub offset: Numbers,
 }
 
@@ -58,7 +58,7 @@ pub(crate) enum Names {
     Each(Vec<String>),
 }
 
-/// Numbers of joints.
+/// One number for all joints, or one per joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Numbers {
     All(f64),
@@ -114,8 +114,8 @@ impl From<PatternTable> for Pattern {
     }
 }
 
-/// Takes a string, a list or a table, each in its own way. A mistake inside keeps its place, which
-/// it would lose in an untagged enumeration.
+/// Reads a string, a list or a table, each in its own way. An error inside keeps its place in the file, which
+/// an untagged enumeration would lose.
 struct Either<T> {
     expected: &'static str,
     of: PhantomData<T>,

@@ -1,7 +1,7 @@
 use crate::naming::map_entry::{MappedColumn, Names, Numbers, Pattern};
 
 impl Pattern {
-    /// The column of each of `joints`, in their order.
+    /// The column of each of `joints`, in the order of `joints`.
     ///
     /// ```text
     /// {i}      0, 1, ...        {n}  1, 2, ...       {joint}  the joint's name
@@ -10,7 +10,7 @@ impl Pattern {
     ///
     /// # Errors
     ///
-    /// What was found and what was expected, in words.
+    /// The value found and the value expected, in words.
     pub fn columns(&self, joints: &[String]) -> Result<Vec<MappedColumn>, String> {
         let count = joints.len();
         let names = self.names(joints)?;

@@ -1,4 +1,4 @@
-//! Names and units of columns, and which signals of a robot they are.
+//! Names and units of columns, and the signals of a robot that they hold.
 
 pub(crate) mod column_map;
 pub(crate) mod map_entry;

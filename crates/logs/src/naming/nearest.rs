@@ -1,4 +1,4 @@
-/// The candidate most similar to a name, `None` when none is similar.
+/// The candidate most similar to a name; `None` when all are too different.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
     // At least six letters in ten unchanged: `joint_2` finds `joint2`, not `time`.
     const SIMILAR: f64 = 0.6;

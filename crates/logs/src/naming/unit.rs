@@ -69,7 +69,7 @@ pub enum Unit {
     /// Newtons.
     #[serde(rename = "N")]
     Newton,
-    /// A number of another kind, such as a motor current (A); `scale` turns it into an effort.
+    /// A number in another unit, such as a motor current (A); `scale` converts it to an effort.
     #[serde(rename = "raw")]
     Raw,
 }
@@ -90,7 +90,7 @@ pub(crate) enum Quantity {
 }
 
 impl Unit {
-    /// One of this unit in SI units and radians: `si = factor * value`.
+    /// Factor from this unit to SI units and radians: `si = factor * value`.
     pub fn factor(self) -> f64 {
         match self {
             Self::Millisecond | Self::Millimetre | Self::MillimetrePerSecond => 1e-3,
@@ -127,7 +127,7 @@ impl Unit {
 }
 
 impl fmt::Display for Unit {
-    /// Its name in a column map.
+    /// Name of the unit in a column map.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Second => "s",
@@ -174,7 +174,7 @@ impl Quantity {
         }
     }
 
-    /// Its name and units, as the end of `a unit of ... was expected`.
+    /// Name and units of the quantity, as the end of `a unit of ... was expected`.
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Time => "time (s, ms, us, ns)",

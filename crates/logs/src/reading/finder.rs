@@ -10,7 +10,7 @@ use crate::{
     runs::run::Channel,
 };
 
-/// Looks for the columns of the signals.
+/// Finds the columns of the signals.
 pub(crate) struct Finder<'f, 'a> {
     pub path: &'f Path,
     pub names: &'f [String],
@@ -49,13 +49,13 @@ impl<'a> Finder<'_, 'a> {
         Ok(sources)
     }
 
-    /// Whether the robot's efforts are those of a position loop, and no other effort is asked for.
+    /// Whether the efforts are computed from the robot's position loop, and no other effort was asked for.
     pub(crate) fn is_effort_computed(&self, robot: &Robot) -> bool {
         self.options.effort == Channel::Effort.suffix()
             && robot.links().iter().all(|link| link.actuator.position_loop.is_some())
     }
 
-    /// The end of the error for a missing effort: the hint at `effort_source`, where the log has a goal.
+    /// End of the error for a missing effort: a hint at `effort_source`, where the log has a desired position.
     fn other_effort(&self, joint: &str, channel: Channel) -> &'static str {
         let goal = self.source(joint, Channel::DesiredPosition).column;
         if channel == Channel::Effort && self.names.contains(&goal) {

@@ -1,4 +1,4 @@
-//! From a file to a checked run.
+//! Reads a file into a checked run.
 
 pub(crate) mod finder;
 pub(crate) mod options;

@@ -5,20 +5,20 @@ use crate::naming::column_map::ColumnMap;
 /// How a log is read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadOptions<'a> {
-    /// Names and units of a file that has its own.
+    /// Names and units of the columns, for a file that does not use the usual ones.
     pub map: Option<&'a ColumnMap>,
-    /// The effort is read from the columns `<joint>.<effort>`, by default `effort`; the
-    /// columns `<joint>.effort` then stay among the further ones. With another value the
-    /// column map's `effort` entries are not used.
+    /// Suffix of the effort columns: the effort is read from `<joint>.<effort>`. The default is `effort`. With another
+    /// value the columns `<joint>.effort` are kept among the further ones, and the `effort` entries of the
+    /// column map are ignored.
     pub effort: &'a str,
-    /// The topic of a bag whose joint states are read; `/joint_states` or the only one of the type
-    /// where it is left out.
+    /// The topic of a bag from which joint states are read. By default it is `/joint_states`, or else the only topic of
+    /// the type.
     pub topic: Option<&'a str>,
-    /// The seconds that are read, or the whole log. Rows outside are ignored, also by checks.
+    /// The seconds of the log that are read; by default all. Rows outside are ignored, also by checks.
     pub excerpt: Option<Excerpt>,
-    /// The episode of a dataset of LeRobot; one that has a single episode needs none.
+    /// The episode of a LeRobot dataset; it may be left out for a dataset with a single episode.
     pub episode: Option<u64>,
-    /// The dataset at the path, where it is open already, so that its column of episodes is read once.
+    /// The dataset at the path, where it is open already. Its column of episodes is then not read again.
     pub dataset: Option<&'a LerobotDataset>,
 }
 
@@ -41,7 +41,7 @@ impl<'a> ReadOptions<'a> {
         self.map.and_then(ColumnMap::time).map_or("time", |mapped| &mapped.column)
     }
 
-    /// What is asked of the file.
+    /// The part of the file that is read.
     pub(crate) fn request(&self) -> Request<'a> {
         Request { time: self.time(), topic: self.topic, episode: self.episode }
     }

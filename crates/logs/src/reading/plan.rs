@@ -23,7 +23,7 @@ use crate::{
 /// Fewest rows of a log.
 const FEWEST_ROWS: usize = 2;
 
-/// Which column becomes which signal.
+/// The column of each signal.
 pub(crate) struct Plan<'a> {
     path: PathBuf,
     pub time: Source<'a>,
@@ -72,7 +72,7 @@ impl<'a> Plan<'a> {
         Needed { time: &self.time.column, signals: signals.collect(), excerpt }
     }
 
-    /// Whether an excerpt that was asked for has two rows or more.
+    /// Checks that an excerpt, where one was asked for, has at least two rows.
     ///
     /// # Errors
     ///
@@ -88,7 +88,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Checks that there are two rows or more, that their numbers are finite and that time increases. A log that
+    /// Checks that there are at least two rows, that their numbers are finite and that time increases. A log that
     /// may be damaged is cut off before the first row that fails.
     pub(crate) fn check(&self, table: &mut Table, damage: &mut Damage) -> Result<(), LogError> {
         // Cutting at a number that is not finite may leave an earlier row at which time goes back: one cut a signal at most.
@@ -129,7 +129,7 @@ impl<'a> Plan<'a> {
         Some((index + 1, error))
     }
 
-    /// The signals of every joint, moved out of the table, which keeps the further columns.
+    /// The signals of every joint, moved out of the table. The table keeps the further columns.
     pub(crate) fn take_channels(&self, robot: &Robot, table: &mut Table) -> Vec<Channels> {
         let time = self.time.take(&table.columns);
         let mut all = Vec::with_capacity(self.joints.len());
@@ -167,7 +167,7 @@ impl<'a> Plan<'a> {
     ///
     /// # Errors
     ///
-    /// [`LogError::Impossible`] for more than a few such rows, or that of [`Plan::check_degrees`] where they look like
+    /// [`LogError::Impossible`] for too many such rows, or the error of [`Plan::check_degrees`] where they look like
     /// degrees.
     pub(crate) fn leave_out_impossible(
         &self,
@@ -216,7 +216,7 @@ impl<'a> Plan<'a> {
         Ok(mended)
     }
 
-    /// Takes full turns out of the positions of a rotation that jumps by them.
+    /// Removes full turns from the position of a rotation that jumps by them.
     pub(crate) fn unwrap(
         &self,
         sources: &[(Channel, Source)],

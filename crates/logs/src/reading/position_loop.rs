@@ -2,15 +2,15 @@ use robot::PdGain;
 
 use crate::runs::run::Channels;
 
-/// Effort that a servo's position loop asks for, for logs without effort (N m or N).
+/// Effort that a servo's position loop commands, for logs without effort (N m or N).
 ///
 /// ```text
 /// effort[k] = kp (goal[k] - q[k]) - kd qd[k]
 /// qd[k]     = (q[k+1] - q[k-1]) / (t[k+1] - t[k-1])
 /// ```
 ///
-/// `goal` is `desired_position`; `qd` is the velocity of the log where it has one. At the ends the difference is that
-/// with the one neighbour. Without a goal there is no effort.
+/// `goal` is `desired_position`. `qd` is the velocity column where the log has one. The difference is one-sided at the
+/// first and the last sample. Without a goal there is no effort.
 pub(crate) fn effort(gain: PdGain, time: &[f64], channels: &Channels) -> Vec<f64> {
     let q = &channels.position;
     let Some(goal) = &channels.desired_position else { return Vec::new() };

@@ -8,18 +8,18 @@ use crate::{
     runs::run::Channel,
 };
 
-/// A column map by name.
+/// A built-in column map with a name.
 struct Preset {
     name: &'static str,
-    /// What its columns are, in words.
+    /// Description of its columns, in words.
     words: &'static str,
     /// The map.
     text: &'static str,
-    /// Whether the columns say which joint each one is: by name, or by a fixed order of the arm.
+    /// Whether the columns identify the joint of each signal: by name, or by a fixed order of the arm.
     is_certain: bool,
 }
 
-/// Files that other programs write, the fuller map of a name first.
+/// Column maps of files that other programs write. Of two maps with one name the more complete one is first.
 const PRESETS: [Preset; 11] = [
     Preset {
         name: "ur",
@@ -102,12 +102,12 @@ const PRESETS: [Preset; 11] = [
     },
 ];
 
-/// A map whose columns a file has.
+/// A preset column map that matches the columns of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recognised {
     /// Name of the preset.
     pub name: &'static str,
-    /// What its columns are, in words.
+    /// Description of its columns, in words.
     pub words: &'static str,
     /// The map.
     pub map: ColumnMap,
@@ -120,15 +120,15 @@ pub fn preset_names() -> Vec<&'static str> {
     names
 }
 
-/// Finds the preset whose time, positions and efforts a file has for all joints of a robot.
+/// Finds the preset whose columns of time, positions and efforts a file has for all joints of a robot.
 ///
-/// With a `name` only presets of that name are tried; where none fits the first one is returned, so that reading
-/// says what is missing. Without a name only presets that identify the joints are tried, and a file with the usual
-/// names needs none. Of `asked` only topic, episode and dataset are used.
+/// With a `name` only presets of that name are tried. Where none of them fits the first one is returned, so that
+/// reading reports the missing columns. Without a name only presets that identify the joints are tried, and the
+/// result is `None` for a file with the usual names. Of `asked` only topic, episode and dataset are used.
 ///
 /// # Errors
 ///
-/// Those of opening the file.
+/// With a `name`, the errors of opening the file. In every case those of reading its column names.
 pub fn recognise(
     path: &Path,
     robot: &Robot,

@@ -16,53 +16,54 @@ use crate::{
 
 /// Reads one run from a file and checks it.
 ///
-/// Columns are matched to the robot's joints by name. A joint of the log that the robot
-/// does not have stays among the further columns; [`crate::prepare`] warns of it.
-/// The position of a rotation's link is brought to the turn of the motor's.
+/// Columns are matched to the robot's joints by name. The columns of a joint that is not in the robot
+/// are kept in `Run::extra`, and [`crate::prepare`] warns of the joint.
+/// The link position of a rotation is shifted by full turns to that of its motor.
 ///
-/// [`Run::mended`] lists what was put right:
+/// [`Run::mended`] lists the repairs:
 ///
-/// - Rows with an impossible sample are left out where they are few: a position out of reach of its neighbours, an
-///   effort or speed of a size that no joint has.
-/// - Full turns by which the position of a rotation jumps are taken out.
+/// - Rows with an impossible sample are left out where they are few. Such a sample is a position out of reach of its
+///   neighbours, or an effort or speed of a size that no joint has.
+/// - Full turns by which the position of a rotation jumps are removed.
 /// - Time stamps that scatter by more than a step are replaced by an even clock.
 ///
-/// A file is CSV, Parquet, NumPy's npz or npy, MATLAB's mat of version 5 or 7.3, HDF5, MCAP or SQLite, or one of them packed
-/// with gzip or zstd. The first bytes tell the kind.
+/// A file is CSV, Parquet, NumPy (npz or npy), MATLAB (mat of version 5 or 7.3), HDF5, MCAP or SQLite, or one of these
+/// packed with gzip or zstd. The first bytes of the file identify its kind.
 ///
-/// Of an npz, mat or HDF5 file an array of one dimension is a column by its name, such as `tau`; one of samples
-/// x n is the columns `q[0]`, `q[1]` and so on, also where it lies as n x samples and only that is
-/// as long as time; fields of a structure of MATLAB and arrays in a group of HDF5 are `log.q`. Other arrays are left out.
+/// In an npz, mat or HDF5 file an array of one dimension is a column with the name of the array, such as `tau`. An
+/// array of samples x n is the columns `q[0]`, `q[1]` and so on. An array of n x samples is read the same way if only
+/// its second dimension is as long as time. Fields of a MATLAB structure and arrays in an HDF5 group are named `log.q`.
+/// Other arrays are left out.
 ///
-/// Of a bag of ROS 2, an MCAP or SQLite file or a folder with `metadata.yaml` and such files, the messages
-/// `sensor_msgs/msg/JointState` of one topic are read, joints by the names in each message; one that
-/// is about none of the robot's joints is left out. Time is that of the stamps, counted from the
-/// first one. In errors a row is a message of the topic.
+/// A ROS 2 bag is an MCAP or SQLite file, or a folder with `metadata.yaml` and such files. The messages
+/// `sensor_msgs/msg/JointState` of one topic are read, and joints are found by the names in each message. A message
+/// without any of the robot's joints is left out. Time is that of the stamps, counted from the
+/// first stamp. In errors a row is a message of the topic.
 ///
-/// A dataset of LeRobot, a folder with `meta/info.json`, is a run an episode; its lists are the columns
-/// `observation.state[0]` and so on, and `observation.state[elbow]` where `meta/info.json` names it.
+/// In a LeRobot dataset, a folder with `meta/info.json`, each episode is a run. Its lists are the columns
+/// `observation.state[0]` and so on, and also `observation.state[elbow]` where `meta/info.json` names the entries.
 ///
-/// Of a robot whose efforts are those of a position loop (`effort_source` in its `robot.toml`) efforts are computed
-/// from `desired_position`, whether the log holds others or not; [`ReadOptions::effort`] still asks for those.
+/// For a robot whose efforts are those of a position loop (`effort_source` in its `robot.toml`), efforts are computed
+/// from `desired_position`, even if the log has an effort. [`ReadOptions::effort`] can select the logged one.
 ///
-/// A CSV file may lack its last newline. Its last row was torn, and is left out, when it does
-/// not end in a number in quotes as the row before it does: such are the files of a
-/// [`crate::LogWriter`] that was stopped while it wrote. No other file loses a row.
+/// The last row of a CSV file may lack its newline. Such a row was torn, and is left out, if the row before it
+/// ends in a number in quotes and the last one does not. A
+/// [`crate::LogWriter`] that was stopped while it wrote leaves such a file. No other file loses a row.
 ///
 /// # Errors
 ///
-/// Every [`LogError`] that names a file: no file, an empty or broken one, a missing
+/// Every [`LogError`] that names a file: no file, an empty or broken file, a missing
 /// column or joint, a field that is not a finite number, time that does not increase,
-/// fewer than two rows, many impossible samples, positions in degrees, a column map that does not fit.
+/// fewer than two rows, too many impossible samples, positions in degrees, a column map that does not fit.
 pub fn read_run(path: &Path, robot: &Robot, options: &ReadOptions) -> Result<Run, LogError> {
     read(path, robot, options, &mut Damage::Refused)
 }
 
-/// Reads one run as [`read_run`] does, up to where it is damaged, and returns the error found there.
+/// Reads one run as [`read_run`] does, up to the first damage, and returns the run and the error found there.
 ///
-/// A CSV file ends before the first row that cannot be read, a bag before the first damaged record or page, and any
-/// file before the first sample that is not finite or whose time does not increase. A broken file of another kind is
-/// refused.
+/// A CSV file ends before the first row that cannot be read, and a bag before the first damaged record or page. Any
+/// file ends before the first sample that is not finite or whose time does not increase. A broken file of another kind
+/// is refused.
 ///
 /// # Errors
 ///
@@ -93,10 +94,10 @@ fn read(
     read_open_log((path, file.as_ref()), robot, options, damage)
 }
 
-/// The run that columns in memory hold, read and checked as [`read_run`] does it with a file:
-/// `time` (s), and by joint `<joint>.position`, `<joint>.effort` and what else a log may have.
+/// Makes a run of columns in memory, with the checks of [`read_run`]. The columns are
+/// `time` (s), `<joint>.position` and `<joint>.effort`, and optionally any other column of a log.
 ///
-/// `name` stands in errors where a file would. A column of another length than `time` is an error.
+/// `name` is the name of the run, and stands for the path in errors. All columns must be as long as `time`.
 ///
 /// # Errors
 ///

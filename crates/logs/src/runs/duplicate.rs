@@ -2,7 +2,7 @@ use std::borrow::Cow;
 
 use crate::runs::run::Run;
 
-/// The runs without those that repeat an earlier one.
+/// The runs without those that repeat an earlier run.
 pub fn without_repeats(runs: &[Run]) -> Cow<'_, [Run]> {
     let kept: Vec<usize> =
         (0..runs.len()).filter(|&index| duplicate_of(runs, index).is_none()).collect();
@@ -20,8 +20,8 @@ pub fn duplicate_of(runs: &[Run], index: usize) -> Option<usize> {
 
 /// Whether two runs have exactly the same positions and efforts.
 ///
-/// Two such runs are one recording under two names: a model fitted on one and tested on
-/// the other is tested on what it was fitted to.
+/// Such runs are one recording under two names. A model fitted on one and tested on
+/// the other is tested on its own training data.
 pub fn is_repeat(one: &Run, other: &Run) -> bool {
     let mut joints = one.joints.iter().zip(&other.joints);
     one.joints.len() == other.joints.len()

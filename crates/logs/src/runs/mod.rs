@@ -1,4 +1,4 @@
-//! Recorded runs: their signals, what was put right in them, which of them are alike.
+//! Recorded runs: their signals, the repairs made in them, and repeated recordings.
 
 pub(crate) mod duplicate;
 pub(crate) mod repair;

@@ -1,6 +1,6 @@
 use std::fmt;
 
-/// A change of a run while it was read: something put right, left out or computed.
+/// A change made to a run while it was read: samples that were corrected, left out or computed.
 ///
 /// Rows are those of the file, counted from 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,51 +9,51 @@ pub enum Repair {
     LeftOut {
         /// The column.
         column: String,
-        /// The first such row.
+        /// The first row that was left out.
         row: usize,
-        /// What it holds there, in the unit of the signal.
+        /// The value there, in the unit of the signal.
         found: f64,
         /// Why it is impossible, as the end of `but ...`.
         expectation: String,
-        /// How many rows.
+        /// Number of rows that were left out.
         count: usize,
     },
     /// Time stamps of arrival were replaced by an even clock.
     EvenClock {
-        /// Its step (s).
+        /// Step of the even clock (s).
         step_s: f64,
-        /// Largest distance of a stamp from it (s).
+        /// Largest distance of a time stamp from the even clock (s).
         largest_s: f64,
     },
-    /// Efforts were computed from the position loop of `robot.toml`; the log has none.
+    /// Efforts were not measured: they were computed from the position loop in `robot.toml`.
     FromPositionLoop,
-    /// Only stretches of long logs are used, spread evenly over them.
+    /// Long logs were thinned out to stretches, spread evenly over them.
     Stretches {
         /// Lengths of the gaps between the stretches of this run (s).
         gaps_s: Vec<f64>,
-        /// Length of what is used of all logs, and of all logs (s).
+        /// Length of the kept stretches of all logs, and length of all logs (s).
         all: [f64; 2],
     },
-    /// Full turns by which a position jumped were taken out.
+    /// Full turns by which a position jumped were removed.
     Turns {
         /// The column.
         column: String,
-        /// The first row after a jump.
+        /// The first row after the first jump.
         row: usize,
-        /// How many jumps.
+        /// Number of jumps.
         count: usize,
     },
 }
 
 impl Repair {
-    /// How much of all logs is used, in words; `None` for other changes.
+    /// The share of all logs that is used, in words; `None` for other changes.
     pub fn share_in_words(&self) -> Option<String> {
         let Self::Stretches { all, .. } = self else { return None };
         let [taken_min, whole_min] = all.map(|seconds| seconds / 60.0);
         Some(format!("of {whole_min:.1} min of logs {taken_min:.1} min take part"))
     }
 
-    /// Number of gaps that it leaves in the run.
+    /// Number of gaps that the change leaves in the run.
     pub(crate) fn gaps(&self) -> usize {
         match self {
             Self::Stretches { gaps_s, .. } => gaps_s.len(),
@@ -61,7 +61,7 @@ impl Repair {
         }
     }
 
-    /// Whether both are the same change of all logs, which is reported once.
+    /// Whether both are the same change of all logs. Such a change is reported once.
     pub(crate) fn says_of_all(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::FromPositionLoop, Self::FromPositionLoop) => true,

@@ -7,25 +7,25 @@ use crate::runs::repair::Repair;
 /// Every signal has one value per entry of `time`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// Name: the file's name without its extension.
+    /// Name of the run: the name of the file without its extension.
     pub name: String,
     /// The file.
     pub source: PathBuf,
     /// SHA-256 of the file, in hexadecimal; empty for a run that was never a file.
     pub sha256: String,
-    /// Whether the file ended in the middle of a row, which is left out.
+    /// Whether the file ended in the middle of a row. That row is left out.
     pub is_torn: bool,
-    /// Changes made while it was read.
+    /// Changes made while the run was read.
     pub mended: Vec<Repair>,
     /// Time of each sample as in the file (s), strictly increasing.
     pub time: Vec<f64>,
     /// Signals of each joint of the robot.
     pub joints: Vec<Channels>,
-    /// Further numeric columns by name, as in the file; they may hold NaN.
+    /// Further numeric columns, under their names in the file; they may hold NaN.
     pub extra: BTreeMap<String, Vec<f64>>,
 }
 
-/// Signals of one joint; position and effort are always there.
+/// Signals of one joint. Position and effort are always present.
 ///
 /// Units are rad and N·m for a rotation, m and N for a translation. A positive effort
 /// accelerates the joint in the positive direction.
@@ -41,20 +41,20 @@ pub struct Channels {
     pub velocity: Option<Vec<f64>>,
     /// Acceleration (rad/s² or m/s²).
     pub acceleration: Option<Vec<f64>>,
-    /// Position the controller was asked for (rad or m).
+    /// Position commanded to the controller (rad or m).
     pub desired_position: Option<Vec<f64>>,
-    /// Velocity the controller was asked for (rad/s or m/s).
+    /// Velocity commanded to the controller (rad/s or m/s).
     pub desired_velocity: Option<Vec<f64>>,
-    /// Acceleration the controller was asked for (rad/s² or m/s²).
+    /// Acceleration commanded to the controller (rad/s² or m/s²).
     pub desired_acceleration: Option<Vec<f64>>,
-    /// Effort the drive was asked for (N·m or N).
+    /// Effort commanded to the drive (N·m or N).
     pub commanded_effort: Option<Vec<f64>>,
-    /// Position of the link from a second encoder (rad or m); `position` is then the motor's.
+    /// Position of the link from a second encoder (rad or m); `position` is then that of the motor.
     pub link_position: Option<Vec<f64>>,
 }
 
 impl Run {
-    /// The run without the samples between each pair of times (s), both ends included.
+    /// The run without the samples within each of the intervals of time (s), both ends included.
     #[must_use]
     pub fn without(&self, seconds: &[[f64; 2]]) -> Self {
         let is_left = |t: &f64| !seconds.iter().any(|[from, to]| (*from..=*to).contains(t));
@@ -62,12 +62,12 @@ impl Run {
         self.with_rows(&left)
     }
 
-    /// Joints of the log that the robot does not have, by their position column.
+    /// Joints of the log that are not in the robot, found by their position columns.
     pub(crate) fn unknown_joints(&self) -> Vec<String> {
         self.extra.keys().filter_map(|n| n.strip_suffix(".position")).map(str::to_owned).collect()
     }
 
-    /// The run with those samples alone whose entry in `left` is true.
+    /// The run reduced to the samples whose entry in `left` is true.
     pub(crate) fn with_rows(&self, left: &[bool]) -> Self {
         let keep = |x: &Vec<f64>| -> Vec<f64> {
             x.iter().zip(left).filter(|(_, left)| **left).map(|(x, _)| *x).collect()
@@ -135,7 +135,7 @@ impl Channel {
         Self::LinkPosition,
     ];
 
-    /// The part of a column's name after the joint's name and a dot.
+    /// Suffix of a column's name, after the joint's name and a dot.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Position => "position",
@@ -150,14 +150,14 @@ impl Channel {
         }
     }
 
-    /// Whether a log cannot be used without it.
+    /// Whether a log without this channel is refused.
     pub fn is_required(self) -> bool {
         matches!(self, Self::Position | Self::Effort)
     }
 }
 
 impl Channels {
-    /// The samples of a channel, `None` where the log does not have it.
+    /// The samples of a channel; `None` where the log does not have the channel.
     pub fn get(&self, channel: Channel) -> Option<&[f64]> {
         match channel {
             Channel::Position => Some(&self.position),
@@ -172,7 +172,7 @@ impl Channels {
         }
     }
 
-    /// Puts samples into a channel.
+    /// Sets the samples of a channel.
     pub fn set(&mut self, channel: Channel, samples: Vec<f64>) {
         match channel {
             Channel::Position => self.position = samples,
@@ -195,14 +195,14 @@ pub(crate) fn range(x: &[f64]) -> (f64, f64) {
     (low, high)
 }
 
-/// Middle value of a signal; 0 for an empty one.
+/// Median of a signal; 0 for an empty one.
 pub(crate) fn median(x: &[f64]) -> f64 {
     let mut values = x.to_vec();
     let middle = values.len() / 2;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
-/// The words for a run in a sentence: `run wipe`, or `run_2` alone, which begins with the word.
+/// A run's name for a sentence: `run wipe`, but `run_2` alone, which already begins with the word.
 pub fn of_run(name: &str) -> String {
     let says_so = name.get(..3).is_some_and(|first| first.eq_ignore_ascii_case("run"));
     if says_so { name.to_owned() } else { format!("run {name}") }

@@ -1,10 +1,10 @@
 use crate::runs::run::Run;
 
-/// Pause after which a drive counts as cold again (s): drives cool within about the hour in which they warm up.
+/// Pause after which a drive counts as cold again (s). A drive cools down in about the hour that it takes to warm up.
 const COOLED_S: f64 = 3600.0;
 
-/// The time at which the session of each run began, on the clock of its file (s): a run goes on with the
-/// session of the one before it where it begins after that one's end and within an hour of it.
+/// Start of the session of each run, on the clock of its file (s). A run belongs to the session of the run before it
+/// where it begins after the end of that run, and within an hour of it.
 pub(crate) fn session_starts(runs: &[Run]) -> Vec<f64> {
     let mut before: Option<(f64, f64)> = None;
     let start = |run: &Run| {

@@ -2,24 +2,24 @@ use std::ops::Range;
 
 use crate::runs::{repair::Repair, run::Run};
 
-/// Samples, counted per joint, beyond which a diagnosis gains little: 20 minutes of seven joints at 500 Hz.
+/// Number of samples, counted per joint, above which a diagnosis gains little: 20 minutes of seven joints at 500 Hz.
 pub const ENOUGH_SAMPLES: usize = 4_200_000;
 
 /// Length of a stretch (s).
 const STRETCH_S: f64 = 60.0;
 
-/// Fewest stretches that are kept: at a high rate each one is shorter.
+/// Fewest stretches that are kept. At a high rate each one is shorter than a minute.
 const FEWEST: usize = 20;
 
-/// Place of stretch `k` in its part of the logs: the fraction of `k` times the golden section. Its multiples spread
-/// evenly and never lock to a periodic motion.
+/// Place of stretch `k` in its part of the logs: the fractional part of `k` times the golden section. The multiples of
+/// the golden section spread evenly and never lock to a periodic motion.
 const PHASE: f64 = 0.618_033_988_749_894_9;
 
-/// Thins long logs out to `most` samples, counted per joint: stretches of about a minute, spread evenly over them.
-/// Logs with no more samples are returned unchanged.
+/// Thins long logs out to `most` samples, counted per joint. Stretches of about a minute are kept, spread evenly over
+/// the logs. Logs with no more samples are returned unchanged.
 ///
-/// The logs are cut into `N` stretches in order. Of these `n = N most / samples` are kept, one from each n-th part.
-/// A run without a kept stretch is left out; every other run gets a [`Repair::Stretches`].
+/// The logs are cut into `N` stretches, in order, and divided into `n = N most / samples` equal parts. One stretch of
+/// each part is kept. A run without a kept stretch is left out; every other run gets a [`Repair::Stretches`].
 pub fn thin_out(runs: Vec<Run>, most: usize) -> Vec<Run> {
     let samples: usize = runs.iter().map(|run| run.time.len() * run.joints.len()).sum();
     if samples <= most {
@@ -51,7 +51,7 @@ pub fn thin_out(runs: Vec<Run>, most: usize) -> Vec<Run> {
     kept
 }
 
-/// The rows of a run in stretches of one length.
+/// The rows of a run, cut into stretches of equal length.
 fn cut(run: &Run, most: usize) -> Vec<Range<usize>> {
     let rows = run.time.len();
     let in_time = STRETCH_S * rows as f64 / length_s(run).max(f64::MIN_POSITIVE);
@@ -60,7 +60,7 @@ fn cut(run: &Run, most: usize) -> Vec<Range<usize>> {
     (0..count).map(|k| k * rows / count..(k + 1) * rows / count).collect()
 }
 
-/// `wanted` of `count` numbers, one in each of as many equal parts.
+/// Chooses `wanted` of `count` numbers, one in each of `wanted` equal parts.
 fn choose(count: usize, wanted: usize) -> Vec<usize> {
     let of = |part: usize| {
         let [from, to] = [part, part + 1].map(|p| p * count / wanted);
@@ -69,7 +69,7 @@ fn choose(count: usize, wanted: usize) -> Vec<usize> {
     (0..wanted).map(of).collect()
 }
 
-/// The run with these of its rows alone, in rising order.
+/// The run reduced to these rows, given in rising order.
 fn keep_rows(run: &Run, kept: &[Range<usize>]) -> Run {
     let mut left = vec![false; run.time.len()];
     kept.iter().for_each(|rows| left[rows.clone()].fill(true));
@@ -80,7 +80,7 @@ fn keep_rows(run: &Run, kept: &[Range<usize>]) -> Run {
     thinned
 }
 
-/// From the first to the last sample (s).
+/// Time from the first to the last sample (s).
 fn length_s(run: &Run) -> f64 {
     run.time.last().copied().unwrap_or(0.0) - run.time.first().copied().unwrap_or(0.0)
 }

@@ -1,28 +1,28 @@
 use std::f64::consts::TAU;
 
-/// Longest lag that is looked for (s).
+/// Longest lag that is searched (s).
 const LONGEST_LAG_S: f64 = 0.05;
 /// Largest relative difference in scale of a usable column.
 const SCALE_TOLERANCE: f64 = 0.02;
-/// Largest phase that its lag may turn the motion by (rad).
+/// Largest phase shift of the motion by the lag of a usable column (rad).
 const PHASE_TOLERANCE: f64 = 0.01;
 
-/// How a measured derivative, such as a velocity, stands to the derivative of its signal.
+/// Agreement of a measured derivative, such as a velocity column, with the computed derivative of its signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
-    /// How late the measured signal is (s): the lag of the largest correlation, between
-    /// samples by a parabola; looked for within 50 ms.
+    /// Lag of the measured signal (s), positive when it is late: the maximum of the correlation within
+    /// 50 ms, interpolated between samples by a parabola.
     pub lag_s: f64,
-    /// Standard error of the lag (s): large where the motion is too even to show one.
+    /// Standard error of the lag (s). It is large where the motion is too even to show a lag.
     ///
     /// ```text
     /// rms(measured - scale derived) / (scale rms(d/dt derived) sqrt(cutoff duration))
     /// ```
     ///
-    /// with the part of `d/dt derived` that is proportional to `derived` taken out, and
-    /// one independent sample per period of the cut-off.
+    /// `d/dt derived` is taken without its part proportional to `derived`. Each period of the cut-off
+    /// counts as one independent sample.
     pub lag_std_s: f64,
-    /// Measured signal per derivative at that lag, by least squares.
+    /// Factor from the derivative to the measured signal at that lag, by least squares.
     pub scale: f64,
     /// Correlation coefficient at that lag.
     pub correlation: f64,
@@ -31,9 +31,9 @@ pub struct Agreement {
 impl Agreement {
     /// Compares two low-passed signals on one uniform clock.
     ///
-    /// `cutoff_hz` is that of their low-pass: twenty samples per period of it are enough
-    /// for the sums. `None` for signals shorter than four times the longest lag, or
-    /// constant ones.
+    /// `cutoff_hz` is the cut-off of their low-pass. Twenty samples per period of it are enough
+    /// for the sums. `None` for constant signals, and for signals shorter than four times the
+    /// longest lag.
     pub(crate) fn of(
         measured: &[f64],
         derived: &[f64],
@@ -76,18 +76,18 @@ impl Agreement {
         Some(Self { lag_s, lag_std_s, scale, correlation })
     }
 
-    /// Whether the measured signal can stand for the derivative: its scale is within 2 %
-    /// and its lag, less two standard errors, turns the phase of the motion by less than
+    /// Whether the measured signal can replace the derivative: its scale is within 2 %,
+    /// and its lag, less two standard errors, shifts the phase of the motion by less than
     /// 0.01 rad.
     ///
-    /// The motion is taken to end at `motion_hz`, so that the lag allowed is
-    /// `0.01 / (2 pi motion_hz)`: 1.6 ms for a motion of 1 Hz. A lag that the motion is
-    /// too even to show does no harm in that motion.
+    /// The motion is assumed to end at `motion_hz`, so the largest lag is
+    /// `0.01 / (2 pi motion_hz)`: 1.6 ms for a motion of 1 Hz. A lag that an even motion
+    /// cannot show does no harm in that motion.
     pub fn holds(&self, motion_hz: f64) -> bool {
         self.deviation(motion_hz) <= 1.0
     }
 
-    /// How far the signals differ, 1 being as far as [`Agreement::holds`] allows.
+    /// How far the signals differ. 1 is the largest difference that [`Agreement::holds`] allows.
     pub(crate) fn deviation(&self, motion_hz: f64) -> f64 {
         let scale = (self.scale - 1.0).abs() / SCALE_TOLERANCE;
         let lag_s = (self.lag_s.abs() - 2.0 * self.lag_std_s).max(0.0);
@@ -118,7 +118,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Where the parabola through three neighbouring values has its top, in steps from the middle.
+/// Position of the top of the parabola through three neighbouring values, in steps from the middle one.
 fn vertex(before: f64, middle: f64, after: f64) -> f64 {
     let curvature = before - 2.0 * middle + after;
     if curvature < 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }

@@ -1,4 +1,4 @@
-//! The cut-off, the columns and the noise of a log: what has to be known before it is filtered.
+//! The cut-off, the columns and the noise of a log, chosen before it is filtered.
 
 use crate::{
     error::LogError,
@@ -17,21 +17,21 @@ use crate::{
     },
 };
 
-/// What is chosen for a log, the same for all of its runs.
+/// The choices for a log, the same for all of its runs.
 pub(crate) struct Choice {
     pub cutoff: Cutoff,
-    /// Of each joint.
+    /// Sources of each joint's signals.
     pub sources: Vec<Sources>,
-    /// Of each joint.
+    /// Noise of each joint's channels.
     pub noise: Vec<JointNoise>,
-    /// Columns that are not used.
+    /// Warnings of columns that are not used.
     pub warnings: Vec<LogWarning>,
 }
 
 /// Chooses for runs and their pieces; `given_hz` is a cut-off that was asked for.
 ///
-/// The noise of the positions tells the motion's band, the motion's band which columns agree with
-/// their derivatives, and the noise of those columns how far up acceleration can be had.
+/// The noise of the positions gives the band of the motion. That band decides which columns agree with
+/// their derivatives. The noise of the chosen columns limits the band in which acceleration is known.
 ///
 /// # Errors
 ///
@@ -69,7 +69,7 @@ pub(crate) fn choose(
     Ok(Choice { cutoff, sources, noise, warnings })
 }
 
-/// Looks for columns that can be used.
+/// Chooses the columns that are used.
 struct Columns<'a> {
     pieces: &'a [UniformRun],
     moving: &'a [Vec<bool>],
@@ -79,7 +79,7 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// Where the signals of a joint come from; keeps what is to be said of it.
+    /// The sources of a joint's signals. Warnings are kept.
     fn sources(&mut self, joint: usize) -> Result<Sources, LogError> {
         let shortest_s = 3.0 * SETTLING_PERIODS / self.comparison.cutoff_hz;
         let in_motion: Vec<bool> = self

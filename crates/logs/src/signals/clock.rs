@@ -1,23 +1,23 @@
-//! From the clock of a file to a uniform one.
+//! Resamples the clock of a file to a uniform one.
 
 use std::ops::Range;
 
 use crate::runs::run::median;
 
-/// The longest gap that is filled by interpolation whatever the cut-off (samples).
+/// The longest gap that is filled by interpolation at any cut-off (samples).
 const LONGEST_FILLED: usize = 5;
-/// The longest gap that is filled, in periods of the cut-off: the motion lies far enough below it
-/// that a cubic through both ends follows it.
+/// The longest gap that is filled, in periods of the cut-off. The motion is slow enough below the cut-off
+/// for a cubic through both ends to follow it.
 const FILLED_PERIODS: f64 = 0.25;
 
-/// Which gaps are filled by interpolation.
+/// The longest gap that is filled by interpolation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fill {
-    /// Gaps of this length (s).
+    /// Length of the gap (s).
     length_s: f64,
 }
 
-/// A piece of a run without a long gap, and the uniform clock that it is read at.
+/// A piece of a run without a long gap, and the uniform clock at which it is sampled.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Piece {
     /// Rows of the run.
@@ -26,15 +26,15 @@ pub(crate) struct Piece {
     pub rate_hz: f64,
     /// Largest difference between a step and the usual step of the run (s).
     pub deviation_s: f64,
-    /// Whether the rows already are the uniform clock.
+    /// Whether the clock of the rows is uniform already.
     pub is_uniform: bool,
 }
 
 impl Fill {
-    /// Gaps of up to five samples.
+    /// Fills gaps of up to five samples.
     pub(crate) const SAMPLES: Self = Self { length_s: 0.0 };
 
-    /// Gaps of up to five samples or a quarter period of the cut-off.
+    /// Fills gaps of up to five samples or a quarter period of the cut-off.
     pub(crate) fn below(cutoff_hz: f64) -> Self {
         Self { length_s: FILLED_PERIODS / cutoff_hz }
     }
@@ -113,9 +113,9 @@ impl Piece {
     /// x(t) = h00 x0 + h10 (t1 - t0) m0 + h01 x1 + h11 (t1 - t0) m1
     /// ```
     ///
-    /// with `m` the slope of the parabola through a row and its two neighbours (Catmull-Rom on a
-    /// clock that is not uniform). A neighbour is about a step away at least: beside a gap that is
-    /// filled, one row away would make a slope of one count over one sample.
+    /// `m` is the slope of the parabola through a row and its two neighbours (Catmull-Rom on a
+    /// non-uniform clock). A neighbour is at least about a step away. Beside a filled gap a nearer neighbour
+    /// would turn one encoder count over one sample into a slope.
     pub(crate) fn resample(&self, time: &[f64], x: &[f64], clock: &[f64]) -> Vec<f64> {
         let (t, x) = (&time[self.rows.clone()], &x[self.rows.clone()]);
         if self.is_uniform || t.len() < 2 {
@@ -141,7 +141,7 @@ impl Piece {
 
 /// Slopes at both ends of the step from row `k` to the next.
 fn slopes(t: &[f64], x: &[f64], k: usize) -> [f64; 2] {
-    /// Share of the step that a neighbour is away at least.
+    /// Least distance of a neighbour, as a share of the step.
     const AWAY: f64 = 0.7;
     let step = t[k + 1] - t[k];
     let before = (0..k).rev().find(|&j| t[k] - t[j] >= AWAY * step);

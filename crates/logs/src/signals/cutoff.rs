@@ -1,4 +1,4 @@
-//! The cut-off of the low-pass, from the motion and the noise.
+//! The cut-off of the low-pass, chosen from the motion and the noise.
 
 use std::f64::consts::TAU;
 
@@ -9,36 +9,36 @@ use crate::signals::{
 
 /// The cut-off as a multiple of the motion's bandwidth (Gautier's rule for identification).
 pub(crate) const MULTIPLE: f64 = 5.0;
-/// The least multiple, of the frequency below which 95 % of the motion lies: what has that
+/// The least multiple, of the frequency below which 95 % of the motion lies. Motion at that
 /// frequency passes within 4 %.
 const LEAST_MULTIPLE: f64 = 1.5;
-/// Largest noise of an acceleration, as a share of the acceleration that the motion needs. The
-/// acceleration nearest to the truth has .4 % where the motion is smooth (sinusoids), 2 to 5 %
-/// where it falls off (sweeps, minimum jerk) and 20 % where it jumps (trapezoids of velocity); what
-/// the low-pass takes is taken from the effort too, noise is not.
+/// Largest noise of an acceleration, as a share of the acceleration that the motion needs. At the
+/// cut-off with the smallest error of acceleration this share is 0.4 % for a smooth motion (sinusoids), 2 to 5 %
+/// for sweeps and minimum jerk, and 20 % where the acceleration jumps (trapezoids of velocity).
+/// Motion above the cut-off is removed from the effort alike, so its loss is no error; noise is one.
 const NOISE_SHARE: f64 = 0.03;
-/// The lowest cut-off that five times the motion gives (Hz).
+/// The lowest cut-off chosen as five times the motion's bandwidth (Hz).
 const LOWEST_HZ: f64 = 2.0;
-/// The lowest cut-off chosen because of noise (Hz): what is left of a log loses three periods of
-/// it at its ends.
+/// The lowest cut-off chosen because of noise (Hz). A log loses three periods of
+/// the cut-off at its ends.
 const LOWEST_FOR_NOISE_HZ: f64 = 1.0;
 /// The highest cut-off chosen, as a share of half the sampling rate.
 const HIGHEST_SHARE: f64 = 0.4;
-/// Frequencies that are tried for where noise reaches its share, from the highest down.
+/// Ratio of the frequencies at which the noise is compared with its share, from the highest down.
 const FINENESS: f64 = 1.02;
 
-/// The cut-off, and why.
+/// The cut-off, and the reason for it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Cutoff {
     /// The cut-off (Hz).
     pub cutoff_hz: f64,
     /// Frequency below which the motion lies (Hz).
     pub motion_hz: f64,
-    /// Why, in a sentence.
+    /// The reason, in a sentence.
     pub reason: String,
 }
 
-/// A joint and what its noise allows.
+/// A joint, and the highest cut-off that its noise allows.
 struct Worst<'a> {
     name: &'a str,
     noise: &'a JointNoise,
@@ -72,7 +72,7 @@ impl Bounds {
         rounded.max(LOWEST_HZ).min(self.highest_hz)
     }
 
-    /// The lowest cut-off that noise may lead to (Hz).
+    /// The lowest cut-off that may be chosen because of noise (Hz).
     fn lowest(&self) -> f64 {
         (LEAST_MULTIPLE * self.most_hz.unwrap_or(LOWEST_HZ))
             .max(self.motion_hz.unwrap_or(LOWEST_HZ))
@@ -80,12 +80,12 @@ impl Bounds {
             .min(self.by_motion())
     }
 
-    /// Frequency below which the motion lies (Hz), by the cut-off where nothing moves.
+    /// Frequency below which the motion lies (Hz); derived from the cut-off where nothing moves.
     pub(crate) fn motion_hz(&self) -> f64 {
         self.motion_hz.unwrap_or(self.by_motion() / MULTIPLE)
     }
 
-    /// Why, where the motion alone decides.
+    /// The reason, where the motion alone decides.
     fn by_motion_reason(&self) -> String {
         let cutoff = self.by_motion();
         let Some(motion) = self.motion_hz else {
@@ -102,17 +102,17 @@ impl Bounds {
     }
 }
 
-/// The cut-off (Hz), and why: five times the motion's bandwidth, or the lower frequency at which
-/// the noise of the acceleration of one of the joints reaches 3 % of the acceleration that its
+/// Chooses the cut-off (Hz) and gives the reason. It is five times the motion's bandwidth, or the lower frequency at
+/// which the noise of a joint's acceleration reaches 3 % of the acceleration that its
 /// motion needs.
 ///
 /// ```text
 /// acceleration_rms(cutoff) = .03 rms(qdd of the motion below the cut-off)
 /// ```
 ///
-/// It is one for all joints, the worst joint's: what couples joints is filtered alike, and a sum
-/// over joints keeps the noise of the worst. It is not below one and a half times the
-/// frequency below which 95 % of the motion lies, nor below that of 99 %.
+/// All joints share the cut-off of the worst joint: coupled joints must be filtered alike, and a sum
+/// over joints keeps the noise of the worst. The cut-off is at least one and a half times the
+/// frequency below which 95 % of the motion lies, and at least the frequency below which 99 % lies.
 pub(crate) fn choose(
     bounds: &Bounds,
     motion: &MotionBand,
@@ -159,7 +159,7 @@ impl Worst<'_> {
         )
     }
 
-    /// What makes the noise at a frequency.
+    /// The origin of the noise at a frequency.
     fn origin(&self, hz: f64) -> String {
         let JointNoise { position, velocity, acceleration, .. } = self.noise;
         let differentiated = (TAU * hz).powi(2) * position.density;
@@ -177,7 +177,7 @@ impl Worst<'_> {
     }
 }
 
-/// A number in two digits, with its unit left to the joint: rad or m, per s².
+/// A number with two digits. Its unit is that of the joint: rad or m, per s².
 fn short(x: f64) -> String {
     let digits = (1.0 - x.abs().max(1e-12).log10().floor()).max(0.0) as usize;
     if digits > 5 { format!("{x:.1e}") } else { format!("{x:.digits$}") }

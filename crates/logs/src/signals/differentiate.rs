@@ -1,13 +1,13 @@
-/// Derivative of a uniformly sampled signal by the five-point central difference
+/// Derivative of a uniformly sampled signal by the five-point central difference:
 ///
 /// ```text
 /// x'[k] = (x[k-2] - 8 x[k-1] + 8 x[k+1] - x[k+2]) rate / 12
 /// ```
 ///
-/// whose gain on a sine of angular frequency `w` is `1 - (w / rate)^4 / 30`: 3e-4 low at
+/// Its gain on a sine of angular frequency `w` is `1 - (w / rate)^4 / 30`: 3e-4 low at
 /// a twentieth of the sampling rate. The second and the last but one sample use the
-/// three-point difference `(x[k+1] - x[k-1]) rate / 2`, the first and the last the
-/// difference with their neighbour. The unit is that of `x` per second; a signal of fewer
+/// three-point difference `(x[k+1] - x[k-1]) rate / 2`. The first and the last sample use the
+/// difference with their neighbour. The unit is that of `x` per second. A signal of fewer
 /// than two samples has the derivative 0.
 pub fn differentiate(x: &[f64], rate_hz: f64) -> Vec<f64> {
     let n = x.len();

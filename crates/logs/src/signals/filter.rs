@@ -8,24 +8,24 @@ use crate::error::LogError;
 /// |H(f)|² = 1 / (1 + (tan(pi f / rate) / tan(pi cutoff / rate))^(2 order))
 /// ```
 ///
-/// is the gain of the two passes together: 1/2 at the cut-off, and a phase of zero. The
-/// filter is a cascade of second-order sections by the bilinear transform. Before the
-/// first sample and after the last the signal is continued by its odd reflection over
+/// is the gain of the two passes together: 1/2 at the cut-off, with zero phase. The
+/// filter is a cascade of second-order sections, discretised by the bilinear transform. The signal is
+/// extended at both ends by its odd reflection, over
 ///
 /// ```text
 /// max(3 (order + 1), ceil(2 rate / cutoff)) samples, or all but one of a shorter signal
 /// ```
 ///
-/// and every pass begins in the steady state of its first sample: as in
-/// `scipy.signal.sosfiltfilt` with that `padlen`, whose own choice is the first of the
-/// two and too short for a low cut-off.
+/// Every pass begins in the steady state of its first sample. This is
+/// `scipy.signal.sosfiltfilt` with that `padlen`. The default `padlen` of SciPy is the first of the
+/// two lengths, which is too short for a low cut-off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LowPass {
     padding: usize,
     sections: Vec<Section>,
 }
 
-/// Signals that pass side by side: the sections are recursions, which wait for one another.
+/// Signals that are filtered side by side: the steps of a recursion wait for one another.
 const LANES: usize = 4;
 
 /// One section with a gain of 1 at frequency zero:
@@ -40,7 +40,7 @@ impl LowPass {
     /// The highest order that can be made.
     pub const HIGHEST_ORDER: usize = 12;
 
-    /// A filter of `order` (of one pass) with the given cut-off and sampling rate (Hz).
+    /// A filter with the given order of one pass, cut-off (Hz) and sampling rate (Hz).
     ///
     /// # Errors
     ///
@@ -73,8 +73,8 @@ impl LowPass {
         self.apply_to([x]);
     }
 
-    /// Filters signals of one length in place, each as [`Self::apply`] does, to the last bit, at three fifths of its
-    /// time: four of them go side by side.
+    /// Filters signals of one length in place, four at a time, in three fifths of the time of [`Self::apply`].
+    /// The results are equal to the last bit.
     ///
     /// # Panics
     ///
@@ -133,8 +133,8 @@ impl Section {
     }
 }
 
-/// One pass of sections in a row over `L` signals, in transposed direct form II, each section from the steady
-/// state of the first sample it is given.
+/// One pass of the sections in series over `L` signals, in transposed direct form II. Each section begins in the steady
+/// state of its first input sample.
 fn pass<'a, const K: usize, const L: usize>(
     sections: &[Section; K],
     samples: impl Iterator<Item = &'a mut [f64; L]>,
@@ -162,7 +162,7 @@ fn pass<'a, const K: usize, const L: usize>(
 
 /// Every `factor`-th sample, from the first; a factor of 0 counts as 1.
 ///
-/// What lies above half the new rate folds back: apply a [`LowPass`] before.
+/// Frequencies above half the new rate alias: apply a [`LowPass`] before.
 pub fn decimate(x: &[f64], factor: usize) -> Vec<f64> {
     x.iter().copied().step_by(factor.max(1)).collect()
 }

@@ -13,8 +13,8 @@ use crate::{
 /// Order of the low-pass in one pass.
 pub(crate) const ORDER: usize = 4;
 
-/// What is cut from either end, in periods of the cut-off. The slowest pole of the filter
-/// decays by `exp(-2 pi sin(pi / 8))` in one period: 3 % of an error at the end is left.
+/// Length cut from either end, in periods of the cut-off. The slowest pole of the filter
+/// decays by `exp(-2 pi sin(pi / 8))` per period: 3 % of an error at the end remains.
 pub(crate) const SETTLING_PERIODS: f64 = 1.5;
 
 /// The low-passed signals of a piece of a run.
@@ -26,16 +26,16 @@ pub(crate) struct FilteredRun {
 }
 
 pub(crate) struct FilteredJoint {
-    /// Behind the cut-off.
+    /// Signals low-passed at the cut-off.
     pub own: FilteredSignals,
-    /// Behind [`WIDE`] times that.
+    /// Signals low-passed at [`WIDE`] times the cut-off.
     pub wide: FilteredSignals,
     /// Position, velocity and acceleration of the link.
     pub link: Option<[Vec<f64>; 3]>,
 }
 
-/// The signals of a joint behind one low-pass. `qd` and `qdd` are derivatives of `q` until
-/// [`FilteredSignals::take`] has taken measured ones.
+/// The signals of a joint after one low-pass. `qd` and `qdd` are derivatives of `q` until
+/// [`FilteredSignals::take`] replaces them by measured ones.
 pub(crate) struct FilteredSignals {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
@@ -44,8 +44,8 @@ pub(crate) struct FilteredSignals {
     pub acceleration: Option<Vec<f64>>,
 }
 
-/// Cut-off of the wide signals, in cut-offs of the others. What is as fast as the cut-off is weakened
-/// by 2e-5 there, and a filter that rings where a motion starts and stops rings a quarter
+/// Ratio of the cut-off of the wide signals to that of the others. The wide low-pass weakens a signal at the narrow
+/// cut-off by only 2e-5. Its ringing where a motion starts and stops is a quarter
 /// as long.
 pub(crate) const WIDE: f64 = 4.0;
 
@@ -53,7 +53,7 @@ pub(crate) const WIDE: f64 = 4.0;
 const WIDEST: f64 = 0.2;
 
 impl FilteredRun {
-    /// The signals of a piece, from the columns that `sources` tells for each joint.
+    /// The signals of a piece, from the columns that `sources` gives for each joint.
     pub(crate) fn of(
         piece: &UniformRun,
         cutoff_hz: f64,
@@ -97,7 +97,7 @@ impl FilteredSignals {
         Self { q, qd, qdd, velocity, acceleration }
     }
 
-    /// Takes the measured velocity and acceleration where they are the sources.
+    /// Replaces velocity and acceleration by the measured ones where these are the sources.
     pub(crate) fn take(mut self, sources: Sources, rate_hz: f64) -> Self {
         if sources.velocity == Origin::Measured
             && let Some(velocity) = self.velocity.take()
@@ -114,14 +114,14 @@ impl FilteredSignals {
     }
 }
 
-/// The signal behind a low-pass.
+/// A low-passed copy of a signal.
 fn low_pass_copy(low_pass: &LowPass, x: &[f64]) -> Vec<f64> {
     let mut x = x.to_vec();
     low_pass.apply(&mut x);
     x
 }
 
-/// Position, velocity and acceleration.
+/// The position with its velocity and acceleration.
 fn with_derivatives(q: Vec<f64>, rate_hz: f64) -> [Vec<f64>; 3] {
     let qd = differentiate(&q, rate_hz);
     let qdd = differentiate(&qd, rate_hz);

@@ -1,9 +1,9 @@
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
-/// Discrete Fourier transforms of real samples; every length is planned once.
+/// Discrete Fourier transforms of real samples; the plan of every length is kept.
 ///
-/// It is the only place that instantiates `realfft`: every package that does compiles all of it anew.
+/// Only this type instantiates `realfft`, since every package that does so compiles all of it again.
 pub struct FourierTransform {
     planner: RealFftPlanner<f64>,
 }

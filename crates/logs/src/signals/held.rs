@@ -2,18 +2,18 @@ use robot::{Robot, TorqueSource};
 
 use crate::signals::prepared::PreparedRun;
 
-/// Brings commanded efforts to the time of their samples.
+/// Shifts commanded efforts to the time of their samples.
 ///
-/// A command that is computed from a sample is held from then on for one period of the
-/// controller, so around the sample it is on the mean
+/// The controller computes a command from a sample and holds it for one control
+/// period. The mean command around the sample is
 ///
 /// ```text
 /// effort(t_k) = (1 - s) command(t_k) + s command(t_{k-1}),   s = min(period, interval) / (2 interval)
 /// ```
 ///
-/// Without this, half a period of delay passes for friction: 1 ms at 500 Hz takes 1.5 % off the
-/// viscous friction of a joint that moves under gravity. Without a rate every command is assumed to be in the
-/// log.
+/// Without this shift the delay of half a period is taken for friction: a delay of 1 ms at 500 Hz lowers the
+/// viscous friction of a joint that moves under gravity by 1.5 %. Without a control rate every command is assumed to be
+/// in the log.
 pub fn centre_commands(robot: &Robot, runs: &mut [PreparedRun], control_rate_hz: Option<f64>) {
     for run in runs {
         let share = 0.5 * (run.rate_hz / control_rate_hz.unwrap_or(run.rate_hz)).min(1.0);

@@ -1,4 +1,4 @@
-//! The lattice that the readings of a sensor lie on.
+//! The lattice on which the readings of a sensor lie.
 
 use std::f64::consts::TAU;
 
@@ -6,27 +6,27 @@ use std::f64::consts::TAU;
 const RANKS: [f64; 7] = [0.0, 0.01, 0.05, 0.1, 0.25, 0.5, 0.75];
 /// Most decimals of a file that are tried as a step.
 const MOST_DECIMALS: i32 = 9;
-/// Largest number of steps in a gap.
+/// Largest number of steps in a gap that is tried.
 const MULTIPLES: i32 = 3;
-/// Least coherence of a lattice: that of a step with an error of 7 % of it.
+/// Least coherence of a lattice, reached with an error of 7 % of the step.
 const LEAST_COHERENCE: f64 = 0.9;
 /// Fewest readings that differ from the one before.
 const FEWEST_CHANGES: usize = 10;
-/// Readings and differences that are sampled, up to a factor of two.
+/// Most readings and differences that are sampled, up to a factor of two.
 const MOST_LOOKED_AT: usize = 5000;
 
-/// Step of the lattice on which the values of a signal lie, in the order in which they were read;
-/// `None` where there is none.
+/// Step of the lattice on which the values of a signal lie, given in the order in which they were read;
+/// `None` without a lattice.
 ///
-/// With `d` the differences between one reading and the next that are not zero, it is the largest
-/// `h` of the powers of ten and of those that gaps between the sorted values suggest for which
+/// The candidates `h` are the powers of ten, and steps that the gaps between sorted values suggest. `d` are the
+/// differences between consecutive readings, without zeros. The step is the largest `h` for which
 ///
 /// ```text
 /// mean cos(2 pi d / h) >= 0.9
 /// ```
 ///
-/// so that neither an offset of the lattice matters nor the rounding of a file that is small
-/// beside the step. The step of a file of six decimals is 1e-6: its resolution.
+/// This does not depend on an offset of the lattice, and hardly on rounding in the file that is small
+/// compared with the step. A file with six decimals has the step 1e-6, its resolution.
 pub(crate) fn step(x: &[f64]) -> Option<f64> {
     let size = x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     // Digits that arithmetic in f64 does not keep.
@@ -48,8 +48,8 @@ pub(crate) fn step(x: &[f64]) -> Option<f64> {
     steps.filter(|h| *h > least && is_coherent(*h, &differences)).max_by(f64::total_cmp)
 }
 
-/// Least squares of `d = h n` with `n` the nearest whole numbers, over more and more steps: an
-/// error of `h` must stay below half a step after `n` of them.
+/// Least squares of `d = h n` with `n` the nearest whole numbers, over larger and larger `n`: the
+/// error of `h` must stay below half a step after `n` steps.
 fn refine(mut h: f64, differences: &[f64]) -> f64 {
     for reach in [3.0, 10.0, 30.0, 100.0, 300.0] {
         let near = differences.iter().filter(|d| **d < (reach + 0.5) * h && **d > 0.5 * h);
@@ -65,7 +65,7 @@ fn refine(mut h: f64, differences: &[f64]) -> f64 {
 }
 
 /// Whether the mean of `cos(2 pi d / h)` is at least [`LEAST_COHERENCE`]; a difference below half a step counts as -1.
-/// The sum of what is missing to 1 only grows, so the search stops early: a wrong step is refused after about a tenth
+/// The deficit from 1 only grows in the sum, so the search stops early: a wrong step is refused after about a tenth
 /// of the differences.
 fn is_coherent(h: f64, differences: &[f64]) -> bool {
     let most = (1.0 - LEAST_COHERENCE) * differences.len() as f64;

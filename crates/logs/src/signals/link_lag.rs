@@ -11,39 +11,39 @@ use crate::{
     },
 };
 
-/// Largest lag that is believed (s).
+/// Largest plausible lag (s).
 const LARGEST_S: f64 = 0.02;
-/// Least lag that is taken out (s), and in standard errors.
+/// Least lag that is corrected (s), and the least in standard errors.
 const LEAST_S: f64 = 1e-4;
 const LEAST_STANDARD_ERRORS: f64 = 4.0;
-/// Periods of the cut-off in a block whose error counts as one.
+/// Length of a block, in periods of the cut-off. The error of each block counts as one independent value.
 const BLOCK_PERIODS: f64 = 5.0;
-/// Fewest blocks that tell a standard error.
+/// Fewest blocks from which a standard error is computed.
 const FEWEST_BLOCKS: usize = 6;
-/// Samples that are taken in a period of the cut-off.
+/// Samples used per period of the cut-off.
 const PER_PERIOD: f64 = 10.0;
-/// Part of a column that is left, below which it holds nothing of its own.
+/// Least part of a column that other columns do not explain. Below it the column is not used.
 const LEAST_LEFT: f64 = 1e-6;
 
-/// How late the second encoder of a joint is.
+/// Lag of the second encoder of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Lag {
     lag_s: f64,
     std_s: f64,
 }
 
-/// Moves second encoders to the clock of the first where they are later or earlier by more than four standard errors
-/// and a tenth of a millisecond. Returns a warning with each lag.
+/// Shifts second encoders to the clock of the first. Only lags, late or early, of more than four standard errors and a
+/// tenth of a millisecond are corrected. Returns a warning with each lag.
 ///
-/// The link follows the motor but for a twist under load, so that over a log
+/// The link follows the motor except for a twist under load, so that over a log
 ///
 /// ```text
 /// link - q = -lag qd + a qdd + b q + c sin q + d cos q + e sign(qd) + offset
 /// ```
 ///
-/// with `a` the inertia behind the spring over its stiffness, `b`, `c` and `d` gravity and the
-/// scale of either encoder, and `e` dry friction or play. A viscous friction of the link over the
-/// stiffness of the joint looks like a lag and is taken for one. The standard error is computed from
+/// `a` is the inertia behind the spring over its stiffness. `b`, `c` and `d` are gravity and the
+/// scale of either encoder. `e` is dry friction or play. A viscous friction of the link over the
+/// stiffness of the joint cannot be told from a lag and is corrected as one. The standard error is computed from
 /// blocks of five periods of the cut-off. Only joints that move show a lag.
 pub(crate) fn remove_lags(
     pieces: &mut [UniformRun],
@@ -78,19 +78,19 @@ impl Lag {
     }
 }
 
-/// Rows of all pieces: what is explained, the columns that a twist may have, and the block of
+/// Rows of all pieces: the explained quantity, the columns that a twist may depend on, and the block of
 /// each row.
 #[derive(Default)]
 struct Rows {
     difference: Vec<f64>,
     late: Vec<f64>,
     twist: [Vec<f64>; 5],
-    /// One column a piece: the offset of an encoder may be another in every recording.
+    /// Piece of each row. The offset of an encoder may differ between recordings, so each piece has its own.
     piece: Vec<usize>,
     block: Vec<usize>,
 }
 
-/// The lag of the second encoder of joint `j`; `None` without one or where too little moves.
+/// The lag of the second encoder of joint `j`; `None` without the encoder or with too little motion.
 fn estimate(
     pieces: &[UniformRun],
     moving: &[Vec<bool>],
@@ -134,7 +134,7 @@ impl Rows {
         Ok(())
     }
 
-    /// Least squares by orthogonal columns: the lag is what of `-qd` no other column has.
+    /// Least squares by orthogonal columns: the lag is fitted to the part of `-qd` that no other column explains.
     fn lag(mut self) -> Option<Lag> {
         let blocks = self.block.last()? + 1;
         if blocks < FEWEST_BLOCKS {
@@ -171,7 +171,7 @@ impl Rows {
     }
 }
 
-/// Takes the mean of each piece out of a column.
+/// Removes the mean of each piece from a column.
 fn without_means(x: &mut [f64], piece: &[usize]) {
     let mut start = 0;
     for group in piece.chunk_by(|a, b| a == b) {
@@ -183,7 +183,7 @@ fn without_means(x: &mut [f64], piece: &[usize]) {
     }
 }
 
-/// Takes out of a column what is proportional to another.
+/// Removes from a column its part proportional to another.
 fn take_out(x: &mut [f64], other: &[f64]) {
     let share = dot(x, other) / dot(other, other).max(f64::MIN_POSITIVE);
     x.iter_mut().zip(other).for_each(|(x, o)| *x -= share * o);
@@ -203,7 +203,7 @@ fn shift(pieces: &mut [UniformRun], j: usize, lag_s: f64) {
     }
 }
 
-/// A signal between its samples (Catmull-Rom); beyond its ends as at them.
+/// A signal between its samples (Catmull-Rom); beyond its ends it is constant.
 fn at(x: &[f64], place: f64) -> f64 {
     let last = x.len().saturating_sub(1);
     let place = place.clamp(0.0, last as f64);

@@ -1,4 +1,4 @@
-//! From runs to filtered signals on a uniform clock, with the noise in them.
+//! Turns runs into filtered signals on a uniform clock, and estimates the noise in them.
 
 pub(crate) mod agreement;
 pub(crate) mod choice;

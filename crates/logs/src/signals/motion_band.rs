@@ -1,4 +1,4 @@
-//! The band of the motion, and what acceleration it needs.
+//! The frequency band of the motion, and the acceleration in it.
 
 use std::f64::consts::TAU;
 
@@ -14,33 +14,33 @@ use crate::signals::{
 const BIN_HZ: f64 = 0.05;
 /// Density, as a share of the highest, above which a velocity counts as motion.
 const LEAST_DENSITY: f64 = 1e-3;
-/// Density, in densities of the noise, above which a position counts as motion: one bin in 22000 of
-/// white noise is above it.
+/// Density, as a multiple of the noise density, above which a position counts as motion. One bin in 22000 of
+/// white noise exceeds it.
 const ABOVE_NOISE: f64 = 10.0;
-/// Power of the positions above a frequency, in the noise's there, that is motion.
+/// Power of the positions above a frequency, as a multiple of the noise power there, above which it counts as motion.
 const ABOVE_ALL_NOISE: f64 = 3.0;
 /// Share of the power of the velocities that counts as the motion.
 const MOTION_SHARE: f64 = 0.99;
-/// The same for what noise may cost none of.
+/// The same share for the larger part of the motion, which must not be cut because of noise.
 const MOST_SHARE: f64 = 0.95;
 
-/// What of a log's positions is motion.
+/// The frequency band of the motion in a log.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MotionBand {
     /// Frequency below which the motion of all joints lies (Hz); `None` where nothing moves.
     pub motion_hz: Option<f64>,
-    /// The same for the larger part of the motion (Hz).
+    /// Frequency below which the larger part of the motion lies (Hz).
     pub most_hz: Option<f64>,
-    /// Of each joint.
+    /// Acceleration of each joint's motion.
     pub accelerations: Vec<Accelerations>,
 }
 
-/// Acceleration that the motion of a joint needs.
+/// Acceleration in the motion of a joint.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Accelerations {
     /// Time over which the joint moves (s).
     length_s: f64,
-    /// Mean square times that, in bins of [`BIN_HZ`] ((rad/s²)² s or (m/s²)² s).
+    /// Mean square times that time, in bins of [`BIN_HZ`] ((rad/s²)² s or (m/s²)² s).
     bins: Vec<f64>,
 }
 
@@ -54,17 +54,17 @@ pub(crate) struct BandInputs<'a> {
 }
 
 impl BandInputs<'_> {
-    /// The motion's band.
+    /// The band of the motion.
     ///
-    /// Of the power spectrum of each moving joint's velocity, by differences of its position,
-    /// counts what is
+    /// The power spectrum of each moving joint's velocity is computed from differences of its position.
+    /// Bins of it count as motion that are
     ///
     /// - above a thousandth of its highest density,
     /// - above ten times the density `(2 pi f)^2 S_q` of the noise,
-    /// - below the frequency above which the position holds no more than twice the power of its
-    ///   noise: the steps of an encoder that a joint passes evenly are lines, not white.
+    /// - below the frequency above which the position has no more than three times the power of its
+    ///   noise. The last condition is needed since an encoder passed evenly has lines in its spectrum, no white noise.
     ///
-    /// The spectra are scaled to the same total and added; the motion lies below the frequency
+    /// The spectra are scaled to the same total and added. The motion lies below the frequency
     /// below which 99 % of the sum lies.
     pub(crate) fn band(&self) -> MotionBand {
         let (mut sum, mut fourier) = (Velocities::default(), FourierTransform::default());
@@ -100,23 +100,23 @@ impl Accelerations {
     }
 }
 
-/// Most bins: what is faster counts in the last one. A log whose time hardly goes on has any rate.
+/// Most bins; higher frequencies count in the last one. A log whose time hardly advances can have any rate.
 const MOST_BINS: usize = 1 << 22;
 
-/// The bin of [`BIN_HZ`] that a frequency lies in.
+/// The bin of [`BIN_HZ`] in which a frequency lies.
 fn bin(bins: &mut Vec<f64>, hz: f64) -> &mut f64 {
     let bin = ((hz / BIN_HZ) as usize).min(MOST_BINS - 1);
     bins.resize(bins.len().max(bin + 1), 0.0);
     &mut bins[bin]
 }
 
-/// Share of the samples that may be faster than any motion: spikes, and turns that are lost.
+/// Share of the samples that may be faster than any motion: spikes and lost turns.
 const OUTLIERS: f64 = 0.005;
-/// Speed of the motion, in that of all but those samples.
+/// Highest speed of the motion, as a multiple of the highest speed of all other samples.
 const FASTEST: f64 = 3.0;
 
-/// Density of the velocity of a joint by differences of its position; what is three times as fast
-/// as all but one sample in 200 counts as that.
+/// Density of the velocity of a joint, by differences of its position. Speeds are limited to three times that of
+/// all but one sample in 200.
 fn velocity(joint: &UniformJoint, rate_hz: f64, fourier: &mut FourierTransform) -> Density {
     let mut velocity = differentiate(&joint.q, rate_hz);
     let mut speeds: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
@@ -142,8 +142,8 @@ fn motion_density(velocity: &Density, noise: &ChannelNoise) -> Density {
     Density { step_hz: velocity.step_hz, bins }
 }
 
-/// The bin above which a position holds no more than three times the power of its noise: of white noise
-/// up to half the sampling rate, or of rounding, wherever it lies.
+/// The bin above which a position has no more than three times the power of its noise: of white noise
+/// up to half the sampling rate, or of rounding at any frequency.
 fn end_of_motion(q: &Density, noise: &ChannelNoise) -> usize {
     let rounding = noise.step.map_or(0.0, |h| h * h / 12.0);
     let mut held = 0.0;

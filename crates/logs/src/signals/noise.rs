@@ -1,14 +1,14 @@
 use std::f64::consts::TAU;
 
-/// Where the density of a channel's noise comes from.
+/// Origin of the density of a channel's noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoiseSource {
-    /// The step of its readings: `step^2 / 12` over the band in which they change.
+    /// The step of the readings: `step^2 / 12`, spread over the band in which the readings change.
     Step,
-    /// What the channel holds above the motion, flat over an octave and a half or more.
+    /// The spectrum above the motion, where it is flat over an octave and a half or more.
     AboveTheMotion,
-    /// Unknown, with a density of zero: the readings have no step, and above the motion there is no flat noise or
-    /// less than any sensor has, behind the edge of a low-pass.
+    /// Unknown, with a density of zero. The readings have no step. Above the motion the spectrum is not flat, or it is
+    /// lower than that of any sensor, behind the edge of a low-pass.
     Unknown,
 }
 
@@ -17,25 +17,25 @@ pub enum NoiseSource {
 pub struct ChannelNoise {
     /// One-sided density (unit^2/Hz).
     pub density: f64,
-    /// Step of the readings, where they lie on a lattice (unit).
+    /// Step of the readings (unit), where they lie on a lattice.
     pub step: Option<f64>,
-    /// Where the density comes from.
+    /// Origin of the density.
     pub source: NoiseSource,
 }
 
 /// Noise of the channels of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointNoise {
-    /// Of the position (rad or m).
+    /// Noise of the position (rad or m).
     pub position: ChannelNoise,
-    /// Of the velocity column (rad/s or m/s), where it is used and its noise is its own; a column
-    /// that is a difference of the positions has theirs.
+    /// Noise of the velocity column (rad/s or m/s). `None` where the column is not used, where its noise is
+    /// unknown, or where the column is a difference of the positions and has their noise.
     pub velocity: Option<ChannelNoise>,
-    /// Of the acceleration column (rad/s² or m/s²), where it is used.
+    /// Noise of the acceleration column (rad/s² or m/s²), where it is used.
     pub acceleration: Option<ChannelNoise>,
-    /// Of the second encoder (rad or m), where there is one.
+    /// Noise of the second encoder (rad or m), where there is one.
     pub link: Option<ChannelNoise>,
-    /// Of the effort (N·m or N).
+    /// Noise of the effort (N·m or N).
     pub effort: ChannelNoise,
 }
 
@@ -67,14 +67,14 @@ impl JointNoise {
     ///   = (2 pi f)^4 S_q                          else
     /// ```
     ///
-    /// A velocity that the robot makes of its positions, by difference and low-pass, has their
-    /// noise below that low-pass's cut-off and looks white above.
+    /// A robot may compute its velocity from the positions, by difference and low-pass. The noise of such a velocity is
+    /// that of the positions below the cut-off of that low-pass, and looks white above.
     pub fn acceleration_density(&self, hz: f64) -> f64 {
         let each = self.under_acceleration().map(|(density, n)| (TAU * hz).powi(2 * n) * density);
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Standard deviation of the noise of the acceleration behind the low-pass of
+    /// Standard deviation of the noise of the acceleration after the low-pass of
     /// [`crate::prepare`] (rad/s² or m/s²):
     ///
     /// ```text
@@ -82,8 +82,9 @@ impl JointNoise {
     ///         = .159 (2 pi cutoff)^4 cutoff S_q
     /// ```
     ///
-    /// for a position, and with .266 and .898 for a velocity and an acceleration; the smaller
-    /// where there are two. The cut-off is taken to be far below the sampling rate.
+    /// for a position. It is `.266 (2 pi cutoff)^2 cutoff S_qd` for a velocity, and `.898 cutoff S_qdd` for an
+    /// acceleration. Where the velocity is used, the smaller of the values of position and velocity is taken.
+    /// The cut-off is assumed to be far below the sampling rate.
     pub fn acceleration_rms(&self, cutoff_hz: f64) -> f64 {
         let squares = self.under_acceleration().map(|(density, n)| {
             PASSED[n as usize] * (TAU * cutoff_hz).powi(2 * n) * density * cutoff_hz
@@ -91,15 +92,15 @@ impl JointNoise {
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// Standard deviation of the noise of the velocity behind the same low-pass (rad/s or m/s).
+    /// Standard deviation of the noise of the velocity after the same low-pass (rad/s or m/s).
     pub fn velocity_rms(&self, cutoff_hz: f64) -> f64 {
         let differentiated = PASSED[1] * (TAU * cutoff_hz).powi(2) * self.position.density;
         let own = self.velocity.map_or(f64::INFINITY, |v| PASSED[0] * v.density);
         (differentiated.min(own) * cutoff_hz).sqrt()
     }
 
-    /// Densities that the acceleration may have its noise from, and how often each channel is
-    /// differentiated, 0 to 2.
+    /// Noise densities from which the acceleration may be computed, and the number of differentiations of each,
+    /// 0 to 2.
     fn under_acceleration(&self) -> impl Iterator<Item = (f64, i32)> {
         let own = self.acceleration.map(|a| (a.density, 0));
         let below = own.is_none();

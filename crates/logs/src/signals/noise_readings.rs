@@ -1,4 +1,4 @@
-//! The noise of channels, read from steps and spectra.
+//! The noise of channels, estimated from steps and spectra.
 
 use crate::{
     runs::run::{Channels, Run, range},
@@ -12,28 +12,28 @@ use crate::{
     },
 };
 
-/// Share of the power of the positions that is motion whatever the noise.
+/// Share of the power of the positions that counts as motion at any noise.
 const MOTION_SHARE: f64 = 0.999;
-/// Noise is looked for above this multiple of the motion's highest frequency.
+/// Noise is searched above this multiple of the motion's highest frequency.
 const ABOVE: f64 = 2.0;
-/// It is looked for above this share of the sampling rate in any case: where noise is more than a
-/// thousandth of the power, the motion seems to reach as far as it does.
+/// Highest frequency above which noise is searched, as a share of the sampling rate. Where noise is more than a
+/// thousandth of the power, the motion seems to reach as far as the noise.
 const HIGHEST_SHARE: f64 = 0.125;
 
-/// What the noise of the channels is read from.
+/// The inputs of the noise estimates.
 pub(crate) struct NoiseReadings<'a> {
-    /// The runs as they were read: resampling takes their steps away.
+    /// The runs as they were read. Resampling removes their steps.
     pub runs: &'a [Run],
-    /// The same on uniform clocks.
+    /// The pieces of the runs on uniform clocks.
     pub pieces: &'a [UniformRun],
     /// Which joints move, per piece.
     pub moving: &'a [Vec<bool>],
 }
 
 impl NoiseReadings<'_> {
-    /// The noise of a joint whose `position` has its own: the mean over the pieces in which it moves, or over all of one that
-    /// never moves, by their length. It is the mean, not the worst, since what is made of a log
-    /// weighs all of its samples.
+    /// The noise of a joint; `position` is that of its position. It is the mean over the pieces in which the joint
+    /// moves, weighted by their length, or over all pieces if the joint never moves. The mean is taken, not
+    /// the worst, since a fit weighs all samples of a log.
     pub(crate) fn noise(
         &self,
         joint: usize,
@@ -53,8 +53,8 @@ impl NoiseReadings<'_> {
         JointNoise { position, velocity, acceleration, link, effort }
     }
 
-    /// The noise of the position of a joint, and that in each piece: the larger of its own, which
-    /// a short one may not tell, and that of all.
+    /// The noise of a joint's position, and its noise in each piece. In a piece it is the larger of the piece's own
+    /// noise and the mean of all, since a short piece may show too little.
     pub(crate) fn position(&self, joint: usize) -> (ChannelNoise, Vec<ChannelNoise>) {
         let each = self.each(joint, |r| Some(&r.position), |p| Some(&p.q));
         let own: Vec<(usize, ChannelNoise)> =
@@ -67,8 +67,8 @@ impl NoiseReadings<'_> {
         (noise, all)
     }
 
-    /// The noise of the velocity column of a joint; `None` where nothing tells it, and where over
-    /// more octaves it is flat as the noise of a position than as its own.
+    /// The noise of the velocity column of a joint. `None` where it is unknown, and where the spectrum is flat over
+    /// more octaves as the noise of a position than as that of a velocity.
     fn velocity(&self, joint: usize) -> Option<ChannelNoise> {
         let octaves = |kind: fn(&Density) -> Density| -> f64 {
             let flats = self.chosen(joint).filter_map(|(_, piece, quiet_hz)| {
@@ -82,8 +82,8 @@ impl NoiseReadings<'_> {
         (is_own && own.source != NoiseSource::Unknown).then_some(own)
     }
 
-    /// The pieces that a joint's noise is read from with their numbers, and the frequency above
-    /// which (Hz).
+    /// The pieces from which a joint's noise is estimated, with their numbers and the lowest frequency
+    /// used (Hz).
     fn chosen(&self, joint: usize) -> impl Iterator<Item = (usize, &UniformRun, f64)> {
         let moves_at_all = self.moving.iter().any(|m| m[joint]);
         let all = self.pieces.iter().zip(self.moving).enumerate();
@@ -106,7 +106,7 @@ impl NoiseReadings<'_> {
         together(self.each(joint, raw, uniform))
     }
 
-    /// What tells the noise of a channel of a joint in each piece, with its number.
+    /// The noise of a joint's channel in each piece, with the number of the piece.
     fn each<'a>(
         &'a self,
         joint: usize,
@@ -124,7 +124,7 @@ impl NoiseReadings<'_> {
     }
 }
 
-/// The noise that pieces tell together.
+/// The mean noise of several pieces.
 fn together(each: Vec<(usize, Sum)>) -> ChannelNoise {
     each.into_iter().map(|(_, sum)| sum).reduce(Sum::and).unwrap_or_default().noise()
 }
@@ -137,7 +137,7 @@ fn density(x: &[f64], piece: &UniformRun) -> Density {
 #[derive(Debug, Clone, Copy)]
 struct Rounding {
     step: f64,
-    /// Steps that the signal goes in a second (Hz).
+    /// Steps that the signal passes per second (Hz).
     changes_hz: f64,
 }
 
@@ -149,31 +149,31 @@ impl Rounding {
         Some(Self { step, changes_hz: way / (step * duration_s) })
     }
 
-    /// Density of the error (unit^2/Hz):
+    /// Density of the rounding error (unit^2/Hz):
     ///
     /// ```text
     /// h^2 / (12 B),   B = min(rate / 2, sum |x[k+1] - x[k]| / (h duration))
     /// ```
     ///
-    /// It has a variance of `h^2 / 12` and changes as often as the readings do: it lies below that
-    /// many Hz where they change rarely.
+    /// The error has a variance of `h^2 / 12` and changes as often as the readings. Where the readings change rarely,
+    /// the error lies below that many Hz.
     fn density(&self, rate_hz: f64) -> f64 {
         self.step.powi(2) / (12.0 * self.changes_hz.min(0.5 * rate_hz))
     }
 }
 
-/// Noise, as a share of the range of a signal, that no sensor is below: 17 bits.
+/// Least noise of any sensor, as a share of the range of a signal: 17 bits.
 const LEAST_NOISE: f64 = 1e-5;
 
-/// Whether what is flat of a signal without steps is so small, behind so steep a fall, that the
-/// signal was low-passed before it was written.
+/// Whether a signal was low-passed before it was written: it has no steps, a very low flat density, and a
+/// steep fall before it.
 fn is_smooth(flat: &Flat, x: &[f64], piece: &UniformRun) -> bool {
     let (low, high) = range(x);
     let noise = (0.5 * piece.rate_hz * flat.density).sqrt();
     flat.is_filtered && noise < LEAST_NOISE * (high - low)
 }
 
-/// Noise that is more than that of the steps by this factor has another origin too.
+/// Factor above which noise that exceeds that of the steps has another origin too.
 const MORE_THAN_STEPS: f64 = 1.5;
 
 /// Densities of pieces, weighted by their lengths (s).
@@ -181,16 +181,16 @@ const MORE_THAN_STEPS: f64 = 1.5;
 struct Sum {
     length_s: f64,
     rounding: f64,
-    /// The larger of rounding and of what is flat above the motion.
+    /// The larger of the density of rounding and the flat density above the motion.
     larger: f64,
-    /// Whether a piece was low-passed before it was written, and so all of them.
+    /// Whether any piece was low-passed before it was written. All pieces then count as low-passed.
     is_filtered: bool,
     step: Option<f64>,
 }
 
 impl Sum {
-    /// The larger of the two in each piece: what is flat above the motion holds the rounding, and
-    /// a slow joint's rounding lies below it.
+    /// The larger of rounding and flat density in each piece. The flat density above the motion includes the rounding,
+    /// but the rounding of a slow joint lies below it in frequency.
     fn of(
         (piece, x): (&UniformRun, &[f64]),
         rounding: Option<Rounding>,
@@ -209,7 +209,7 @@ impl Sum {
         }
     }
 
-    /// Both together; of the steps the coarser: a file may keep more digits of small numbers.
+    /// The sum of both. Of two steps the coarser is kept, since a file may hold more digits of small numbers.
     fn and(self, other: Self) -> Self {
         Self {
             length_s: self.length_s + other.length_s,

@@ -1,15 +1,15 @@
-//! Where the signals of a joint come from.
+//! The origin of the signals of a joint.
 
-/// Where a signal comes from.
+/// Origin of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin {
-    /// Its column.
+    /// The column of the signal.
     Measured,
-    /// The derivative of the signal below it.
+    /// The derivative of the signal one order below.
     Derived,
 }
 
-/// Where the velocity and the acceleration of a joint come from.
+/// Origin of the velocity and the acceleration of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Sources {
     pub velocity: Origin,
@@ -17,7 +17,7 @@ pub(crate) struct Sources {
 }
 
 impl Sources {
-    /// Derivatives of the position.
+    /// Velocity and acceleration are derivatives of the position.
     pub(crate) const POSITION: Self =
         Self { velocity: Origin::Derived, acceleration: Origin::Derived };
 }

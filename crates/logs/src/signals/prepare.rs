@@ -24,15 +24,15 @@ pub struct PrepareSettings {
     pub cutoff_hz: Option<f64>,
 }
 
-/// Brings runs to a uniform clock and low-passes them.
+/// Resamples runs to a uniform clock and low-passes them.
 ///
-/// 1. Clock: a run whose rows lie on a uniform clock is kept as it is; any other is
+/// 1. Clock: a run whose rows lie on a uniform clock is kept as it is. Any other run is
 ///    interpolated (cubic) at its usual rate, rounded. It is split at gaps of more than
 ///    five samples and more than a quarter period of the cut-off.
-/// 2. Low-pass: zero-phase Butterworth of order 4 ([`LowPass`]), one cut-off for all runs
-///    and joints. Unless it is given it is five times the bandwidth of the motion, or the lower
-///    frequency at which the noise of a joint's acceleration reaches 3 % of what its motion needs
-///    ([`JointNoise`]). The same signals behind four times that are kept beside ([`Wide`]).
+/// 2. Low-pass: zero-phase Butterworth of order 4 ([`LowPass`]), with one cut-off for all runs
+///    and joints. The default cut-off is five times the bandwidth of the motion, or the lower
+///    frequency at which the noise of a joint's acceleration reaches 3 % of the acceleration of its motion
+///    ([`JointNoise`]). The same signals low-passed at four times the cut-off are kept too ([`Wide`]).
 /// 3. Derivatives ([`differentiate`], of low-passed signals):
 ///
 /// ```text
@@ -41,12 +41,12 @@ pub struct PrepareSettings {
 /// qdd = L acceleration    where it agrees with d/dt qd, else d/dt qd
 /// ```
 ///
-///    so that all three have passed the same filter `L`. A column agrees when
-///    [`Agreement::holds`] in every run in which the joint moves. The motion of a link that a
-///    second encoder shows is made likewise, all of it from its position, which is brought to
-///    the clock of the first where it is later or earlier.
-/// 4. `1.5 / cutoff` seconds are cut from both ends, where this filter and those of the
-///    robot's own software still settle.
+///    All three have thus passed the same filter `L`. A column agrees when
+///    [`Agreement::holds`] in every run in which the joint moves. The motion of a link with a
+///    second encoder is derived from the position of that encoder alone. Its clock is first shifted to
+///    that of the first encoder where it is late or early.
+/// 4. `1.5 / cutoff` seconds are cut from both ends, where this filter and the filters of the
+///    robot's own software have not settled.
 ///
 /// # Errors
 ///
@@ -83,12 +83,12 @@ pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, Log
     Ok(prepared.with_noise_warnings(&runs[0]))
 }
 
-/// The shortest piece that is of use (s): a third of it is left between the ends.
+/// The shortest piece that is used (s). A third of it is left after its ends are cut.
 fn shortest_s(cutoff_hz: f64) -> f64 {
     3.0 * SETTLING_PERIODS / cutoff_hz
 }
 
-/// The pieces that are long enough, at least one of every run.
+/// The pieces that are long enough. Every run must have at least one.
 fn keep_long_pieces(
     runs: &[Run],
     all: Vec<UniformRun>,
@@ -131,7 +131,7 @@ fn cut_ends((session_start_s, piece, filtered): (f64, UniformRun, FilteredRun)) 
     PreparedRun { name: piece.name, rate_hz: piece.rate_hz, time, session_start_s, joints }
 }
 
-/// Leaves out the second encoder of a joint that some runs lack.
+/// Leaves out the second encoder of a joint where some runs lack it.
 fn drop_partial_links(runs: &[Run], pieces: &mut [UniformRun]) -> Vec<LogWarning> {
     let mut warnings = Vec::new();
     for (joint, channels) in runs[0].joints.iter().enumerate() {
@@ -146,7 +146,7 @@ fn drop_partial_links(runs: &[Run], pieces: &mut [UniformRun]) -> Vec<LogWarning
     warnings
 }
 
-/// What can be said of the runs before they are filtered.
+/// Warnings of the runs before they are filtered.
 fn run_warnings(
     runs: &[Run],
     pieces: &[UniformRun],
@@ -187,7 +187,7 @@ fn run_warnings(
     warnings
 }
 
-/// Joints whose effort sits at its extreme values for a hundredth of the run or more.
+/// Joints with a hundredth or more of the run's samples at the extreme values of the effort.
 fn saturation_warnings(run: &Run) -> impl Iterator<Item = LogWarning> {
     const SHARE: f64 = 0.01;
     run.joints.iter().filter_map(|joint| {

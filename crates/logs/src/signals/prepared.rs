@@ -8,17 +8,17 @@ use crate::{
 /// A log ready for identification.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prepared {
-    /// The runs; one that was split at long gaps gives several, named `... part 1`.
+    /// The runs. A run that was split at long gaps gives several, named `... part 1` and so on.
     pub runs: Vec<PreparedRun>,
     /// Cut-off of the low-pass (Hz), the same for all runs and joints.
     pub cutoff_hz: f64,
-    /// Why this cut-off, in a sentence.
+    /// The reason for this cut-off, in a sentence.
     pub cutoff_reason: String,
     /// Frequency below which 99 % of the motion lies (Hz).
     pub motion_hz: f64,
-    /// Noise of each joint's channels, the mean over the runs in which it moves.
+    /// Noise of each joint's channels, the mean over the runs in which the joint moves.
     pub noise: Vec<JointNoise>,
-    /// What the reader should know about the log.
+    /// Problems of the log that the reader should know.
     pub warnings: Vec<LogWarning>,
 }
 
@@ -31,8 +31,8 @@ pub struct PreparedRun {
     pub rate_hz: f64,
     /// Time of each sample, on the clock of the file (s).
     pub time: Vec<f64>,
-    /// Start of the session that the run belongs to, on the clock of the file (s). Before a session the arm stood
-    /// still for an hour or longer, as far as the logs show.
+    /// Start of the session that the run belongs to, on the clock of the file (s). As far as the logs show, the arm
+    /// stood still for at least an hour before a session.
     pub session_start_s: f64,
     /// Signals of each joint, in the order of the robot.
     pub joints: Vec<PreparedJoint>,
@@ -51,13 +51,13 @@ pub struct PreparedJoint {
     pub wide: Wide,
     /// Effort on the same clock, not low-passed (N·m or N).
     pub effort: Vec<f64>,
-    /// The motion of the link, where a second encoder shows it in every run.
+    /// Motion of the link, where every run has a second encoder.
     pub link: Option<PreparedLink>,
 }
 
-/// Motion low-passed at four times the cut-off of the other signals. A model computes effort from it, which then
-/// passes the same low-pass as the measured effort. The sign of the velocity holds up to the moments at which the
-/// motion starts and stops.
+/// Motion low-passed at four times the cut-off of the other signals. A model computes effort from this motion, and that
+/// effort then passes the same low-pass as the measured effort. The sign of the velocity is right up to the moments at
+/// which the motion starts and stops.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wide {
     /// Position (rad or m).
@@ -68,24 +68,24 @@ pub struct Wide {
     pub qdd: Vec<f64>,
 }
 
-/// What a second encoder at the link of a joint shows.
+/// Signals of a second encoder at the link of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedLink {
     /// Position of the link, low-passed (rad or m).
     pub q: Vec<f64>,
-    /// Its velocity, low-passed (rad/s or m/s).
+    /// Velocity of the link, low-passed (rad/s or m/s).
     pub qd: Vec<f64>,
-    /// Its acceleration, low-passed (rad/s² or m/s²).
+    /// Acceleration of the link, low-passed (rad/s² or m/s²).
     pub qdd: Vec<f64>,
-    /// Position of the joint's first encoder minus that of the link, not low-passed (rad or m).
+    /// Position of the first encoder minus that of the link, not low-passed (rad or m).
     pub twist: Vec<f64>,
 }
 
-/// Share of noise in a joint's acceleration above which there is a warning.
+/// Share of noise in a joint's acceleration above which a warning is given.
 const NOISE_TO_WARN_OF: f64 = 0.1;
 
 impl Prepared {
-    /// Runs with exact signals: their noise is unknown, and their motion lies below a fifth of the cut-off.
+    /// Runs with exact signals. Their noise is unknown; their motion is taken to lie below a fifth of the cut-off.
     pub fn exact(runs: Vec<PreparedRun>, cutoff_hz: f64) -> Self {
         let joints = runs.first().map_or(0, |run| run.joints.len());
         Self {
@@ -98,7 +98,7 @@ impl Prepared {
         }
     }
 
-    /// Other runs that were prepared in the same way, without warnings.
+    /// Replaces the runs by others that were prepared in the same way, without warnings.
     pub fn with_runs(&self, runs: Vec<PreparedRun>) -> Self {
         Self {
             runs,
@@ -110,13 +110,13 @@ impl Prepared {
         }
     }
 
-    /// Frequency below which the motion lies (Hz).
+    /// Frequency below which 99 % of the motion lies (Hz).
     pub fn motion_hz(&self) -> f64 {
         self.motion_hz
     }
 
-    /// Noise of the acceleration of joint `j` over its acceleration, both RMS; `None` where it
-    /// has none.
+    /// Ratio of the noise of joint `j`'s acceleration to its acceleration, both RMS; `None` without
+    /// acceleration.
     pub fn noise_share(&self, j: usize) -> Option<f64> {
         let squares = self.runs.iter().flat_map(|run| &run.joints[j].qdd).map(|a| a * a);
         let (count, sum) = squares.fold((0.0, 0.0), |(n, sum), a| (n + 1.0, sum + a));
@@ -125,7 +125,7 @@ impl Prepared {
         (rms > 0.0).then_some(noise / rms)
     }
 
-    /// Adds a warning for each moving joint whose acceleration is noise to a large part.
+    /// Adds a warning for each moving joint with too much noise in its acceleration.
     pub(crate) fn with_noise_warnings(mut self, first: &Run) -> Self {
         let largest = (0..first.joints.len()).map(|j| self.way(j)).fold(0.0, f64::max);
         for (j, joint) in first.joints.iter().enumerate() {
@@ -152,7 +152,7 @@ impl Prepared {
 }
 
 impl PreparedJoint {
-    /// A joint without second encoder whose motion is exact, so that no low-pass is applied.
+    /// A joint with exact motion and without a second encoder. No low-pass is applied.
     pub fn exact([q, qd, qdd]: [Vec<f64>; 3], effort: Vec<f64>) -> Self {
         let wide = Wide { q: q.clone(), qd: qd.clone(), qdd: qdd.clone() };
         Self { q, qd, qdd, wide, effort, link: None }
@@ -160,7 +160,7 @@ impl PreparedJoint {
 }
 
 impl PreparedRun {
-    /// The given range of samples of the run, cut at its end.
+    /// The given range of samples of the run. A range beyond the end of the run is cut there.
     pub fn part(&self, samples: Range<usize>) -> Self {
         let end = samples.end.min(self.time.len());
         let samples = samples.start.min(end)..end;

@@ -3,24 +3,24 @@ use crate::{
     signals::{filtered::WIDE, prepared::Prepared},
 };
 
-/// Least and largest speed that counts as rest, as shares of the largest speed in the logs.
+/// Least and largest rest speed, as shares of the largest speed in the logs.
 const REST_SHARES: [f64; 2] = [2e-4, 0.1];
 
-/// Largest speed that counts as rest because of the difference between the filters, as a share of the largest speed.
+/// Largest rest speed due to the difference between the filters, as a share of the largest speed.
 const LARGEST_TAKEN: f64 = 1e-2;
 
-/// Speed that counts as rest, in standard deviations of the velocity's noise.
+/// Rest speed, in standard deviations of the velocity's noise.
 const REST_OF_NOISE: f64 = 4.0;
 
-/// Median of the size of a normal variable, in standard deviations.
+/// Median of the absolute value of a normal variable, in standard deviations.
 const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
 /// Speed below which each joint counts as at rest (rad/s or m/s): four standard deviations of
-/// the noise of its velocity behind the wide filter, between 0.02 and 10 per cent of its largest speed.
+/// the noise of its velocity after the wide filter, but 0.02 to 10 per cent of its largest speed.
 ///
-/// The noise is that of the joint's channels, or the difference between its velocities behind the wide and the narrow
-/// filter. That difference includes the ringing of a filter where a joint stops, so it counts up to 1 per cent only.
-/// Where neither is known 1 per cent is taken.
+/// The noise is the larger of the noise of the joint's channels and the difference between its velocities after the
+/// wide and the narrow filter. The difference includes the ringing of a filter where a joint stops, so it gives at most
+/// 1 per cent of the largest speed. Where the difference is zero 1 per cent is taken in its place.
 pub fn rest_speeds(prepared: &Prepared) -> Vec<f64> {
     let joints = prepared.runs.first().map_or(0, |r| r.joints.len());
     (0..joints).map(|j| rest_speed(prepared, j)).collect()
@@ -39,7 +39,7 @@ fn rest_speed(prepared: &Prepared, j: usize) -> f64 {
     speed.clamp(low, high).max(f64::MIN_POSITIVE)
 }
 
-/// What the narrow filter takes from the velocity of the wide one, as a standard deviation.
+/// Difference between the velocities after the wide and the narrow filter, as a standard deviation.
 fn filter_difference(prepared: &Prepared, j: usize) -> f64 {
     let joints = prepared.runs.iter().map(|r| &r.joints[j]);
     let difference = joints.flat_map(|s| s.wide.qd.iter().zip(&s.qd)).map(|(w, n)| (w - n).abs());

@@ -1,4 +1,4 @@
-//! Which columns velocity and acceleration come from.
+//! The columns from which velocity and acceleration are taken.
 
 use crate::{
     error::LogError,
@@ -12,21 +12,21 @@ use crate::{
     },
 };
 
-/// A measured column that is not the derivative it should be.
+/// A measured column that does not agree with the derivative.
 pub(crate) struct Disagreement {
     piece: usize,
     agreement: Agreement,
     derivative: Derivative,
 }
 
-/// Which derivative of the position a column is.
+/// Order of the derivative of the position that a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Derivative {
     Velocity,
     Acceleration,
 }
 
-/// The bands that columns and derivatives are compared in.
+/// The bands in which columns and derivatives are compared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ComparisonBands {
     /// Cut-off of the low-pass (Hz).
@@ -36,8 +36,8 @@ pub(crate) struct ComparisonBands {
 }
 
 impl ComparisonBands {
-    /// The sources of a joint: its columns where they agree with the derivatives in every piece in
-    /// which it moves (`in_motion`). Tells where they do not.
+    /// The sources of a joint's signals: its columns where they agree with the derivatives in every piece in
+    /// which the joint moves (`in_motion`). Returns the disagreements too.
     pub(crate) fn sources(
         &self,
         pieces: &[UniformRun],
@@ -77,7 +77,7 @@ impl ComparisonBands {
     }
 
     /// The worst agreement of a measured column with its derivative over the pieces in motion;
-    /// `None` where a piece does not have the column or none can be compared.
+    /// `None` where a piece lacks the column, and where all pieces are too short or constant.
     fn worst<'b>(
         &self,
         pieces: &[UniformRun],
@@ -91,13 +91,13 @@ impl ComparisonBands {
             .max_by(|a, b| a.1.deviation(self.motion_hz).total_cmp(&b.1.deviation(self.motion_hz)))
     }
 
-    /// A measured column against its derivative, both low-passed, away from their ends.
+    /// Compares a measured column with its derivative, both low-passed and without their ends.
     fn agreement(&self, rate_hz: f64, measured: &[f64], derived: &[f64]) -> Option<Agreement> {
         let kept = settled_range(measured.len(), rate_hz, self.cutoff_hz);
         Agreement::of(&measured[kept.clone()], &derived[kept], rate_hz, self.cutoff_hz)
     }
 
-    /// The velocity column of a joint against the derivative of its position.
+    /// Compares the velocity column of a joint with the derivative of its position.
     pub(crate) fn velocity_agreement(&self, piece: &UniformRun, joint: usize) -> Option<Agreement> {
         let low_pass = LowPass::new(ORDER, self.cutoff_hz, piece.rate_hz).ok()?;
         let band = FilteredSignals::of(&piece.joints[joint], &low_pass, piece.rate_hz);
@@ -106,7 +106,7 @@ impl ComparisonBands {
 }
 
 impl Derivative {
-    /// The column, and the derivative of what lies below it.
+    /// The column, and the derivative of the signal one order below.
     fn pair(self, band: &FilteredSignals) -> Option<(&[f64], &[f64])> {
         match self {
             Self::Velocity => Some((band.velocity.as_deref()?, &band.qd)),

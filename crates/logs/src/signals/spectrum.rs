@@ -1,4 +1,4 @@
-//! Power densities of signals, and where they are flat.
+//! Power densities of signals, and the parts in which they are flat.
 
 use std::f64::consts::{LN_2, SQRT_2, TAU};
 
@@ -6,24 +6,24 @@ use realfft::num_complex::Complex;
 
 use crate::signals::fourier_transform::FourierTransform;
 
-/// Share of half the sampling rate above which nothing is looked at: the filters of loggers and
-/// the interpolation of a clock end there.
+/// Highest frequency that is used, as a share of half the sampling rate. The filters of loggers and
+/// the interpolation to a uniform clock act above it.
 const HIGHEST_SHARE: f64 = 0.95;
-/// Fewest bins whose median is a density.
+/// Fewest bins whose median is taken as a density.
 const FEWEST_BINS: usize = 5;
 /// Largest change of a flat density over half an octave and over an octave (decades).
 const FLAT_HALF: f64 = 0.4;
 const FLAT_OCTAVE: f64 = 0.45;
 /// Fewest half octaves that make a flat stretch.
 const FEWEST_FLAT: usize = 3;
-/// Fall of a density over half an octave that only a filter makes (decades): `f^-12`, where the
+/// Fall of a density over half an octave that only a filter causes (decades): `f^-12`. The
 /// corners of a motion fall with `f^-4` to `f^-8`.
 const FILTER_EDGE: f64 = 1.8;
 
 /// One-sided power density of a signal over frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Density {
-    /// Width of a bin (Hz); bin `k` lies at `k` of them.
+    /// Width of a bin (Hz); bin `k` lies at `k` times the width.
     pub step_hz: f64,
     /// Density of each bin (unit^2/Hz).
     pub bins: Vec<f64>,
@@ -32,12 +32,12 @@ pub(crate) struct Density {
 /// A flat part of a density.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Flat {
-    /// Its level (unit^2/Hz).
+    /// Level of the flat part (unit^2/Hz).
     pub density: f64,
-    /// Its width (octaves).
+    /// Width of the flat part (octaves).
     pub octaves: f64,
-    /// Whether the density falls as steeply below it as only a low-pass makes it fall: then it
-    /// does not say what the noise is in the band of the motion.
+    /// Whether the density below the flat part in frequency falls as steeply as only a low-pass causes. The flat part
+    /// then does not show the noise in the band of the motion.
     pub is_filtered: bool,
 }
 
@@ -54,8 +54,8 @@ impl Density {
     /// P[k] = 2 |sum w (x - mean) exp(-i 2 pi k n / N)|^2 / (rate sum w^2)
     /// ```
     ///
-    /// whose sum times the width of a bin is the variance of the signal. Its last few per cent
-    /// are left out where a length of small factors is shorter: a prime one takes four times as
+    /// The sum of `P` times the width of a bin is the variance of the signal. The last few per cent of the samples
+    /// are left out where a shorter length has only small factors: a prime length takes four times as
     /// long.
     pub(crate) fn of(x: &[f64], rate_hz: f64, fourier: &mut FourierTransform) -> Self {
         let x = &x[..of_small_factors(x.len())];
@@ -73,7 +73,7 @@ impl Density {
         Self { step_hz, bins }
     }
 
-    /// The same divided by `(2 pi f)^2`: that of the signal whose derivative this one is.
+    /// The density divided by `(2 pi f)^2`: the density of the integral of the signal.
     pub(crate) fn integrate(&self) -> Self {
         let over = |(k, p): (usize, &f64)| match k {
             0 => 0.0,
@@ -93,11 +93,11 @@ impl Density {
         edge.map_or(0.0, |k| (k + 1) as f64 * self.step_hz)
     }
 
-    /// The flat stretch of the highest frequencies above `from_hz`: three half octaves or more
+    /// The flat part with the highest frequencies above `from_hz`: three half octaves or more
     /// over which the density changes by less than `f^1.5`; `None` without one.
     ///
-    /// Its density is the mean of the logarithms of the half octaves' medians over `ln 2`, which
-    /// is the mean of a density whose bins scatter as white noise does, and leaves lines out.
+    /// Its density is the exponential of the mean logarithm of the half octaves' medians, divided by `ln 2`. For bins
+    /// that scatter as white noise does this is the mean density, and it ignores lines.
     pub(crate) fn flat_above(&self, from_hz: f64) -> Option<Flat> {
         let bands = self.half_octaves(from_hz);
         let mut start = 0;
@@ -131,7 +131,7 @@ impl Density {
     }
 }
 
-/// The largest number up to `n` without other factors than 2, 3 and 5.
+/// The largest number up to `n` with no prime factors other than 2, 3 and 5.
 fn of_small_factors(n: usize) -> usize {
     let is_small = |n: &usize| {
         let mut left = *n;

@@ -12,8 +12,8 @@ pub(crate) struct UniformRun {
     /// Name of the run, with the number of the piece where there are several.
     pub name: String,
     pub rate_hz: f64,
-    /// Where it was resampled: the largest difference between a step of the file and
-    /// the usual step (s).
+    /// Largest difference between a step of the file and the usual step (s); `None` where the piece was
+    /// not resampled.
     pub deviation_s: Option<f64>,
     pub time: Vec<f64>,
     pub joints: Vec<UniformJoint>,
@@ -67,10 +67,10 @@ fn resample(run: &Run, index: usize, name: String, piece: &Piece) -> UniformRun 
     UniformRun { run: index, name, rate_hz: piece.rate_hz, deviation_s, time, joints }
 }
 
-/// Least range of a joint that moves, as a share of the largest range of any joint.
+/// Least range of a moving joint, as a share of the largest range of any joint.
 pub(crate) const MOVING_SHARE: f64 = 0.05;
 
-/// Which joints move, per run: those whose position ranges over a twentieth of the
+/// Which joints move, per run. The position of a moving joint ranges over a twentieth of the
 /// largest range of any joint in any run, and over a thousandth of a radian or metre.
 pub(crate) fn moving(runs: &[UniformRun]) -> Vec<Vec<bool>> {
     let span = |q: &[f64]| {
@@ -83,7 +83,7 @@ pub(crate) fn moving(runs: &[UniformRun]) -> Vec<Vec<bool>> {
     runs.iter().map(|r| r.joints.iter().map(|joint| span(&joint.q) >= least).collect()).collect()
 }
 
-/// Checks that the runs belong together and are whole.
+/// Checks that the runs have the same joints and that their signals are complete.
 pub(crate) fn check_runs(runs: &[Run]) -> Result<(), LogError> {
     let first = runs.first().ok_or(LogError::NoRuns)?;
     let names = |run: &Run| run.joints.iter().map(|j| j.name.clone()).collect::<Vec<_>>();

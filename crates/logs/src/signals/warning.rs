@@ -1,10 +1,10 @@
 use crate::runs::{repair::Repair, run::of_run};
 
-/// A problem of a log that can be used nevertheless.
+/// A problem of a log that is still usable.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogWarning {
-    /// The log has a joint that the robot does not have.
+    /// The log has a joint that is not in the robot.
     #[error("{of_run}: joint {joint} of the log is not in the robot, it is left out", of_run = of_run(run))]
     UnknownJoint {
         /// The run.
@@ -12,7 +12,7 @@ pub enum LogWarning {
         /// The joint of the log.
         joint: String,
     },
-    /// The file ends in the middle of a row.
+    /// The file ended in the middle of a row.
     #[error("{of_run}: its last row was cut off while it was written, it is left out", of_run = of_run(run))]
     TornLastRow {
         /// The run.
@@ -23,13 +23,13 @@ pub enum LogWarning {
     Mended {
         /// The run.
         run: String,
-        /// What.
+        /// The change.
         mend: Repair,
     },
     /// Only part of the logs is used.
     #[error("{mend}")]
     Thinned {
-        /// How much.
+        /// The change, with the share that is used.
         mend: Repair,
     },
     /// Two runs have the same samples.
@@ -38,52 +38,52 @@ pub enum LogWarning {
     Duplicate {
         /// The run.
         run: String,
-        /// The earlier run it equals.
+        /// The earlier run with the same samples.
         of: String,
     },
     /// The measured velocity is not the derivative of the position.
     #[error("{of_run}: the velocity of {} is {scale:.3} times the derivative of the position and {}; \
         the derivative of the position is used in all runs", joint_words(joints), lag_words(*lag_s), of_run = of_run(run))]
     VelocityDisagrees {
-        /// The run in which it differs most, of the first joint.
+        /// The run in which the first joint differs most.
         run: String,
-        /// The joints of which the same is true.
+        /// The joints with the same lag and scale.
         joints: Vec<String>,
-        /// Lag of the velocity column behind the derivative (s).
+        /// Lag of the velocity column relative to the derivative (s).
         lag_s: f64,
-        /// Scale of the velocity column against the derivative.
+        /// Factor from the derivative to the velocity column.
         scale: f64,
     },
     /// The measured acceleration is not the derivative of the velocity.
     #[error("{of_run}: the acceleration of {} is {scale:.3} times the derivative of the velocity and {}; \
         the derivative of the velocity is used in all runs", joint_words(joints), lag_words(*lag_s), of_run = of_run(run))]
     AccelerationDisagrees {
-        /// The run in which it differs most, of the first joint.
+        /// The run in which the first joint differs most.
         run: String,
-        /// The joints of which the same is true.
+        /// The joints with the same lag and scale.
         joints: Vec<String>,
-        /// Lag of the acceleration column behind the derivative (s).
+        /// Lag of the acceleration column relative to the derivative (s).
         lag_s: f64,
-        /// Scale of the acceleration column against the derivative.
+        /// Factor from the derivative to the acceleration column.
         scale: f64,
     },
-    /// A second encoder is in some of the runs.
+    /// Only some of the runs have a second encoder of a joint.
     #[error(
         "{of_run}: joint {joint} has no link_position here, as it has in other runs; it is left out of all", of_run = of_run(run))]
     LinkPositionMissing {
-        /// The first run without it.
+        /// The first run without the encoder.
         run: String,
         /// The joint.
         joint: String,
     },
-    /// The second encoder of a joint is on another clock than the first.
+    /// The clock of a joint's second encoder differs from that of the first.
     #[error("joint {joint}: its link_position is {} (standard error {:.2} ms) against its position; it was moved by that", lag_words(*lag_s), 1e3 * lag_std_s)]
     LinkLag {
         /// The joint.
         joint: String,
-        /// How late the second encoder is (s).
+        /// Lag of the second encoder (s).
         lag_s: f64,
-        /// Standard error of that (s).
+        /// Standard error of the lag (s).
         lag_std_s: f64,
     },
     /// The clock was not uniform.
@@ -96,7 +96,7 @@ pub enum LogWarning {
         /// Rate of the uniform clock (Hz).
         rate_hz: f64,
     },
-    /// A run has gaps that are too long to be filled.
+    /// A run has gaps that are too long for interpolation.
     #[error(
         "{of_run}: {gaps} gaps of more than {:.0} ms; it was split there, pieces under {shortest_s:.3} s left out",
         1e3 * longest_s, of_run = of_run(run))]
@@ -115,12 +115,12 @@ pub enum LogWarning {
     NoisyAcceleration {
         /// The joint.
         joint: String,
-        /// Noise over acceleration, both RMS.
+        /// Ratio of noise to acceleration, both RMS.
         share: f64,
         /// Cut-off of the low-pass (Hz).
         cutoff_hz: f64,
     },
-    /// Many samples of the effort sit at its extreme values.
+    /// Many samples of the effort are at its extreme values.
     #[error("{of_run}: {:.1} % of the effort of joint {joint} sits at its extreme values: the drive or its sensor may saturate", 100.0 * share, of_run = of_run(run))]
     Saturated {
         /// The run.
@@ -133,7 +133,7 @@ pub enum LogWarning {
 }
 
 impl LogWarning {
-    /// Adds the joints of `other` where both print the same lag and scale; returns `other` where they do not.
+    /// Adds the joints of `other` where both have the same lag and scale in print; otherwise returns `other`.
     pub(crate) fn join(&mut self, other: Self) -> Option<Self> {
         use LogWarning::{AccelerationDisagrees, VelocityDisagrees};
         let alike = |a: (f64, f64), b: (f64, f64)| {
@@ -156,7 +156,7 @@ impl LogWarning {
     }
 }
 
-/// Lags (s) and scales that are the same in a warning.
+/// Differences of lags (s) and scales below which they count as the same in a warning.
 const SAME_LAG_S: f64 = 5e-5;
 const SAME_SCALE: f64 = 5e-3;
 

@@ -1,4 +1,4 @@
-//! Runs and tables as files that appear whole, and logs that grow row by row.
+//! Writes runs and tables as whole files, and logs row by row while they are recorded.
 
 pub(crate) mod whole_file;
 pub(crate) mod write;

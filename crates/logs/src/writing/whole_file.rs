@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempPath;
 
-/// A file that appears under its name only when it is whole.
+/// A file that appears under its name only when it is complete.
 ///
-/// It is written under a temporary name beside it. [`WholeFile::finish`] brings its bytes to the disk, renames
-/// it, and brings the name to the disk; what was under that name before is untouched until then. Dropped
-/// before, it leaves nothing.
+/// It is written under a temporary name in the same folder. [`WholeFile::finish`] flushes its bytes to the disk,
+/// renames the file, and flushes the new name to the disk. Until then an earlier file of that name is untouched.
+/// A `WholeFile` that is dropped before leaves no file.
 #[derive(Debug)]
 pub struct WholeFile {
     path: PathBuf,
@@ -17,20 +17,20 @@ pub struct WholeFile {
 }
 
 impl WholeFile {
-    /// Begins a file; its folder has to be there.
+    /// Creates the temporary file. Its folder must exist.
     ///
     /// # Errors
     ///
-    /// What the operating system says.
+    /// The error of the operating system.
     pub fn create(path: &Path) -> io::Result<Self> {
         Self::create_in(folder_of(path), path)
     }
 
-    /// The same with the temporary name in another folder of the same disk.
+    /// Creates the temporary file in another folder on the same disk.
     ///
     /// # Errors
     ///
-    /// What the operating system says.
+    /// The error of the operating system.
     pub fn create_in(folder: &Path, path: &Path) -> io::Result<Self> {
         let mut builder = tempfile::Builder::new();
         // The same rights as any new file, not those of a private temporary one.
@@ -44,21 +44,21 @@ impl WholeFile {
         Ok(Self { path: path.to_owned(), file: BufWriter::new(file), name })
     }
 
-    /// Brings what was written to the disk, still under the temporary name.
+    /// Flushes the bytes written so far to the disk, still under the temporary name.
     ///
     /// # Errors
     ///
-    /// What the operating system says.
+    /// The error of the operating system.
     pub fn sync(&mut self) -> io::Result<()> {
         self.file.flush()?;
         self.file.get_ref().sync_all()
     }
 
-    /// Gives the file its name.
+    /// Renames the complete file to its name.
     ///
     /// # Errors
     ///
-    /// What the operating system says.
+    /// The error of the operating system.
     pub fn finish(mut self) -> io::Result<()> {
         self.sync()?;
         self.name.persist(&self.path).map_err(|error| plain(error.error))?;
@@ -77,7 +77,7 @@ impl Write for WholeFile {
     }
 }
 
-/// Brings the names in a folder to the disk, where the system can do that.
+/// Flushes the names in a folder to the disk, where the operating system supports it.
 pub fn sync_folder(folder: &Path) {
     if let Ok(folder) = File::open(folder) {
         // A file system without it has the names there in time; the bytes are there already.
@@ -89,7 +89,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// What the system says, without the temporary name.
+/// The error of the operating system, without the temporary name.
 fn plain(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(" at path ") {

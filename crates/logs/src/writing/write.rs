@@ -14,11 +14,11 @@ use crate::{
     writing::whole_file::WholeFile,
 };
 
-/// Writes a file that appears under its name when it is whole, as [`WholeFile`] does it.
+/// Writes a file that appears under its name only when it is complete, by a [`WholeFile`].
 ///
 /// # Errors
 ///
-/// [`LogError::Unwritable`]; what was under that name before is then untouched.
+/// [`LogError::Unwritable`]. An earlier file of that name is then untouched.
 pub fn replace_file(
     path: &Path,
     fill: impl FnOnce(&mut WholeFile) -> Result<(), Box<dyn std::error::Error>>,
@@ -29,7 +29,7 @@ pub fn replace_file(
     file.finish().map_err(|e| unwritable(e.to_string()))
 }
 
-/// Writes columns of equal length as Parquet, with texts by key among the metadata of the file.
+/// Writes columns of equal length as Parquet. The metadata of the file gets the given texts, by key.
 ///
 /// # Errors
 ///
@@ -42,11 +42,11 @@ pub fn write_table(
     replace_file(path, |file| encode(file, columns, metadata))
 }
 
-/// The bytes of the file that [`write_table`] writes.
+/// The bytes of the Parquet file that [`write_table`] writes.
 ///
 /// # Errors
 ///
-/// [`LogError::Unwritable`] with `path`, the file that they are for.
+/// [`LogError::Unwritable`] with `path`, the path of the intended file.
 pub fn table_bytes(
     path: &Path,
     columns: Vec<(String, ArrayRef)>,
@@ -79,7 +79,7 @@ fn encode(
     Ok(())
 }
 
-/// Writes a run as Parquet, one `f64` column per signal; reading it back is exact.
+/// Writes a run as Parquet, one `f64` column per signal. Reading the file returns exactly the same numbers.
 ///
 /// # Errors
 ///
@@ -90,7 +90,7 @@ pub fn write_parquet(path: &Path, run: &Run) -> Result<(), LogError> {
     write_table(path, columns.collect(), Vec::new())
 }
 
-/// Writes a run as CSV with a header; reading it back is exact.
+/// Writes a run as CSV with a header. Reading the file returns exactly the same numbers.
 ///
 /// # Errors
 ///
@@ -111,12 +111,12 @@ pub fn write_csv(path: &Path, run: &Run) -> Result<(), LogError> {
     })
 }
 
-/// The name of a column.
+/// Name of the column of a joint's signal.
 pub(crate) fn column_name(joint: &str, channel: Channel) -> String {
     format!("{joint}.{}", channel.suffix())
 }
 
-/// Names and samples in the order of the file.
+/// Names and samples of all columns, in the order of the file.
 fn columns(run: &Run) -> Vec<(String, &[f64])> {
     let mut columns = vec![("time".to_owned(), run.time.as_slice())];
     for channel in Channel::ALL {

@@ -8,10 +8,10 @@ use log_formats::FormatError;
 
 use crate::{error::LogError, runs::run::Channel, writing::write::column_name};
 
-/// Time of the log between two writes (s).
+/// Time of the log between two writes to the file (s).
 const BLOCK_S: f64 = 1.0;
 
-/// A CSV log that is written while it grows, about once a second of its own time.
+/// A CSV log that is written while it is recorded, about once per second of its own time.
 ///
 /// ```text
 /// time,j1.position,j1.effort,"gauge"
@@ -19,33 +19,33 @@ const BLOCK_S: f64 = 1.0;
 /// 0.002,0.5000012,1.25,"0.125"
 /// ```
 ///
-/// Rows are written in whole blocks and the last field of every row stands in quotes, which
-/// any reader of CSV takes off. A program that is killed leaves a log that [`crate::read_run`]
-/// reads: a last row without its closing quote was torn and is left out, so that half a number
-/// is never taken for a whole one. Numbers read back to the last bit.
+/// Rows are written in whole blocks. The last field of every row is in quotes, which
+/// any CSV reader removes. [`crate::read_run`] can read the log of a program that was killed: a
+/// last row without its closing quote was torn and is left out, so that half a number
+/// is never taken for a whole one. Reading returns exactly the same numbers.
 ///
-/// Rows not yet written are also written when the writer goes out of scope. An error is lost there;
+/// Collected rows are also written when the writer goes out of scope. An error is lost there;
 /// [`LogWriter::finish`] returns it.
 #[derive(Debug)]
 pub struct LogWriter {
     path: PathBuf,
     file: File,
-    /// Fields of a row.
+    /// Number of fields in a row.
     fields: usize,
-    /// Rows taken in.
+    /// Number of rows received.
     rows: usize,
-    /// Bytes of the file that are known to be whole.
+    /// Number of bytes of the file that are known to be complete.
     written: u64,
-    /// Rows that are not written yet.
+    /// Rows that are collected and not yet written.
     block: Vec<u8>,
-    /// Time of the first of them (s).
+    /// Time of the first collected row (s).
     block_start: Option<f64>,
 }
 
 impl LogWriter {
-    /// Begins a file with the columns `time`, `<joint>.<channel>` and the further ones, in the
-    /// order of [`crate::write_csv`]: channel by channel, in each joint by joint. What was
-    /// under that name before is lost.
+    /// Creates a file with the columns `time`, `<joint>.<channel>` and the further ones. The
+    /// order is that of [`crate::write_csv`]: all joints of one channel, then those of the next. An earlier
+    /// file of that name is overwritten.
     ///
     /// # Errors
     ///
@@ -74,14 +74,14 @@ impl LogWriter {
         Ok(writer)
     }
 
-    /// Takes in a row: the time (s), then a number for every other column.
+    /// Adds a row: the time (s), then a number for every other column.
     ///
     /// # Errors
     ///
-    /// - [`FormatError::WrongFieldCount`] when there are too few or too many numbers; the row is
+    /// - [`FormatError::WrongFieldCount`] for too few or too many numbers. The row is
     ///   left out.
-    /// - [`LogError::Unwritable`] when a block cannot be written; it stays collected, and is
-    ///   tried again with the next row.
+    /// - [`LogError::Unwritable`] when a block cannot be written. The block is kept, and is
+    ///   written again with the next row.
     pub fn row(&mut self, values: &[f64]) -> Result<(), LogError> {
         let (Some(time), Some((last, others))) = (values.first(), values.split_last()) else {
             return Err(self.wrong_length(0));
@@ -99,7 +99,7 @@ impl LogWriter {
         if (0.0..BLOCK_S).contains(&(time - start)) { Ok(()) } else { self.flush() }
     }
 
-    /// Writes what is left.
+    /// Writes the rows that are still collected.
     ///
     /// # Errors
     ///

@@ -21,9 +21,9 @@ use crate::{
     },
 };
 
-/// The topic that is read where no other one is asked for.
+/// The topic that is read by default.
 const USUAL_TOPIC: &str = "/joint_states";
-/// The joint states of a bag of ROS 2.
+/// The joint states of a ROS 2 bag.
 pub(crate) struct Bag {
     path: PathBuf,
     topic: String,
@@ -31,7 +31,7 @@ pub(crate) struct Bag {
 }
 
 impl Bag {
-    /// Reads the joint states of a topic from files, one after the other.
+    /// Reads the joint states of a topic from several files in sequence.
     pub(crate) fn open(
         path: &Path,
         files: &[(PathBuf, Storage, File)],
@@ -52,7 +52,7 @@ impl Opened for Bag {
         Ok(self.states.names().to_vec())
     }
 
-    /// A message that holds none of the columns that are needed is left out.
+    /// A message without any of the needed columns is left out.
     fn load(&self, needed: &Needed, _: &mut Damage) -> Result<Table, FormatError> {
         self.states.load(needed).map_err(|(message, column)| FormatError::NotInMessage {
             path: self.path.clone(),
@@ -91,7 +91,7 @@ impl FileFormat for Storage {
     }
 }
 
-/// The joint states of all topics that may be read.
+/// The joint states of each topic that may be read.
 struct TopicStates<'a> {
     path: &'a Path,
     topic: Option<&'a str>,
@@ -106,7 +106,7 @@ impl TopicStates<'_> {
         topic.kind == TYPE && topic.encoding == "cdr" && is_asked_for
     }
 
-    /// The joint states that are read.
+    /// Selects the joint states of one topic.
     fn choose(mut self) -> Result<Bag, FormatError> {
         let path = self.path.to_owned();
         let wanted = self.topic.unwrap_or(USUAL_TOPIC);

@@ -1,8 +1,8 @@
-/// Values one after the other as ROS 2 writes them (CDR): each begins at a multiple of its size,
-/// counted from the first one.
+/// A reader of values in the CDR encoding of ROS 2. Each value is aligned to a multiple of its size,
+/// counted from the first value.
 #[derive(Debug, Clone)]
 pub(crate) struct Cdr<'a> {
-    /// What follows the four bytes that tell the order.
+    /// The bytes after the four that give the byte order.
     values: &'a [u8],
     at: usize,
     order: ByteOrder,
@@ -15,7 +15,7 @@ enum ByteOrder {
 }
 
 impl<'a> Cdr<'a> {
-    /// Of a message; none where it is not encoded so.
+    /// A reader of a message; `None` where the encoding is not CDR.
     pub(crate) fn new(message: &'a [u8]) -> Option<Self> {
         let (start, values) = message.split_first_chunk::<4>()?;
         let order = match start {
@@ -46,7 +46,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// A text, which ends in a zero that is counted.
+    /// A text. Its terminating zero is included in its length.
     pub(crate) fn text(&mut self) -> Option<&'a str> {
         let length = self.u32()? as usize;
         let end = self.at.checked_add(length)?;
@@ -55,7 +55,7 @@ impl<'a> Cdr<'a> {
         std::str::from_utf8(bytes.strip_suffix(&[0]).unwrap_or(bytes)).ok()
     }
 
-    /// A count, and that many values; each takes a byte at least, so that they end with the message.
+    /// A count, followed by that many values. Each value takes at least one byte, so the message bounds a false count.
     pub(crate) fn sequence<T>(
         &mut self,
         mut value: impl FnMut(&mut Self) -> Option<T>,

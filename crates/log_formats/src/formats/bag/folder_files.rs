@@ -5,14 +5,14 @@ use std::{
 
 use crate::common::{error::FormatError, unread_kinds::NO_BAG_FILE};
 
-/// What stands in a folder that is a bag.
+/// The file that marks a folder as a bag.
 const DESCRIPTION: &str = "metadata.yaml";
-/// How files of a bag end, those that are packed have more behind it.
+/// Extensions of the files of a bag. Packed files have another one after it.
 const ENDINGS: [&str; 2] = [".mcap", ".db3"];
-/// How files of a database end that are no database.
+/// Ends of the names of files beside a database that are not databases.
 const BESIDE: [&str; 3] = ["-wal", "-shm", "-journal"];
 
-/// The files of the folder of a bag, in their order.
+/// The files in the folder of a bag, ordered by their numbers.
 pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, FormatError> {
     if !path.join(DESCRIPTION).is_file() {
         return Err(FormatError::NotAFile { path: path.to_owned(), found: "a directory" });
@@ -33,7 +33,7 @@ pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, FormatError> {
     Ok(files.iter().map(|name| path.join(name)).collect())
 }
 
-/// The number behind the last `_` of a name: files of a bag are counted so.
+/// The number after the last `_` of a name, by which the files of a bag are ordered.
 fn number_of(name: &str) -> u64 {
     let end = ENDINGS.iter().find_map(|ending| name.find(ending)).unwrap_or(name.len());
     let stem = &name[..end];

@@ -6,17 +6,17 @@ pub(crate) struct JointState {
     /// Time of the stamp in its header (ns).
     pub stamp_ns: i64,
     pub names: Vec<String>,
-    /// One a name, or none at all.
+    /// One value per name, or no values.
     pub position: Vec<f64>,
     pub velocity: Vec<f64>,
     pub effort: Vec<f64>,
 }
 
-/// Name of the type.
+/// Name of the message type.
 pub(crate) const TYPE: &str = "sensor_msgs/msg/JointState";
 
 impl JointState {
-    /// From CDR; the reason where it cannot be read.
+    /// Decodes a message in CDR, or gives the reason why it cannot be read.
     pub(crate) fn decode(message: &[u8]) -> Result<Self, String> {
         let mut cdr = Cdr::new(message).ok_or("it is not encoded as plain CDR")?;
         let state = Self::values(&mut cdr).ok_or("it is cut off, or of another type")?;
@@ -41,7 +41,7 @@ impl JointState {
         })
     }
 
-    /// Its values, by the channel that they are.
+    /// The values of each channel.
     pub(crate) fn channels(&self) -> [(&'static str, &[f64]); 3] {
         [("position", &self.position), ("velocity", &self.velocity), ("effort", &self.effort)]
     }

@@ -5,16 +5,16 @@ use crate::{
     formats::bag::joint_state::JointState,
 };
 
-/// The joint states of a topic, in the order of the log; each may be of other joints.
+/// The joint states of a topic, in recorded order. Messages may be of different joints.
 #[derive(Debug)]
 pub(crate) struct JointStates {
     /// Names of the columns, `time` first.
     names: Vec<String>,
     columns: BTreeMap<String, usize>,
-    /// Which columns a message fills, by its joints and by which channels it has.
+    /// Index of each layout in `filled`, by the joints and the channels of a message.
     layouts: BTreeMap<(Vec<String>, [bool; 3]), usize>,
     filled: Vec<Vec<usize>>,
-    /// Names in all layouts.
+    /// Number of names in all layouts.
     named: usize,
     /// Stamp (ns) and layout of every message.
     messages: Vec<(i64, usize)>,
@@ -22,7 +22,7 @@ pub(crate) struct JointStates {
     values: Vec<f64>,
 }
 
-/// Most columns of a log: each takes time in every message.
+/// Most columns of a log. Each column costs time in every message.
 const MOST_COLUMNS: usize = 10_000;
 /// Most names in all layouts.
 const MOST_NAMES: usize = 1_000_000;
@@ -45,12 +45,12 @@ impl JointStates {
         &self.names
     }
 
-    /// Messages so far.
+    /// Number of messages so far.
     pub(crate) fn count(&self) -> usize {
         self.messages.len()
     }
 
-    /// Adds a message; the reason where it does not fit.
+    /// Adds a message, or gives the reason why it does not fit.
     pub(crate) fn push(&mut self, message: JointState) -> Result<(), String> {
         for (_, values) in message.channels() {
             self.values.extend(values);
@@ -76,7 +76,7 @@ impl JointStates {
         Ok(())
     }
 
-    /// The columns that a message of these joints fills, in the order of its values.
+    /// The columns of a message with these joints, in the order of its values.
     fn fill_by(&mut self, joints: &[String], has: [bool; 3]) -> Result<Vec<usize>, String> {
         let mut filled = Vec::new();
         for (channel, _) in
@@ -105,7 +105,7 @@ impl JointStates {
         Ok(filled)
     }
 
-    /// Columns by name. Time is counted from the first message, in which nanoseconds are exact (s).
+    /// Columns by name. Time (s) is counted from the first message, which keeps nanoseconds exact.
     pub(crate) fn load(&self, needed: &Needed) -> Result<Table, (usize, usize)> {
         let mut rows = Rows::new(&self.names, needed);
         let start_ns = self.messages.first().map_or(0, |(stamp_ns, _)| *stamp_ns);

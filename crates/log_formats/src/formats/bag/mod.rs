@@ -1,4 +1,4 @@
-//! Messages as ROS 2 records them, in files of MCAP or SQLite, or a folder of such files.
+//! ROS 2 bags: files of MCAP or SQLite, or folders of such files.
 
 pub(crate) mod bag_file;
 pub(crate) mod cdr;

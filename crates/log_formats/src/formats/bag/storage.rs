@@ -6,10 +6,10 @@ use crate::{
     formats::bag::{mcap::mcap_file, sqlite::sqlite_file, topic::MessageSink},
 };
 
-/// How the messages of a bag are stored.
+/// Storage format of the messages of a bag.
 #[derive(Clone, Copy)]
 pub(crate) struct Storage {
-    /// What a damaged file is called.
+    /// Name of the format in errors.
     pub name: &'static str,
     pub magic: &'static [Magic],
     /// Reads the messages of a file.

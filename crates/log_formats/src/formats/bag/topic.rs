@@ -1,23 +1,23 @@
 use crate::common::error::FormatError;
 
-/// Where a message was published.
+/// A topic of a bag.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Topic {
     pub name: String,
-    /// Type of its messages.
+    /// Type of the messages.
     pub kind: String,
-    /// How they are encoded.
+    /// Encoding of the messages.
     pub encoding: String,
 }
 
 /// Receives the topics and messages of a bag.
 pub(crate) trait MessageSink {
-    /// Takes a topic, before its messages.
+    /// Receives a topic, before its messages.
     fn add_topic(&mut self, topic: &Topic);
 
-    /// Whether the messages of a topic are wanted; others need not be read.
+    /// Whether the messages of a topic are wanted. Other messages may be skipped.
     fn wants(&self, topic: &Topic) -> bool;
 
-    /// Takes a message.
+    /// Receives a message.
     fn add_message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError>;
 }

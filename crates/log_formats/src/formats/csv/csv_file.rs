@@ -16,12 +16,12 @@ use crate::{
     formats::csv::dialect::{Dialect, Header, Numerals},
 };
 
-/// Bytes in which the dialect is seen.
+/// Number of bytes from which the dialect is determined.
 const PREVIEW: u64 = 1 << 18;
-/// Bytes at the end of a file in which a torn row is looked for.
+/// Number of bytes at the end of a file in which a torn row is searched.
 const TAIL: u64 = 1 << 22;
 
-/// What text is that is of no other kind.
+/// The format of any text that is of no other kind.
 pub(crate) struct Csv;
 
 impl FileFormat for Csv {
@@ -44,18 +44,18 @@ impl FileFormat for Csv {
     }
 }
 
-/// A log as text: rows of numbers below a line of names, or without one.
+/// A log as text: rows of numbers, with or without a line of names above them.
 pub(crate) struct CsvFile {
     path: PathBuf,
     file: File,
     dialect: Dialect,
     names: Vec<String>,
-    /// Where a last row begins that was torn while it was written.
+    /// Start of a last row that was torn while it was written.
     torn_from: Option<u64>,
 }
 
 impl CsvFile {
-    /// Looks at the dialect, the names and the last row.
+    /// Determines the dialect, the names and whether the last row was torn.
     pub(crate) fn open(path: &Path, file: File) -> Result<Self, FormatError> {
         let told = |e: io::Error| FormatError::unreadable(path, &e);
         let mut preview = Vec::new();
@@ -85,7 +85,7 @@ impl CsvFile {
         })
     }
 
-    /// Every record from the line of names on.
+    /// All records, from the line of names on.
     fn records(&self) -> Result<csv::Reader<Take<&File>>, FormatError> {
         let start = self.dialect.start as u64;
         let end = self.torn_from.unwrap_or(u64::MAX);
@@ -94,7 +94,7 @@ impl CsvFile {
         Ok(self.dialect.records(text.take(end.saturating_sub(start))))
     }
 
-    /// A row may end in one more separator than the names do.
+    /// Checks the number of fields in a row. A row may end in one separator more than the line of names.
     fn check_length(&self, row: usize, record: &csv::ByteRecord) -> Result<(), FormatError> {
         let (found, expected) = (self.dialect.fields(record).count(), self.names.len());
         let ends_empty = self.dialect.fields(record).last().is_some_and(<[u8]>::is_empty);
@@ -123,13 +123,13 @@ impl CsvFile {
 }
 
 impl Opened for CsvFile {
-    /// In the order of the file; `column_1` and so on where it has none.
+    /// Names in the order of the file; `column_1` and so on where the file has none.
     fn names(&self) -> Result<Vec<String>, FormatError> {
         Ok(self.names.clone())
     }
 
-    /// Columns by name: those that are needed, where every field must be a number, and of the
-    /// rest those in which every field is one.
+    /// Columns by name. In a needed column every field must be a number. Any other column is kept if every field is
+    /// a number.
     fn load(&self, needed: &Needed, damage: &mut Damage) -> Result<Table, FormatError> {
         let mut rows = Rows::new(&self.names, needed);
         let mut numerals = vec![Numerals::between(self.dialect.separator); self.names.len()];
@@ -189,10 +189,10 @@ fn rewind_to(file: &File, start: u64) -> io::Result<&File> {
     Ok(file)
 }
 
-/// Where a last row begins that was torn while it was written; none when the file is whole.
+/// Start of a last row that was torn while it was written; `None` when the file is complete.
 ///
-/// A row without its newline is torn when the line before it ends in a number in quotes, as
-/// every row does that the crate `logs` writes while a run goes on, and it does not.
+/// The crate `logs` ends every row that it writes during a run with a number in quotes. The last row is
+/// torn when it has no newline, the line before it ends in such a number, and the last row does not.
 fn torn_from(mut file: &File) -> io::Result<Option<u64>> {
     let length = file.seek(SeekFrom::End(0))?;
     let start = length.saturating_sub(TAIL);

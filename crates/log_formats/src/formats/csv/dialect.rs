@@ -1,36 +1,36 @@
 use crate::common::table::TableCell;
 
-/// How the rows of a text are written: what parts the fields, and where the rows begin.
+/// Dialect of a table in text: the separator of the fields, and the start of the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Dialect {
-    /// The character between two fields; blanks may be several.
+    /// The character between two fields. Several blanks count as one.
     pub separator: u8,
-    /// Byte of the text at which the names, or the first row, begin.
+    /// Offset of the line of names, or else of the first row (bytes).
     pub start: usize,
     /// Whether a line of names stands above the rows.
     pub header: Header,
 }
 
-/// What the first line holds.
+/// The content of the first line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Header {
     Names,
-    /// Numbers, as all other lines.
+    /// Numbers, as in all other lines.
     Numbers,
 }
 
-/// What may part fields; of two that fit alike the first is it.
+/// Possible separators. Of two that fit equally well the first is taken.
 const SEPARATORS: [u8; 4] = [b'\t', b';', b',', b' '];
-/// Lines that are looked at.
+/// Number of lines that are examined.
 const LINES: usize = 20;
-/// Signs before lines that are no rows.
+/// First characters of comment lines.
 const COMMENTS: [u8; 2] = [b'#', b'%'];
 
 impl Dialect {
-    /// Seen from the first lines of a text.
+    /// The dialect, determined from the first lines of a text.
     ///
-    /// Lines that begin with `#` or `%` stand above the rows; the last of them holds the names if
-    /// the line below it holds numbers and as many.
+    /// Comment lines begin with `#` or `%` and stand above the rows. The last of them holds the names if
+    /// the line below it has the same number of fields and these are numbers.
     pub(crate) fn of(text: &[u8]) -> Self {
         let bom = if text.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         let (mut start, mut comment) = (bom, None);
@@ -56,8 +56,8 @@ impl Dialect {
         }
     }
 
-    /// Whether there are lines below the first of a text and none of them, of those that are looked at, is a row: a
-    /// number in it and as many fields as the first has, or several of which most are numbers. A setting is none.
+    /// Whether a text has lines below its first, and none of those examined is a row. A row has a number in it,
+    /// and either as many fields as the first line or several fields, most of them numbers. A setting is not a row.
     pub(crate) fn has_no_row_in(self, text: &[u8]) -> bool {
         let lines = fields(&text[self.start..], self.separator);
         let is_row = |first: &Vec<Vec<u8>>, line: &Vec<Vec<u8>>| {
@@ -82,7 +82,7 @@ impl Dialect {
     }
 }
 
-/// Whether a line sets one thing, as `rate = 3` and `rate: 3` do.
+/// Whether a line is a setting, such as `rate = 3` or `rate: 3`.
 fn is_setting(line: &[Vec<u8>]) -> bool {
     line.first().is_some_and(|field| field.ends_with(b":"))
         || line.get(1).is_some_and(|field| field == b"=")
@@ -95,7 +95,7 @@ fn reader<R: std::io::Read>(text: R, separator: u8) -> csv::Reader<R> {
     builder.from_reader(text)
 }
 
-/// Several blanks part two fields as one does.
+/// The fields of a record. Several blanks between two fields count as one.
 fn of_record(record: &csv::ByteRecord, separator: u8) -> impl Iterator<Item = &[u8]> {
     record.iter().filter(move |field| separator != b' ' || !field.is_empty())
 }
@@ -106,8 +106,8 @@ fn fields(text: &[u8], separator: u8) -> Vec<Vec<Vec<u8>>> {
     records.map(|r| of_record(&r, separator).map(<[u8]>::to_vec).collect()).collect()
 }
 
-/// What parts the fields: it parts the first line, and leaves more of the others numbers, in as
-/// many fields as the first has, than any other.
+/// The separator of the fields. It occurs in the first line, and gives the largest share of numbers among the fields of
+/// the other lines. A line with another number of fields than the first counts as one without numbers.
 fn separator(text: &[u8]) -> u8 {
     let share = |separator: u8| -> Option<f64> {
         let lines = fields(text, separator);
@@ -131,23 +131,23 @@ fn is_number(field: &[u8], separator: u8) -> bool {
     matches!(Numerals::between(separator).cell(field), TableCell::Number(_))
 }
 
-/// How the numbers of a column are written.
+/// Notation of the numbers in a column.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Numerals {
-    /// What stands before the fraction; not known before a number has one.
+    /// The decimal mark; `None` before a number with a fraction was read.
     mark: Option<u8>,
-    /// Whether it may be a comma.
+    /// Whether the decimal mark may be a comma.
     commas: bool,
 }
 
 impl Numerals {
-    /// In fields that `separator` parts.
+    /// The notation of fields between separators of this kind.
     pub(crate) fn between(separator: u8) -> Self {
         Self { mark: None, commas: separator != b',' }
     }
 
-    /// What a field holds. A comma stands before the fraction, never between thousands; a column
-    /// that has points has no commas.
+    /// The content of a field. A comma is a decimal mark, never a thousands separator. A column
+    /// with decimal points has no decimal commas.
     pub(crate) fn cell(&mut self, field: &[u8]) -> TableCell {
         if field.is_empty() {
             return TableCell::Empty;

@@ -1,4 +1,4 @@
-//! Text: rows of numbers, below a line of names or without one.
+//! Tables in text: rows of numbers, with or without a line of names above them.
 
 pub(crate) mod csv_file;
 pub(crate) mod dialect;

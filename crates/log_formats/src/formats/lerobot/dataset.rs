@@ -13,14 +13,14 @@ use crate::{
     formats::parquet::parquet_file::{Parquet, ParquetFile},
 };
 
-/// What stands in a folder that is a dataset.
+/// The file that marks a folder as a dataset.
 pub(crate) const DESCRIPTION: &str = "meta/info.json";
-/// Folders below `data` that are looked into.
+/// Most levels of folders that are read below `data`.
 const DEEPEST: usize = 3;
-/// The column that tells the rows of an episode.
+/// The column with the episode of each row.
 const EPISODE: &str = "episode_index";
 
-/// A dataset of LeRobot: which rows of its files each episode is.
+/// A LeRobot dataset, with the rows of each episode in its files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LerobotDataset {
     pub(crate) folder: PathBuf,
@@ -33,7 +33,7 @@ pub(crate) struct DataFile {
     pub path: PathBuf,
     /// The rows of every episode.
     pub rows: BTreeMap<u64, Vec<Range<usize>>>,
-    /// SHA-256 in hexadecimal, once it was asked for.
+    /// SHA-256 in hexadecimal, once it was computed.
     pub sha256: OnceLock<String>,
 }
 
@@ -43,7 +43,7 @@ pub(crate) fn is_dataset(path: &Path) -> bool {
 }
 
 impl LerobotDataset {
-    /// The dataset in a folder; `None` where a path is none.
+    /// The dataset in a folder; `None` where the path is not a dataset.
     pub(crate) fn of_folder(path: &Path, formats: &Formats) -> Result<Option<Self>, FormatError> {
         if !is_dataset(path) {
             return Ok(None);
@@ -56,7 +56,7 @@ impl LerobotDataset {
         Ok(Some(Self { folder: path.to_owned(), files }))
     }
 
-    /// The numbers of its episodes, in their order.
+    /// Numbers of the episodes, in rising order.
     pub fn episodes(&self) -> Vec<u64> {
         let all: BTreeSet<u64> =
             self.files.iter().flat_map(|file| file.rows.keys().copied()).collect();

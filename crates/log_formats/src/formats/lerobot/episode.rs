@@ -18,20 +18,20 @@ use crate::{
     },
 };
 
-/// What a damaged description is called.
+/// Name of the format in errors.
 const NAME: &str = "LeRobot";
-/// A description is not read beyond this (bytes).
+/// Largest part of a description that is read (bytes).
 const LONGEST_DESCRIPTION: u64 = 1 << 24;
 /// One episode of a dataset.
 pub(crate) struct Episode {
-    /// The files that hold rows of it, with these rows.
+    /// The files with rows of the episode, and these rows.
     files: Vec<(Arc<DataFile>, ParquetFile, Vec<Range<usize>>)>,
     names: Vec<String>,
-    /// Columns that are called by the name of a joint, with their name in the files.
+    /// Names of columns by joint, with their names in the files.
     by_joint: BTreeMap<String, String>,
 }
 
-/// What is read of `meta/info.json`.
+/// The used part of `meta/info.json`.
 #[derive(Deserialize)]
 struct Info {
     features: BTreeMap<String, Feature>,
@@ -45,8 +45,8 @@ struct Feature {
 }
 
 impl Episode {
-    /// Looks for the rows of an episode, which may be left out where there is one only; `dataset` is that of `path`,
-    /// where it is known.
+    /// Opens an episode. The episode may be left out for a dataset with a single one. `dataset` is the dataset at
+    /// `path`, where it is open already.
     pub(crate) fn open(
         path: &Path,
         episode: Option<u64>,
@@ -82,7 +82,7 @@ impl Episode {
 }
 
 impl Opened for Episode {
-    /// `action[0]` and so on, and `action[elbow]` where a joint is named.
+    /// `action[0]` and so on, and also `action[elbow]` where the joint is named.
     fn names(&self) -> Result<Vec<String>, FormatError> {
         Ok(self.names.clone())
     }
@@ -117,8 +117,8 @@ impl Opened for Episode {
         Ok(Table { columns, ..Table::default() }.excerpt(needed))
     }
 
-    /// SHA-256 of the files that hold rows of the episode, one after the other, in hexadecimal. That of a file which
-    /// holds all of them is worked out once for the dataset.
+    /// SHA-256 in hexadecimal of the files with rows of the episode, in sequence. Where one file has all of these rows
+    /// its SHA-256 is computed once per dataset.
     fn sha256(&self) -> Result<String, FormatError> {
         let all = || sha256_of_files(self.files.iter().map(|(_, file, _)| file.path()));
         let [(file, ..)] = self.files.as_slice() else { return all() };
@@ -139,7 +139,7 @@ fn read_info(path: &Path) -> Result<Info, FormatError> {
     serde_json::from_str(&text).map_err(|e| FormatError::broken(&path, NAME, &e))
 }
 
-/// `action[elbow]` for `action[2]` where the third name of `action` is that of the joint `elbow`.
+/// Maps `action[elbow]` to `action[2]` where the third name of `action` is that of the joint `elbow`.
 fn by_joint(info: &Info, columns: &[String]) -> BTreeMap<String, String> {
     let mut by_joint = BTreeMap::new();
     for (feature, Feature { names }) in &info.features {
@@ -153,7 +153,7 @@ fn by_joint(info: &Info, columns: &[String]) -> BTreeMap<String, String> {
     by_joint
 }
 
-/// The names of a feature, a list or one in a table such as `{ motors = [...] }`.
+/// The names of a feature: a list, or a list in a table such as `{ motors = [...] }`.
 fn names_in(names: &Value) -> Vec<&str> {
     match names {
         Value::Array(list) => list.iter().map(|name| name.as_str().unwrap_or_default()).collect(),
@@ -162,7 +162,7 @@ fn names_in(names: &Value) -> Vec<&str> {
     }
 }
 
-/// The joint that a name such as `elbow.pos` or `main_elbow` speaks of.
+/// The joint in a name such as `elbow.pos` or `main_elbow`.
 fn joint_of(name: &str) -> &str {
     const QUANTITIES: [&str; 6] = [".pos", ".position", ".vel", ".velocity", ".effort", ".torque"];
     let stem = QUANTITIES.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);

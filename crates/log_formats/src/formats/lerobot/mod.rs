@@ -1,4 +1,4 @@
-//! Datasets of LeRobot, versions 2 and 3: a folder of Parquet files.
+//! LeRobot datasets, versions 2 and 3: folders of Parquet files.
 
 pub(crate) mod dataset;
 pub(crate) mod episode;

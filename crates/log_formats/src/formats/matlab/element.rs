@@ -1,4 +1,4 @@
-//! Elements of a MAT-file of version 5: a tag of type and length, then data, filled up to 8 bytes.
+//! Elements of a MAT-file of version 5. An element is a tag of type and length, then data padded to 8 bytes.
 
 use std::io::{self, ErrorKind, Read};
 
@@ -21,13 +21,13 @@ const COMPRESSED: u32 = 15;
 const STRUCT: u32 = 2;
 const NUMBERS: std::ops::RangeInclusive<u32> = 6..=15;
 
-/// Deepest structure in a structure.
+/// Most levels of nested structures that are read.
 const DEEPEST: usize = 4;
 /// Longest list of names or dimensions (bytes).
 const LONGEST: u32 = 1 << 20;
-/// Taken for a byte of a list of names.
+/// Bytes counted for each byte of a list of names.
 const PER_NAME_BYTE: u64 = 32;
-/// The end at which the numbers of a file begin.
+/// Byte order of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Order {
     Little,
@@ -42,7 +42,7 @@ impl Order {
         }
     }
 
-    /// How the numbers of an element of a type lie.
+    /// Layout of the numbers in an element of a type.
     fn numeral(self, kind: u32) -> Option<Numeral> {
         let code = match kind {
             1 => "i1",
@@ -66,7 +66,7 @@ fn broken(reason: impl Into<String>) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, reason.into())
 }
 
-/// Tag of an element; a short one holds its data in its second half.
+/// Tag of an element. A short element has its data in the second half of the tag.
 struct Tag {
     kind: u32,
     bytes: u32,
@@ -86,7 +86,7 @@ impl Tag {
         })
     }
 
-    /// Bytes behind the data of an element that is no matrix.
+    /// Number of padding bytes after the data of an element, where it is not a matrix.
     fn padding(&self) -> usize {
         if self.short.is_some() { 0 } else { (8 - self.bytes as usize % 8) % 8 }
     }
@@ -99,8 +99,8 @@ pub(crate) struct Elements<'a> {
 }
 
 impl Elements<'_> {
-    /// The arrays of the element at the front of `source`, and its length with the tag (bytes);
-    /// none at the end.
+    /// The arrays of the next element in `source`, and its length including the tag (bytes);
+    /// `None` at the end.
     pub fn next(&mut self, source: &mut dyn Read) -> io::Result<Option<(Vec<Array>, u64)>> {
         let tag = match Tag::read(source, self.order) {
             Ok(tag) => tag,
@@ -125,7 +125,7 @@ impl Elements<'_> {
         Ok(Some((arrays, length)))
     }
 
-    /// The arrays of numbers in a matrix: itself, or the fields of a structure.
+    /// The arrays of numbers in a matrix: the matrix itself, or the fields of a structure.
     fn matrix(
         &mut self,
         source: &mut dyn Read,
@@ -204,7 +204,7 @@ impl Elements<'_> {
         Ok(bytes)
     }
 
-    /// The numbers of an array, as many as its dimensions say.
+    /// The numbers of an array; their count is the product of its dimensions.
     fn numbers(&mut self, source: &mut dyn Read, count: u64) -> io::Result<Vec<f64>> {
         let tag = Tag::read(source, self.order)?;
         let numeral = self.order.numeral(tag.kind);

@@ -17,15 +17,15 @@ use crate::{
     formats::matlab::element::{Elements, Order},
 };
 
-/// What a damaged file is called.
+/// Name of the format in errors.
 const NAME: &str = "MATLAB";
-/// Bytes of the header of version 5; its last two tell the order of bytes.
+/// Size of the header of version 5 (bytes). Its last two bytes give the byte order.
 const HEADER: usize = 128;
 
-/// Arrays as elements one after the other (save -v7 and earlier). Fields of a structure are `log.q`.
+/// MAT-files with elements in sequence (save -v7 and earlier). Fields of a structure are named `log.q`.
 pub(crate) struct Matlab5;
 
-/// Arrays in HDF5 behind a header of MATLAB (save -v7.3). Fields of a structure are `log.q`.
+/// MAT-files in HDF5 after a MATLAB header (save -v7.3). Fields of a structure are named `log.q`.
 pub(crate) struct Matlab73;
 
 impl FileFormat for Matlab5 {
@@ -74,12 +74,12 @@ impl Layout for Matlab73 {
         512
     }
 
-    /// `#refs#` holds what cells refer to, `#subsystem#` objects; a sparse array is a group as well.
+    /// The groups `#refs#` (contents of cells) and `#subsystem#` (objects) are no structures. Nor are sparse arrays.
     fn is_structure(&self, group: &Group) -> bool {
         !group.name().starts_with('#') && group.attribute("MATLAB_sparse").is_err()
     }
 
-    /// An array of m x n lies there as a dataset of n x m, whose order is that of MATLAB: column by column.
+    /// A MATLAB array of m x n is stored column by column, as a dataset of n x m.
     fn shape(&self, dataset: &Dataset) -> Option<[u64; 2]> {
         let class = dataset.attribute("MATLAB_class").and_then(|class| class.read_string());
         let is_other = matches!(class.as_deref(), Ok("char" | "cell" | "function_handle"))
@@ -95,7 +95,7 @@ impl Layout for Matlab73 {
     }
 }
 
-/// The arrays of a file of version 5.
+/// The arrays of a MAT-file of version 5.
 fn read_elements(file: File, allowance: &mut Allowance) -> io::Result<Vec<Array>> {
     let mut file = BufReader::with_capacity(1 << 16, file);
     let mut header = [0; HEADER];

@@ -1,4 +1,4 @@
-//! Variables as MATLAB saves them.
+//! MATLAB variables in MAT-files.
 
 pub(crate) mod element;
 pub(crate) mod matlab_file;

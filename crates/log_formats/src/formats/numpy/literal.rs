@@ -1,4 +1,4 @@
-/// A value in a header of NumPy, which is written as Python writes it.
+/// A value in a NumPy header, in Python syntax.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Literal {
     Text(String),
@@ -6,22 +6,22 @@ pub(crate) enum Literal {
     Truth(bool),
     /// A list or a tuple.
     Sequence(Vec<Literal>),
-    /// A dictionary whose keys are texts.
+    /// A dictionary with texts as keys.
     Table(Vec<(String, Literal)>),
 }
 
-/// Brackets within brackets that are followed; NumPy writes no more than six.
+/// Most levels of nested brackets that are parsed. NumPy writes at most six.
 const DEEPEST: usize = 12;
 
 impl Literal {
-    /// The value that a text holds; none where it holds another thing as well.
+    /// The value in a text; `None` where the text holds anything else.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let mut parser = Parser { rest: text };
         let value = parser.value(DEEPEST)?;
         parser.rest.trim().is_empty().then_some(value)
     }
 
-    /// An entry of a dictionary.
+    /// The value of a key in a dictionary.
     pub(crate) fn get(&self, key: &str) -> Option<&Self> {
         let Self::Table(entries) = self else { return None };
         entries.iter().find(|(name, _)| name == key).map(|(_, value)| value)
@@ -76,7 +76,7 @@ impl Parser<'_> {
         Some(items)
     }
 
-    /// What stands before the closing quote, in which a backslash stands before quotes and itself.
+    /// The text before the closing quote. A backslash escapes quotes and itself.
     fn text(&mut self, quote: char) -> Option<String> {
         let mut text = String::new();
         let mut characters = self.rest.chars();

@@ -1,4 +1,4 @@
-//! Arrays of NumPy, one (npy) or several by name (npz).
+//! NumPy arrays: a single one (npy), or several named ones (npz).
 
 pub(crate) mod literal;
 pub(crate) mod npy_header;

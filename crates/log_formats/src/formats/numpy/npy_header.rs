@@ -2,45 +2,45 @@ use std::io::{self, Read};
 
 use crate::{common::numeral::Item, formats::numpy::literal::Literal};
 
-/// What stands before the numbers of an array of NumPy.
+/// The header of a NumPy array.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct NpyHeader {
     pub shape: Vec<u64>,
     pub order: IndexOrder,
-    /// What an item is made of; none where that is no row of simple things.
+    /// The fields of an item; `None` where the items have a type that is not supported.
     pub item: Option<Vec<Field>>,
     /// Whether the fields have names.
     pub is_record: bool,
-    /// Bytes of its text.
+    /// Size of the header's text (bytes).
     pub length: u64,
 }
 
-/// Which index runs fastest.
+/// The index that varies fastest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum IndexOrder {
-    /// The last one.
+    /// The last index.
     C,
-    /// The first one.
+    /// The first index.
     Fortran,
 }
 
-/// A part of an item: `count` things of one kind.
+/// A field of an item: `count` values of one type.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Field {
-    /// Empty where the item is no record.
+    /// Name of the field; empty where the item is not a record.
     pub name: String,
-    /// None for one thing that is no array.
+    /// Number of values; `None` where the field is not an array.
     pub count: Option<u64>,
     pub item: Item,
 }
 
-/// First bytes of the files.
+/// First bytes of an npy file.
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
-/// Longest header that is read (bytes); NumPy itself refuses more than 10 000.
+/// Longest header that is read (bytes). NumPy itself refuses more than 10 000.
 const LONGEST: u64 = 1 << 16;
 
 impl NpyHeader {
-    /// Reads the header; what follows are the numbers.
+    /// Reads the header. The numbers follow it in `source`.
     pub(crate) fn read(mut source: impl Read) -> io::Result<Self> {
         let mut start = [0; 8];
         source.read_exact(&mut start)?;
@@ -124,7 +124,7 @@ fn shape(literal: &Literal) -> Option<Vec<u64>> {
     lengths.iter().map(length).collect()
 }
 
-/// None where it is more than a number holds.
+/// The product of lengths; `None` on overflow.
 fn product(lengths: &[u64]) -> Option<u64> {
     lengths.iter().try_fold(1_u64, |product, &length| product.checked_mul(length))
 }

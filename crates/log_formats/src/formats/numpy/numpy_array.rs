@@ -5,16 +5,16 @@ use crate::{
     formats::numpy::npy_header::{IndexOrder, NpyHeader},
 };
 
-/// The columns of an array of NumPy, and where their numbers lie.
+/// The columns of a NumPy array, and the places of their numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct NumpyArray {
     /// Names of the columns.
     pub columns: Vec<String>,
-    /// Numbers in each of them.
+    /// Number of samples in each column.
     pub samples: u64,
-    /// What lies at each place of a row, in the order of the columns.
+    /// The content of each place in a row, in the order of the columns.
     places: Vec<Place>,
-    /// Bytes of a row.
+    /// Size of a row (bytes).
     row: usize,
     layout: Layout,
 }
@@ -31,17 +31,17 @@ enum Layout {
     ColumnByColumn,
 }
 
-/// Most columns of an array; one that has more is a picture or a list of features.
+/// Most columns of an array. An array with more is a picture or a list of features.
 const MOST_COLUMNS: u64 = 10_000;
 /// Longest row of records (bytes).
 const LONGEST_ROW: u64 = 1 << 20;
 
 impl NumpyArray {
-    /// The columns of an array, which are its own where it has a name: `tau`, `q[0]`,
-    /// `log.time`; else `column_1` or the names of its records.
+    /// The columns of an array. A named array gives them its name: `tau`, `q[0]`, `log.time`. The columns of
+    /// an unnamed array are `column_1` and so on, or the names in its records.
     ///
-    /// Samples run along the first index, or along the second one where only that has
-    /// `samples`. None for what is no table of numbers.
+    /// The first index counts the samples. The second index does so where only its length is
+    /// `samples`. `None` where the array is not a table of numbers.
     pub(crate) fn new(
         name: Option<&str>,
         header: &NpyHeader,
@@ -109,26 +109,26 @@ impl NumpyArray {
         is_table.then_some(Self { columns, samples, places, row, layout })
     }
 
-    /// Whether it has a column of this name.
+    /// Whether the array has a column of this name.
     pub(crate) fn has(&self, column: &str) -> bool {
         self.columns.iter().any(|name| name == column)
     }
 
-    /// Bytes of its numbers in a file; none where that is more than there can be.
+    /// Size of the numbers in a file (bytes); `None` on overflow.
     pub(crate) fn packed_bytes(&self) -> Option<u64> {
         self.samples.checked_mul(self.row as u64)
     }
 
-    /// Bytes of its numbers in memory.
+    /// Size of the numbers in memory (bytes).
     pub(crate) fn unpacked_bytes(&self) -> u64 {
         self.samples.saturating_mul(8).saturating_mul(self.places.len() as u64)
     }
 
-    /// The numbers of every column, from what follows the header.
+    /// The numbers of every column. `source` begins after the header.
     ///
     /// # Errors
     ///
-    /// Those of the source; one that ends early, or goes on behind the numbers.
+    /// Errors of the source, and a source that has too few or too many bytes.
     pub(crate) fn read(&self, source: impl Read) -> io::Result<Vec<Vec<f64>>> {
         // Room is made as numbers come, not as many as the header says.
         let mut columns = vec![Vec::new(); self.places.len()];

@@ -23,14 +23,14 @@ use crate::{
     },
 };
 
-/// What a damaged file is called.
+/// Name of the format in errors.
 const NAME: &str = "NumPy";
-/// Taken for the name of a column (bytes).
+/// Bytes counted for the name of a column.
 const PER_NAME: u64 = 256;
-/// Taken for a byte of a header when it is parsed.
+/// Bytes counted for each byte of a header that is parsed.
 const PER_HEADER_BYTE: u64 = 32;
 
-/// An array of NumPy.
+/// A single NumPy array.
 pub(crate) struct Npy;
 
 impl FileFormat for Npy {
@@ -53,7 +53,7 @@ impl FileFormat for Npy {
     }
 }
 
-/// A zip archive, in which arrays of NumPy are looked for.
+/// A zip archive with NumPy arrays.
 pub(crate) struct Npz;
 
 impl FileFormat for Npz {
@@ -76,7 +76,7 @@ impl FileFormat for Npz {
     }
 }
 
-/// A log as arrays of NumPy: one (.npy), or some by name in a zip archive (.npz).
+/// A log as NumPy arrays: a single one (.npy), or several named ones in a zip archive (.npz).
 pub(crate) struct NumpyFile {
     path: PathBuf,
     file: File,
@@ -84,7 +84,7 @@ pub(crate) struct NumpyFile {
     is_unnamed: bool,
 }
 
-/// Where an array lies.
+/// Place of an array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
     TheFile,
@@ -92,7 +92,7 @@ enum Place {
 }
 
 impl NumpyFile {
-    /// Looks at the header of a single array.
+    /// Reads the header of a single array.
     pub(crate) fn open_npy(path: &Path, file: File) -> Result<Self, FormatError> {
         let header = Source::new(path, &file, Place::TheFile)
             .and_then(|mut source| source.visit(Place::TheFile, |data, _| NpyHeader::read(data)))?;
@@ -103,8 +103,8 @@ impl NumpyFile {
         Ok(Self { path, file, arrays, is_unnamed: !header.is_record })
     }
 
-    /// Looks at the headers of the arrays of an archive. Their samples are as many as those of
-    /// the column `time`.
+    /// Reads the headers of the arrays in an archive. The column `time` gives the number of their
+    /// samples.
     pub(crate) fn open_npz(path: &Path, file: File, time: &str) -> Result<Self, FormatError> {
         let headers = headers(path, &file)?;
         let arrays = |samples| {
@@ -130,7 +130,7 @@ impl Opened for NumpyFile {
         Ok(self.arrays.iter().flat_map(|(_, array)| array.columns.clone()).collect())
     }
 
-    /// Columns by name: those that are needed, and of the rest those that are as long as time.
+    /// Columns by name: those that are needed, and any other column that is as long as time.
     fn load(&self, needed: &Needed, _: &mut Damage) -> Result<Table, FormatError> {
         let path = &self.path;
         let with_time = self.arrays.iter().find(|(_, array)| array.has(needed.time));
@@ -176,7 +176,7 @@ impl Opened for NumpyFile {
     }
 }
 
-/// The arrays of an archive that have a header, by their place and name.
+/// The arrays of an archive, each with its place, name and header.
 fn headers(path: &Path, file: &File) -> Result<Vec<(Place, String, NpyHeader)>, FormatError> {
     let mut source = Source::new(path, file, Place::Entry(0))?;
     let names = source.entry_names();
@@ -201,7 +201,7 @@ fn allowance(path: &Path, file: &File) -> Result<Allowance, FormatError> {
     Ok(Allowance::of(data.len()))
 }
 
-/// A file from which arrays are read.
+/// A file with arrays.
 struct Source<'a> {
     path: &'a Path,
     file: &'a File,
@@ -209,7 +209,7 @@ struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// One in which an array has such a place.
+    /// A source for arrays at places of this kind.
     fn new(path: &'a Path, file: &'a File, place: Place) -> Result<Self, FormatError> {
         let archive = match place {
             Place::TheFile => None,
@@ -221,7 +221,7 @@ impl<'a> Source<'a> {
         Ok(Self { path, file, archive })
     }
 
-    /// Names of the entries of the archive, in its order.
+    /// Names of the entries, in the order of the archive.
     fn entry_names(&self) -> Vec<String> {
         let Some(archive) = &self.archive else { return Vec::new() };
         let name = |index| match archive.name_for_index(index) {
@@ -231,7 +231,7 @@ impl<'a> Source<'a> {
         (0..archive.len()).map(name).collect()
     }
 
-    /// Lets `read` read an array from its first byte on, and tells it the bytes that there are.
+    /// Passes the bytes of an array, from its first one, and their number to `read`.
     fn visit<T>(
         &mut self,
         place: Place,

@@ -1,4 +1,4 @@
-//! Numbers of Arrow's arrays, whatever their type.
+//! Numbers of Arrow arrays of any numeric type.
 
 use arrow_array::{
     Array, ArrowPrimitiveType,
@@ -10,18 +10,18 @@ use arrow_array::{
 };
 use arrow_schema::DataType;
 
-/// Whether these are numbers that a column of a log may have.
+/// Whether this type is one of numbers that a log may have.
 pub(crate) fn is_number(kind: &DataType) -> bool {
     kind.is_integer() || matches!(kind, DataType::Float32 | DataType::Float64)
 }
 
-/// The first entry that is missing.
+/// Index of the first missing entry.
 pub(crate) fn first_null(array: &dyn Array) -> Option<usize> {
     let nulls = array.nulls().filter(|n| n.null_count() > 0)?;
     nulls.iter().position(|valid| !valid)
 }
 
-/// Appends an array of one of the types that [`is_number`] lets through.
+/// Appends an array of a type that [`is_number`] accepts.
 pub(crate) fn append(array: &dyn Array, samples: &mut Vec<f64>) {
     match array.data_type() {
         DataType::Float64 => extend::<Float64Type>(array, samples, |x| x),

@@ -10,22 +10,22 @@ use crate::{
     formats::parquet::array_numbers::{append, first_null},
 };
 
-/// Columns that grow by a batch of rows at a time.
+/// Columns that grow by one batch of rows at a time.
 #[derive(Default)]
 pub(crate) struct GrowingColumns {
-    /// `None` is a column in which something is missing.
+    /// Samples by name; `None` for a column with a missing value.
     columns: BTreeMap<String, Option<Vec<f64>>>,
-    /// Samples of each column before this batch.
+    /// Number of samples in each column before this batch.
     samples: usize,
-    /// Rows of the file up to this batch and with it.
+    /// Number of rows of the file up to the end of this batch.
     seen: usize,
-    /// The row of the file that each sample is from, this batch among them; empty where all rows are read.
+    /// The row of the file for each sample, including this batch; empty where all rows are read.
     rows: Vec<usize>,
     is_excerpt: bool,
 }
 
 impl GrowingColumns {
-    /// Counts the rows of the next batch, of which some are read, or all.
+    /// Counts the rows of the next batch. `is_read` selects the rows that are read; `None` selects all.
     pub(crate) fn begin_batch(&mut self, rows: usize, is_read: Option<&BooleanArray>) {
         if let Some(is_read) = is_read {
             let numbered = (self.seen + 1..).zip(is_read.values());
@@ -59,13 +59,13 @@ impl GrowingColumns {
         Ok(())
     }
 
-    /// Ends a batch that had so many rows that are read.
+    /// Ends a batch; `rows` is the number of its rows that were read.
     pub(crate) fn end_batch(&mut self, rows: usize) {
         self.samples += rows;
     }
 
-    /// The table. Lists that have other lengths further down give columns that are too short. Where time is part of
-    /// a list, an excerpt is taken here.
+    /// The table. A column is too short where lists further down have another length; this is an error. Where time is
+    /// an entry of a list, the excerpt is taken here.
     pub(crate) fn finish(self, path: &Path, needed: &Needed) -> Result<Table, FormatError> {
         let whole = self.columns.into_iter().filter_map(|(name, column)| Some((name, column?)));
         let columns: BTreeMap<String, Vec<f64>> = whole.collect();

@@ -1,4 +1,4 @@
-//! Columns of lists: a list a row, one number of it a joint.
+//! Columns of lists: each row has one list, with one number per joint.
 
 use std::sync::Arc;
 
@@ -6,31 +6,31 @@ use arrow_array::{Array, ArrayRef, Float64Array, cast::AsArray};
 
 use crate::formats::parquet::array_numbers::append;
 
-/// Numbers of a list that are columns; longer ones are images and the like.
+/// Longest list whose numbers become columns. Longer ones are images and the like.
 const WIDEST: usize = 256;
 
-/// The name of the `k`-th numbers of all lists of a column.
+/// Name of the column with the `k`-th number of each list.
 pub(crate) fn part_name(column: &str, k: usize) -> String {
     format!("{column}[{k}]")
 }
 
-/// Numbers of the first list of a column, `None` where it is no column of lists or they are too long.
+/// Length of the first list in a column; `None` where the column has no lists, or too long ones.
 pub(crate) fn width(array: &dyn Array) -> Option<usize> {
     let width = widths(array)?.next()?;
     (width <= WIDEST).then_some(width)
 }
 
-/// Numbers of every list.
+/// Lengths of all lists.
 fn widths(array: &dyn Array) -> Option<impl Iterator<Item = usize>> {
     let offsets = array.as_list_opt::<i32>()?.value_offsets();
     Some(offsets.windows(2).map(|pair| usize::try_from(pair[1] - pair[0]).unwrap_or(0)))
 }
 
-/// The columns that an array is: itself, or of lists the `k`-th numbers of all of them.
+/// The columns in an array: the array itself, or for lists one column for the `k`-th numbers of all lists.
 ///
 /// # Errors
 ///
-/// What was found, of lists that differ in their lengths.
+/// The lengths found, where they differ between lists.
 pub(crate) fn parts(name: &str, array: &ArrayRef) -> Result<Vec<(String, ArrayRef)>, String> {
     let Some(lists) = array.as_list_opt::<i32>() else {
         return Ok(vec![(name.to_owned(), array.clone())]);

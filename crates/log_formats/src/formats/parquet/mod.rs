@@ -1,4 +1,4 @@
-//! Tables of Parquet, with columns of numbers and of lists.
+//! Parquet tables, with columns of numbers and of lists.
 
 pub(crate) mod array_numbers;
 pub(crate) mod growing_columns;

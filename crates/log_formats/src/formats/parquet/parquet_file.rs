@@ -30,10 +30,10 @@ use crate::{
     },
 };
 
-/// Rows decoded at once: what is held besides the columns themselves stays small.
+/// Number of rows decoded at once. It is small to limit the memory besides the columns themselves.
 const BATCH_ROWS: usize = 4096;
 
-/// What a damaged file is called.
+/// Name of the format in errors.
 const NAME: &str = "Parquet";
 
 /// Tables of Parquet.
@@ -63,7 +63,7 @@ impl FileFormat for Parquet {
     }
 }
 
-/// What becomes of columns of numbers that are not needed.
+/// Whether numeric columns that are not needed are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Further {
     Read,
@@ -88,7 +88,7 @@ impl ParquetFile {
         &self.path
     }
 
-    /// A column `q` of lists is `q[0]`, `q[1]` and so on, as many as the list of the first row has numbers.
+    /// Names of the columns. A column `q` of lists is `q[0]`, `q[1]` and so on, as many as the first list has numbers.
     fn read_names(&self) -> Result<Vec<String>, FormatError> {
         let builder = self.builder()?;
         let schema = builder.schema().clone();
@@ -110,9 +110,8 @@ impl ParquetFile {
         Ok(names)
     }
 
-    /// Columns by name: those that are needed, which must be numeric and without nulls, and of
-    /// the rest those that are. Of columns of lists those are read that something is needed of.
-    /// All rows of the file, or some.
+    /// Columns by name, for all rows of the file or some. A needed column must be numeric and without nulls. Any other
+    /// column is kept if it is. A column of lists is read only if one of its entries is needed.
     pub(crate) fn load_rows(
         &self,
         needed: &Needed,
@@ -121,7 +120,7 @@ impl ParquetFile {
         guard(&self.path, NAME, || self.decode(needed, rows, Further::Read))
     }
 
-    /// One column of numbers alone.
+    /// A single column of numbers.
     pub(crate) fn load_column(&self, column: &str) -> Result<Vec<f64>, FormatError> {
         let absent = || FormatError::NoColumn {
             path: self.path.clone(),
@@ -209,7 +208,7 @@ fn broken(path: &Path, error: &dyn std::fmt::Display) -> FormatError {
     FormatError::broken(path, NAME, error)
 }
 
-/// Which rows of a batch are read, as far as it has their times.
+/// The rows of a batch that are read; `None` where the batch has no times to tell.
 fn is_read(batch: &RecordBatch, time: &str, filter: &mut ExcerptFilter) -> Option<BooleanArray> {
     let array = batch.column_by_name(time)?;
     let mut times = Vec::with_capacity(array.len());
@@ -244,7 +243,7 @@ fn wanted_columns(
     Ok(wanted)
 }
 
-/// Whether these are lists of numbers.
+/// Whether this type is a list of numbers.
 fn is_list(kind: &DataType) -> bool {
     matches!(kind, DataType::List(entry) if is_number(entry.data_type()))
 }

@@ -16,14 +16,14 @@ use crate::{
     },
 };
 
-/// What a damaged file is called.
+/// Name of the format in errors.
 pub(crate) const NAME: &str = "MCAP";
-/// Longest record (bytes); what is recorded lies in chunks of some MB.
+/// Longest record (bytes). Messages are recorded in chunks of a few MB.
 const LONGEST_RECORD: usize = 1 << 27;
-/// Bytes that are read at once.
+/// Number of bytes read at once.
 const PIECE: usize = 1 << 16;
 
-/// Reads an MCAP file from its first byte to its last, or to where it is damaged.
+/// Reads an MCAP file from start to end, or up to its first damage.
 pub(crate) fn read(
     path: &Path,
     file: &File,
@@ -42,7 +42,7 @@ pub(crate) fn read(
 struct Reader<'a> {
     path: &'a Path,
     allowance: Allowance,
-    /// Types by their number.
+    /// Message types by the number of their schema.
     schemas: BTreeMap<u16, String>,
     /// Topics by the number of their channel.
     topics: BTreeMap<u16, Topic>,
@@ -116,7 +116,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The records of a chunk.
+    /// Unpacks the records of a chunk.
     fn unpack_chunk<'d>(&mut self, chunk: &Chunk<'d>) -> Result<Cow<'d, [u8]>, FormatError> {
         let Chunk { length, crc, packing, data } = *chunk;
         if length > LONGEST_RECORD as u64 {

@@ -1,4 +1,4 @@
-//! Bags in files of MCAP.
+//! Bags in MCAP files.
 
 pub(crate) mod mcap_file;
 pub(crate) mod record;

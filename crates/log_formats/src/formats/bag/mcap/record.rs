@@ -1,14 +1,14 @@
 use mcap::records::op;
 
-/// The content of a record of MCAP that is read here.
+/// The content of an MCAP record, as far as it is used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum McapRecord<'a> {
-    /// A type by its number.
+    /// A message type, by the number of its schema.
     Schema {
         id: u16,
         name: &'a str,
     },
-    /// A topic by its number.
+    /// A topic, by the number of its channel.
     Channel {
         id: u16,
         schema: u16,
@@ -20,25 +20,25 @@ pub(crate) enum McapRecord<'a> {
         data: &'a [u8],
     },
     Chunk(Chunk<'a>),
-    /// One of no use here.
+    /// A record that is not used.
     Other,
 }
 
-/// Records that are packed together.
+/// Records that are compressed together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Chunk<'a> {
-    /// Bytes of its records.
+    /// Size of the uncompressed records (bytes).
     pub length: u64,
-    /// CRC-32 of its records; 0 where it was not computed.
+    /// CRC-32 of the uncompressed records; 0 where it was not computed.
     pub crc: u32,
-    /// How they are packed; empty where they are not.
+    /// Name of the compression; empty for none.
     pub packing: &'a str,
     pub data: &'a [u8],
 }
 
 impl<'a> McapRecord<'a> {
-    /// From its kind and content; none where that is cut off. A length that it says takes no room
-    /// before there are as many bytes.
+    /// Parses a record of this opcode; `None` where its content is cut off. No memory is reserved for a length before
+    /// that many bytes are present.
     pub(crate) fn parse(opcode: u8, content: &'a [u8]) -> Option<Self> {
         let mut fields = Fields { rest: content };
         Some(match opcode {
@@ -67,7 +67,7 @@ impl<'a> McapRecord<'a> {
     }
 }
 
-/// Fields one after the other, the smallest byte first.
+/// A reader of little-endian fields in sequence.
 struct Fields<'a> {
     rest: &'a [u8],
 }

@@ -1,4 +1,4 @@
-//! Bags in SQLite databases, read without SQLite.
+//! Bags in SQLite databases, read without the SQLite library.
 
 pub(crate) mod pages;
 pub(crate) mod record;

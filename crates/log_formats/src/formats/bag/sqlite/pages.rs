@@ -1,28 +1,28 @@
-//! Pages of a SQLite database, read only. Places and sizes are those of "Database File Format", sqlite.org/fileformat2.
+//! Pages of a SQLite database, read only. Offsets and sizes are from "Database File Format", sqlite.org/fileformat2.
 
 use std::{
     fs::File,
     io::{Read, Seek, SeekFrom},
 };
 
-/// Bytes of the header at the beginning of the first page.
+/// Size of the header at the beginning of the first page (bytes).
 pub(crate) const HEADER: usize = 100;
 
-/// The pages of a database, each of which is read once: what counts more is damaged.
+/// The pages of a database. Each page is read at most once: more reads than pages mean damage.
 pub(crate) struct Pages<'a> {
     file: &'a File,
-    /// Bytes of a page.
+    /// Size of a page (bytes).
     size: usize,
-    /// Bytes of a page that are used.
+    /// Used bytes of a page, without the reserved ones at its end.
     usable: usize,
-    /// Pages that may still be read, those of the file at first.
+    /// Number of pages that may still be read, at first that of the file.
     left: u64,
-    /// Bytes that rows may still have, those of the file at first.
+    /// Number of bytes that further rows may have, at first that of the file.
     left_bytes: u64,
 }
 
 impl<'a> Pages<'a> {
-    /// Of a file that begins as a database does.
+    /// Opens a file that begins as a database.
     ///
     /// # Errors
     ///
@@ -51,16 +51,16 @@ impl<'a> Pages<'a> {
         Ok(Self { file, size, usable, left: length.div_ceil(size as u64), left_bytes: length })
     }
 
-    /// Bytes of a page that are used.
+    /// Used bytes of a page, without the reserved ones at its end.
     pub(crate) fn usable(&self) -> usize {
         self.usable
     }
 
-    /// A page, counted from 1, without the bytes at its end that are not used.
+    /// A page, counted from 1, without the unused bytes at its end.
     ///
     /// # Errors
     ///
-    /// What is wrong: the file ends before it, or more pages were asked for than there are.
+    /// What is wrong: the file ends before the page, or more pages were read than the file has.
     pub(crate) fn read(&mut self, number: u32) -> Result<Vec<u8>, String> {
         let before = number.checked_sub(1).ok_or("there is no page 0")?;
         self.left = self.left.checked_sub(1).ok_or("a page is in two places")?;
@@ -76,7 +76,7 @@ impl<'a> Pages<'a> {
     ///
     /// # Errors
     ///
-    /// What is wrong where the rows have more bytes than the file.
+    /// What is wrong, where the rows have more bytes than the file.
     pub(crate) fn take(&mut self, bytes: usize) -> Result<(), String> {
         let left = self.left_bytes.checked_sub(bytes as u64);
         self.left_bytes = left.ok_or("its rows have more bytes than the file")?;
@@ -84,7 +84,7 @@ impl<'a> Pages<'a> {
     }
 }
 
-/// A whole number of one to nine bytes, seven bits each, the highest first; with the rest of the bytes.
+/// An integer of one to nine bytes, seven bits each, the highest first. Returned with the remaining bytes.
 pub(crate) fn varint(bytes: &[u8]) -> Option<(i64, &[u8])> {
     let mut value = 0_u64;
     for (index, &byte) in bytes.iter().take(9).enumerate() {

@@ -7,11 +7,11 @@ pub(crate) enum SqliteValue<'r> {
     Integer(i64),
     Text(&'r str),
     Blob(&'r [u8]),
-    /// A number with a fraction, which no column that is read here has.
+    /// A floating-point number. No column that is read has one.
     Real,
 }
 
-/// The value of a column of a record, or of the beginning of one that holds it; `None` where it is not there.
+/// The value of a column in a record, or in the beginning of a record; `None` where the value is missing.
 ///
 /// ```text
 /// record = bytes of the header, one type a column, one value a column
@@ -38,7 +38,7 @@ pub(crate) fn value(record: &[u8], column: usize) -> Option<SqliteValue<'_>> {
     })
 }
 
-/// Bytes of a value of a type.
+/// Size of a value of a type (bytes).
 fn size(kind: i64) -> Option<usize> {
     match kind {
         0 | 8 | 9 => Some(0),
@@ -50,7 +50,7 @@ fn size(kind: i64) -> Option<usize> {
     }
 }
 
-/// A number with a sign, the highest byte first.
+/// A signed big-endian integer.
 fn integer(bytes: &[u8]) -> i64 {
     let sign = bytes.first().map_or(0, |first| i64::from(*first as i8 >> 7));
     bytes.iter().fold(sign, |value, byte| (value << 8) | i64::from(*byte))

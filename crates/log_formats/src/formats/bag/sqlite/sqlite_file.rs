@@ -1,4 +1,4 @@
-//! Bags of ROS 2 in a SQLite database, as rosbag2 writes them with the storage `sqlite3`.
+//! ROS 2 bags in a SQLite database, as written by rosbag2 with the storage `sqlite3`.
 
 use std::{collections::BTreeMap, fs::File, path::Path};
 
@@ -19,14 +19,14 @@ use crate::{
     },
 };
 
-/// What a damaged file is called.
+/// Name of the format in errors.
 pub(crate) const NAME: &str = "SQLite";
-/// The page of the table of tables.
+/// The page of the schema table, which lists all tables.
 const TABLES: u32 = 1;
 /// Most topics of a bag.
 const MOST_TOPICS: usize = 10_000;
 
-/// Reads the messages of a bag in the order in which they were recorded, or up to where it is damaged.
+/// Reads the messages of a bag in recorded order, up to its end or its first damage.
 pub(crate) fn read(
     path: &Path,
     file: &File,
@@ -43,7 +43,7 @@ pub(crate) fn read(
     read.or_else(|error| damage.take(error))
 }
 
-/// Whether a file beside the database holds what was written last.
+/// Whether a file beside the database holds the last messages.
 fn is_unfinished(path: &Path) -> bool {
     ["-wal", "-journal"].iter().any(|end| {
         let mut beside = path.as_os_str().to_owned();
@@ -64,7 +64,7 @@ struct Bag<'a> {
     sink: &'a mut dyn MessageSink,
 }
 
-/// Why a row is not read.
+/// The reason why a row is not read.
 enum Trouble {
     Damaged(String),
     Refused(FormatError),
@@ -95,7 +95,7 @@ impl Bag<'_> {
         self.messages(&messages, &topics)
     }
 
-    /// The tables that a bag is told by.
+    /// The tables of the database by which a bag is recognised.
     fn tables(&mut self) -> Result<BTreeMap<String, Table>, Trouble> {
         let mut tables = BTreeMap::new();
         rows(&mut self.pages, TABLES, |pages, row| -> Result<(), Trouble> {
@@ -164,14 +164,14 @@ impl Bag<'_> {
 }
 
 impl Table {
-    /// The place of a column.
+    /// Index of a column.
     fn place(&self, name: &str) -> Result<usize, String> {
         let found = self.columns.iter().position(|column| column == name);
         found.ok_or_else(|| format!("a table has no column {name}"))
     }
 }
 
-/// The names of the columns of a statement `CREATE TABLE name(column type, ...)`.
+/// The column names in a statement `CREATE TABLE name(column type, ...)`.
 fn columns(sql: &str) -> Vec<String> {
     let within = sql.split_once('(').map_or("", |(_, within)| within);
     let name = |column: &str| column.split_whitespace().next().unwrap_or_default().to_owned();

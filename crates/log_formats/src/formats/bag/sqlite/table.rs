@@ -1,39 +1,39 @@
-//! Rows of a table of a SQLite database: a tree of pages with a cell a row.
+//! Rows of a SQLite table: a tree of pages with one cell per row.
 
 use crate::formats::bag::sqlite::pages::{HEADER, Pages, varint};
 
-/// Kinds of a page.
+/// Kinds of pages.
 const INNER: u8 = 5;
 const LEAF: u8 = 13;
-/// Bytes before the places of the cells.
+/// Size of the page header before the cell pointers (bytes).
 const BEFORE_INNER: usize = 12;
 const BEFORE_LEAF: usize = 8;
-/// Deepest tree: it has two branches or more, and 2³² pages at most.
+/// Deepest tree. Each inner page has at least two branches, and there are at most 2³² pages.
 const DEEPEST: usize = 33;
 
-/// A row as it lies in its page.
+/// A row as it is stored in its page.
 pub(crate) struct Row<'p> {
     /// The number of the row.
     pub id: i64,
-    /// Bytes that lie in the page itself.
+    /// Bytes of the row in the page itself.
     local: &'p [u8],
-    /// Bytes in all.
+    /// Size of the whole row (bytes).
     length: usize,
-    /// The page with those behind, where there are any.
+    /// The first overflow page, where the row has any.
     behind: Option<u32>,
 }
 
 impl Row<'_> {
-    /// The beginning of the record, from which `needed` may be read.
+    /// The beginning of the record, in which a column may already be found.
     pub(crate) fn beginning(&self) -> &[u8] {
         self.local
     }
 
-    /// The record of the row.
+    /// The whole record of the row.
     ///
     /// # Errors
     ///
-    /// What is wrong with the pages behind.
+    /// What is wrong with the overflow pages.
     pub(crate) fn record(&self, pages: &mut Pages) -> Result<Vec<u8>, String> {
         pages.take(self.length)?;
         let mut record = self.local.to_vec();
@@ -49,11 +49,11 @@ impl Row<'_> {
     }
 }
 
-/// Gives every row of the table whose tree begins at page `root` to `take`, in their order.
+/// Passes every row of the table to `take`, in order. The tree of the table begins at page `root`.
 ///
 /// # Errors
 ///
-/// What is wrong with the pages, and those of `take`.
+/// What is wrong with the pages, and the errors of `take`.
 pub(crate) fn rows<E: From<String>>(
     pages: &mut Pages,
     root: u32,
@@ -88,7 +88,7 @@ pub(crate) fn rows<E: From<String>>(
     Ok(())
 }
 
-/// The places of the cells of a page.
+/// The offsets of the cells of a page.
 fn cells(
     page: &[u8],
     start: usize,
@@ -101,7 +101,7 @@ fn cells(
     Ok(places.chunks_exact(2).map(place))
 }
 
-/// The four bytes at a place as the number of a page, 0 where there are none.
+/// The page number in the four bytes at an offset; 0 where the page ends before.
 fn number_at(page: &[u8], at: usize) -> u32 {
     let bytes = page.get(at..).and_then(|rest| rest.first_chunk::<4>());
     bytes.map_or(0, |bytes| u32::from_be_bytes(*bytes))
