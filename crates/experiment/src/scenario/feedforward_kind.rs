@@ -13,7 +13,7 @@ pub enum FeedforwardKind {
     None,
     /// The torque that holds the robot as described against gravity.
     Gravity,
-    /// The torque of a model. [`ModelKind::Named`] also sends the leads that its drives need.
+    /// The torque of a model. For [`ModelKind::Named`] it includes the compensation of the drives.
     Model(ModelKind),
 }
 
