@@ -27,7 +27,7 @@ const BLOCK: usize = 250;
 pub struct Stream<'a> {
     progress: &'a dyn Progress,
     block: Block,
-    /// The receiver of the blocks; `None` where nothing is written.
+    /// The thread that writes the blocks; `None` where nothing is written.
     writer: Option<Writing>,
     second: f64,
 }
