@@ -186,7 +186,8 @@ impl<'a> Along<'a> {
     }
 
     /// Whether a sample of the motion is more than `margin` away from samples at which a joint `rests`. It must also be
-    /// out of reach of the low-pass from the end of the run, which a late torque needs, and from the start of a noisy run.
+    /// out of reach of the low-pass from the end of the run, which a late torque needs, and from the start of a noisy
+    /// run.
     fn is_away(&self, rests: &[bool], margin: usize) -> Vec<bool> {
         let end = self.reach(self.cutoff_hz).min(rests.len());
         let mut away = vec![true; rests.len()];
