@@ -143,9 +143,9 @@ impl FindingBuilder<'_> {
     }
 }
 
-/// The parameter that the weight with index `weight` stands for, and its value for a size of the weight. The weight
-/// of a spring is its compliance. Friction beyond the Coulomb level is reported as breakaway friction or its elastic
-/// part.
+/// The parameter that the weight with index `weight` stands for, and its value for a size of the weight. The weight of a
+/// spring is its compliance. The weight of Stribeck or presliding friction is reported as the parameter that the logs
+/// would show ([`Weights::SeenBy`]).
 fn parameter_of(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
     match effects::model(kind).map(|model| model.traits().weights) {
         Ok(Weights::Reciprocal) => (weight, size.map(f64::recip)),
